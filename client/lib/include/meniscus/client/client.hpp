@@ -1,0 +1,149 @@
+// Talks to a meniscusd: opens sessions, pushes particle frames, receives and decodes meshes.
+// Knows neither gRPC nor Draco on its face, so that simulation code need not either.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "meniscus/brick_coding.hpp"
+#include "meniscus/mesh.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/settings.hpp"
+#include "meniscus/statistics.hpp"
+
+namespace meniscus::client {
+
+/// A call failed: the server is not there, refused, or went away. (Refusals of input are InvalidInput and
+/// LimitExceeded, as in process.)
+class ServerError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+struct ServerInfo {
+    std::string version;
+    std::string backend;  ///< "cpu" or "cuda"
+    std::string device;
+    std::string backend_reason;
+    unsigned threads = 0;
+    std::uint32_t max_sessions = 0;             ///< 0: no limit, here and below
+    std::uint32_t max_watchers_per_session = 0;
+    std::uint64_t max_particles_per_frame = 0;
+    std::uint64_t max_bytes_per_session = 0;
+};
+
+struct SessionInfo {
+    std::string id;
+    Settings settings;
+    bool uploading = false;
+    unsigned watchers = 0;
+    std::uint64_t frames = 0;
+    std::optional<std::uint64_t> last_frame_index;
+};
+
+/// The server's figures of one frame, beside the reconstruction's own.
+struct FrameStatistics : Statistics {
+    double encode_seconds = 0.0;
+    double latency_seconds = 0.0;      ///< from the frame's last byte to the end of its encoding
+    std::uint64_t encoded_bytes = 0;
+};
+
+/// One received frame. Bricks stay encoded until they are asked for.
+struct ReceivedFrame {
+    std::uint64_t index = 0;
+    double simulation_time = 0.0;
+    double cell_size = 0.0;
+    std::uint32_t offset_bits = 0;
+    std::vector<EncodedBrick> bricks;  ///< empty when no meshes were asked for
+    FrameStatistics statistics;
+
+    /// Decodes and welds the bricks. Throws InvalidInput if they are not a mesh.
+    Mesh mesh() const;
+};
+
+struct StreamOptions {
+    bool receive_meshes = true;
+    int normal_bits = 8;  ///< 2 to 16, 0 for none
+    /// Received frames that wait for next() at most; push() waits beyond that many frames in flight or waiting.
+    /// 0: no limit, for a caller that pushes everything first; frames then wait encoded, in memory.
+    std::size_t waiting_limit = 0;
+};
+
+/// Uploads frames and receives their meshes, in order. Reads on a thread of its own, so that a caller that only pushes
+/// is never blocked by meshes it has not asked for. push() and finish() belong to one thread, next() to one (other) thread.
+class Stream {
+public:
+    Stream(Stream&&) noexcept;
+    Stream& operator=(Stream&&) noexcept;
+    ~Stream();  ///< cancels what is in flight
+
+    /// Sends one frame; blocks while the server does not take more. `index` is greater than the one before.
+    /// Throws InvalidInput, LimitExceeded (as the server answered) or ServerError.
+    void push(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
+    /// No more frames will come; next() then ends after the last one.
+    void finish();
+    /// Waits for the next received frame; none when the stream has ended well. Throws as push() does.
+    std::optional<ReceivedFrame> next();
+
+private:
+    friend class Client;
+    class Impl;
+    explicit Stream(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Receives a session's meshes, newest first; frames that came while the caller was busy are skipped by the server.
+class Watcher {
+public:
+    Watcher(Watcher&&) noexcept;
+    Watcher& operator=(Watcher&&) noexcept;
+    ~Watcher();
+
+    /// Waits for the next frame; none when the session or the server has ended. Throws ServerError.
+    std::optional<ReceivedFrame> next();
+    /// Ends a next() that waits in another thread; it then returns none.
+    void cancel();
+
+private:
+    friend class Client;
+    class Impl;
+    explicit Watcher(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+/// A connection to one server. Thread-safe.
+class Client {
+public:
+    /// address: "HOST:PORT" or "unix:PATH". Waits up to `timeout` for the server; throws ServerError if it is not there.
+    explicit Client(const std::string& address, std::chrono::milliseconds timeout = std::chrono::seconds(5));
+    Client(Client&&) noexcept;
+    Client& operator=(Client&&) noexcept;
+    ~Client();
+
+    ServerInfo server_info();
+    /// Creates the session, or joins it if it exists with equal settings.
+    void create_session(const std::string& id, const Settings& settings);
+    SessionInfo session(const std::string& id);
+    std::vector<SessionInfo> sessions();
+    void delete_session(const std::string& id);
+
+    /// The session must exist.
+    Stream stream(const std::string& session_id, const StreamOptions& options = {});
+    Watcher watch(const std::string& session_id, int normal_bits = 8);
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// A random (version 4) UUID in canonical form.
+std::string new_session_id();
+
+}  // namespace meniscus::client

@@ -1,0 +1,51 @@
+// Bricks of a mesh to Draco and back, without loss of position, connectivity or level.
+//
+// Every brick is a Draco mesh of its own: positions are brick-local uint16 coordinates of the refined lattice
+// (0 ... brick_cells * 2^offset_bits), normals are octahedral. A triangle's level needs no attribute: a crack triangle
+// lies in a face plane of the base-cell grid, which no other triangle does; the others lie inside one base cell,
+// and `cell_levels` gives the level of every base cell that holds triangles.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "meniscus/mesh.hpp"
+
+namespace meniscus {
+
+struct CodingOptions {
+    int normal_bits = 8;  ///< 2 to 16 per octahedral component; 0: no normals
+    int speed = 10;       ///< Draco's speed, 0 (smallest) to 10 (fastest)
+};
+
+struct EncodedBrick {
+    std::array<std::int32_t, 3> coordinate{};  ///< x y z in bricks
+    std::uint32_t vertices = 0;
+    std::uint32_t triangles = 0;
+    std::vector<std::byte> cell_levels;        ///< two bits per base cell that holds triangles, in (z, y, x) order, low bits first: 1, 2, 3
+    std::vector<std::byte> draco;
+};
+
+/// brick: index into mesh.bricks. Thread-safe for one mesh and different bricks.
+EncodedBrick encode_brick(const Mesh& mesh, std::size_t brick, const CodingOptions& options = {});
+
+/// A brick's own mesh: its vertices are welded by position.
+struct DecodedBrick {
+    std::array<std::int32_t, 3> coordinate{};
+    std::vector<LatticePosition> vertices;   ///< absolute, refined lattice
+    std::vector<Normal> normals;             ///< empty if none were sent
+    std::vector<Triangle> triangles;
+    std::vector<TriangleLevel> levels;       ///< one per triangle
+};
+
+/// Throws InvalidInput for bytes that are not a brick of this lattice; never crashes on any bytes.
+DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits);
+
+/// Welds bricks into one mesh, ordered as reconstruct() orders it (triangles within a brick and level excepted).
+/// Throws InvalidInput if a brick occurs twice.
+Mesh weld_bricks(std::span<const DecodedBrick> bricks, double cell_size, std::uint32_t offset_bits);
+
+}  // namespace meniscus

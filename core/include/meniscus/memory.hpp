@@ -1,0 +1,84 @@
+// Memory that is counted and limited: every array of a reconstruction is charged to one account.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace meniscus {
+
+/// Counts the bytes and the allocations of the arrays charged to it; refuses what would pass its limit.
+/// Thread-safe.
+class MemoryAccount {
+public:
+    /// limit: bytes, 0 for none.
+    explicit MemoryAccount(std::size_t limit = 0) : limit_(limit) {}
+
+    /// Throws LimitExceeded, without charging, if the account would pass its limit.
+    void charge(std::size_t bytes);
+    void release(std::size_t bytes) noexcept;
+
+    std::size_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
+    std::size_t peak_bytes() const noexcept { return peak_.load(std::memory_order_relaxed); }
+    std::uint64_t allocations() const noexcept { return allocations_.load(std::memory_order_relaxed); }
+    std::size_t limit() const noexcept { return limit_; }
+
+private:
+    std::size_t limit_;
+    std::atomic<std::size_t> bytes_{0};
+    std::atomic<std::size_t> peak_{0};
+    std::atomic<std::uint64_t> allocations_{0};
+};
+
+/// Allocator that charges an account (none: uncounted) and leaves trivial elements uninitialized on resize.
+template <class T>
+class AccountAllocator {
+public:
+    using value_type = T;
+    using propagate_on_container_move_assignment = std::true_type;
+    using propagate_on_container_swap = std::true_type;
+    static constexpr std::size_t alignment = 64;
+
+    AccountAllocator() noexcept = default;
+    explicit AccountAllocator(std::shared_ptr<MemoryAccount> account) noexcept : account_(std::move(account)) {}
+    template <class U>
+    AccountAllocator(const AccountAllocator<U>& other) noexcept : account_(other.account()) {}
+
+    T* allocate(std::size_t n) {
+        const std::size_t bytes = n * sizeof(T);
+        if (account_) account_->charge(bytes);
+        try {
+            return static_cast<T*>(::operator new(bytes, std::align_val_t{alignment}));
+        } catch (...) {
+            if (account_) account_->release(bytes);
+            throw;
+        }
+    }
+    void deallocate(T* p, std::size_t n) noexcept {
+        ::operator delete(p, std::align_val_t{alignment});
+        if (account_) account_->release(n * sizeof(T));
+    }
+    template <class U, class... Args>
+    void construct(U* p, Args&&... args) {
+        if constexpr (sizeof...(Args) == 0 && std::is_trivially_destructible_v<U>)
+            ::new (static_cast<void*>(p)) U;  // default-initialized: no pass over memory that is about to be written
+        else
+            ::new (static_cast<void*>(p)) U(std::forward<Args>(args)...);
+    }
+    const std::shared_ptr<MemoryAccount>& account() const noexcept { return account_; }
+    template <class U>
+    bool operator==(const AccountAllocator<U>& other) const noexcept { return account_ == other.account(); }
+
+private:
+    std::shared_ptr<MemoryAccount> account_;
+};
+
+/// The array of this project: a std::vector that is counted and not cleared on resize.
+template <class T>
+using Array = std::vector<T, AccountAllocator<T>>;
+
+}  // namespace meniscus

@@ -1,0 +1,11 @@
+// The whole public interface of the reconstruction library.
+#pragma once
+
+#include "meniscus/brick_coding.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/mesh.hpp"
+#include "meniscus/mesh_hash.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/reconstructor.hpp"
+#include "meniscus/settings.hpp"
+#include "meniscus/statistics.hpp"

@@ -1,0 +1,71 @@
+// The surface: a welded, indexed, closed and oriented triangle mesh in exact lattice coordinates.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "meniscus/memory.hpp"
+
+namespace meniscus {
+
+/// Edge of a base cell (a level-1 cell of the paper), in finest cells.
+inline constexpr int base_cell_size = 4;
+/// Edge of a brick, the unit of encoding and streaming, in base cells and in finest cells.
+inline constexpr int brick_base_cells = 16;
+inline constexpr int brick_cells = brick_base_cells * base_cell_size;
+
+/// The kinds of triangle, in the order in which a mesh holds them (the paper's Figure 8d).
+enum class TriangleLevel : std::uint8_t { level1 = 0, level2 = 1, level3 = 2, crack = 3 };
+inline constexpr std::size_t triangle_level_count = 4;
+
+/// The byte that files and the mesh hash use for a triangle's level: 1, 2, 3, and 0 for crack filling.
+inline constexpr std::uint8_t level_byte(TriangleLevel level) {
+    return level == TriangleLevel::crack ? std::uint8_t{0} : static_cast<std::uint8_t>(static_cast<int>(level) + 1);
+}
+
+/// A point of the lattice refined by 2^offset_bits: exact, and a vertex's identity.
+using LatticePosition = std::array<std::int32_t, 3>;
+using Normal = std::array<float, 3>;
+using Triangle = std::array<std::uint32_t, 3>;
+
+struct TriangleRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// A brick that holds triangles. A crack triangle belongs to the brick of the finer of its two cells.
+struct MeshBrick {
+    std::array<std::int32_t, 3> coordinate{};                      ///< x y z in bricks; its lattice origin is coordinate * brick_cells
+    std::array<TriangleRange, triangle_level_count> ranges{};      ///< into Mesh::triangles, indexed by TriangleLevel
+    std::uint32_t triangle_count() const {
+        return ranges[0].count + ranges[1].count + ranges[2].count + ranges[3].count;
+    }
+};
+
+/// Triangles are ordered by level, by brick (z, y, x) within a level; they run counter-clockwise seen from outside.
+struct Mesh {
+    double cell_size = 0.0;              ///< finest cell's edge c, world units
+    std::uint32_t offset_bits = 0;       ///< vertices lie on multiples of c / 2^offset_bits
+    Array<LatticePosition> vertices;     ///< unique
+    Array<Normal> normals;               ///< unit length, outward, one per vertex
+    Array<Triangle> triangles;           ///< indices into `vertices`
+    std::array<TriangleRange, triangle_level_count> levels{};  ///< into `triangles`
+    Array<MeshBrick> bricks;             ///< ordered by coordinate (z, y, x)
+
+    /// World position of a lattice position of this mesh: exact product in double, one rounding.
+    std::array<double, 3> world(const LatticePosition& p) const {
+        const double unit = cell_size / static_cast<double>(1U << offset_bits);
+        return {p[0] * unit, p[1] * unit, p[2] * unit};
+    }
+    TriangleLevel level_of(std::size_t triangle) const {
+        for (std::size_t l = 0; l + 1 < triangle_level_count; ++l)
+            if (triangle < std::size_t{levels[l].first} + levels[l].count) return static_cast<TriangleLevel>(l);
+        return TriangleLevel::crack;
+    }
+    void clear();
+};
+
+}  // namespace meniscus

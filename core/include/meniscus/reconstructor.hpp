@@ -1,0 +1,53 @@
+// Particles in, mesh out.
+#pragma once
+
+#include <memory>
+
+#include "meniscus/mesh.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/settings.hpp"
+#include "meniscus/statistics.hpp"
+
+namespace meniscus {
+
+/// Reconstructs the surface of particle frames, one after the other, and keeps its buffers between them.
+/// One reconstructor is used by one thread at a time; several may live side by side.
+class Reconstructor {
+public:
+    /// Throws InvalidInput for settings out of range, and for a backend or processor that cannot be used, saying why.
+    explicit Reconstructor(const Settings& settings, const BackendOptions& options = {});
+    ~Reconstructor();
+    Reconstructor(Reconstructor&&) noexcept;
+    Reconstructor& operator=(Reconstructor&&) noexcept;
+
+    /// Replaces `mesh`, reusing its memory. Its memory is charged to this reconstructor's account from the first call on.
+    /// Throws InvalidInput (non-finite or too distant positions, lengths that do not match, levels above 3) or
+    /// LimitExceeded (memory); the mesh is then empty and the reconstructor remains usable.
+    void reconstruct(const ParticleFrame& frame, Mesh& mesh);
+
+    /// Of the last frame.
+    const Statistics& statistics() const;
+    const Settings& settings() const;
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Throws InvalidInput if the frame's arrays do not fit each other, a position is not finite or lies beyond what
+/// the lattice can address, or a level is above 3; names the particle, the value and the limit.
+void validate(const ParticleFrame& frame, const Settings& settings);
+
+/// "cpu" or "cuda" for what `automatic` picks here, and in one line why.
+struct BackendDescription {
+    Backend backend = Backend::cpu;
+    std::string name;    ///< "cpu" or "cuda"
+    std::string device;  ///< processor or GPU, in words
+    std::string reason;  ///< why this one
+};
+BackendDescription describe_backend(Backend choice);
+
+/// This library's version, "major.minor.patch".
+std::string_view version();
+
+}  // namespace meniscus
