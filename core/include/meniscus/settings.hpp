@@ -41,7 +41,7 @@ struct Box {
 struct Settings {
     double particle_radius = 0.0;     ///< world units, finite, > 0; that of level 0 for adaptive SPH
     double smoothing_length = 2.0;    ///< radii, > 0; the kernel's support is twice that
-    double cell_size = 0.5;           ///< radii, > 0: edge of a finest cell; at least support/512 of the coarsest particle level
+    double cell_size = 0.5;           ///< radii, > 0: edge of a finest cell; at least support/256 of the coarsest particle level
     double iso = 0.6;                 ///< field value at the surface, > 0
     Field field = Field::color;
     Mode mode = Mode::adaptive;
@@ -50,7 +50,7 @@ struct Settings {
     /// holds at least this many particles of level 0. At least 1.
     std::uint32_t count_threshold = 1;
     EdgePoints edge_points = EdgePoints::interpolate;
-    /// EdgePoints::bisect: iterations on a level-3 edge (one and two more on levels 2 and 1), 1 to 8.
+    /// EdgePoints::bisect: iterations on a level-3 edge (one and two more on levels 2 and 1), 1 to 7.
     std::uint32_t bisection_steps = 5;
     /// Crops the surface, closed at the border; rounded outward to whole finest cells. None: no limit.
     std::optional<Box> domain;

@@ -1,0 +1,48 @@
+// The SPH kernel: the cubic spline of compact support h, in the form without a branch,
+// W(q) / W0 = 2 max(1 - q, 0)^3 - 8 max(1/2 - q, 0)^3, q = distance / h, W0 = 8 / (pi h^3).
+#pragma once
+
+#include "field/lanes.hpp"
+#include "lattice/host_device.hpp"
+
+namespace meniscus {
+
+/// F is float or Lanes. q >= 0.
+template <class F>
+MENISCUS_HD inline F cubic_spline(F q) {
+    const F a = larger(F(1.0F) - q, F(0.0F));
+    const F b = larger(F(0.5F) - q, F(0.0F));
+    return fused(b * b, F(-8.0F) * b, (F(2.0F) * a) * (a * a));
+}
+
+/// Derivative of cubic_spline by q.
+template <class F>
+MENISCUS_HD inline F cubic_spline_slope(F q) {
+    const F a = larger(F(1.0F) - q, F(0.0F));
+    const F b = larger(F(0.5F) - q, F(0.0F));
+    return fused(F(24.0F) * b, b, F(-6.0F) * (a * a));
+}
+
+template <class F>
+MENISCUS_HD inline F length(F dx, F dy, F dz) {
+    return root(fused(dx, dx, fused(dy, dy, dz * dz)));
+}
+
+/// Adds one particle's share to the field's value. Distances in units, weight = mass (over density) times W0.
+template <class F>
+MENISCUS_HD inline F add_value(F sum, F dx, F dy, F dz, float weight, float inverse_support) {
+    return fused(F(weight), cubic_spline(length(dx, dy, dz) * F(inverse_support)), sum);
+}
+
+/// Adds one particle's share to the field's gradient (the paper's Equation 2), up to the factor 1/h that the caller's
+/// normalization removes: `weight` carries it where supports differ.
+template <class F>
+MENISCUS_HD inline void add_gradient(F& x, F& y, F& z, F dx, F dy, F dz, float weight, float inverse_support) {
+    const F distance = length(dx, dy, dz);
+    const F slope = F(weight) * cubic_spline_slope(distance * F(inverse_support)) / larger(distance, F(1.0F / 64.0F));
+    x = fused(slope, dx, x);
+    y = fused(slope, dy, y);
+    z = fused(slope, dz, z);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,79 @@
+// Eight floats that are computed with at once. Every operation rounds as the scalar one does, so that a body written
+// for a type F gives the same bits with F = float (a midpoint, a CUDA thread) and F = Lanes (a block of samples).
+#pragma once
+
+#include <cmath>
+
+#include "lattice/host_device.hpp"
+
+#if defined(__AVX2__) && defined(__FMA__)
+#include <immintrin.h>
+#endif
+
+namespace meniscus {
+
+#ifndef __CUDACC__
+
+#if defined(__AVX2__) && defined(__FMA__)
+
+struct Lanes {
+    static constexpr int count = 8;
+    __m256 v;
+    Lanes() = default;
+    Lanes(__m256 value) : v(value) {}
+    Lanes(float value) : v(_mm256_set1_ps(value)) {}
+    static Lanes load(const float* p) { return _mm256_loadu_ps(p); }
+    void store(float* p) const { _mm256_storeu_ps(p, v); }
+    friend Lanes operator+(Lanes a, Lanes b) { return _mm256_add_ps(a.v, b.v); }
+    friend Lanes operator-(Lanes a, Lanes b) { return _mm256_sub_ps(a.v, b.v); }
+    friend Lanes operator*(Lanes a, Lanes b) { return _mm256_mul_ps(a.v, b.v); }
+    friend Lanes operator/(Lanes a, Lanes b) { return _mm256_div_ps(a.v, b.v); }
+};
+inline Lanes fused(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
+inline Lanes root(Lanes a) { return _mm256_sqrt_ps(a.v); }
+inline Lanes larger(Lanes a, Lanes b) { return _mm256_max_ps(a.v, b.v); }
+
+#else
+
+struct Lanes {
+    static constexpr int count = 8;
+    float v[count];
+    Lanes() = default;
+    Lanes(float value) { for (float& x : v) x = value; }
+    static Lanes load(const float* p) { Lanes r; for (int i = 0; i < count; ++i) r.v[i] = p[i]; return r; }
+    void store(float* p) const { for (int i = 0; i < count; ++i) p[i] = v[i]; }
+    template <class Operation>
+    static Lanes each(Operation operation) { Lanes r; for (int i = 0; i < count; ++i) r.v[i] = operation(i); return r; }
+    friend Lanes operator+(const Lanes& a, const Lanes& b) { return each([&](int i) { return a.v[i] + b.v[i]; }); }
+    friend Lanes operator-(const Lanes& a, const Lanes& b) { return each([&](int i) { return a.v[i] - b.v[i]; }); }
+    friend Lanes operator*(const Lanes& a, const Lanes& b) { return each([&](int i) { return a.v[i] * b.v[i]; }); }
+    friend Lanes operator/(const Lanes& a, const Lanes& b) { return each([&](int i) { return a.v[i] / b.v[i]; }); }
+};
+inline Lanes fused(const Lanes& a, const Lanes& b, const Lanes& c) {
+    return Lanes::each([&](int i) { return std::fmaf(a.v[i], b.v[i], c.v[i]); });
+}
+inline Lanes root(const Lanes& a) { return Lanes::each([&](int i) { return std::sqrt(a.v[i]); }); }
+inline Lanes larger(const Lanes& a, const Lanes& b) {
+    return Lanes::each([&](int i) { return a.v[i] > b.v[i] ? a.v[i] : b.v[i]; });
+}
+
+#endif
+#endif
+
+MENISCUS_HD inline float fused(float a, float b, float c) {
+#ifdef __CUDA_ARCH__
+    return fmaf(a, b, c);
+#else
+    return __builtin_fmaf(a, b, c);
+#endif
+}
+MENISCUS_HD inline float root(float a) {
+#ifdef __CUDA_ARCH__
+    return sqrtf(a);
+#else
+    return __builtin_sqrtf(a);
+#endif
+}
+MENISCUS_HD inline float larger(float a, float b) { return a > b ? a : b; }
+
+}  // namespace meniscus

@@ -1,0 +1,142 @@
+// A sparse set of integer coordinates, kept as bricks of 16 x 16 x 16 bits, and their numbering.
+//
+// Members are numbered brick by brick (z, y, x), and by (z, y, x) inside a brick, by counting bits: no hash, no search
+// inside a brick. Base cells that may hold surface are stored in one such grid, particles in others.
+#pragma once
+
+#include <cstdint>
+
+#include "lattice/bits.hpp"
+#include "lattice/coordinates.hpp"
+#include "lattice/host_device.hpp"
+#include "meniscus/memory.hpp"
+
+namespace meniscus {
+
+inline constexpr int brick_size = 16;  ///< members a side
+inline constexpr int brick_volume = brick_size * brick_size * brick_size;
+inline constexpr std::uint32_t no_index = 0xFFFFFFFFU;
+
+MENISCUS_HD constexpr Int3 brick_of(const Int3& c) { return {c.x >> 4, c.y >> 4, c.z >> 4}; }
+/// Index inside a brick: x + 16 y + 256 z.
+MENISCUS_HD constexpr int index_in_brick(const Int3& c) { return (c.x & 15) | (c.y & 15) << 4 | (c.z & 15) << 8; }
+
+/// Orders bricks by (z, y, x); 20 bits a side hold every brick of either grid.
+MENISCUS_HD constexpr std::uint64_t brick_key(const Int3& b) {
+    constexpr std::int64_t bias = 1 << 19;
+    return static_cast<std::uint64_t>((b.z + bias) << 40 | (b.y + bias) << 20 | (b.x + bias));
+}
+
+struct Brick {
+    static constexpr int words = brick_volume / 64;
+    Int3 coordinate;
+    std::uint32_t first = 0;          ///< number of its first member
+    std::uint64_t occupied[words];    ///< word w: the rows y = 4 (w % 4) ... + 3 of the slice z = w / 4
+    std::uint16_t rank[words];        ///< members in the words before
+
+    MENISCUS_HD bool holds(int index) const { return (occupied[index >> 6] >> (index & 63) & 1) != 0; }
+    /// Number of the member at `index`, or of the next one after it.
+    MENISCUS_HD std::uint32_t number(int index) const {
+        const std::uint64_t before = (std::uint64_t{1} << (index & 63)) - 1;
+        return first + rank[index >> 6] + static_cast<std::uint32_t>(popcount(occupied[index >> 6] & before));
+    }
+    /// Counts the words; returns the number of members.
+    MENISCUS_HD std::uint32_t count() {
+        std::uint32_t total = 0;
+        for (int w = 0; w < words; ++w) {
+            rank[w] = static_cast<std::uint16_t>(total);
+            total += static_cast<std::uint32_t>(popcount(occupied[w]));
+        }
+        return total;
+    }
+    MENISCUS_HD void clear() {
+        for (std::uint64_t& word : occupied) word = 0;
+    }
+};
+
+/// The 27 bricks around one, itself in the middle; no_index where there is none.
+struct BrickNeighbors {
+    std::uint32_t brick[27];
+};
+
+struct BrickGridView {
+    const Brick* bricks = nullptr;
+    const std::uint64_t* keys = nullptr;            ///< brick_key of each, ascending
+    const BrickNeighbors* neighbors = nullptr;      ///< present only where neighbor() is used
+    std::uint32_t brick_count = 0;
+
+    /// Index of a brick, or no_index.
+    MENISCUS_HD std::uint32_t find(const Int3& brick) const {
+        const std::uint64_t key = brick_key(brick);
+        std::uint32_t low = 0;
+        std::uint32_t high = brick_count;
+        while (low < high) {
+            const std::uint32_t middle = low + (high - low) / 2;
+            if (keys[middle] < key) low = middle + 1;
+            else high = middle;
+        }
+        return low < brick_count && keys[low] == key ? low : no_index;
+    }
+
+    /// Number of the member at an offset of -1, 0 or 1 a side from one in this brick; no_index if there is none.
+    MENISCUS_HD std::uint32_t neighbor(std::uint32_t brick, int index, const Int3& offset) const {
+        const int x = (index & 15) + offset.x;
+        const int y = (index >> 4 & 15) + offset.y;
+        const int z = (index >> 8) + offset.z;
+        if (((x | y | z) & ~15) != 0) {
+            brick = neighbors[brick].brick[13 + (x >> 4) + 3 * (y >> 4) + 9 * (z >> 4)];
+            if (brick == no_index) return no_index;
+        }
+        const int there = (x & 15) | (y & 15) << 4 | (z & 15) << 8;
+        return bricks[brick].holds(there) ? bricks[brick].number(there) : no_index;
+    }
+
+    /// Calls visit(brick index, first number, count) for every run of members in a row along x of the box [low, high],
+    /// in ascending order of their numbers.
+    template <class Visit>
+    MENISCUS_HD void for_each_run(const Int3& low, const Int3& high, Visit&& visit) const {
+        const Int3 brick_low = brick_of(low);
+        const Int3 brick_high = brick_of(high);
+        Int3 b;
+        for (b.z = brick_low.z; b.z <= brick_high.z; ++b.z)
+            for (b.y = brick_low.y; b.y <= brick_high.y; ++b.y)
+                for (b.x = brick_low.x; b.x <= brick_high.x; ++b.x) {
+                    const std::uint32_t found = find(b);
+                    if (found == no_index) continue;
+                    const Brick& brick = bricks[found];
+                    const int x0 = b.x == brick_low.x ? low.x & 15 : 0;
+                    const int x1 = b.x == brick_high.x ? high.x & 15 : 15;
+                    const int y0 = b.y == brick_low.y ? low.y & 15 : 0;
+                    const int y1 = b.y == brick_high.y ? high.y & 15 : 15;
+                    const int z0 = b.z == brick_low.z ? low.z & 15 : 0;
+                    const int z1 = b.z == brick_high.z ? high.z & 15 : 15;
+                    const std::uint64_t span = (std::uint64_t{2} << x1) - (std::uint64_t{1} << x0);
+                    for (int z = z0; z <= z1; ++z)
+                        for (int y = y0; y <= y1; ++y) {
+                            const int row = y << 4 | z << 8;
+                            const std::uint64_t members = brick.occupied[row >> 6] >> (row & 63) & span;
+                            if (members != 0)
+                                visit(found, brick.number(row | x0), static_cast<std::uint32_t>(popcount(members)));
+                        }
+                }
+    }
+};
+
+/// Owner of a grid's arrays.
+struct BrickGrid {
+    explicit BrickGrid(const std::shared_ptr<MemoryAccount>& account)
+        : bricks(AccountAllocator<Brick>(account)), keys(AccountAllocator<std::uint64_t>(account)),
+          neighbors(AccountAllocator<BrickNeighbors>(account)) {}
+
+    Array<Brick> bricks;
+    Array<std::uint64_t> keys;
+    Array<BrickNeighbors> neighbors;
+    std::uint32_t members = 0;
+
+    BrickGridView view() const {
+        return {bricks.data(), keys.data(), neighbors.empty() ? nullptr : neighbors.data(),
+                static_cast<std::uint32_t>(bricks.size())};
+    }
+};
+
+}  // namespace meniscus

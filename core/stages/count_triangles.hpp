@@ -1,0 +1,58 @@
+// Step 5: the marching-cubes case of every subcell that the surface passes.
+#pragma once
+
+#include <cstdint>
+
+#include "lattice/host_device.hpp"
+#include "stages/blocks.hpp"
+#include "tables/tables.hpp"
+
+namespace meniscus {
+
+/// For every point of a block as a subcell's lower corner: the signs of the subcell's eight corners (i = x + 2 y + 4 z).
+struct SubcellCorners {
+    BlockMask corner[8];
+
+    MENISCUS_HD SubcellCorners(const BlocksView& blocks, const ClosedCell& cell, int stride) {
+        for (int i = 0; i < 8; ++i) corner[i] = blocks.inside_or_none(cell.block[i]);
+        // Blocks become corners axis by axis: what lies one block further is moved to one stride further.
+        for (int axis = 0; axis < 3; ++axis)
+            for (int i = 0; i < 8; ++i)
+                if ((i >> axis & 1) != 0) corner[i] = shifted(corner[i ^ (1 << axis)], corner[i], axis, stride);
+    }
+    /// Subcells that see both signs.
+    MENISCUS_HD BlockMask mixed(int stride) const {
+        BlockMask any = 0;
+        BlockMask all = ~BlockMask{0};
+        for (const BlockMask c : corner) {
+            any |= c;
+            all &= c;
+        }
+        return any & ~all & stride_points(stride);
+    }
+    MENISCUS_HD int cube_case(int bit) const {
+        int index = 0;
+        for (int i = 0; i < 8; ++i) index |= static_cast<int>(corner[i] >> bit & 1) << i;
+        return index;
+    }
+};
+
+/// Calls visit(bit of the subcell's lower corner, cube case) for every subcell of a cell that the surface passes.
+template <class Visit>
+MENISCUS_HD void for_each_subcell(const BlocksView& blocks, const ClosedCell& cell, int level, Visit&& visit) {
+    const int stride = level_stride(level);
+    const SubcellCorners corners(blocks, cell, stride);
+    for (BlockMask left = corners.mixed(stride); left != 0; left &= left - 1) {
+        const int bit = lowest_bit(left);
+        visit(bit, corners.cube_case(bit));
+    }
+}
+
+MENISCUS_HD inline std::uint32_t count_cell_triangles(const BlocksView& blocks, std::uint32_t block, const CubeCase* table) {
+    std::uint32_t count = 0;
+    for_each_subcell(blocks, ClosedCell(blocks, block), blocks.level[block],
+                     [&](int, int cube_case) { count += table[cube_case].triangles; });
+    return count;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,78 @@
+// Algorithm 3: the gaps on faces between cells of different levels, closed with predefined patterns.
+#pragma once
+
+#include <cstdint>
+
+#include "lattice/host_device.hpp"
+#include "meniscus/mesh.hpp"
+#include "stages/blocks.hpp"
+#include "stages/place_vertices.hpp"
+#include "tables/tables.hpp"
+
+namespace meniscus {
+
+/// One coarse subface between a fine cell and its coarser neighbor.
+struct CrackFace {
+    int axis;       ///< normal to the face
+    int side;       ///< 0: the coarse cell lies below the fine one, 1: above
+    int stride;     ///< of the fine cell
+    int corner[3];  ///< lowest point, in the fine cell's closed coordinates
+};
+
+/// Calls visit(face, crack case) for every subface of a fine cell that has a coarser neighbor beyond and sees both signs.
+template <class Visit>
+MENISCUS_HD void for_each_crack(const BlocksView& blocks, std::uint32_t block, const ClosedCell& cell, Visit&& visit) {
+    const int level = blocks.level[block];
+    if (level == 1) return;
+    CrackFace face;
+    face.stride = level_stride(level);
+    for (face.axis = 0; face.axis < 3; ++face.axis)
+        for (face.side = 0; face.side < 2; ++face.side) {
+            const int other = blocks.level_or_none(blocks.neighbor(block, axis_offset(face.axis, 2 * face.side - 1)));
+            if (other == 0 || other >= level) continue;
+            const int u = (face.axis + 1) % 3;
+            const int v = (face.axis + 2) % 3;
+            face.corner[face.axis] = face.side * base_cell_size;
+            for (face.corner[v] = 0; face.corner[v] < base_cell_size; face.corner[v] += 2 * face.stride)
+                for (face.corner[u] = 0; face.corner[u] < base_cell_size; face.corner[u] += 2 * face.stride) {
+                    int crack_case = 0;
+                    for (int i = 0; i < 9; ++i) {
+                        int point[3] = {face.corner[0], face.corner[1], face.corner[2]};
+                        point[u] += i % 3 * face.stride;
+                        point[v] += i / 3 * face.stride;
+                        crack_case |= static_cast<int>(cell.inside(blocks, point[0], point[1], point[2])) << i;
+                    }
+                    if (crack_case != 0 && crack_case != crack_case_count - 1) visit(face, crack_case);
+                }
+        }
+}
+
+MENISCUS_HD inline std::uint32_t count_crack_triangles(const BlocksView& blocks, std::uint32_t block, const CrackCase* table) {
+    std::uint32_t count = 0;
+    for_each_crack(blocks, block, ClosedCell(blocks, block),
+                   [&](const CrackFace&, int crack_case) { count += table[crack_case].triangles; });
+    return count;
+}
+
+/// Writes the filling of a fine cell's faces from `out` on.
+MENISCUS_HD inline void emit_crack_triangles(const BlocksView& blocks, std::uint32_t block, const CrackCase* table, Triangle* out) {
+    const ClosedCell cell(blocks, block);
+    for_each_crack(blocks, block, cell, [&](const CrackFace& face, int crack_case) {
+        const CrackCase& pattern = table[crack_case];
+        for (int t = 0; t < pattern.triangles; ++t, ++out)
+            for (int corner = 0; corner < 3; ++corner) {
+                const int edge = pattern.edges[static_cast<std::size_t>(3 * t + corner)];
+                const int u = (face.axis + 1) % 3;
+                const int v = (face.axis + 2) % 3;
+                int point[3] = {face.corner[0], face.corner[1], face.corner[2]};
+                point[u] += (edge < 6 ? edge % 2 : (edge - 6) % 3) * face.stride;
+                point[v] += (edge < 6 ? edge / 2 : (edge - 6) / 3) * face.stride;
+                // The patterns are oriented for the fine cell lying up the axis.
+                const int place = face.side == 0 ? corner : 2 - corner;
+                (*out)[static_cast<std::size_t>(place)] =
+                    vertex_on_edge(blocks, cell, point[0], point[1], point[2], edge < 6 ? u : v, face.stride);
+            }
+    });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,100 @@
+// Step 6: which finest lattice edges carry a vertex, its number, and its place on the edge.
+//
+// An edge point's identity is a finest lattice edge: from a coarse edge, go to the half whose ends differ in sign until
+// the edge is c long. Cells of different levels thereby name the same vertex.
+#pragma once
+
+#include <cstdint>
+
+#include "lattice/host_device.hpp"
+#include "stages/blocks.hpp"
+
+namespace meniscus {
+
+/// The edges of a block along one axis that a cell of the band uses and that cross the surface, by their length in finest
+/// cells, as masks of their lower ends.
+struct CrossedEdges {
+    BlockMask length4 = 0, length2 = 0, length1 = 0;
+    BlockMask change1 = 0, change2 = 0;  ///< points whose sign differs one and two points further
+    int axis = 0;
+
+    MENISCUS_HD CrossedEdges(const BlocksView& blocks, std::uint32_t block, int along) : axis(along) {
+        const int u = axis == 0 ? 1 : 0;
+        const int v = axis == 2 ? 1 : 2;
+        BlockMask used[4] = {0, 0, 0, 0};  // by level
+        for (int i = 0; i < 4; ++i) {
+            const Int3 offset = axis_offset(u, -(i & 1)) + axis_offset(v, -(i >> 1));
+            const int level = blocks.level_or_none(i == 0 ? block : blocks.neighbor(block, offset));
+            BlockMask shared = stride_points(level_stride(level == 0 ? 1 : level));
+            if (i & 1) shared &= low_face(u);
+            if (i >> 1) shared &= low_face(v);
+            used[level] |= shared;
+        }
+        const BlockMask own = blocks.inside[block];
+        const BlockMask next = blocks.inside_or_none(blocks.neighbor(block, axis_offset(axis)));
+        change1 = own ^ shifted(own, next, axis, 1);
+        change2 = own ^ shifted(own, next, axis, 2);
+        length4 = used[1] & (own ^ next);
+        length2 = used[2] & change2;
+        length1 = used[3] & change1;
+    }
+    /// Edges of length 2 and the halves of longer ones; needs the middles of those sampled.
+    MENISCUS_HD BlockMask length2_all() const {
+        const BlockMask lower = length4 & change2;
+        return length2 | lower | (length4 & ~lower) << (2 * bit_step(axis));
+    }
+    /// The finest edges; needs all middles sampled.
+    MENISCUS_HD BlockMask finest() const {
+        const BlockMask halves = length2_all();
+        const BlockMask lower = halves & change1;
+        return length1 | lower | (halves & ~lower) << bit_step(axis);
+    }
+};
+
+/// Number of the vertex on the edge of this stride that starts at a point of the closed cell (coordinates 0 to 4).
+MENISCUS_HD inline std::uint32_t vertex_on_edge(const BlocksView& blocks, const ClosedCell& cell, int x, int y, int z,
+                                                int axis, int stride) {
+    const std::uint32_t block = cell.owner(x, y, z);
+    const BlockMask inside = blocks.inside[block];
+    int bit = ClosedCell::bit(x, y, z);
+    for (int half = stride / 2 * bit_step(axis); half >= bit_step(axis); half /= 2)
+        if (((inside >> bit ^ inside >> (bit + half)) & 1) == 0) bit += half;
+    const EdgeMasks& edges = blocks.edges[block];
+    std::uint32_t number = blocks.first_vertex[block] +
+                           static_cast<std::uint32_t>(popcount(edges.axis[axis] & ((BlockMask{1} << bit) - 1)));
+    for (int before = 0; before < axis; ++before) number += static_cast<std::uint32_t>(popcount(edges.axis[before]));
+    return number;
+}
+
+/// The two ends of a finest edge that carries a vertex.
+struct EdgeEnds {
+    float low = 0.0F, high = 0.0F;  ///< field values
+    bool low_inside = false;        ///< whether the lower end is inside, and the upper one outside
+    /// Whether the domain's border, not the field, makes the outer end outside.
+    MENISCUS_HD bool cropped(float iso) const { return (low > iso) == (high > iso); }
+};
+
+MENISCUS_HD inline EdgeEnds edge_ends(const BlocksView& blocks, std::uint32_t block, int axis, int bit) {
+    EdgeEnds ends;
+    ends.low = blocks.value(block, bit);
+    ends.low_inside = (blocks.inside[block] >> bit & 1) != 0;
+    if (point_coordinate(bit, axis) < 3) {
+        ends.high = blocks.value(block, bit + bit_step(axis));
+    } else {
+        const std::uint32_t next = blocks.neighbor(block, axis_offset(axis));
+        ends.high = next == no_index ? 0.0F : blocks.value(next, bit - 3 * bit_step(axis));
+    }
+    return ends;
+}
+
+/// Place of the vertex on its edge in steps of c / 2^bits, 1 to 2^bits - 1, by linear interpolation. A cropped edge has it
+/// next to the border.
+MENISCUS_HD inline int interpolated_offset(const EdgeEnds& ends, float iso, int bits) {
+    const int last = (1 << bits) - 1;
+    if (ends.cropped(iso)) return ends.low_inside ? last : 1;
+    const float t = (iso - ends.low) / (ends.high - ends.low);
+    const int offset = static_cast<int>(t * static_cast<float>(1 << bits) + 0.5F);
+    return offset < 1 ? 1 : offset > last ? last : offset;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,83 @@
+// Step 4: which points of a block need a field value, and which cells the samples draw into the surface band.
+#pragma once
+
+#include <cstdint>
+
+#include "lattice/host_device.hpp"
+#include "stages/blocks.hpp"
+#include "stages/place_vertices.hpp"
+
+namespace meniscus {
+
+/// The points of a block that the cells around it need as corners: all cells of the band whose closed box holds the point.
+MENISCUS_HD inline BlockMask corner_points(const BlocksView& blocks, std::uint32_t block) {
+    BlockMask wanted = 0;
+    for (int i = 0; i < 8; ++i) {
+        const int level = blocks.level_or_none(blocks.neighbor(block, {-(i & 1), -(i >> 1 & 1), -(i >> 2)}));
+        if (level == 0) continue;
+        BlockMask shared = stride_points(level_stride(level));
+        for (int axis = 0; axis < 3; ++axis)
+            if (i >> axis & 1) shared &= low_face(axis);
+        wanted |= shared;
+    }
+    return wanted;
+}
+
+/// The unsampled middles of coarse edges that cross the surface (design: an edge point lies on a finest lattice edge).
+/// First with length 4, then, those being sampled, with length 2.
+MENISCUS_HD inline BlockMask edge_middles(const BlocksView& blocks, std::uint32_t block, int length) {
+    BlockMask wanted = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const CrossedEdges crossed(blocks, block, axis);
+        wanted |= (length == 4 ? crossed.length4 << (2 * bit_step(axis)) : crossed.length2_all() << bit_step(axis));
+    }
+    return wanted & ~blocks.sampled[block];
+}
+
+/// Whether a cell of the band sees both signs on one of its faces, with the points of its own level.
+MENISCUS_HD inline bool face_is_mixed(const BlocksView& blocks, const ClosedCell& cell, int level, int axis, int side) {
+    const int stride = level_stride(level);
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    int point[3];
+    point[axis] = side * base_cell_size;
+    bool any = false;
+    bool all = true;
+    for (point[v] = 0; point[v] <= base_cell_size; point[v] += stride)
+        for (point[u] = 0; point[u] <= base_cell_size; point[u] += stride) {
+            const bool in = cell.inside(blocks, point[0], point[1], point[2]);
+            any |= in;
+            all &= in;
+        }
+    return any && !all;
+}
+
+/// Whether a stored cell outside the band must join it: a neighbor in the band sees both signs on their common face, so that
+/// skipping the cell would leave the mesh open.
+MENISCUS_HD inline bool joins_band(const BlocksView& blocks, std::uint32_t block) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (int side = 0; side < 2; ++side) {
+            const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, 2 * side - 1));
+            const int level = blocks.level_or_none(other);
+            if (level != 0 && face_is_mixed(blocks, ClosedCell(blocks, other), level, axis, 1 - side)) return true;
+        }
+    return false;
+}
+
+/// The points of a block that lie strictly inside the domain [low, high], in cells.
+MENISCUS_HD inline BlockMask domain_points(const Int3& base_cell, const Int3& low, const Int3& high) {
+    const std::int32_t corner[3] = {base_cell.x * base_cell_size, base_cell.y * base_cell_size, base_cell.z * base_cell_size};
+    const std::int32_t lows[3] = {low.x, low.y, low.z};
+    const std::int32_t highs[3] = {high.x, high.y, high.z};
+    BlockMask points = ~BlockMask{0};
+    for (int axis = 0; axis < 3; ++axis) {
+        BlockMask slabs = 0;
+        for (int i = 0; i < base_cell_size; ++i)
+            if (corner[axis] + i > lows[axis] && corner[axis] + i < highs[axis])
+                slabs |= low_face(axis) << (i * bit_step(axis));
+        points &= slabs;
+    }
+    return points;
+}
+
+}  // namespace meniscus
