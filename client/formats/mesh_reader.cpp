@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "formats/brick_file.hpp"
+#include "formats/byte_cursor.hpp"
+#include "formats/extension.hpp"
+#include "formats/mesh_file.hpp"
+#include "formats/ply.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::formats {
+namespace {
+
+/// Appends a polygon, given by indices into the positions, as a fan of triangles of one level.
+void append_polygon(TriangleMesh& mesh, const std::vector<std::uint32_t>& corners) {
+    for (std::size_t i = 2; i < corners.size(); ++i) mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+}
+
+/// A polygon's corner as an index. Throws InvalidInput unless it is one of `count` positions.
+std::uint32_t to_index(double value, std::size_t count, const ByteCursor& at) {
+    if (!(value >= 0.0 && value < static_cast<double>(count)) || value != std::floor(value)) {
+        std::ostringstream message;
+        message << "a face uses vertex " << value << " of " << count;
+        at.fail(message.str());
+    }
+    return static_cast<std::uint32_t>(value);
+}
+
+void expect_addressable(std::size_t vertices, const ByteCursor& at) {
+    constexpr std::size_t limit = std::numeric_limits<std::uint32_t>::max();
+    if (vertices > limit) at.fail(std::to_string(vertices) + " vertices; at most " + std::to_string(limit) + " are read");
+}
+
+/// Keywords of OBJ that say nothing about triangles: comments, textures, names, materials, lines and points.
+bool is_ignored(std::string_view keyword) {
+    static constexpr std::array ignored{"vt", "vp", "o", "s", "l", "p", "usemtl", "mtllib"};
+    return keyword.front() == '#' || std::find(ignored.begin(), ignored.end(), keyword) != ignored.end();
+}
+
+}  // namespace
+
+TriangleMesh read_mesh(const std::filesystem::path& path) {
+    const std::string extension = lower_extension(path);
+    if (extension != ".ply" && extension != ".obj" && extension != ".bricks")
+        throw InvalidInput(path.string() + ": mesh files end in .ply, .obj or .bricks, not in '" + extension + "'");
+    const std::string bytes = read_file(path);
+    const std::string name = path.string();
+    TriangleMesh mesh = extension == ".ply"   ? read_mesh_ply(name, bytes)
+                        : extension == ".obj" ? read_obj(name, bytes)
+                                              : to_triangles(read_bricks(name, bytes).mesh());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        for (const double x : mesh.positions[i])
+            if (!std::isfinite(x))
+                throw InvalidInput(name + ": vertex " + std::to_string(i) + " has the coordinate " + std::to_string(x) + "; coordinates are finite");
+    return mesh;
+}
+
+TriangleMesh to_triangles(const Mesh& mesh) {
+    TriangleMesh out;
+    out.positions.reserve(mesh.vertices.size());
+    for (const LatticePosition& p : mesh.vertices) out.positions.push_back(mesh.world(p));
+    out.normals.assign(mesh.normals.begin(), mesh.normals.end());
+    out.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    out.levels.resize(mesh.triangles.size());
+    for (std::size_t i = 0; i < out.levels.size(); ++i) out.levels[i] = level_byte(mesh.level_of(i));
+    return out;
+}
+
+TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes) {
+    PlyReader ply(name, bytes);
+    TriangleMesh mesh;
+    bool has_vertices = false;
+    for (const PlyElement& element : ply.elements()) {
+        if (element.name == "vertex" && !has_vertices) {
+            has_vertices = true;
+            const std::array axes{element.scalar("x"), element.scalar("y"), element.scalar("z")};
+            const std::array normal{element.scalar("nx"), element.scalar("ny"), element.scalar("nz")};
+            if (!axes[0] || !axes[1] || !axes[2]) ply.in().fail("its vertices have no scalar properties x, y and z");
+            const bool normals = normal[0] && normal[1] && normal[2];
+            expect_addressable(element.count, ply.in());
+            ply.expect_rows(element);
+            mesh.positions.reserve(element.count);
+            if (normals) mesh.normals.reserve(element.count);
+            ply.read_rows(element, [&](std::size_t, const PlyRow& row) {
+                mesh.positions.push_back({row.scalars[*axes[0]], row.scalars[*axes[1]], row.scalars[*axes[2]]});
+                if (normals)
+                    mesh.normals.push_back({static_cast<float>(row.scalars[*normal[0]]), static_cast<float>(row.scalars[*normal[1]]),
+                                            static_cast<float>(row.scalars[*normal[2]])});
+            });
+        } else if (element.name == "face") {
+            const auto list = element.list("vertex_indices") ? element.list("vertex_indices") : element.list("vertex_index");
+            const auto level = element.scalar("level");
+            if (!list) ply.in().fail("its faces have no list vertex_indices");
+            if (!has_vertices) ply.in().fail("its faces come before its vertices");
+            std::vector<std::uint32_t> corners;
+            ply.read_rows(element, [&](std::size_t, const PlyRow& row) {
+                corners.clear();
+                for (const double v : row.lists[*list]) corners.push_back(to_index(v, mesh.positions.size(), ply.in()));
+                append_polygon(mesh, corners);
+                if (!level) return;
+                const double l = row.scalars[*level];
+                mesh.levels.resize(mesh.triangles.size(), l >= 1.0 && l <= 3.0 ? static_cast<std::uint8_t>(l) : std::uint8_t{0});
+            });
+        } else {
+            ply.read_rows(element, [](std::size_t, const PlyRow&) {});
+        }
+    }
+    if (!has_vertices) ply.in().fail("a PLY file without vertices");
+    ply.expect_end();
+    return mesh;
+}
+
+TriangleMesh read_obj(const std::string& name, std::string_view bytes) {
+    ByteCursor in(name, bytes);
+    TriangleMesh mesh;
+    std::vector<Normal> normals;
+    std::vector<std::uint32_t> corners;
+    int level = -1;  // none named yet
+    while (in.remaining() > 0) {
+        ByteCursor words(name, in.line());
+        if (!words.skip_space()) continue;
+        const std::string_view keyword = words.word();
+        if (keyword == "v") {
+            mesh.positions.push_back({words.number("x"), words.number("y"), words.number("z")});
+        } else if (keyword == "vn") {
+            normals.push_back({static_cast<float>(words.number("nx")), static_cast<float>(words.number("ny")),
+                               static_cast<float>(words.number("nz"))});
+        } else if (keyword == "g") {
+            const std::string_view group = words.skip_space() ? words.word() : std::string_view{};
+            level = group == "level1" ? 1 : group == "level2" ? 2 : group == "level3" ? 3 : group == "crack" ? 0 : -1;
+        } else if (keyword == "f") {
+            corners.clear();
+            while (words.skip_space()) {
+                const std::string_view corner = words.word();
+                double index = to_number(corner.substr(0, corner.find('/')), in, "vertex of a face");
+                // Negative ones count from the end.
+                index = index < 0.0 ? index + static_cast<double>(mesh.positions.size()) : index - 1.0;
+                corners.push_back(to_index(index, mesh.positions.size(), in));
+            }
+            append_polygon(mesh, corners);
+            if (level >= 0) mesh.levels.resize(mesh.triangles.size(), static_cast<std::uint8_t>(level));
+        } else if (!is_ignored(keyword)) {
+            in.fail(quote(keyword) + " is no keyword of an OBJ file");
+        }
+    }
+    expect_addressable(mesh.positions.size(), in);
+    // Normals are used if they are one per vertex, as Meniscus writes them.
+    if (normals.size() == mesh.positions.size()) mesh.normals = std::move(normals);
+    if (mesh.levels.size() != mesh.triangles.size()) mesh.levels.clear();
+    return mesh;
+}
+
+}  // namespace meniscus::formats

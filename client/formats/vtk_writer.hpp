@@ -1,0 +1,14 @@
+// Particles as legacy VTK, which every tool for particles reads.
+#pragma once
+
+#include <filesystem>
+
+#include "meniscus/particle_frame.hpp"
+
+namespace meniscus::formats {
+
+/// Writes float positions and, if the frame has levels, an integer array `level`: version 4.1, binary, atomically.
+/// Throws InvalidInput if the path cannot be written.
+void write_vtk(const std::filesystem::path& path, const ParticleFrame& frame);
+
+}  // namespace meniscus::formats

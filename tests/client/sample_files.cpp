@@ -1,0 +1,121 @@
+#include "sample_files.hpp"
+
+#include <unistd.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "formats/brick_file.hpp"
+#include "formats/byte_cursor.hpp"
+#include "formats/mesh_file.hpp"
+#include "formats/particles.hpp"
+#include "formats/scalar.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::test {
+
+using formats::store;
+
+TemporaryDirectory::TemporaryDirectory() {
+    std::string name = (std::filesystem::temp_directory_path() / "meniscus-test-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
+    path_ = name;
+}
+
+TemporaryDirectory::~TemporaryDirectory() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+std::optional<std::filesystem::path> data_folder() {
+    const char* folder = std::getenv("MENISCUS_DATA");
+    if (folder == nullptr || *folder == '\0') return std::nullopt;
+    return folder;
+}
+
+std::string vtk_binary() {
+    constexpr auto big = std::endian::big;
+    std::string out = "# vtk DataFile Version 4.1\nsample\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 2 float\n";
+    for (const float x : {1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F}) store(out, x, big);
+    out += "\nCELLS 2 4\n";
+    for (const std::int32_t i : {1, 0, 1, 1}) store(out, i, big);
+    out += "\nCELL_TYPES 2\n";
+    for (const std::int32_t i : {1, 1}) store(out, i, big);
+    out += "\nPOINT_DATA 2\nSCALARS id unsigned_int 1\nLOOKUP_TABLE id_table\n";
+    for (const std::uint32_t i : {7U, 8U}) store(out, i, big);
+    out += "\nFIELD FieldData 3\nvelocity 3 2 float\n";
+    for (int i = 0; i < 6; ++i) store(out, 0.5F, big);
+    out += "\nlevel 1 2 int\n";
+    for (const std::int32_t i : {0, 3}) store(out, i, big);
+    out += "\npressure 1 2 double\n";
+    for (const double p : {1.5, 2.5}) store(out, p, big);
+    return out + "\n";
+}
+
+std::string vtk_ascii() {
+    return "# vtk DataFile Version 5.1\nsample\nASCII\nDATASET UNSTRUCTURED_GRID\n\nPOINTS 2 double\n1 2 3 \n4 5 6\n"
+           "METADATA\nINFORMATION 1\nNAME L2_NORM_RANGE LOCATION vtkDataArray\nDATA 2 0 1\n\n"
+           "CELLS 3 2\n\nOFFSETS vtktypeint64\n0 1 2\n\nCONNECTIVITY vtktypeint64\n0 1\n\nCELL_TYPES 2\n1\n1\n\n"
+           "POINT_DATA 2\nVECTORS velocity float\n0 0 0 1 1 1\nSCALARS level int\nLOOKUP_TABLE default\n0 3\n";
+}
+
+Mesh tetrahedron(std::int32_t origin) {
+    Mesh mesh;
+    mesh.cell_size = 0.125;
+    mesh.offset_bits = 6;
+    const std::int32_t o = origin;
+    for (const LatticePosition& p : {LatticePosition{o, o, o}, {o + 9, o, o}, {o, o + 9, o}, {o, o, o + 9}}) mesh.vertices.push_back(p);
+    const float s = 1.0F / std::sqrt(3.0F);
+    for (const Normal& n : {Normal{-s, -s, -s}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) mesh.normals.push_back(n);
+    for (const Triangle& t : {Triangle{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}) mesh.triangles.push_back(t);
+    for (std::uint32_t i = 0; i < 4; ++i) mesh.levels[i] = {i, 1};
+    return mesh;
+}
+
+std::string refusal(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const InvalidInput& e) {
+        return e.what();
+    }
+    return {};
+}
+
+std::vector<Sample> samples() {
+    std::vector<Sample> out;
+    const auto particles = [](auto reader) {
+        return [reader](const std::string& bytes) { (void)reader("sample", bytes); };
+    };
+    out.push_back({"vtk binary", vtk_binary(), particles(formats::read_vtk)});
+    out.push_back({"vtk ascii", vtk_ascii(), particles(formats::read_vtk)});
+    std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+                      "property uchar level\nelement extra 1\nproperty list uchar int numbers\nend_header\n";
+    for (const float x : {1.0F, 2.0F, 3.0F}) store(ply, x);
+    ply += char{1};
+    for (const float x : {4.0F, 5.0F, 6.0F}) store(ply, x);
+    ply += char{2};
+    ply += char{1};
+    store(ply, std::int32_t{5});
+    out.push_back({"particle ply binary", ply, particles(formats::read_particle_ply)});
+    out.push_back({"particle ply ascii",
+                   "ply\nformat ascii 1.0\ncomment c\nelement vertex 2\nproperty double x\nproperty double y\nproperty double z\n"
+                   "end_header\n1 2 3\n4 5 6\n", particles(formats::read_particle_ply)});
+    std::string xyz;
+    for (int i = 0; i < 6; ++i) store(xyz, static_cast<float>(i));
+    out.push_back({"xyz", xyz, particles(formats::read_xyz)});
+
+    const TemporaryDirectory directory;
+    formats::write_ply(directory / "mesh.ply", tetrahedron());
+    formats::write_obj(directory / "mesh.obj", tetrahedron());
+    out.push_back({"mesh ply", formats::read_file(directory / "mesh.ply"), particles(formats::read_mesh_ply)});
+    out.push_back({"mesh obj", formats::read_file(directory / "mesh.obj"), particles(formats::read_obj)});
+    client::ReceivedFrame frame = formats::encode_frame(tetrahedron(), {}, 4, 0.5);
+    frame.bricks = {EncodedBrick{{1, -2, 3}, 4, 4, {std::byte{1}}, std::vector<std::byte>(30, std::byte{9})}};
+    formats::write_bricks(directory / "frame.bricks", frame);
+    out.push_back({"bricks", formats::read_file(directory / "frame.bricks"), particles(formats::read_bricks)});
+    return out;
+}
+
+}  // namespace meniscus::test
