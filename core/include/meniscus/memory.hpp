@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -34,6 +35,10 @@ private:
     std::atomic<std::uint64_t> allocations_{0};
 };
 
+/// Memory aligned to a cache line; null if there is none.
+void* allocate_aligned(std::size_t bytes) noexcept;
+void free_aligned(void* memory) noexcept;
+
 /// Allocator that charges an account (none: uncounted) and leaves trivial elements uninitialized on resize.
 template <class T>
 class AccountAllocator {
@@ -41,7 +46,6 @@ public:
     using value_type = T;
     using propagate_on_container_move_assignment = std::true_type;
     using propagate_on_container_swap = std::true_type;
-    static constexpr std::size_t alignment = 64;
 
     AccountAllocator() noexcept = default;
     explicit AccountAllocator(std::shared_ptr<MemoryAccount> account) noexcept : account_(std::move(account)) {}
@@ -51,15 +55,15 @@ public:
     T* allocate(std::size_t n) {
         const std::size_t bytes = n * sizeof(T);
         if (account_) account_->charge(bytes);
-        try {
-            return static_cast<T*>(::operator new(bytes, std::align_val_t{alignment}));
-        } catch (...) {
+        void* memory = allocate_aligned(bytes);
+        if (memory == nullptr) {
             if (account_) account_->release(bytes);
-            throw;
+            throw std::bad_alloc();
         }
+        return static_cast<T*>(memory);
     }
     void deallocate(T* p, std::size_t n) noexcept {
-        ::operator delete(p, std::align_val_t{alignment});
+        free_aligned(p);
         if (account_) account_->release(n * sizeof(T));
     }
     template <class U, class... Args>

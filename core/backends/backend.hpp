@@ -1,0 +1,57 @@
+// What the reconstructor asks of a backend. The CPU's stands beside it; a GPU's will.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <memory>
+
+#include "meniscus/mesh.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/settings.hpp"
+#include "meniscus/statistics.hpp"
+
+namespace meniscus {
+
+class BackendReconstruction {
+public:
+    virtual ~BackendReconstruction() = default;
+    /// The frame is valid. Fills the mesh and every figure of the statistics but memory and total time.
+    virtual void reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) = 0;
+};
+
+/// Charges the time until the next call, or its own end, to a stage.
+class StageClock {
+public:
+    explicit StageClock(Statistics& statistics) : statistics_(statistics) {}
+    ~StageClock() { stop(); }
+    StageClock(const StageClock&) = delete;
+    StageClock& operator=(const StageClock&) = delete;
+
+    void enter(Stage stage) {
+        stop();
+        stage_ = stage;
+        running_ = true;
+        start_ = Clock::now();
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    void stop() {
+        if (running_)
+            statistics_.stage_seconds[static_cast<std::size_t>(stage_)] += std::chrono::duration<double>(Clock::now() - start_).count();
+        running_ = false;
+    }
+
+    Statistics& statistics_;
+    Stage stage_{};
+    bool running_ = false;
+    Clock::time_point start_;
+};
+
+namespace cpu {
+/// threads: 0 for one per processor. Throws InvalidInput on a processor without what the kernels need.
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, unsigned threads,
+                                                           const std::shared_ptr<MemoryAccount>& account);
+}  // namespace cpu
+
+}  // namespace meniscus

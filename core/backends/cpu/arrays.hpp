@@ -1,0 +1,27 @@
+// Sizing the backend's arrays: they grow with some room to spare and never shrink, so that a warm frame allocates nothing.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "meniscus/memory.hpp"
+
+namespace meniscus::cpu {
+
+/// Makes an array of n elements whose values do not matter.
+template <class T>
+void resize_for_overwrite(Array<T>& array, std::size_t n) {
+    if (array.capacity() < n) {
+        // Gives the old memory back first: nothing of it is needed, and the peak stays low.
+        array = Array<T>(array.get_allocator());
+        array.reserve(n + n / 8);
+    }
+    array.resize(n);
+}
+
+template <class T>
+Array<T> make_array(const std::shared_ptr<MemoryAccount>& account) {
+    return Array<T>(AccountAllocator<T>(account));
+}
+
+}  // namespace meniscus::cpu

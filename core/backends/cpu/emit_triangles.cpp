@@ -1,0 +1,15 @@
+#include "stages/emit_triangles.hpp"
+
+#include "backends/cpu/surface.hpp"
+
+namespace meniscus::cpu {
+
+void emit_triangles(Surface& s, Mesh& mesh) {
+    const BlocksView blocks = s.view();
+    s.workers.for_ranges(s.band.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i)
+            emit_cell_triangles(blocks, s.band[i], cube_table.data(), mesh.triangles.data() + s.slots[s.band[i]].cells);
+    });
+}
+
+}  // namespace meniscus::cpu

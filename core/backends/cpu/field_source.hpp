@@ -1,0 +1,38 @@
+// What the surface stages ask of a field. Tests put white noise in place of particles.
+#pragma once
+
+#include <cstddef>
+
+#include "lattice/block_mask.hpp"
+#include "lattice/coordinates.hpp"
+
+namespace meniscus::cpu {
+
+/// Most points asked for at once: a block's vertices.
+inline constexpr std::size_t max_points = 3 * 64;
+
+/// Points in units from a base cell's corner; room for whole lanes.
+struct PointList {
+    std::size_t count = 0;
+    alignas(32) float x[max_points];
+    alignas(32) float y[max_points];
+    alignas(32) float z[max_points];
+
+    void add(float px, float py, float pz) {
+        x[count] = px;
+        y[count] = py;
+        z[count] = pz;
+        ++count;
+    }
+};
+
+/// Arrays have room for max_points elements; a list's lanes beyond its points may be overwritten. A value is a pure function of the point's place in the world.
+class FieldSource {
+public:
+    virtual ~FieldSource() = default;
+    virtual void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) = 0;
+    /// Up to a positive factor.
+    virtual void gradients(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) = 0;
+};
+
+}  // namespace meniscus::cpu

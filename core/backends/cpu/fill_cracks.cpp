@@ -1,0 +1,15 @@
+#include "stages/fill_cracks.hpp"
+
+#include "backends/cpu/surface.hpp"
+
+namespace meniscus::cpu {
+
+void fill_cracks(Surface& s, Mesh& mesh) {
+    const BlocksView blocks = s.view();
+    s.workers.for_ranges(s.band.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i)
+            emit_crack_triangles(blocks, s.band[i], crack_table.data(), mesh.triangles.data() + s.slots[s.band[i]].cracks);
+    });
+}
+
+}  // namespace meniscus::cpu

@@ -1,0 +1,185 @@
+#include "backends/cpu/particle_sets.hpp"
+
+#include <algorithm>
+
+namespace meniscus::cpu {
+namespace {
+
+Units3 snapped(const ParticleFrame& frame, std::size_t i, double units_per_length) {
+    std::int64_t p[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double x;
+        if (frame.is_quantized()) {
+            const double low = frame.quantization_box.min[axis];
+            const double high = frame.quantization_box.max[axis];
+            x = low + static_cast<double>(frame.quantized[3 * i + axis]) * (high - low) / 65535.0;
+        } else {
+            x = static_cast<double>(frame.positions[3 * i + axis]);
+        }
+        p[axis] = snap(x, units_per_length);
+    }
+    return {p[0], p[1], p[2]};
+}
+
+Int3 key_coordinate(std::uint64_t key) {
+    constexpr std::uint64_t mask = (1U << 20) - 1;
+    constexpr std::int32_t bias = 1 << 19;
+    return {static_cast<std::int32_t>(key & mask) - bias, static_cast<std::int32_t>(key >> 20 & mask) - bias,
+            static_cast<std::int32_t>(key >> 40) - bias};
+}
+
+}  // namespace
+
+ParticleSet::ParticleSet(const std::shared_ptr<MemoryAccount>& account)
+    : cells(account), keys(make_array<ParticleKey>(account)), first(make_array<std::uint32_t>(account)),
+      cell_keys(make_array<std::uint64_t>(account)), particles(make_array<Particle>(account)),
+      densities(make_array<float>(account)) {}
+
+ParticleSets::ParticleSets(const std::shared_ptr<MemoryAccount>& account, Workers& workers, const LatticeSettings& settings)
+    : workers_(workers), settings_(settings), scan_(account),
+      sets_{ParticleSet(account), ParticleSet(account), ParticleSet(account), ParticleSet(account)},
+      reached_bricks_(make_array<std::uint64_t>(account)) {
+    for (unsigned k = 0; k < particle_level_count; ++k) {
+        sets_[k].support = settings.support[k];
+        sets_[k].cell_units = support_cell_units(static_cast<std::int64_t>(settings.support[k]) + 1);
+    }
+}
+
+void ParticleSets::assign(const ParticleFrame& frame) {
+    for (unsigned k = 0; k < particle_level_count; ++k) {
+        sort(frame, k);
+        build_cells(sets_[k]);
+    }
+}
+
+void ParticleSets::sort(const ParticleFrame& frame, unsigned level) {
+    ParticleSet& set = sets_[level];
+    const auto write = [&](std::size_t i, std::size_t at) {
+        set.keys[at] = particle_key(snapped(frame, i, settings_.units_per_length), set.cell_units);
+    };
+    if (frame.levels.empty()) {
+        resize_for_overwrite(set.keys, level == 0 ? frame.count() : 0);
+        workers_.for_ranges(set.keys.size(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t i = begin; i < end; ++i) write(i, i);
+        });
+    } else {
+        const auto belongs = [&](std::size_t i) -> std::uint64_t { return frame.levels[i] == level ? 1 : 0; };
+        const auto count = static_cast<std::size_t>(std::count(frame.levels.begin(), frame.levels.end(), level));
+        resize_for_overwrite(set.keys, count);
+        scan_.exclusive(workers_, frame.count(), belongs, [&](std::size_t i, std::uint64_t at) {
+            if (belongs(i) != 0) write(i, at);
+        });
+    }
+    workers_.sort(set.keys.data(), set.keys.data() + set.keys.size(), std::less<>());
+    resize_for_overwrite(set.particles, set.keys.size());
+    workers_.for_ranges(set.keys.size(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i) {
+            set.particles[i] = particle_of(set.keys[i], set.cell_units);
+            set.particles[i].weight = settings_.weight;
+        }
+    });
+}
+
+void ParticleSets::build_cells(ParticleSet& set) {
+    const auto& keys = set.keys;
+    const auto starts_cell = [&](std::size_t i) -> std::uint64_t { return i == 0 || keys[i].cell != keys[i - 1].cell ? 1 : 0; };
+    resize_for_overwrite(set.first, keys.size() + 1);
+    resize_for_overwrite(set.cell_keys, keys.size());
+    const std::uint64_t cells = scan_.exclusive(workers_, keys.size(), starts_cell, [&](std::size_t i, std::uint64_t at) {
+        if (starts_cell(i) == 0) return;
+        set.first[at] = static_cast<std::uint32_t>(i);
+        set.cell_keys[at] = keys[i].cell;
+    });
+    set.first[cells] = static_cast<std::uint32_t>(keys.size());
+    set.cell_keys.resize(cells);
+
+    const auto starts_brick = [&](std::size_t i) { return i == 0 || set.cell_keys[i] >> 12 != set.cell_keys[i - 1] >> 12; };
+    set.cells.bricks.clear();
+    set.cells.keys.clear();
+    for (std::size_t i = 0; i < cells; ++i) {
+        if (starts_brick(i)) {
+            Brick& brick = set.cells.bricks.emplace_back();
+            brick.coordinate = key_brick(set.cell_keys[i]);
+            brick.clear();
+            set.cells.keys.push_back(brick_key(brick.coordinate));
+        }
+        const int index = key_index(set.cell_keys[i]);
+        set.cells.bricks.back().occupied[index >> 6] |= std::uint64_t{1} << (index & 63);
+    }
+    std::uint32_t members = 0;
+    for (Brick& brick : set.cells.bricks) {
+        brick.first = members;
+        members += brick.count();
+    }
+    set.cells.members = members;
+}
+
+void ParticleSets::mark_reached_cells(BrickGrid& grid) {
+    // Every brick that a support cell's particles may reach, each once.
+    constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
+    reached_bricks_.clear();
+    for (const ParticleSet& set : sets_) {
+        const std::int64_t reach = static_cast<std::int64_t>(set.support) + 32;
+        Int3 last_low, last_high;
+        for (std::size_t i = 0; i < set.cell_keys.size(); ++i) {
+            const Int3 b = key_brick(set.cell_keys[i]);
+            const int p = key_index(set.cell_keys[i]);
+            const std::int64_t corner[3] = {(b.x * brick_size + (p & 15)) * set.cell_units, (b.y * brick_size + (p >> 4 & 15)) * set.cell_units,
+                                            (b.z * brick_size + (p >> 8)) * set.cell_units};
+            const auto low_of = [&](int axis) { return static_cast<std::int32_t>(floor_div(corner[axis] - reach, edge)); };
+            const auto high_of = [&](int axis) { return static_cast<std::int32_t>(floor_div(corner[axis] + set.cell_units + reach, edge)); };
+            const Int3 low{low_of(0), low_of(1), low_of(2)};
+            const Int3 high{high_of(0), high_of(1), high_of(2)};
+            if (i > 0 && low == last_low && high == last_high) continue;
+            last_low = low;
+            last_high = high;
+            Int3 c;
+            for (c.z = low.z; c.z <= high.z; ++c.z)
+                for (c.y = low.y; c.y <= high.y; ++c.y)
+                    for (c.x = low.x; c.x <= high.x; ++c.x) reached_bricks_.push_back(brick_key(c));
+        }
+    }
+    std::sort(reached_bricks_.begin(), reached_bricks_.end());
+    reached_bricks_.erase(std::unique(reached_bricks_.begin(), reached_bricks_.end()), reached_bricks_.end());
+
+    resize_for_overwrite(grid.bricks, reached_bricks_.size());
+    resize_for_overwrite(grid.keys, reached_bricks_.size());
+    workers_.for_ranges(reached_bricks_.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Brick& brick = grid.bricks[i];
+            grid.keys[i] = reached_bricks_[i];
+            brick.coordinate = key_coordinate(reached_bricks_[i]);
+            brick.clear();
+            const Units3 origin{brick.coordinate.x * edge, brick.coordinate.y * edge, brick.coordinate.z * edge};
+            const auto size = static_cast<float>(edge);
+            for (const ParticleSet& set : sets_)
+                set.view().for_each_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
+                                         [&](float x, float y, float z, float) { mark_reached(brick, x, y, z, set.support); });
+            if (settings_.has_domain) clear_beyond_domain(brick, settings_.domain_low, settings_.domain_high);
+        }
+    });
+}
+
+void ParticleSets::count_per_cell(const BrickGrid& grid, Array<std::uint32_t>& counts) {
+    resize_for_overwrite(counts, grid.members);
+    const ParticleSet& set = sets_[0];
+    workers_.for_ranges(grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Brick& brick = grid.bricks[i];
+            const std::uint32_t last = i + 1 < grid.bricks.size() ? grid.bricks[i + 1].first : grid.members;
+            std::fill(counts.begin() + brick.first, counts.begin() + last, 0U);
+            constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
+            const Units3 origin{brick.coordinate.x * edge, brick.coordinate.y * edge, brick.coordinate.z * edge};
+            const auto size = static_cast<float>(edge);
+            // Wider than needed by the support; particles of other bricks are passed over.
+            set.view().for_each_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, [&](float x, float y, float z, float) {
+                if (x < 0.0F || y < 0.0F || z < 0.0F || x >= size || y >= size || z >= size) return;
+                constexpr float cell = units_per_base_cell;
+                const Int3 at{static_cast<int>(x / cell), static_cast<int>(y / cell), static_cast<int>(z / cell)};
+                ++counts[brick.number(index_in_brick(at))];
+            });
+        }
+    });
+}
+
+}  // namespace meniscus::cpu

@@ -1,0 +1,82 @@
+// The way of a frame through the CPU backend: the paper's steps in their order.
+#include "backends/backend.hpp"
+#include "backends/cpu/particle_field.hpp"
+#include "backends/cpu/particle_sets.hpp"
+#include "backends/cpu/split_cells.hpp"
+#include "backends/cpu/surface.hpp"
+#include "processor.hpp"
+
+namespace meniscus::cpu {
+namespace {
+
+class Reconstruction final : public BackendReconstruction {
+public:
+    Reconstruction(const Settings& user, unsigned threads, const std::shared_ptr<MemoryAccount>& account)
+        : user_(user), settings_(user), workers_(threads), surface_(account, workers_, settings_),
+          particles_(account, workers_, settings_), field_(account, workers_, particles_),
+          counts_(make_array<std::uint32_t>(account)), bounds_(make_array<float>(account)) {}
+
+    void reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) override {
+        StageClock clock(statistics);
+        clock.enter(Stage::register_particles);
+        register_particles(frame);
+        clock.enter(Stage::sample_field);
+        field_.sample_base_vertices(surface_, bounds_);
+        clock.enter(Stage::split_cells);
+        split_cells(surface_, criterion(frame), bounds_);
+        clock.enter(Stage::adjust_levels);
+        if (user_.mode == Mode::adaptive) adjust_levels(surface_);
+        clock.enter(Stage::sample_field);
+        sample_field(surface_, field_);
+        sample_edge_middles(surface_, field_);
+        clock.enter(Stage::count_triangles);
+        count_triangles(surface_, mesh);
+        clock.enter(Stage::place_vertices);
+        place_vertices(surface_, field_, user_, mesh);
+        clock.enter(Stage::emit_triangles);
+        emit_triangles(surface_, mesh);
+        clock.enter(Stage::fill_cracks);
+        fill_cracks(surface_, mesh);
+
+        statistics.field_evaluations = surface_.field_evaluations;
+        for (const std::uint32_t block : surface_.band) ++statistics.base_cells_by_level[surface_.level[block] - 1U];
+        statistics.backend = "cpu";
+        statistics.threads = workers_.count();
+    }
+
+private:
+    void register_particles(const ParticleFrame& frame) {
+        particles_.assign(frame);
+        particles_.mark_reached_cells(surface_.grid);
+        number_members(surface_.grid, workers_);
+        store_blocks(surface_);
+        if (counts_particles()) particles_.count_per_cell(surface_.grid, counts_);
+        if (user_.field == Field::color) field_.divide_weights_by_density();
+    }
+
+    bool counts_particles() const { return user_.mode == Mode::adaptive && user_.criterion == Criterion::count; }
+
+    SplitCriterion criterion(const ParticleFrame& frame) const {
+        if (counts_particles()) return CountCriterion{counts_.data(), user_.count_threshold, !frame.levels.empty()};
+        return UniformCriterion{};
+    }
+
+    Settings user_;
+    LatticeSettings settings_;
+    Workers workers_;
+    Surface surface_;
+    ParticleSets particles_;
+    ParticleField field_;
+    Array<std::uint32_t> counts_;
+    Array<float> bounds_;
+};
+
+}  // namespace
+
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, unsigned threads,
+                                                           const std::shared_ptr<MemoryAccount>& account) {
+    require_supported_processor();
+    return std::make_unique<Reconstruction>(settings, threads, account);
+}
+
+}  // namespace meniscus::cpu

@@ -1,0 +1,73 @@
+// The state of the surface stages between particles and mesh, and the stages as loops over it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "backends/cpu/arrays.hpp"
+#include "backends/cpu/field_source.hpp"
+#include "backends/cpu/scan.hpp"
+#include "backends/cpu/workers.hpp"
+#include "field/lattice_settings.hpp"
+#include "meniscus/mesh.hpp"
+#include "stages/blocks.hpp"
+
+namespace meniscus::cpu {
+
+struct Surface {
+    Surface(const std::shared_ptr<MemoryAccount>& account, Workers& workers, const LatticeSettings& settings);
+
+    Workers& workers;
+    const LatticeSettings& settings;
+    Scan scan;
+
+    BrickGrid grid;  ///< the stored base cells (blocks)
+    // One element per block; BlocksView explains them.
+    Array<std::uint32_t> brick;
+    Array<std::uint16_t> place;
+    Array<std::uint8_t> level;
+    Array<std::uint8_t> wanted_level;  ///< by the split criterion
+    Array<std::uint8_t> next_level;
+    Array<BlockMask> sampled;
+    Array<BlockMask> inside;
+    Array<BlockMask> wanted_points;
+    Array<std::uint32_t> first_sample;
+    Array<std::uint32_t> old_first_sample;  ///< while a block's samples move
+    Array<EdgeMasks> edges;
+    Array<std::uint32_t> first_vertex;
+    Array<TriangleSlots> slots;
+    Array<float> samples;
+    Array<std::uint32_t> band;  ///< the blocks of the surface band, ascending
+    Array<std::array<std::uint32_t, triangle_level_count>> brick_triangles;  ///< per brick and level
+    std::uint64_t field_evaluations = 0;
+
+    BlocksView view();
+    std::uint32_t block_count() const { return grid.members; }
+};
+
+/// Sizes the arrays for the grid's members; no point is sampled, no cell is in the band.
+void store_blocks(Surface& surface);
+
+/// Numbers the members of a grid whose bits are set, and finds its bricks' neighbors.
+void number_members(BrickGrid& grid, Workers& workers);
+
+/// Step 3. Balance and promotion among the cells of the band, until nothing changes.
+void adjust_levels(Surface& surface);
+
+/// Gives values to all of a block's wanted points that have none; signs follow.
+void sample_wanted_points(Surface& surface, FieldSource& field);
+/// Step 4. Samples what the cells of the band need; cells that the samples draw into the band are adjusted and sampled in turn.
+void sample_field(Surface& surface, FieldSource& field);
+/// Samples the middles of coarse edges that cross the surface.
+void sample_edge_middles(Surface& surface, FieldSource& field);
+
+/// Step 5. Counts, and gives every cell its place in the mesh.
+void count_triangles(Surface& surface, Mesh& mesh);
+/// Step 6.
+void place_vertices(Surface& surface, FieldSource& field, const Settings& user, Mesh& mesh);
+/// Step 7.
+void emit_triangles(Surface& surface, Mesh& mesh);
+/// Algorithm 3.
+void fill_cracks(Surface& surface, Mesh& mesh);
+
+}  // namespace meniscus::cpu

@@ -1,0 +1,131 @@
+// The CPU backend's parallel loop: oneTBB, or std::thread where a tool cannot see through oneTBB.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <thread>
+
+#ifdef MENISCUS_STD_THREADS
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <vector>
+#else
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
+#endif
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace meniscus::cpu {
+
+/// Subnormal numbers are kept: flushing them would make results depend on the host program's floating-point state.
+class ExactFloats {
+public:
+#if defined(__SSE2__)
+    ExactFloats() : before_(_mm_getcsr()) { _mm_setcsr(before_ & ~0xE040U); }
+    ~ExactFloats() { _mm_setcsr(before_); }
+#else
+    ExactFloats() = default;
+#endif
+    ExactFloats(const ExactFloats&) = delete;
+    ExactFloats& operator=(const ExactFloats&) = delete;
+
+private:
+#if defined(__SSE2__)
+    unsigned before_;  // bits cleared: flush-to-zero, denormals-are-zero, rounding other than to nearest
+#endif
+};
+
+class Workers {
+public:
+    /// threads: 0 for one per processor.
+    explicit Workers(unsigned threads)
+        : count_(threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency()))
+#ifndef MENISCUS_STD_THREADS
+        , arena_(static_cast<int>(count_))
+#endif
+    {}
+
+    unsigned count() const { return count_; }
+
+    /// Calls body(begin, end, worker) for pieces of [0, n) of about `grain`; worker < count() names the thread, so that a
+    /// body can use scratch memory of its own.
+    template <class Body>
+    void for_ranges(std::size_t n, std::size_t grain, const Body& body) {
+        if (n == 0) return;
+        if (count_ == 1 || n <= grain) {
+            const ExactFloats exact;
+            for (std::size_t begin = 0; begin < n; begin += grain) body(begin, std::min(n, begin + grain), 0U);
+            return;
+        }
+        run(n, grain, body);
+    }
+
+    /// Sorts in place; `before` must be a strict order that leaves no two different elements equal.
+    template <class T, class Before>
+    void sort(T* begin, T* end, const Before& before) {
+#ifdef MENISCUS_STD_THREADS
+        std::sort(begin, end, before);
+#else
+        if (count_ == 1) std::sort(begin, end, before);
+        else arena_.execute([&] { tbb::parallel_sort(begin, end, before); });
+#endif
+    }
+
+private:
+#ifdef MENISCUS_STD_THREADS
+    template <class Body>
+    void run(std::size_t n, std::size_t grain, const Body& body) {
+        std::atomic<std::size_t> next{0};
+        std::exception_ptr failure;
+        std::mutex mutex;
+        const auto work = [&](unsigned worker) {
+            const ExactFloats exact;
+            try {
+                for (;;) {
+                    const std::size_t begin = next.fetch_add(grain);
+                    if (begin >= n) return;
+                    body(begin, std::min(n, begin + grain), worker);
+                }
+            } catch (...) {
+                const std::lock_guard lock(mutex);
+                if (!failure) failure = std::current_exception();
+                next = n;
+            }
+        };
+        std::vector<std::jthread> threads;
+        for (unsigned i = 1; i < count_; ++i) threads.emplace_back(work, i);
+        work(0);
+        threads.clear();
+        if (failure) std::rethrow_exception(failure);
+    }
+#else
+    template <class Body>
+    void run(std::size_t n, std::size_t grain, const Body& body) {
+        arena_.execute([&] {
+            tbb::parallel_for(
+                tbb::blocked_range<std::size_t>(0, (n + grain - 1) / grain, 1),
+                [&](const tbb::blocked_range<std::size_t>& pieces) {
+                    const ExactFloats exact;
+                    const auto worker = static_cast<unsigned>(tbb::this_task_arena::current_thread_index());
+                    for (std::size_t piece = pieces.begin(); piece != pieces.end(); ++piece)
+                        body(piece * grain, std::min(n, (piece + 1) * grain), worker);
+                });
+        });
+    }
+#endif
+
+    unsigned count_;
+#ifndef MENISCUS_STD_THREADS
+    tbb::task_arena arena_;
+#endif
+};
+
+}  // namespace meniscus::cpu

@@ -1,0 +1,37 @@
+#include "field/lattice_settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meniscus {
+namespace {
+
+/// Cells of a domain's corner; a domain beyond the lattice ends with it.
+std::int32_t to_cell(double cells) {
+    constexpr double limit = static_cast<double>(max_base_cell) * base_cell_size;
+    return static_cast<std::int32_t>(std::clamp(cells, -limit, limit));
+}
+
+}  // namespace
+
+LatticeSettings::LatticeSettings(const Settings& s) {
+    cell_size = world_cell_size(s);
+    units_per_length = units_per_cell / cell_size;
+    const double support_units = 2.0 * s.smoothing_length / s.cell_size * units_per_cell;
+    for (unsigned k = 0; k < particle_level_count; ++k) support[k] = static_cast<float>(std::ldexp(support_units, static_cast<int>(k)));
+    const double l = s.smoothing_length;
+    weight = static_cast<float>(8.0 / (std::numbers::pi * l * l * l));
+    iso = static_cast<float>(s.iso);
+    if (s.field == Field::color) deep_inside = static_cast<float>(s.iso * (0.85 / 0.6));
+    // Bisection ends in the middle of an interval of c / 2^steps.
+    if (s.edge_points == EdgePoints::bisect) offset_bits = s.bisection_steps + 1;
+    if (s.domain) {
+        has_domain = true;
+        const auto& [low, high] = *s.domain;
+        domain_low = {to_cell(std::floor(low[0] / cell_size)), to_cell(std::floor(low[1] / cell_size)), to_cell(std::floor(low[2] / cell_size))};
+        domain_high = {to_cell(std::ceil(high[0] / cell_size)), to_cell(std::ceil(high[1] / cell_size)), to_cell(std::ceil(high[2] / cell_size))};
+    }
+}
+
+}  // namespace meniscus

@@ -1,0 +1,45 @@
+// The field and its gradient at one point or at eight: sums over candidate particles in their order.
+#pragma once
+
+#include <cstddef>
+
+#include "field/kernel.hpp"
+#include "lattice/host_device.hpp"
+
+namespace meniscus {
+
+/// Candidate particles of one level, borrowed.
+struct CandidateView {
+    const float* x;
+    const float* y;
+    const float* z;
+    const float* weight;
+    std::size_t count;
+    float inverse_support;
+};
+
+/// Adds to the values at G points (F = float) or G times eight (F = Lanes).
+template <int G, class F>
+MENISCUS_HD inline void sum_values(const CandidateView& c, const F (&x)[G], const F (&y)[G], const F (&z)[G], F (&sum)[G]) {
+    for (std::size_t j = 0; j < c.count; ++j)
+        for (int g = 0; g < G; ++g)
+            sum[g] = add_value(sum[g], x[g] - F(c.x[j]), y[g] - F(c.y[j]), z[g] - F(c.z[j]), c.weight[j], c.inverse_support);
+}
+
+/// Adds to upper bounds of the field in boxes of half edge `half` around the points: every particle counts with the
+/// kernel at its distance from the box.
+template <class F>
+MENISCUS_HD inline void sum_bounds(const CandidateView& c, F x, F y, F z, float half, F& sum) {
+    const auto gap = [half](F d) { return larger(larger(d - F(half), F(-half) - d), F(0.0F)); };
+    for (std::size_t j = 0; j < c.count; ++j)
+        sum = add_value(sum, gap(x - F(c.x[j])), gap(y - F(c.y[j])), gap(z - F(c.z[j])), c.weight[j], c.inverse_support);
+}
+
+/// Adds to the gradient, up to a positive factor common to all levels (the paper's Equation 2).
+template <class F>
+MENISCUS_HD inline void sum_gradients(const CandidateView& c, F x, F y, F z, F& gx, F& gy, F& gz) {
+    for (std::size_t j = 0; j < c.count; ++j)
+        add_gradient(gx, gy, gz, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]), c.weight[j] * c.inverse_support, c.inverse_support);
+}
+
+}  // namespace meniscus

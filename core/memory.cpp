@@ -1,0 +1,31 @@
+#include "meniscus/memory.hpp"
+
+#include <cstdlib>
+#include <string>
+
+#include "meniscus/error.hpp"
+
+namespace meniscus {
+
+void MemoryAccount::charge(std::size_t bytes) {
+    const std::size_t now = bytes_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
+    if (limit_ != 0 && now > limit_) {
+        bytes_.fetch_sub(bytes, std::memory_order_relaxed);
+        throw LimitExceeded("the reconstruction would hold " + std::to_string(now) + " bytes, more than its limit of " +
+                            std::to_string(limit_) + ": use a larger cell size, fewer particles or a higher memory limit");
+    }
+    allocations_.fetch_add(1, std::memory_order_relaxed);
+    std::size_t peak = peak_.load(std::memory_order_relaxed);
+    while (now > peak && !peak_.compare_exchange_weak(peak, now, std::memory_order_relaxed)) {}
+}
+
+void MemoryAccount::release(std::size_t bytes) noexcept { bytes_.fetch_sub(bytes, std::memory_order_relaxed); }
+
+void* allocate_aligned(std::size_t bytes) noexcept {
+    constexpr std::size_t line = 64;
+    return std::aligned_alloc(line, (bytes + line - 1) / line * line);
+}
+
+void free_aligned(void* memory) noexcept { std::free(memory); }
+
+}  // namespace meniscus

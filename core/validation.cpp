@@ -1,0 +1,102 @@
+// Checks of what comes from outside, once, at the edge.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "lattice/coordinates.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/reconstructor.hpp"
+#include "meniscus/settings.hpp"
+
+namespace meniscus {
+namespace {
+
+std::string text(double value) {
+    std::ostringstream out;
+    out.precision(9);
+    out << value;
+    return out.str();
+}
+
+void require_positive(const char* name, double value) {
+    if (!(std::isfinite(value) && value > 0.0))
+        throw InvalidInput(std::string(name) + " is " + text(value) + ", must be finite and greater than 0");
+}
+
+void require_box(const char* name, const Box& box, bool may_be_flat) {
+    constexpr const char* axes[] = {"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const bool ordered = may_be_flat ? box.min[i] <= box.max[i] : box.min[i] < box.max[i];
+        if (!std::isfinite(box.min[i]) || !std::isfinite(box.max[i]) || !ordered)
+            throw InvalidInput(std::string(name) + " runs from " + text(box.min[i]) + " to " + text(box.max[i]) + " along " + axes[i] +
+                               ", must be finite and run upward");
+    }
+}
+
+/// The coarsest particle level's support must stay exact in float32.
+void require_support(const Settings& s, unsigned coarsest_level) {
+    const double cells = std::ldexp(2.0 * s.smoothing_length / s.cell_size, static_cast<int>(coarsest_level));
+    if (cells > max_support_cells)
+        throw InvalidInput("the support of particle level " + std::to_string(coarsest_level) + " spans " + text(cells) +
+                           " cells, at most " + std::to_string(max_support_cells) + " are possible: use a larger cell size");
+}
+
+}  // namespace
+
+void validate(const Settings& s) {
+    require_positive("particle radius", s.particle_radius);
+    require_positive("smoothing length", s.smoothing_length);
+    require_positive("cell size", s.cell_size);
+    require_positive("iso value", s.iso);
+    require_positive("cell size in world units", world_cell_size(s));
+    // In float32 the iso value must remain above zero, or the outside would be inside.
+    require_positive("iso value", static_cast<float>(s.iso));
+    require_support(s, 0);
+    if (s.count_threshold < 1) throw InvalidInput("count threshold is 0, must be at least 1");
+    if (s.edge_points == EdgePoints::bisect && (s.bisection_steps < 1 || s.bisection_steps > 7))
+        throw InvalidInput("bisection steps are " + std::to_string(s.bisection_steps) + ", must be 1 to 7");
+    if (s.domain) require_box("domain", *s.domain, false);
+}
+
+void validate(const ParticleFrame& frame, const Settings& settings) {
+    if (!frame.positions.empty() && !frame.quantized.empty())
+        throw InvalidInput("the frame has both float and quantized positions, must have one of them");
+    const std::size_t numbers = frame.is_quantized() ? frame.quantized.size() : frame.positions.size();
+    if (numbers % 3 != 0)
+        throw InvalidInput("the frame has " + std::to_string(numbers) + " coordinates, must be three per particle");
+    const std::size_t count = frame.count();
+    if (count >= 0xFFFFFFFFULL)
+        throw LimitExceeded("the frame has " + std::to_string(count) + " particles, at most 4294967294 can be numbered: split it");
+    if (!frame.levels.empty() && frame.levels.size() != count)
+        throw InvalidInput("the frame has " + std::to_string(frame.levels.size()) + " levels for " + std::to_string(count) +
+                           " particles, must have one each or none");
+    if (!frame.levels.empty()) {
+        const auto coarsest = std::max_element(frame.levels.begin(), frame.levels.end());
+        if (*coarsest > max_particle_level)
+            throw InvalidInput("particle " + std::to_string(coarsest - frame.levels.begin()) + " has level " + std::to_string(*coarsest) +
+                               ", must be 0 to " + std::to_string(max_particle_level));
+        require_support(settings, *coarsest);
+    }
+    const double limit = static_cast<double>(max_cell) * world_cell_size(settings);
+    if (frame.is_quantized()) {
+        const Box& box = frame.quantization_box;
+        require_box("quantization box", box, true);
+        for (std::size_t i = 0; i < 3; ++i)
+            if (std::max(std::abs(box.min[i]), std::abs(box.max[i])) > limit)
+                throw InvalidInput("the quantization box reaches from " + text(box.min[i]) + " to " + text(box.max[i]) +
+                                   ", farther from the origin than the " + text(limit) + " that this cell size can address");
+        return;
+    }
+    for (std::size_t i = 0; i < numbers; ++i) {
+        const double p = static_cast<double>(frame.positions[i]);
+        // Also false for a NaN.
+        if (std::abs(p) <= limit) continue;
+        const std::string where = "particle " + std::to_string(i / 3) + " has " + "xyz"[i % 3] + " = " + text(p);
+        if (!std::isfinite(p)) throw InvalidInput(where + ", positions must be finite");
+        throw InvalidInput(where + ", farther from the origin than the " + text(limit) + " that this cell size can address");
+    }
+}
+
+}  // namespace meniscus
