@@ -1,0 +1,62 @@
+#include "simulator/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus::simulator {
+namespace {
+
+SolverSettings solver_settings(const Scene& scene) {
+    SolverSettings settings;
+    settings.particle_radius = scene.particle_radius;
+    return settings;
+}
+
+/// A disc of particles at rest distance.
+std::vector<Vector3> disc(const Nozzle& nozzle, float particle_radius) {
+    std::vector<Vector3> out;
+    const float distance = 2.0F * particle_radius;
+    const int reach = static_cast<int>(nozzle.radius / distance);
+    for (int i = -reach; i <= reach; ++i)
+        for (int k = -reach; k <= reach; ++k) {
+            const float x = static_cast<float>(i) * distance;
+            const float z = static_cast<float>(k) * distance;
+            if (x * x + z * z <= nozzle.radius * nozzle.radius)
+                out.push_back({nozzle.center[0] + x, nozzle.center[1], nozzle.center[2] + z});
+        }
+    return out;
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scene& scene)
+    : scene_(scene), solver_(solver_settings(scene), Boundary(scene.tank, scene.obstacle, 4.0F * scene.particle_radius)) {
+    solver_.add(scene_.particles, {});
+    if (scene_.nozzle) layer_ = disc(*scene_.nozzle, scene_.particle_radius);
+}
+
+void Simulation::advance(double seconds) {
+    const double end = time_ + seconds;
+    while (time_ < end) {
+        pour();
+        const double until = solver_.count() < scene_.total_particles ? std::min(end, next_layer_) : end;
+        solver_.advance(until - time_);
+        time_ = until;
+    }
+}
+
+void Simulation::pour() {
+    if (solver_.count() >= scene_.total_particles || time_ < next_layer_) return;
+    const std::size_t count = std::min(layer_.size(), scene_.total_particles - solver_.count());
+    solver_.add(std::span(layer_).first(count), {0.0F, -scene_.nozzle->speed, 0.0F});
+    next_layer_ += 2.0 * static_cast<double>(scene_.particle_radius) / static_cast<double>(scene_.nozzle->speed);
+}
+
+std::vector<float> Simulation::positions() const {
+    std::vector<float> out;
+    out.reserve(3 * solver_.count());
+    for (const Vector3& p : solver_.positions()) out.insert(out.end(), p.begin(), p.end());
+    return out;
+}
+
+}  // namespace meniscus::simulator

@@ -1,0 +1,35 @@
+// A scene that moves.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "simulator/scene.hpp"
+#include "simulator/solver.hpp"
+
+namespace meniscus::simulator {
+
+class Simulation {
+public:
+    explicit Simulation(const Scene& scene);
+
+    /// Goes on by `seconds`.
+    void advance(double seconds);
+
+    double time() const { return time_; }
+    const Scene& scene() const { return scene_; }
+    const Solver& solver() const { return solver_; }
+    /// x y z per particle, meters, in the order in which they came in.
+    std::vector<float> positions() const;
+
+private:
+    void pour();
+
+    Scene scene_;
+    Solver solver_;
+    std::vector<Vector3> layer_;   ///< what the nozzle adds at a time
+    double time_ = 0.0;
+    double next_layer_ = 0.0;      ///< time at which it does
+};
+
+}  // namespace meniscus::simulator
