@@ -1,0 +1,52 @@
+#include "cli/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "cli/commands.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/reconstructor.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+int report(std::string message, ExitCode code) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    std::cerr << "meniscus: " << message << '\n';
+    return code;
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) {
+    CLI::App app("Adaptive surfaces of simulated fluid particles", "meniscus");
+    app.set_version_flag("--version", std::string("meniscus ") + std::string(version()));
+    app.require_subcommand(1);
+    add_reconstruct(app);
+    add_simulate(app);
+    add_watch(app);
+    add_picture(app);
+    add_info(app);
+    add_sessions(app);
+    try {
+        app.parse(argc, argv);
+        return success;
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
+        return report(e.what(), bad_input);
+    } catch (const InvalidInput& e) {
+        return report(e.what(), bad_input);
+    } catch (const LimitExceeded& e) {
+        return report(e.what(), bad_input);
+    } catch (const std::bad_alloc&) {
+        return report("out of memory", failure);
+    } catch (const std::exception& e) {
+        return report(e.what(), failure);
+    }
+}
+
+}  // namespace meniscus::cli

@@ -1,0 +1,17 @@
+// The subcommands, one file each. Every function adds its subcommand, which runs as soon as its arguments are parsed.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace meniscus::cli {
+
+void add_reconstruct(CLI::App& app);
+void add_simulate(CLI::App& app);
+void add_watch(CLI::App& app);
+void add_picture(CLI::App& app);
+void add_info(CLI::App& app);
+void add_sessions(CLI::App& app);
+
+}  // namespace meniscus::cli

@@ -1,0 +1,24 @@
+// Positions as three uint16 in the frame's bounding box: half the bytes of float32.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "meniscus/particle_frame.hpp"
+
+namespace meniscus::cli {
+
+class QuantizedPositions {
+public:
+    /// frame: finite float positions.
+    explicit QuantizedPositions(const ParticleFrame& frame);
+    /// The same particles, quantized; borrows this object and the levels of the original.
+    ParticleFrame frame() const;
+
+private:
+    std::vector<std::uint16_t> values_;
+    Box box_;
+    std::span<const std::uint8_t> levels_;
+};
+
+}  // namespace meniscus::cli

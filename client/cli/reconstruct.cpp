@@ -1,0 +1,144 @@
+// meniscus reconstruct: particle files to mesh files.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/commands.hpp"
+#include "cli/file_pattern.hpp"
+#include "cli/mesh_output.hpp"
+#include "cli/quantized_positions.hpp"
+#include "cli/settings_options.hpp"
+#include "cli/statistics_json.hpp"
+#include "cli/surfaces.hpp"
+#include "formats/atomic_file.hpp"
+#include "formats/particles.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/mesh_hash.hpp"
+#include "meniscus/reconstructor.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+struct ReconstructOptions {
+    std::string in;
+    std::string out;
+    std::string stats;
+    double particle_radius = 0.0;
+    SettingsOptions settings;
+    SurfacesOptions surfaces;
+    std::string positions = "float32";
+    unsigned repeat = 1;
+    std::optional<std::uint64_t> start;
+    std::optional<std::uint64_t> end;
+};
+
+/// The frames to read, checked before any work.
+struct Input {
+    FilePattern in;
+    FilePattern out;
+    std::uint64_t start = 0;
+    std::uint64_t end = 0;
+
+    bool is_sequence() const { return in.has_number(); }
+    std::uint64_t count() const { return end - start + 1; }
+};
+
+Input check_input(const ReconstructOptions& options) {
+    Input input{FilePattern(options.in), FilePattern(options.out)};
+    if (options.out.empty() && options.stats.empty()) throw InvalidInput("nothing to write: give -o OUT, --stats FILE.json or both");
+    if (input.is_sequence() && !(options.start && options.end))
+        throw InvalidInput("IN '" + options.in + "' is a sequence: --start and --end are needed");
+    if (!input.is_sequence() && (options.start || options.end))
+        throw InvalidInput("--start and --end need {} in IN, which is '" + options.in + "'");
+    if (!options.out.empty() && input.out.has_number() != input.is_sequence())
+        throw InvalidInput("IN '" + options.in + "' and OUT '" + options.out + "' must both have {} or both not");
+    if (!input.is_sequence()) {
+        if (!options.out.empty()) check_mesh_path(options.out);
+        return input;
+    }
+    input.start = *options.start;
+    input.end = *options.end;
+    if (input.start > input.end)
+        throw InvalidInput("--start " + std::to_string(input.start) + " is beyond --end " + std::to_string(input.end));
+    input.in.match_existing(input.start);
+    input.out.pad_like(input.in);
+    for (std::uint64_t frame = input.start;; ++frame) {
+        if (!std::filesystem::exists(input.in.at(frame)))
+            throw InvalidInput(input.in.at(frame).string() + ": no such file (frame " + std::to_string(frame) + " of " +
+                               std::to_string(input.start) + " to " + std::to_string(input.end) + ")");
+        if (frame == input.end) break;
+    }
+    if (!options.out.empty()) check_mesh_path(input.out.at(input.start));
+    return input;
+}
+
+void print_progress(const std::string& name, const Statistics& s) {
+    std::cerr << name << ": " << s.particles << " particles, " << s.triangles << " triangles, " << s.total_seconds << " s\n";
+}
+
+void reconstruct(const ReconstructOptions& options) {
+    const Settings settings = options.settings.build(options.particle_radius);
+    const Input input = check_input(options);
+    nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+    std::vector<Statistics> runs;
+
+    const auto handle = [&](const Surface& surface) {
+        runs.push_back(surface.statistics());
+        if (runs.size() < options.repeat) return;
+        const std::uint64_t frame = input.start + surface.index() / options.repeat;
+        if (!options.out.empty()) write_surface(input.out.at(frame), surface);
+        if (!options.stats.empty()) {
+            nlohmann::ordered_json figures;
+            if (input.is_sequence()) figures["frame"] = frame;
+            figures.update(to_json(runs, mesh_sha256(surface.mesh())));
+            frames.push_back(std::move(figures));
+        }
+        if (input.is_sequence() || isatty(STDERR_FILENO) != 0) print_progress(input.in.at(frame).string(), median_run(runs));
+        runs.clear();
+    };
+
+    const auto surfaces = options.surfaces.open(settings, handle);
+    for (std::uint64_t i = 0; i < input.count(); ++i) {
+        const std::filesystem::path path = input.in.at(input.start + i);
+        const formats::Particles particles = formats::read_particles(path);
+        try {
+            validate(particles.frame(), settings);
+        } catch (const InvalidInput& e) {
+            throw InvalidInput(path.string() + ": " + e.what());
+        }
+        std::optional<QuantizedPositions> quantized;
+        if (options.positions == "uint16") quantized.emplace(particles.frame());
+        // Files do not tell their simulation time.
+        for (unsigned run = 0; run < options.repeat; ++run) surfaces->submit(quantized ? quantized->frame() : particles.frame(), 0.0);
+    }
+    surfaces->finish();
+    if (options.stats.empty()) return;
+    const nlohmann::ordered_json all = input.is_sequence() ? nlohmann::ordered_json{{"frames", frames}} : frames.at(0);
+    formats::write_file(options.stats, all.dump(2) + "\n");
+}
+
+}  // namespace
+
+void add_reconstruct(CLI::App& app) {
+    auto options = std::make_shared<ReconstructOptions>();
+    CLI::App& command = *app.add_subcommand("reconstruct", "Reconstruct the surface of particle files");
+    command.add_option("IN", options->in, "Particles: .vtk (legacy), .ply, or .xyz, .bin, .raw (float32 triples); a sequence with {} or {:03} "
+                                          "for the frame number ({} also finds zero-padded names)")->required();
+    command.add_option("-o,--output", options->out, "Mesh: .ply, .obj or .bricks; with {} for a sequence");
+    command.add_option("--particle-radius", options->particle_radius, "World units")->required();
+    options->settings.add_to(command);
+    options->surfaces.add_to(command);
+    command.add_option("--positions", options->positions, "Encoding of the positions; uint16 is over the frame's bounding box")
+        ->check(CLI::IsMember({"float32", "uint16"}))->capture_default_str();
+    command.add_option("--start", options->start, "First frame of a sequence");
+    command.add_option("--end", options->end, "Last frame of a sequence");
+    command.add_option("--repeat", options->repeat, "Reconstruct each frame so often")->check(CLI::Range(1U, 1000000U))->capture_default_str();
+    command.add_option("--stats", options->stats, "Figures of each frame, as JSON");
+    command.callback([options] { reconstruct(*options); });
+}
+
+}  // namespace meniscus::cli

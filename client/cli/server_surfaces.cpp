@@ -1,0 +1,72 @@
+#include "cli/server_surfaces.hpp"
+
+#include <utility>
+
+namespace meniscus::cli {
+namespace {
+
+/// Frames under way or waiting for this process: enough to keep the server busy, few enough to bound memory.
+constexpr std::size_t frames_ahead = 4;
+
+}  // namespace
+
+ServerSurfaces::ServerSurfaces(const std::string& address, std::string session, const Settings& settings, Handler handler)
+    : client_(connect(address)), session_(session.empty() ? client::new_session_id() : std::move(session)), handler_(std::move(handler)) {
+    client_.create_session(session_, settings);
+    client::StreamOptions options;
+    options.waiting_limit = frames_ahead;
+    stream_ = client_.stream(session_, options);
+    receiver_ = std::thread([this] { receive(); });
+}
+
+ServerSurfaces::~ServerSurfaces() {
+    if (!receiver_.joinable()) return;
+    try {
+        end_stream();
+    } catch (const std::exception&) {
+        // On the way out because of an earlier error, which is the one to report.
+    }
+}
+
+void ServerSurfaces::submit(const ParticleFrame& frame, double simulation_time) {
+    if (failed_) std::rethrow_exception(error_);
+    stream_->push(frame, frames_++, simulation_time);
+}
+
+void ServerSurfaces::finish() {
+    end_stream();
+    if (failed_) std::rethrow_exception(error_);
+    client_.delete_session(session_);
+}
+
+void ServerSurfaces::end_stream() {
+    std::exception_ptr error;
+    try {
+        stream_->finish();
+    } catch (...) {
+        error = std::current_exception();
+    }
+    receiver_.join();
+    if (error) std::rethrow_exception(error);
+}
+
+void ServerSurfaces::receive() {
+    try {
+        while (const auto frame = stream_->next()) {
+            // After a failed handler frames are only taken out of the way, so that submit() does not wait for ever.
+            if (failed_) continue;
+            try {
+                handler_(Surface(*frame));
+            } catch (...) {
+                error_ = std::current_exception();
+                failed_ = true;
+            }
+        }
+    } catch (...) {
+        if (failed_) return;
+        error_ = std::current_exception();
+        failed_ = true;
+    }
+}
+
+}  // namespace meniscus::cli

@@ -1,0 +1,50 @@
+#include "cli/surfaces.hpp"
+
+#include <CLI/CLI.hpp>
+#include <utility>
+
+#include "cli/local_surfaces.hpp"
+#include "cli/server_surfaces.hpp"
+#include "formats/brick_file.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::cli {
+
+Surface::Surface(const Mesh& mesh, client::FrameStatistics statistics, std::uint64_t index, double simulation_time)
+    : index_(index), simulation_time_(simulation_time), statistics_(std::move(statistics)), mesh_(&mesh) {}
+
+Surface::Surface(const client::ReceivedFrame& received)
+    : index_(received.index), simulation_time_(received.simulation_time), statistics_(received.statistics), received_(&received) {}
+
+const Mesh& Surface::mesh() const {
+    if (mesh_ != nullptr) return *mesh_;
+    if (!decoded_) decoded_ = received_->mesh();
+    return *decoded_;
+}
+
+const client::ReceivedFrame& Surface::encoded() const {
+    if (received_ != nullptr) return *received_;
+    if (!encoded_) encoded_ = formats::encode_frame(*mesh_, statistics_, index_, simulation_time_);
+    return *encoded_;
+}
+
+void SurfacesOptions::add_to(CLI::App& command) {
+    auto* here = command.add_flag("--local", local, "Reconstruct in this process (the default)");
+    auto* there = command.add_option("--server", server, "HOST:PORT of a meniscusd that reconstructs")->excludes(here);
+    command.add_option("--threads", threads, "Worker threads of this process; 0: one per processor")->excludes(there)->capture_default_str();
+}
+
+std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfaces::Handler handler, const std::string& session) const {
+    if (server.empty()) return std::make_unique<LocalSurfaces>(settings, threads, std::move(handler));
+    return std::make_unique<ServerSurfaces>(server, session, settings, std::move(handler));
+}
+
+client::Client connect(const std::string& address) {
+    try {
+        return client::Client(address);
+    } catch (const client::ServerError& e) {
+        throw InvalidInput("no server at '" + address + "': " + e.what());
+    }
+}
+
+}  // namespace meniscus::cli

@@ -1,0 +1,71 @@
+// Where surfaces come from: this process or a server. The commands see no difference.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "meniscus/client/client.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace meniscus::cli {
+
+/// One frame's surface; decodes or encodes only what is asked for.
+class Surface {
+public:
+    /// Reconstructed here; the mesh is borrowed.
+    Surface(const Mesh& mesh, client::FrameStatistics statistics, std::uint64_t index, double simulation_time);
+    /// Received from a server; borrowed.
+    explicit Surface(const client::ReceivedFrame& received);
+
+    std::uint64_t index() const { return index_; }
+    double simulation_time() const { return simulation_time_; }
+    const client::FrameStatistics& statistics() const { return statistics_; }
+    /// Throws InvalidInput if what was received is not a mesh.
+    const Mesh& mesh() const;
+    /// Its bricks, for a file of bricks.
+    const client::ReceivedFrame& encoded() const;
+
+private:
+    std::uint64_t index_;
+    double simulation_time_;
+    client::FrameStatistics statistics_;
+    const Mesh* mesh_ = nullptr;
+    const client::ReceivedFrame* received_ = nullptr;
+    mutable std::optional<Mesh> decoded_;
+    mutable std::optional<client::ReceivedFrame> encoded_;
+};
+
+/// Takes frames and hands their surfaces, in order, to a handler.
+class Surfaces {
+public:
+    using Handler = std::function<void(const Surface&)>;
+    virtual ~Surfaces() = default;
+
+    /// Submits the next frame; its index is the number of frames before it. The frame may be changed afterwards.
+    /// Throws what the frame, an earlier frame or the handler caused.
+    virtual void submit(const ParticleFrame& frame, double simulation_time) = 0;
+    /// Returns when every surface has been handled. Throws as submit() does.
+    virtual void finish() = 0;
+};
+
+/// The flags --local, --server and --threads.
+struct SurfacesOptions {
+    bool local = false;
+    std::string server;    ///< "HOST:PORT"; empty for this process
+    unsigned threads = 0;  ///< of this process; 0: one per processor
+
+    void add_to(CLI::App& command);
+    /// session: id to create on the server, chosen here if empty. The handler may be called from another thread, one call at a time.
+    std::unique_ptr<Surfaces> open(const Settings& settings, Surfaces::Handler handler, const std::string& session = {}) const;
+};
+
+/// A connection to the server. Throws InvalidInput if there is none.
+client::Client connect(const std::string& address);
+
+}  // namespace meniscus::cli

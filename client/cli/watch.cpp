@@ -1,0 +1,53 @@
+// meniscus watch: the meshes of somebody else's session, as they come.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/mesh_output.hpp"
+#include "formats/atomic_file.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+struct WatchOptions {
+    std::string session;
+    std::string server;
+    std::string directory;
+    std::string format = "ply";
+    std::uint64_t frames = 0;  ///< 0: until the session ends
+};
+
+void watch(const WatchOptions& options) {
+    client::Client client = connect(options.server);
+    try {
+        client.session(options.session);
+    } catch (const client::ServerError& e) {
+        throw InvalidInput("no session '" + options.session + "' at '" + options.server + "': " + e.what());
+    }
+    formats::make_directory(options.directory);
+    client::Watcher watcher = client.watch(options.session);
+    for (std::uint64_t received = 0; options.frames == 0 || received < options.frames; ++received) {
+        const auto frame = watcher.next();
+        if (!frame) return;
+        const auto path = frame_path(options.directory, frame->index, options.format);
+        write_surface(path, Surface(*frame));
+        std::cerr << path.string() << ": " << frame->statistics.triangles << " triangles\n";
+    }
+}
+
+}  // namespace
+
+void add_watch(CLI::App& app) {
+    auto options = std::make_shared<WatchOptions>();
+    CLI::App& command = *app.add_subcommand("watch", "Write the meshes of a session as they come");
+    command.add_option("SESSION", options->session, "The session's id")->required();
+    command.add_option("--server", options->server, "HOST:PORT")->required();
+    command.add_option("-o,--output", options->directory, "Folder for the meshes")->required();
+    command.add_option("--format", options->format, "Format of the meshes")->check(CLI::IsMember({"ply", "obj", "bricks"}))->capture_default_str();
+    command.add_option("--frames", options->frames, "End after so many; 0: when the session ends")->capture_default_str();
+    command.callback([options] { watch(*options); });
+}
+
+}  // namespace meniscus::cli
