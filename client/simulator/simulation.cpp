@@ -36,9 +36,10 @@ Simulation::Simulation(const Scene& scene)
 }
 
 void Simulation::advance(double seconds) {
+    constexpr double instant = 1e-6;  // seconds; rounding makes times differ that should not
     const double end = time_ + seconds;
-    while (time_ < end) {
-        pour();
+    while (time_ < end - instant) {
+        if (time_ > next_layer_ - instant) pour();
         const double until = solver_.count() < scene_.total_particles ? std::min(end, next_layer_) : end;
         solver_.advance(until - time_);
         time_ = until;
@@ -46,7 +47,7 @@ void Simulation::advance(double seconds) {
 }
 
 void Simulation::pour() {
-    if (solver_.count() >= scene_.total_particles || time_ < next_layer_) return;
+    if (solver_.count() >= scene_.total_particles) return;
     const std::size_t count = std::min(layer_.size(), scene_.total_particles - solver_.count());
     solver_.add(std::span(layer_).first(count), {0.0F, -scene_.nozzle->speed, 0.0F});
     next_layer_ += 2.0 * static_cast<double>(scene_.particle_radius) / static_cast<double>(scene_.nozzle->speed);

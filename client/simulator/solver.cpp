@@ -46,9 +46,11 @@ void Solver::advance(double seconds) {
     double done = 0.0;
     while (done < seconds) {
         const double left = seconds - done;
-        double dt = std::min(left, static_cast<double>(time_step()));
+        const double allowed = time_step();
+        double dt = std::min(left, allowed);
         if (left < 2.0 * dt && left > dt) dt = 0.5 * left;  // two equal steps rather than a tiny last one
-        step(static_cast<float>(dt));
+        // A compression is corrected within an allowed step: within a much shorter one it would tear the water apart.
+        step(static_cast<float>(dt), static_cast<float>(dt / allowed));
         done += dt;
     }
 }
@@ -62,14 +64,14 @@ float Solver::time_step() const {
     return std::min(at_rest, courant * distance / std::max(1e-6F, std::sqrt(fastest)));
 }
 
-void Solver::step(float dt) {
+void Solver::step(float dt, float correction) {
     if (positions_.empty()) return;
     sort();
     neighbors_.find(positions_, grid_, kernel_, support_);
     compute_densities();
     solve_divergence(dt);
     apply_forces(dt);
-    solve_density(dt);
+    solve_density(dt, correction);
     for (std::size_t i = 0; i < positions_.size(); ++i) {
         for (std::size_t a = 0; a < 3; ++a) positions_[i][a] += dt * velocities_[i][a];
         boundary_.keep_out(positions_[i], velocities_[i], clearance * settings_.particle_radius);
@@ -185,14 +187,14 @@ void Solver::solve_divergence(float dt) {
     velocities_.swap(predicted_);
 }
 
-void Solver::solve_density(float dt) {
+void Solver::solve_density(float dt, float correction) {
     for (float& p : density_pressure_) p *= 0.5F;
     for (int iteration = 0; iteration < settings_.max_iterations; ++iteration) {
         accelerate(density_pressure_, dt);
         compute_rates();
         double error = 0.0;
         for (std::size_t i = 0; i < positions_.size(); ++i) {
-            const float compression = density_[i] + dt * rate_[i] - 1.0F;
+            const float compression = correction * (density_[i] - 1.0F) + dt * rate_[i];
             density_pressure_[i] = std::max(0.0F, density_pressure_[i] + relaxation * compression * response_[i] / (dt * dt));
             error += static_cast<double>(std::max(0.0F, compression));
         }

@@ -41,14 +41,16 @@ public:
     std::uint64_t steps() const { return steps_; }
 
 private:
-    void step(float dt);
+    /// correction: the part of a compression that this step takes back, 0 to 1.
+    void step(float dt, float correction);
     void sort();
     void compute_densities();
     void apply_forces(float dt);
     void solve_divergence(float dt);
-    void solve_density(float dt);
-    /// One Jacobi sweep: pressures from the compression rates, velocities from pressures.
+    void solve_density(float dt, float correction);
+    /// predicted_ from velocities_ and pressures.
     void accelerate(const std::vector<float>& pressure, float dt);
+    /// rate_ from predicted_.
     void compute_rates();
     float time_step() const;
 
