@@ -33,7 +33,8 @@ public:
     Impl(const Settings& settings, const BackendOptions& options)
         : settings_(checked(settings)), account_(std::make_shared<MemoryAccount>(options.memory_limit)) {
         describe_backend(options.backend);
-        backend_ = cpu::make_reconstruction(settings_, options.threads, account_);
+        threads_ = options.threads;
+        backend_ = cpu::make_reconstruction(settings_, threads_, account_);
     }
 
     void reconstruct(const ParticleFrame& frame, Mesh& mesh) {
@@ -46,7 +47,9 @@ public:
         try {
             backend_->reconstruct(frame, mesh, statistics_);
         } catch (...) {
-            mesh.clear();
+            // The arrays may have grown up to the limit: give them back, so that a smaller frame finds room.
+            mesh = {};
+            backend_ = cpu::make_reconstruction(settings_, threads_, account_);
             throw;
         }
         statistics_.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -82,6 +85,7 @@ private:
 
     Settings settings_;
     std::shared_ptr<MemoryAccount> account_;
+    unsigned threads_ = 0;
     std::unique_ptr<BackendReconstruction> backend_;
     Statistics statistics_;
 };

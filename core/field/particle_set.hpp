@@ -1,6 +1,7 @@
 // The particles of one level, sorted by cells of their support's size, and the search for those near a box.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "field/lanes.hpp"
@@ -46,12 +47,12 @@ struct ParticleSetView {
     /// rounded distance just below the support still adds a tiny term.
     template <class Visit>
     MENISCUS_HD void for_each_near(const Units3& origin, const UnitBox& box, Visit&& visit) const {
-        const float reach = support + 16.0F;
-        const auto below = [reach](float v) { return static_cast<std::int64_t>(v - reach); };
-        const auto above = [reach](float v) { return static_cast<std::int64_t>(v + reach); };
+        // Positions are whole units: one that is a support away or farther along an axis adds exactly zero.
+        const auto below = [this](float v) { return static_cast<std::int64_t>(floorf(v - support)); };
+        const auto above = [this](float v) { return static_cast<std::int64_t>(ceilf(v + support)) - 1; };
         const Int3 low = cell_of(origin.x + below(box.low[0]), origin.y + below(box.low[1]), origin.z + below(box.low[2]));
         const Int3 high = cell_of(origin.x + above(box.high[0]), origin.y + above(box.high[1]), origin.z + above(box.high[2]));
-        const float reach2 = reach * reach;
+        const float reach2 = (support + 1.0F) * (support + 1.0F);
         cells.for_each_run(low, high, [&](std::uint32_t brick, std::uint32_t cell, std::uint32_t count) {
             const Int3 corner = cells.bricks[brick].coordinate;
             const std::int64_t edge = cell_units * brick_size;

@@ -1,6 +1,7 @@
 #include "backends/cpu/particle_sets.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace meniscus::cpu {
 namespace {
@@ -41,7 +42,7 @@ ParticleSets::ParticleSets(const std::shared_ptr<MemoryAccount>& account, Worker
       reached_bricks_(make_array<std::uint64_t>(account)) {
     for (unsigned k = 0; k < particle_level_count; ++k) {
         sets_[k].support = settings.support[k];
-        sets_[k].cell_units = support_cell_units(static_cast<std::int64_t>(settings.support[k]) + 1);
+        sets_[k].cell_units = support_cell_units(static_cast<std::int64_t>(std::ceil(settings.support[k])));
     }
 }
 
@@ -176,7 +177,8 @@ void ParticleSets::count_per_cell(const BrickGrid& grid, Array<std::uint32_t>& c
                 if (x < 0.0F || y < 0.0F || z < 0.0F || x >= size || y >= size || z >= size) return;
                 constexpr float cell = units_per_base_cell;
                 const Int3 at{static_cast<int>(x / cell), static_cast<int>(y / cell), static_cast<int>(z / cell)};
-                ++counts[brick.number(index_in_brick(at))];
+                // Cells beyond the domain are not stored.
+                if (brick.holds(index_in_brick(at))) ++counts[brick.number(index_in_brick(at))];
             });
         }
     });

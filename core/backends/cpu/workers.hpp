@@ -14,6 +14,7 @@
 #include <vector>
 #else
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
@@ -49,6 +50,9 @@ public:
     explicit Workers(unsigned threads)
         : count_(threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency()))
 #ifndef MENISCUS_STD_THREADS
+        , more_than_processors_(count_ > std::thread::hardware_concurrency()
+                                    ? std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count_)
+                                    : nullptr)
         , arena_(static_cast<int>(count_))
 #endif
     {}
@@ -124,6 +128,7 @@ private:
 
     unsigned count_;
 #ifndef MENISCUS_STD_THREADS
+    std::unique_ptr<tbb::global_control> more_than_processors_;
     tbb::task_arena arena_;
 #endif
 };

@@ -1,0 +1,117 @@
+// Bricks travel through Draco without loss, and decoding survives any bytes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "meniscus/meniscus.hpp"
+#include "support/mesh_check.hpp"
+#include "support/particles.hpp"
+
+namespace meniscus {
+namespace {
+
+Mesh reconstruct(const Settings& settings, const test::Particles& particles) {
+    Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
+    Mesh mesh;
+    reconstructor.reconstruct(particles.frame(), mesh);
+    return mesh;
+}
+
+Mesh round_trip(const Mesh& mesh, const CodingOptions& options) {
+    std::vector<DecodedBrick> bricks;
+    for (std::size_t b = 0; b < mesh.bricks.size(); ++b) bricks.push_back(decode_brick(encode_brick(mesh, b, options), mesh.offset_bits));
+    return weld_bricks(bricks, mesh.cell_size, mesh.offset_bits);
+}
+
+TEST(BrickCoding, KeepsPositionsConnectivityLevelsAndJoints) {
+    for (const auto& [name, particles] : test::adversarial(0.025F))
+        for (const Mode mode : {Mode::adaptive, Mode::uniform}) {
+            SCOPED_TRACE(name);
+            Settings settings = test::default_settings();
+            settings.mode = mode;
+            settings.cell_size = 0.4;
+            const Mesh mesh = reconstruct(settings, particles);
+            const Mesh received = round_trip(mesh, {});
+            EXPECT_EQ(mesh_sha256(received), mesh_sha256(mesh));
+            EXPECT_TRUE(test::check(received).closed_manifold());
+            EXPECT_EQ(received.vertices.size(), mesh.vertices.size());
+        }
+}
+
+TEST(BrickCoding, KeepsEveryNumberOfOffsetBits) {
+    for (std::uint32_t steps = 1; steps <= 7; ++steps) {
+        Settings settings = test::default_settings();
+        settings.edge_points = EdgePoints::bisect;
+        settings.bisection_steps = steps;
+        const Mesh mesh = reconstruct(settings, test::splash(61, 8));
+        EXPECT_EQ(mesh.offset_bits, steps + 1);
+        EXPECT_EQ(mesh_sha256(round_trip(mesh, {})), mesh_sha256(mesh));
+    }
+}
+
+TEST(BrickCoding, KeepsNormalsWithinTwoDegreesAtEightBits) {
+    const Mesh mesh = reconstruct(test::default_settings(), test::splash(62));
+    const Mesh received = round_trip(mesh, {});
+    std::vector<std::pair<LatticePosition, Normal>> before, after;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) before.emplace_back(mesh.vertices[v], mesh.normals[v]);
+    for (std::size_t v = 0; v < received.vertices.size(); ++v) after.emplace_back(received.vertices[v], received.normals[v]);
+    std::sort(before.begin(), before.end());
+    std::sort(after.begin(), after.end());
+    ASSERT_EQ(before.size(), after.size());
+    const double least = std::cos(2.0 * 3.14159265358979 / 180.0);
+    for (std::size_t v = 0; v < before.size(); ++v) {
+        const auto& [p, n] = before[v];
+        const auto& [q, m] = after[v];
+        ASSERT_EQ(p, q);
+        EXPECT_GE(n[0] * m[0] + n[1] * m[1] + n[2] * m[2], least);
+    }
+    EXPECT_TRUE(round_trip(mesh, {.normal_bits = 0}).normals.empty());
+}
+
+TEST(BrickCoding, RefusesADamagedBrickOrDecodesSomeMesh) {
+    const Mesh mesh = reconstruct(test::default_settings(), test::splash(63, 6));
+    const EncodedBrick whole = encode_brick(mesh, 0);
+    int refused = 0;
+    const auto attempt = [&](const EncodedBrick& damaged) {
+        try {
+            const DecodedBrick decoded = decode_brick(damaged, mesh.offset_bits);
+            for (const Triangle& t : decoded.triangles)
+                for (const std::uint32_t v : t) ASSERT_LT(v, decoded.vertices.size());
+        } catch (const InvalidInput&) {
+            ++refused;
+        }
+    };
+    for (std::size_t size = 0; size < whole.draco.size(); size += 1 + size / 16) {
+        EncodedBrick cut = whole;
+        cut.draco.resize(size);
+        attempt(cut);
+    }
+    std::mt19937 random(5);
+    std::uniform_int_distribution<std::size_t> place(0, whole.draco.size() - 1);
+    for (int i = 0; i < 2000; ++i) {
+        EncodedBrick flipped = whole;
+        for (int k = 0; k <= i % 3; ++k) flipped.draco[place(random)] ^= static_cast<std::byte>(1U << (random() % 8));
+        attempt(flipped);
+    }
+    EXPECT_GT(refused, 20);
+    EncodedBrick lying = whole;
+    lying.triangles += 1;
+    EXPECT_THROW(decode_brick(lying, mesh.offset_bits), InvalidInput);
+    lying = whole;
+    lying.cell_levels.push_back(std::byte{1});
+    EXPECT_THROW(decode_brick(lying, mesh.offset_bits), InvalidInput);
+    lying = whole;
+    lying.coordinate = {2'000'000'000, 0, 0};
+    EXPECT_THROW(decode_brick(lying, mesh.offset_bits), InvalidInput);
+    EXPECT_THROW(decode_brick(whole, 40), InvalidInput);
+}
+
+TEST(BrickCoding, RefusesABrickThatOccursTwice) {
+    const Mesh mesh = reconstruct(test::default_settings(), test::splash(64, 6));
+    const DecodedBrick brick = decode_brick(encode_brick(mesh, 0), mesh.offset_bits);
+    EXPECT_THROW(weld_bricks(std::vector{brick, brick}, mesh.cell_size, mesh.offset_bits), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meniscus

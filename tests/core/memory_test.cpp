@@ -1,0 +1,69 @@
+// Memory is counted, limited, and kept between frames.
+#include <gtest/gtest.h>
+
+#include "meniscus/meniscus.hpp"
+#include "support/particles.hpp"
+
+namespace meniscus {
+namespace {
+
+TEST(Memory, AWarmFrameOfTheSameSizeAllocatesNothing) {
+    for (const Mode mode : {Mode::adaptive, Mode::uniform})
+        for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
+            Settings settings = test::default_settings();
+            settings.mode = mode;
+            settings.edge_points = edge_points;
+            Reconstructor reconstructor(settings, {Backend::cpu, 2, 0});
+            Mesh meshes[2];
+            const test::Particles particles = test::splash(41);
+            for (Mesh& mesh : meshes) reconstructor.reconstruct(particles.frame(), mesh);
+            EXPECT_GT(reconstructor.statistics().allocations, 0U);
+            for (int frame = 0; frame < 6; ++frame) {
+                reconstructor.reconstruct(particles.frame(), meshes[frame % 2]);
+                EXPECT_EQ(reconstructor.statistics().allocations, 0U) << "frame " << frame;
+            }
+        }
+}
+
+TEST(Memory, AFramePastTheLimitIsRefusedAndASmallerOneThenWorks) {
+    const Settings settings = test::default_settings();
+    Mesh mesh;
+    const test::Particles small = test::splash(42, 6);
+    const test::Particles large = test::splash(42, 30);
+    std::string expected;
+    std::size_t peak = 0;
+    {
+        Reconstructor unlimited(settings, {Backend::cpu, 1, 0});
+        unlimited.reconstruct(small.frame(), mesh);
+        expected = mesh_sha256(mesh);
+        peak = unlimited.statistics().peak_bytes;
+    }
+    Reconstructor limited(settings, {Backend::cpu, 1, 3 * peak});
+    try {
+        limited.reconstruct(large.frame(), mesh);
+        FAIL() << "a frame beyond the limit was accepted";
+    } catch (const LimitExceeded& e) {
+        EXPECT_NE(std::string(e.what()).find(std::to_string(3 * peak)), std::string::npos) << e.what();
+    }
+    EXPECT_TRUE(mesh.triangles.empty());
+    limited.reconstruct(small.frame(), mesh);
+    EXPECT_EQ(mesh_sha256(mesh), expected);
+    EXPECT_LE(limited.statistics().peak_bytes, 3 * peak);
+}
+
+TEST(Memory, FollowsTheFluidAndNotItsExtent) {
+    Reconstructor near(test::default_settings(), {Backend::cpu, 1, 0});
+    Reconstructor apart(test::default_settings(), {Backend::cpu, 1, 0});
+    Mesh mesh;
+    test::Particles together, spread;
+    for (int i = 0; i < 64; ++i) {
+        together.add(static_cast<float>(i) * 0.4F, 0.0F, 0.0F);
+        spread.add(static_cast<float>(i) * 400.0F, static_cast<float>(i % 8) * 300.0F, 0.0F);
+    }
+    near.reconstruct(together.frame(), mesh);
+    apart.reconstruct(spread.frame(), mesh);
+    EXPECT_LT(apart.statistics().peak_bytes, 3 * near.statistics().peak_bytes);
+}
+
+}  // namespace
+}  // namespace meniscus

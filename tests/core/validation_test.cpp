@@ -1,0 +1,131 @@
+// Bad input is refused with the value and the limit, and leaves the reconstructor usable.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "meniscus/meniscus.hpp"
+#include "support/particles.hpp"
+
+namespace meniscus {
+namespace {
+
+template <class Call>
+std::string refusal(const Call& call) {
+    try {
+        call();
+    } catch (const InvalidInput& e) {
+        return e.what();
+    }
+    return {};
+}
+
+TEST(Validation, RefusesEverySettingOutOfRangeNamingItsValue) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double inf = std::numeric_limits<double>::infinity();
+    struct Case {
+        std::function<void(Settings&)> change;
+        std::string named;
+    };
+    const std::vector<Case> cases{
+        {[](Settings& s) { s.particle_radius = 0.0; }, "particle radius is 0"},
+        {[](Settings& s) { s.particle_radius = -1.0; }, "particle radius is -1"},
+        {[&](Settings& s) { s.particle_radius = nan; }, "particle radius is nan"},
+        {[&](Settings& s) { s.particle_radius = inf; }, "particle radius is inf"},
+        {[](Settings& s) { s.smoothing_length = 0.0; }, "smoothing length is 0"},
+        {[](Settings& s) { s.cell_size = -0.5; }, "cell size is -0.5"},
+        {[](Settings& s) { s.cell_size = 0.015; }, "266.66"},
+        {[](Settings& s) { s.iso = 0.0; }, "iso value is 0"},
+        {[](Settings& s) { s.iso = 1e-60; }, "iso value is 0"},
+        {[](Settings& s) { s.count_threshold = 0; }, "count threshold is 0"},
+        {[](Settings& s) { s.edge_points = EdgePoints::bisect; s.bisection_steps = 8; }, "bisection steps are 8"},
+        {[](Settings& s) { s.edge_points = EdgePoints::bisect; s.bisection_steps = 0; }, "bisection steps are 0"},
+        {[](Settings& s) { s.domain = Box{{0, 0, 0}, {1, -1, 1}}; }, "along y"},
+        {[&](Settings& s) { s.domain = Box{{0, 0, nan}, {1, 1, 1}}; }, "along z"},
+        {[](Settings& s) { s.particle_radius = 1e-300; s.cell_size = 1e-50; s.smoothing_length = 1e-50; }, "cell size in world units is 0"},
+    };
+    for (const Case& c : cases) {
+        Settings settings = test::default_settings();
+        c.change(settings);
+        const std::string message = refusal([&] { Reconstructor reconstructor(settings); });
+        EXPECT_NE(message.find(c.named), std::string::npos) << "expected '" << c.named << "', got '" << message << "'";
+    }
+    EXPECT_EQ(refusal([] { validate(test::default_settings()); }), "");
+}
+
+TEST(Validation, RefusesEveryBadFrameNamingTheParticleAndGoesOn) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float inf = std::numeric_limits<float>::infinity();
+    const test::Particles good = test::splash(71, 6);
+    Reconstructor reconstructor(test::default_settings(), {Backend::cpu, 1, 0});
+    Mesh mesh;
+    reconstructor.reconstruct(good.frame(), mesh);
+    const std::string expected = mesh_sha256(mesh);
+
+    const auto with = [&](std::size_t at, float value) {
+        test::Particles bad = good;
+        bad.positions[at] = value;
+        return bad;
+    };
+    struct Case {
+        test::Particles particles;
+        std::string named;
+    };
+    std::vector<Case> cases{{with(7, nan), "particle 2 has y = nan"}, {with(9, inf), "particle 3 has x = inf"},
+                            {with(11, -inf), "particle 3 has z = -inf"}, {with(0, 3e7F), "particle 0 has x = 30000000"}};
+    Case& uneven = cases.emplace_back(Case{good, "coordinates, must be three per particle"});
+    uneven.particles.positions.pop_back();
+    Case& short_levels = cases.emplace_back(Case{good, "5 levels for"});
+    short_levels.particles.levels.assign(5, 0);
+    Case& high_level = cases.emplace_back(Case{good, "particle 4 has level 4, must be 0 to 3"});
+    high_level.particles.levels.assign(good.count(), 0);
+    high_level.particles.levels[4] = 4;
+    for (const Case& c : cases) {
+        const std::string message = refusal([&] { reconstructor.reconstruct(c.particles.frame(), mesh); });
+        EXPECT_NE(message.find(c.named), std::string::npos) << "expected '" << c.named << "', got '" << message << "'";
+        EXPECT_TRUE(mesh.triangles.empty());
+        reconstructor.reconstruct(good.frame(), mesh);
+        EXPECT_EQ(mesh_sha256(mesh), expected);
+    }
+}
+
+TEST(Validation, AcceptsTheFarthestPositionAndRefusesTheNext) {
+    Settings settings;
+    settings.particle_radius = 2.0;
+    settings.cell_size = 0.5;  // c = 1
+    Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
+    Mesh mesh;
+    const float limit = 4.0F * ((1 << 20) - 1 - 128);
+    test::Particles last, beyond;
+    last.add(limit, -limit, limit);
+    beyond.add(limit + 1.0F, 0.0F, 0.0F);
+    reconstructor.reconstruct(last.frame(), mesh);
+    EXPECT_FALSE(mesh.triangles.empty());
+    EXPECT_NE(refusal([&] { reconstructor.reconstruct(beyond.frame(), mesh); }).find("farther from the origin"), std::string::npos);
+}
+
+TEST(Validation, RefusesAQuantizationBoxThatIsNotOne) {
+    const std::vector<std::uint16_t> positions{0, 1, 2, 3, 4, 5};
+    Reconstructor reconstructor(test::default_settings(), {Backend::cpu, 1, 0});
+    Mesh mesh;
+    ParticleFrame frame;
+    frame.quantized = positions;
+    frame.quantization_box = {{0, 0, 0}, {1, -1, 1}};
+    EXPECT_NE(refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("quantization box runs from 0 to -1 along y"), std::string::npos);
+    frame.quantization_box = {{0, 0, 0}, {1, 1e12, 1}};
+    EXPECT_NE(refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("farther from the origin"), std::string::npos);
+    frame.quantization_box = {{0, 0, 0}, {1, 0, 1}};  // flat is fine
+    reconstructor.reconstruct(frame, mesh);
+    EXPECT_FALSE(mesh.triangles.empty());
+}
+
+TEST(Validation, TheCudaBackendSaysWhyItCannotBeUsed) {
+    EXPECT_NE(refusal([] { Reconstructor reconstructor(test::default_settings(), {Backend::cuda, 1, 0}); }).find("CUDA backend cannot be used: "),
+              std::string::npos);
+    const BackendDescription description = describe_backend(Backend::automatic);
+    EXPECT_EQ(description.name, "cpu");
+    EXPECT_FALSE(description.reason.empty());
+}
+
+}  // namespace
+}  // namespace meniscus
