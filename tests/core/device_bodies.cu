@@ -1,0 +1,53 @@
+// The stages' bodies are written once for CPU and GPU: that this compiles for a device, without warnings, is the test.
+#include "field/sums.hpp"
+#include "stages/adjust_levels.hpp"
+#include "stages/count_triangles.hpp"
+#include "stages/emit_triangles.hpp"
+#include "stages/fill_cracks.hpp"
+#include "stages/place_vertices.hpp"
+#include "stages/register_particles.hpp"
+#include "stages/sample_field.hpp"
+#include "stages/split_cells.hpp"
+
+namespace meniscus {
+
+__global__ void register_bodies(const Units3* positions, std::int64_t cell_units, ParticleKey* keys, Particle* particles, Brick* bricks,
+                                float support, Int3 low, Int3 high) {
+    const unsigned i = blockIdx.x * blockDim.x + threadIdx.x;
+    keys[i] = particle_key(positions[i], cell_units);
+    particles[i] = particle_of(keys[i], cell_units);
+    mark_reached(bricks[0], particles[i].x, particles[i].y, particles[i].z, support);
+    clear_beyond_domain(bricks[0], low, high);
+    bricks[0].first = bricks[0].count();
+}
+
+__global__ void field_bodies(ParticleSetView set, CandidateView candidates, float* out) {
+    const float x[1] = {out[0]}, y[1] = {out[1]}, z[1] = {out[2]};
+    float value[1] = {0.0F};
+    float bound = 0.0F, gx = 0.0F, gy = 0.0F, gz = 0.0F;
+    sum_values<1>(candidates, x, y, z, value);
+    sum_bounds(candidates, x[0], y[0], z[0], 8192.0F, bound);
+    sum_gradients(candidates, x[0], y[0], z[0], gx, gy, gz);
+    set.for_each_near({0, 0, 0}, {{0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}}, [&](float px, float, float, float w) { gx += px * w; });
+    out[3] = value[0] + bound + gx + gy + gz;
+}
+
+__global__ void surface_bodies(BlocksView blocks, const std::uint32_t* counts, const CubeCase* cubes, const CrackCase* cracks, Triangle* triangles,
+                               Int3 low, Int3 high) {
+    const std::uint32_t b = blockIdx.x * blockDim.x + threadIdx.x;
+    if (b >= blocks.count) return;
+    const CountCriterion criterion{counts, 1, false};
+    const BandTest band{0.6F, 0.85F};
+    blocks.level[b] = static_cast<std::uint8_t>(band.may_hold_surface(4, blocks.value(b, 0), 1.0F) ? criterion(b) : UniformCriterion{}(b));
+    blocks.level[b] = static_cast<std::uint8_t>(balanced_level(blocks, b) + promoted_level(blocks, b));
+    blocks.sampled[b] = corner_points(blocks, b) | edge_middles(blocks, b, 4) | edge_middles(blocks, b, 2);
+    blocks.inside[b] = domain_points(blocks.coordinate(b), low, high);
+    if (joins_band(blocks, b)) blocks.level[b] = 3;
+    for (int axis = 0; axis < 3; ++axis) blocks.edges[b].axis[axis] = CrossedEdges(blocks, b, axis).finest();
+    blocks.samples[b] = static_cast<float>(interpolated_offset(edge_ends(blocks, b, 0, 0), 0.6F, 6));
+    blocks.slots[b] = {count_cell_triangles(blocks, b, cubes), count_crack_triangles(blocks, b, cracks)};
+    emit_cell_triangles(blocks, b, cubes, triangles + blocks.slots[b].cells);
+    emit_crack_triangles(blocks, b, cracks, triangles + blocks.slots[b].cracks);
+}
+
+}  // namespace meniscus
