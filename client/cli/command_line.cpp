@@ -25,7 +25,7 @@ int report(std::string message, ExitCode code) {
 int run(int argc, const char* const* argv) {
     CLI::App app("Adaptive surfaces of simulated fluid particles", "meniscus");
     app.set_version_flag("--version", std::string("meniscus ") + std::string(version()));
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);  // none is refused below, after anything that is not known
     add_reconstruct(app);
     add_simulate(app);
     add_watch(app);
@@ -34,6 +34,7 @@ int run(int argc, const char* const* argv) {
     add_sessions(app);
     try {
         app.parse(argc, argv);
+        if (app.get_subcommands().empty()) throw InvalidInput("a subcommand is needed; meniscus --help lists them");
         return success;
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version

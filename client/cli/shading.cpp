@@ -27,8 +27,8 @@ struct Light {
 Color water(const Direction& normal, const Direction& up) {
     static const std::array<Light, 2> lights{{{normalized({-0.5F, 0.8F, 0.7F}), {0.75F, 0.74F, 0.70F}, 60.0F},
                                               {normalized({0.9F, 0.2F, 0.5F}), {0.16F, 0.20F, 0.26F}, 20.0F}}};
-    constexpr Color deep{0.010F, 0.085F, 0.23F};
-    constexpr Color shallow{0.055F, 0.30F, 0.60F};
+    constexpr Color deep{0.006F, 0.060F, 0.18F};
+    constexpr Color shallow{0.035F, 0.22F, 0.48F};
     constexpr Color sky{0.70F, 0.86F, 1.0F};
     const Color body = mix(deep, shallow, 0.5F + 0.5F * dot(normal, up));
     Color color{0.35F * body[0], 0.35F * body[1], 0.35F * body[2]};

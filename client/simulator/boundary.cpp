@@ -41,27 +41,29 @@ Boundary::Boundary(const Tank& tank, std::optional<Sphere> obstacle, float suppo
     for (std::size_t i = table_size; i-- > 0;) values_[i] = values_[i + 1] - 0.5F * (slopes_[i] + slopes_[i + 1]) * step;
 }
 
-void Boundary::add(BoundaryDensity& sum, float distance, const Vector3& normal) const {
+void Boundary::add(BoundaryDensity& all, float distance, const Vector3& normal) const {
     if (distance >= support_) return;
     const float scaled = std::max(0.0F, distance) / support_ * static_cast<float>(table_size);
     const std::size_t i = std::min(static_cast<std::size_t>(scaled), table_size - 1);
     const float t = scaled - static_cast<float>(i);
-    sum.value += values_[i] + t * (values_[i + 1] - values_[i]);
+    const float value = values_[i] + t * (values_[i + 1] - values_[i]);
     const float slope = slopes_[i] + t * (slopes_[i + 1] - slopes_[i]);
-    for (std::size_t a = 0; a < 3; ++a) sum.gradient[a] += slope * normal[a];
+    const float free = 1.0F - all.value;
+    for (std::size_t a = 0; a < 3; ++a) all.gradient[a] = all.gradient[a] * (1.0F - value) + slope * normal[a] * free;
+    all.value = 1.0F - free * (1.0F - value);
 }
 
 BoundaryDensity Boundary::density(const Vector3& position) const {
-    BoundaryDensity sum;
+    BoundaryDensity all;
     for (std::size_t a = 0; a < 3; ++a) {
-        add(sum, position[a], axis_normal(a, 1.0F));
-        add(sum, tank_.size[a] - position[a], axis_normal(a, -1.0F));
+        add(all, position[a], axis_normal(a, 1.0F));
+        add(all, tank_.size[a] - position[a], axis_normal(a, -1.0F));
     }
-    if (!obstacle_) return sum;
+    if (!obstacle_) return all;
     const Vector3 d{position[0] - obstacle_->center[0], position[1] - obstacle_->center[1], position[2] - obstacle_->center[2]};
     const float length = std::sqrt(dot(d, d));
-    if (length > 0.0F) add(sum, length - obstacle_->radius, {d[0] / length, d[1] / length, d[2] / length});
-    return sum;
+    if (length > 0.0F) add(all, length - obstacle_->radius, {d[0] / length, d[1] / length, d[2] / length});
+    return all;
 }
 
 void Boundary::keep_out(Vector3& position, Vector3& velocity, float clearance) const {

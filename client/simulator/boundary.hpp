@@ -26,7 +26,7 @@ struct BoundaryDensity {
 
 /// A solid acts as if it were filled with fluid at rest: it adds the kernel's integral over the half-space behind its
 /// surface (a sphere is flat at the scale of the kernel). No boundary particles: nothing to sample, and walls without bumps.
-/// Where two walls meet, their common quadrant counts twice and keeps particles a little further away.
+/// Where solids meet, the free parts that they leave multiply, as they do at a right-angled edge.
 class Boundary {
 public:
     /// support: the kernel's, meters.
@@ -41,7 +41,7 @@ public:
     void keep_out(Vector3& position, Vector3& velocity, float clearance) const;
 
 private:
-    void add(BoundaryDensity& sum, float distance, const Vector3& normal) const;
+    void add(BoundaryDensity& all, float distance, const Vector3& normal) const;
 
     Tank tank_;
     std::optional<Sphere> obstacle_;

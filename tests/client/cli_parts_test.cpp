@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/file_pattern.hpp"
+#include "cli/quantized_positions.hpp"
+#include "cli/statistics_json.hpp"
+#include "sample_files.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+TEST(FilePattern, ReplacesTheNumber) {
+    EXPECT_EQ(FilePattern("a/frame_{}.vtk").at(7), "a/frame_7.vtk");
+    EXPECT_EQ(FilePattern("frame_{:04}.vtk").at(7), "frame_0007.vtk");
+    EXPECT_EQ(FilePattern("frame_{:02}.vtk").at(123), "frame_123.vtk");
+    EXPECT_EQ(FilePattern("frame.vtk").at(123), "frame.vtk");
+    EXPECT_FALSE(FilePattern("frame.vtk").has_number());
+}
+
+TEST(FilePattern, FindsThePaddingOfExistingFiles) {
+    const test::TemporaryDirectory directory;
+    std::ofstream(directory / "f_009.vtk");
+    FilePattern pattern((directory / "f_{}.vtk").string());
+    pattern.match_existing(9);
+    EXPECT_EQ(pattern.at(9), directory / "f_009.vtk");
+    EXPECT_EQ(pattern.at(10), directory / "f_010.vtk");
+    FilePattern out("m_{}.ply");
+    out.pad_like(pattern);
+    EXPECT_EQ(out.at(9), "m_009.ply");
+    FilePattern fixed("m_{:02}.ply");
+    fixed.pad_like(pattern);
+    EXPECT_EQ(fixed.at(9), "m_09.ply");
+}
+
+TEST(QuantizedPositions, AreWithinHalfAStepAndExactAtTheCorners) {
+    const std::vector<float> positions{-1.0F, 5.0F, 2.0F, 3.0F, 5.0F, 2.5F, 0.123F, 5.0F, 2.2F};
+    ParticleFrame frame;
+    frame.positions = positions;
+    const QuantizedPositions quantized(frame);
+    const ParticleFrame view = quantized.frame();
+    ASSERT_EQ(view.count(), 3U);
+    const Box box = view.quantization_box;
+    for (std::size_t i = 0; i < 9; ++i) {
+        const double extent = box.max[i % 3] - box.min[i % 3];
+        const double back = box.min[i % 3] + view.quantized[i] * extent / 65535.0;
+        EXPECT_NEAR(back, static_cast<double>(positions[i]), 0.5 * extent / 65535.0 + 1e-12);
+    }
+    EXPECT_EQ(view.quantized[0], 0U);
+    EXPECT_EQ(view.quantized[3], 65535U);
+    EXPECT_EQ(view.quantized[1], 0U);  // a flat axis
+}
+
+TEST(Statistics, ReportTheMedianWarmRunAndTheColdOne) {
+    std::vector<Statistics> runs(4);
+    runs[0].total_seconds = 9.0;
+    runs[1].total_seconds = 3.0;
+    runs[2].total_seconds = 1.0;
+    runs[3].total_seconds = 2.0;
+    EXPECT_EQ(median_run(runs).total_seconds, 2.0);
+    EXPECT_EQ(to_json(runs, "x").at("first_seconds"), 9.0);
+    runs.resize(1);
+    EXPECT_EQ(median_run(runs).total_seconds, 9.0);
+    runs.resize(3);
+    runs[1].total_seconds = 4.0;
+    runs[2].total_seconds = 3.0;
+    EXPECT_EQ(median_run(runs).total_seconds, 3.0);
+}
+
+}  // namespace
+}  // namespace meniscus::cli

@@ -1,0 +1,258 @@
+// The command line as a process: exit codes, the one line, the figures.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "formats/atomic_file.hpp"
+#include "formats/byte_cursor.hpp"
+#include "formats/mesh_file.hpp"
+#include "formats/scalar.hpp"
+#include "formats/vtk_writer.hpp"
+#include "meniscus/statistics.hpp"
+#include "process.hpp"
+#include "sample_files.hpp"
+
+namespace meniscus::test {
+namespace {
+
+ProcessResult run_meniscus(const std::vector<std::string>& arguments) { return run_process(MENISCUS_CLI, arguments); }
+
+/// A file of 4 x 4 x 4 particles of radius 0.5, with a gap in between two halves.
+class Cli : public testing::Test {
+protected:
+    Cli() {
+        for (int i = 0; i < 64; ++i)
+            for (const int x : {i % 4 + (i % 4 > 1 ? 3 : 0), i / 4 % 4, i / 16}) positions_.push_back(static_cast<float>(x));
+        std::string bytes;
+        for (const float x : positions_) formats::store(bytes, x);
+        in_ = write("particles.xyz", bytes);
+        out_ = path("mesh.ply");
+    }
+
+    std::string path(const std::string& name) const { return (directory_ / name).string(); }
+    std::string write(const std::string& name, const std::string& bytes) const {
+        formats::write_file(directory_ / name, bytes);
+        return path(name);
+    }
+    std::vector<std::string> reconstruct(std::vector<std::string> more) const {
+        std::vector<std::string> arguments{"reconstruct", in_, "-o", out_, "--particle-radius", "0.5"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    }
+    nlohmann::json stats(const std::vector<std::string>& more) const {
+        std::vector<std::string> arguments = reconstruct({"--stats", path("stats.json")});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProcessResult result = run_meniscus(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return nlohmann::json::parse(formats::read_file(path("stats.json")));
+    }
+
+    /// Bad input: exit code 2 and exactly one line, which contains the words.
+    static void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
+        const ProcessResult result = run_meniscus(arguments);
+        std::string all;
+        for (const std::string& a : arguments) all += a + " ";
+        SCOPED_TRACE(all);
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        EXPECT_EQ(result.out, "");
+        for (const std::string& word : words) EXPECT_NE(result.err.find(word), std::string::npos) << word << " in: " << result.err;
+    }
+
+    TemporaryDirectory directory_;
+    std::vector<float> positions_;
+    std::string in_;
+    std::string out_;
+};
+
+TEST_F(Cli, TellsItsVersion) {
+    const ProcessResult result = run_meniscus({"--version"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.out.rfind("meniscus ", 0), 0U) << result.out;
+}
+
+TEST_F(Cli, HelpOfEveryCommandSucceeds) {
+    for (const char* command : {"reconstruct", "simulate", "watch", "picture", "info", "sessions"})
+        EXPECT_EQ(run_meniscus({command, "--help"}).exit_code, 0) << command;
+}
+
+TEST_F(Cli, RefusesBadArguments) {
+    expect_refused({}, {"subcommand"});
+    expect_refused({"levitate"}, {"levitate"});
+    expect_refused(reconstruct({"--frobnicate"}), {"--frobnicate"});
+    expect_refused(reconstruct({"--field", "magic"}), {"--field", "magic", "color", "density"});
+    expect_refused(reconstruct({"--mode", "magic"}), {"--mode", "magic"});
+    expect_refused(reconstruct({"--cell-size", "abc"}), {"--cell-size", "abc"});
+    expect_refused(reconstruct({"--domain", "0", "0", "0"}), {"--domain", "6"});
+    expect_refused(reconstruct({"--repeat", "0"}), {"--repeat", "0"});
+    expect_refused({"reconstruct", in_, "-o", out_}, {"--particle-radius"});
+    expect_refused({"reconstruct", in_, "--particle-radius", "0.5"}, {"-o", "--stats"});
+}
+
+TEST_F(Cli, RefusesContradictions) {
+    expect_refused(reconstruct({"--local", "--server", "localhost:1"}), {"--local", "--server"});
+    expect_refused(reconstruct({"--threads", "2", "--server", "localhost:1"}), {"--threads", "--server"});
+    expect_refused(reconstruct({"--start", "1"}), {"--start"});
+    expect_refused({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "1"}, {"--start", "--end"});
+    expect_refused({"reconstruct", path("f_{}.vtk"), "-o", out_, "--particle-radius", "1", "--start", "1", "--end", "2"}, {"{}"});
+    expect_refused({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "1", "--start", "3", "--end", "2"},
+                   {"3", "2"});
+    expect_refused({"simulate", "--session", "0", "--frames", "1"}, {"--session", "--server"});
+}
+
+TEST_F(Cli, RefusesSettingsOutOfRange) {
+    expect_refused({"reconstruct", in_, "-o", out_, "--particle-radius", "0"}, {"radius", "0"});
+    expect_refused({"reconstruct", in_, "-o", out_, "--particle-radius", "-1.5"}, {"radius", "-1.5"});
+    expect_refused({"reconstruct", in_, "-o", out_, "--particle-radius", "nan"}, {"radius", "nan"});
+    expect_refused(reconstruct({"--cell-size", "0"}), {"cell", "0"});
+    expect_refused(reconstruct({"--iso", "-2"}), {"iso", "-2"});
+    expect_refused(reconstruct({"--edge-points", "bisect", "--bisection-steps", "99"}), {"99"});
+    expect_refused(reconstruct({"--domain", "1", "0", "0", "0", "1", "1"}), {"1"});
+}
+
+TEST_F(Cli, RefusesFilesThatAreNoParticles) {
+    const auto refused = [&](const std::string& in, const std::vector<std::string>& words) {
+        expect_refused({"reconstruct", in, "-o", out_, "--particle-radius", "0.5"}, words);
+    };
+    refused(path("none.vtk"), {"none.vtk", "no such file"});
+    refused(directory_.path().string(), {directory_.path().string()});
+    refused(write("a.txt", "hello"), {"a.txt", ".vtk"});
+    refused(write("a.vtk", "hello"), {"a.vtk", "not a legacy VTK file"});
+    refused(write("a.ply", "hello"), {"a.ply", "not a PLY file"});
+    refused(write("a.xyz", "hello"), {"a.xyz", "5 bytes", "12"});
+    refused(write("short.vtk", vtk_binary().substr(0, 90)), {"short.vtk", "truncated"});
+    std::string lying = vtk_binary();
+    lying.replace(lying.find("POINTS 2"), 8, "POINTS 77777777777");
+    refused(write("lying.vtk", lying), {"lying.vtk", "bytes follow"});
+    EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
+TEST_F(Cli, RefusesPositionsThatAreNotFinite) {
+    for (const char* value : {"nan", "inf"}) {
+        std::string text = vtk_ascii();
+        text.replace(text.find("4 5 6"), 5, std::string("4 ") + value + " 6");
+        expect_refused({"reconstruct", write("bad.vtk", text), "-o", out_, "--particle-radius", "0.5"}, {"bad.vtk", "particle 1", value});
+    }
+}
+
+TEST_F(Cli, RefusesOutputsThatCannotBeWritten) {
+    const auto refused = [&](const std::string& out, const std::vector<std::string>& words) {
+        expect_refused({"reconstruct", in_, "-o", out, "--particle-radius", "0.5"}, words);
+    };
+    refused(path("no/such/mesh.ply"), {"no/such", "cannot be written"});
+    refused(path("mesh.stl"), {"mesh.stl", ".ply"});
+    std::filesystem::create_directory(directory_ / "folder.ply");
+    refused(path("folder.ply"), {"folder.ply", "directory"});
+    expect_refused({"picture", write("m.obj", "v 0 0 0\n"), "-o", "/no/such/p.png"}, {"/no/such/p.png", "cannot be written"});
+    expect_refused({"picture", path("none.ply"), "-o", path("p.png")}, {"none.ply", "no such file"});
+    expect_refused({"picture", path("m.obj"), "-o", path("p.png"), "--width", "0"}, {"--width", "0"});
+}
+
+TEST_F(Cli, RefusesAServerThatIsNotThere) {
+    expect_refused(reconstruct({"--server", "127.0.0.1:1"}), {"127.0.0.1:1"});
+    expect_refused({"info", "--server", "127.0.0.1:1"}, {"127.0.0.1:1"});
+    expect_refused({"watch", "some-session", "--server", "127.0.0.1:1", "-o", path("meshes")}, {"127.0.0.1:1"});
+}
+
+TEST_F(Cli, RefusesAGapInASequenceByName) {
+    ParticleFrame frame;
+    frame.positions = positions_;
+    formats::write_vtk(directory_ / "f_08.vtk", frame);
+    formats::write_vtk(directory_ / "f_10.vtk", frame);
+    expect_refused({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "0.5", "--start", "8", "--end", "10"},
+                   {"f_09.vtk", "no such file"});
+}
+
+TEST_F(Cli, StatisticsHaveEveryFigure) {
+    const nlohmann::json s = stats({"--threads", "1", "--repeat", "3"});
+    EXPECT_EQ(s.at("particles"), 64);
+    for (const char* key : {"vertices", "triangles", "field_evaluations", "total_seconds", "first_seconds", "peak_bytes"})
+        EXPECT_GT(s.at(key).get<double>(), 0.0) << key;
+    std::uint64_t triangles = 0;
+    for (const char* level : {"level1", "level2", "level3", "crack"})
+        triangles += s.at("triangles_by_level").at(level).get<std::uint64_t>();
+    EXPECT_EQ(s.at("triangles"), triangles);
+    for (const char* level : {"level1", "level2", "level3"}) EXPECT_TRUE(s.at("base_cells_by_level").contains(level));
+    for (const std::string_view stage : ::meniscus::stage_names) EXPECT_GE(s.at("stage_seconds").at(std::string(stage)).get<double>(), 0.0) << stage;
+    EXPECT_EQ(s.at("backend"), "cpu");
+    EXPECT_EQ(s.at("threads"), 1);
+    EXPECT_EQ(s.at("mesh_sha256").get<std::string>().size(), 64U);
+    const auto mesh = formats::read_mesh(out_);
+    EXPECT_EQ(s.at("triangles"), mesh.triangles.size());
+    EXPECT_EQ(s.at("vertices"), mesh.positions.size());
+}
+
+TEST_F(Cli, ThreadsDoNotChangeTheMesh) {
+    for (const char* mode : {"adaptive", "uniform"})
+        EXPECT_EQ(stats({"--mode", mode, "--threads", "1"}).at("mesh_sha256"), stats({"--mode", mode, "--threads", "2"}).at("mesh_sha256"));
+}
+
+TEST_F(Cli, EveryOutputFormatHoldsTheSameTriangles) {
+    const std::uint64_t triangles = stats({}).at("triangles");
+    for (const char* name : {"m.ply", "m.obj", "m.bricks"}) {
+        const ProcessResult result = run_meniscus({"reconstruct", in_, "-o", path(name), "--particle-radius", "0.5"});
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        const formats::TriangleMesh mesh = formats::read_mesh(path(name));
+        EXPECT_EQ(mesh.triangles.size(), triangles) << name;
+        EXPECT_EQ(mesh.levels.size(), triangles) << name;
+        EXPECT_EQ(mesh.normals.size(), mesh.positions.size()) << name;
+        EXPECT_EQ(run_meniscus({"picture", path(name), "-o", path("p.png"), "--wireframe", "--width", "60", "--height", "40"}).exit_code, 0);
+    }
+}
+
+TEST_F(Cli, AnEmptyFrameGivesAnEmptyMesh) {
+    const std::string empty = write("empty.xyz", "");
+    for (const char* positions : {"float32", "uint16"}) {
+        const ProcessResult result = run_meniscus({"reconstruct", empty, "-o", out_, "--particle-radius", "0.5", "--positions", positions});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_TRUE(formats::read_mesh(out_).triangles.empty());
+    }
+}
+
+TEST_F(Cli, ASequenceGivesItsMeshesAndFigures) {
+    ParticleFrame frame;
+    frame.positions = positions_;
+    for (const char* name : {"f_009.vtk", "f_010.vtk"}) formats::write_vtk(directory_ / name, frame);
+    const ProcessResult result = run_meniscus({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "0.5", "--start", "9",
+                                           "--end", "10", "--repeat", "2", "--stats", path("s.json")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 2) << result.err;
+    EXPECT_TRUE(std::filesystem::exists(path("m_009.ply")));
+    EXPECT_TRUE(std::filesystem::exists(path("m_010.ply")));
+    const nlohmann::json frames = nlohmann::json::parse(formats::read_file(path("s.json"))).at("frames");
+    ASSERT_EQ(frames.size(), 2U);
+    EXPECT_EQ(frames[0].at("frame"), 9);
+    EXPECT_EQ(frames[1].at("frame"), 10);
+    EXPECT_EQ(frames[0].at("mesh_sha256"), frames[1].at("mesh_sha256"));
+}
+
+TEST_F(Cli, SimulatesAndWritesParticlesThatItReadsBack) {
+    const ProcessResult result =
+        run_meniscus({"simulate", "--local", "--particles", "500", "--frames", "3", "--adaptive", "--positions", "uint16", "--cell-size", "1",
+                  "--out", path("meshes"), "--particles-out", path("particles"), "--stats", path("s.json")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(std::filesystem::exists(path("meshes/frame_000002.ply")));
+    const nlohmann::json last = nlohmann::json::parse(formats::read_file(path("s.json"))).at("frames").at(2);
+    const double radius = 0.025 * std::cbrt(16000.0 / 500.0);
+    const ProcessResult again =
+        run_meniscus({"reconstruct", path("particles/frame_000002.vtk"), "--cell-size", "1", "--positions", "uint16", "--particle-radius",
+                  std::to_string(static_cast<float>(radius)), "--stats", path("again.json")});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(nlohmann::json::parse(formats::read_file(path("again.json"))).at("particles"), last.at("particles"));
+}
+
+TEST_F(Cli, ReconstructsRealFrames) {
+    const auto folder = data_folder();
+    if (!folder) GTEST_SKIP() << "MENISCUS_DATA is not set";
+    const ProcessResult result =
+        run_meniscus({"reconstruct", (*folder / "double_dam_break_with_sphere/frame_{}.vtk").string(), "--start", "20", "--end", "21",
+                  "--particle-radius", "0.025", "--cell-size", "1", "--stats", path("s.json")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    for (const auto& frame : nlohmann::json::parse(formats::read_file(path("s.json"))).at("frames"))
+        EXPECT_EQ(frame.at("particles"), 11492);
+}
+
+}  // namespace
+}  // namespace meniscus::test

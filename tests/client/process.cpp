@@ -1,0 +1,40 @@
+#include "process.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <stdexcept>
+
+#include "formats/byte_cursor.hpp"
+#include "sample_files.hpp"
+
+extern char** environ;
+
+namespace meniscus::test {
+
+ProcessResult run_process(const std::string& program, const std::vector<std::string>& arguments) {
+    const TemporaryDirectory directory;
+    const std::string out = (directory / "out").string();
+    const std::string err = (directory / "err").string();
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), flags, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), flags, 0600);
+    std::vector<std::string> copies{program};
+    copies.insert(copies.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& argument : copies) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    pid_t child = 0;
+    const int spawned = posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (spawned != 0) throw std::runtime_error("cannot run " + program);
+    int status = 0;
+    if (waitpid(child, &status, 0) != child) throw std::runtime_error("lost " + program);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, formats::read_file(out), formats::read_file(err)};
+}
+
+}  // namespace meniscus::test
