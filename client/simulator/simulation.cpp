@@ -48,9 +48,18 @@ void Simulation::advance(double seconds) {
 
 void Simulation::pour() {
     if (solver_.count() >= scene_.total_particles) return;
-    const std::size_t count = std::min(layer_.size(), scene_.total_particles - solver_.count());
-    solver_.add(std::span(layer_).first(count), {0.0F, -scene_.nozzle->speed, 0.0F});
+    std::vector<Vector3> layer = layer_;
+    layer.resize(std::min(layer.size(), scene_.total_particles - solver_.count()));
+    // A perfectly symmetric jet would stack up on the top of the obstacle, as no real one does.
+    for (Vector3& p : layer)
+        for (const std::size_t axis : {0U, 2U}) p[axis] += 0.2F * scene_.particle_radius * noise();
+    solver_.add(layer, {0.0F, -scene_.nozzle->speed, 0.0F});
     next_layer_ += 2.0 * static_cast<double>(scene_.particle_radius) / static_cast<double>(scene_.nozzle->speed);
+}
+
+float Simulation::noise() {
+    // mt19937's numbers are the same everywhere, which the standard's distributions are not.
+    return static_cast<float>(random_() >> 8) / static_cast<float>(1U << 23) - 1.0F;
 }
 
 std::vector<float> Simulation::positions() const {

@@ -1,7 +1,7 @@
 // A scene that moves.
 #pragma once
 
-#include <span>
+#include <random>
 #include <vector>
 
 #include "simulator/scene.hpp"
@@ -24,10 +24,13 @@ public:
 
 private:
     void pour();
+    /// -1 to 1, the same sequence in every run.
+    float noise();
 
     Scene scene_;
     Solver solver_;
     std::vector<Vector3> layer_;   ///< what the nozzle adds at a time
+    std::mt19937 random_{1};
     double time_ = 0.0;
     double next_layer_ = 0.0;      ///< time at which it does
 };

@@ -10,7 +10,7 @@ namespace {
 constexpr float support_in_radii = 4.0F;
 /// The part of the rest distance that the fastest particle may go in one step.
 constexpr float courant = 0.4F;
-/// Of the Jacobi iteration; 1 would not converge.
+/// Of the Jacobi iteration, at first; 1 would not converge.
 constexpr float relaxation = 0.5F;
 /// How near a particle's center may come to a wall, in radii.
 constexpr float clearance = 0.5F;
@@ -165,45 +165,40 @@ void Solver::compute_rates() {
     }
 }
 
-void Solver::solve_divergence(float dt) {
-    // Pressures here are those of the last step; half of them is a start that does not overshoot.
-    for (float& p : divergence_pressure_) p *= 0.5F;
+template <class Compression>
+void Solver::solve(std::vector<float>& pressure, float dt, const Compression& compression) {
+    // Half of the last step's pressure is a start that does not overshoot.
+    for (float& p : pressure) p *= 0.5F;
+    relaxation_.assign(positions_.size(), relaxation);
+    residual_.assign(positions_.size(), 0.0F);
     for (int iteration = 0; iteration < settings_.max_iterations; ++iteration) {
-        accelerate(divergence_pressure_, dt);
+        accelerate(pressure, dt);
         compute_rates();
         double error = 0.0;
         for (std::size_t i = 0; i < positions_.size(); ++i) {
-            const bool spray = neighbors_.offsets[i + 1] - neighbors_.offsets[i] < dense_neighbors && boundary_gradient_[i] == Vector3{};
-            const float compression = spray || density_[i] + dt * rate_[i] < 0.95F ? -1.0F : dt * rate_[i];
-            const float pressure = std::max(0.0F, divergence_pressure_[i] + relaxation * compression * response_[i] / (dt * dt));
-            divergence_pressure_[i] = pressure;
-            error += static_cast<double>(std::max(0.0F, compression));
+            const float residual = compression(i);
+            // Where particles crowd, Jacobi's steps overshoot ever further: shorter ones there.
+            if (residual * residual_[i] < 0.0F && std::abs(residual) > 0.7F * std::abs(residual_[i])) relaxation_[i] *= 0.5F;
+            residual_[i] = residual;
+            pressure[i] = std::max(0.0F, pressure[i] + relaxation_[i] * residual * response_[i] / (dt * dt));
+            error += static_cast<double>(std::max(0.0F, residual));
         }
-        if (iteration + 1 >= settings_.min_iterations &&
-            error <= static_cast<double>(settings_.density_tolerance) * static_cast<double>(positions_.size()))
-            break;
+        const double mean = error / static_cast<double>(positions_.size());
+        if (iteration + 1 >= settings_.min_iterations && mean <= static_cast<double>(settings_.density_tolerance)) break;
     }
-    accelerate(divergence_pressure_, dt);
+    accelerate(pressure, dt);
     velocities_.swap(predicted_);
 }
 
+void Solver::solve_divergence(float dt) {
+    solve(divergence_pressure_, dt, [&](std::size_t i) {
+        const bool spray = neighbors_.offsets[i + 1] - neighbors_.offsets[i] < dense_neighbors && boundary_gradient_[i] == Vector3{};
+        return spray || density_[i] + dt * rate_[i] < 0.95F ? -1.0F : dt * rate_[i];
+    });
+}
+
 void Solver::solve_density(float dt, float correction) {
-    for (float& p : density_pressure_) p *= 0.5F;
-    for (int iteration = 0; iteration < settings_.max_iterations; ++iteration) {
-        accelerate(density_pressure_, dt);
-        compute_rates();
-        double error = 0.0;
-        for (std::size_t i = 0; i < positions_.size(); ++i) {
-            const float compression = correction * (density_[i] - 1.0F) + dt * rate_[i];
-            density_pressure_[i] = std::max(0.0F, density_pressure_[i] + relaxation * compression * response_[i] / (dt * dt));
-            error += static_cast<double>(std::max(0.0F, compression));
-        }
-        if (iteration + 1 >= settings_.min_iterations &&
-            error <= static_cast<double>(settings_.density_tolerance) * static_cast<double>(positions_.size()))
-            break;
-    }
-    accelerate(density_pressure_, dt);
-    velocities_.swap(predicted_);
+    solve(density_pressure_, dt, [&](std::size_t i) { return correction * (density_[i] - 1.0F) + dt * rate_[i]; });
 }
 
 std::vector<Vector3> Solver::positions() const {

@@ -46,6 +46,9 @@ private:
     void sort();
     void compute_densities();
     void apply_forces(float dt);
+    /// Changes velocities_ by the pressure that takes back compression(i), the relative one of particle i over this step.
+    template <class Compression>
+    void solve(std::vector<float>& pressure, float dt, const Compression& compression);
     void solve_divergence(float dt);
     void solve_density(float dt, float correction);
     /// predicted_ from velocities_ and pressures.
@@ -71,6 +74,8 @@ private:
     std::vector<float> response_;             ///< how much a particle's own pressure lowers its compression
     std::vector<Vector3> boundary_gradient_;
     std::vector<Vector3> predicted_;          ///< velocities with the pressure applied
+    std::vector<float> relaxation_;           ///< of each particle's pressure
+    std::vector<float> residual_;             ///< of the iteration before
     std::vector<float> rate_;                 ///< d density / dt with the predicted velocities
     std::uint64_t steps_ = 0;
 };
