@@ -1,0 +1,20 @@
+// Settings on the wire and in core.
+#pragma once
+
+#include <string_view>
+
+#include "meniscus/settings.hpp"
+#include "meniscus/v1/settings.pb.h"
+
+namespace meniscus::conversion {
+
+/// Fills the defaults in. Throws InvalidInput for a missing corner of a box and for enum values this version does not
+/// know; ranges are core's to check.
+Settings from_wire(const v1::Settings& wire);
+v1::Settings to_wire(const Settings& settings);
+
+/// Throws InvalidInput, naming the box, unless both corners are there.
+Box from_wire(const v1::Box& wire, std::string_view name);
+v1::Box to_wire(const Box& box);
+
+}  // namespace meniscus::conversion

@@ -1,0 +1,13 @@
+// A reconstruction's figures on the wire and in core.
+#pragma once
+
+#include "meniscus/statistics.hpp"
+#include "meniscus/v1/mesh.pb.h"
+
+namespace meniscus::conversion {
+
+/// Sets what core measures; the server's own figures (index, times of encoding, bytes) are left alone.
+void to_wire(const Statistics& statistics, v1::FrameStatistics& wire);
+Statistics from_wire(const v1::FrameStatistics& wire);
+
+}  // namespace meniscus::conversion
