@@ -1,0 +1,18 @@
+#include "rpc/create_session_handler.hpp"
+
+#include "conversion/settings_conversion.hpp"
+#include "meniscus/error.hpp"
+#include "rpc/session_message.hpp"
+
+namespace meniscus::server {
+
+v1::CreateSessionResponse create_session(SessionRegistry& registry, const v1::CreateSessionRequest& request) {
+    if (!request.has_settings()) throw InvalidInput("CreateSession needs settings");
+    const Settings settings = conversion::from_wire(request.settings());
+    validate(settings);
+    v1::CreateSessionResponse response;
+    *response.mutable_session() = session_message(*registry.create(request.id(), settings));
+    return response;
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,12 @@
+// SessionService.DeleteSession.
+#pragma once
+
+#include "meniscus/v1/session_service.pb.h"
+#include "sessions/session_registry.hpp"
+
+namespace meniscus::server {
+
+/// Throws what the call is to be refused with.
+v1::DeleteSessionResponse delete_session(SessionRegistry& registry, const v1::DeleteSessionRequest& request);
+
+}  // namespace meniscus::server

@@ -1,0 +1,12 @@
+// SessionService.GetSession.
+#pragma once
+
+#include "meniscus/v1/session_service.pb.h"
+#include "sessions/session_registry.hpp"
+
+namespace meniscus::server {
+
+/// Throws what the call is to be refused with.
+v1::GetSessionResponse get_session(SessionRegistry& registry, const v1::GetSessionRequest& request);
+
+}  // namespace meniscus::server

@@ -1,0 +1,13 @@
+#include "rpc/list_sessions_handler.hpp"
+
+#include "rpc/session_message.hpp"
+
+namespace meniscus::server {
+
+v1::ListSessionsResponse list_sessions(SessionRegistry& registry, const v1::ListSessionsRequest& /*request*/) {
+    v1::ListSessionsResponse response;
+    for (const auto& session : registry.list()) *response.add_sessions() = session_message(*session);
+    return response;
+}
+
+}  // namespace meniscus::server

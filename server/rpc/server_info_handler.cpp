@@ -1,0 +1,23 @@
+#include "rpc/server_info_handler.hpp"
+
+#include <string>
+
+namespace meniscus::server {
+
+v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, unsigned threads, const Limits& limits) {
+    v1::GetServerInfoResponse response;
+    response.set_version(std::string(version()));
+    response.set_backend(backend.name);
+    response.set_device(backend.device);
+    response.set_backend_reason(backend.reason);
+    response.set_threads(threads);
+    v1::Limits& wire = *response.mutable_limits();
+    wire.set_sessions(limits.sessions);
+    wire.set_watchers_per_session(limits.watchers_per_session);
+    wire.set_particles_per_frame(limits.particles_per_frame);
+    wire.set_bytes_per_session(limits.bytes_per_session);
+    wire.set_chunk_bytes(chunk_bytes);
+    return response;
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,89 @@
+#include "rpc/services.hpp"
+
+#include <exception>
+#include <utility>
+
+#include "rpc/create_session_handler.hpp"
+#include "rpc/delete_session_handler.hpp"
+#include "rpc/get_session_handler.hpp"
+#include "rpc/list_sessions_handler.hpp"
+#include "rpc/server_info_handler.hpp"
+#include "rpc/session_id.hpp"
+#include "rpc/status.hpp"
+#include "rpc/stream_handler.hpp"
+#include "rpc/watch_handler.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+/// Finishes a unary call with what `handle` returns or throws.
+template <class Response, class Handle>
+grpc::ServerUnaryReactor* answer(grpc::CallbackServerContext& context, Response& response, const Handle& handle) {
+    grpc::ServerUnaryReactor* reactor = context.DefaultReactor();
+    try {
+        response = handle();
+        reactor->Finish(grpc::Status::OK);
+    } catch (...) {
+        reactor->Finish(to_status(std::current_exception()));
+    }
+    return reactor;
+}
+
+/// The same for a call about one session.
+template <class Request, class Response>
+grpc::ServerUnaryReactor* answer_about_session(grpc::CallbackServerContext& context, SessionRegistry& registry,
+                                               const Request& request, Response& response,
+                                               Response (&handler)(SessionRegistry&, const Request&)) {
+    return answer(context, response, [&] {
+        require_same_session(metadata_session_id(context), request.id());
+        return handler(registry, request);
+    });
+}
+
+}  // namespace
+
+ServerServiceImpl::ServerServiceImpl(BackendDescription backend, unsigned threads, const Limits& limits)
+    : backend_(std::move(backend)), threads_(threads), limits_(limits) {}
+
+grpc::ServerUnaryReactor* ServerServiceImpl::GetServerInfo(grpc::CallbackServerContext* context,
+                                                           const v1::GetServerInfoRequest* /*request*/,
+                                                           v1::GetServerInfoResponse* response) {
+    return answer(*context, *response, [&] { return get_server_info(backend_, threads_, limits_); });
+}
+
+grpc::ServerUnaryReactor* SessionServiceImpl::CreateSession(grpc::CallbackServerContext* context,
+                                                            const v1::CreateSessionRequest* request,
+                                                            v1::CreateSessionResponse* response) {
+    return answer_about_session(*context, registry_, *request, *response, create_session);
+}
+
+grpc::ServerUnaryReactor* SessionServiceImpl::GetSession(grpc::CallbackServerContext* context,
+                                                         const v1::GetSessionRequest* request,
+                                                         v1::GetSessionResponse* response) {
+    return answer_about_session(*context, registry_, *request, *response, get_session);
+}
+
+grpc::ServerUnaryReactor* SessionServiceImpl::ListSessions(grpc::CallbackServerContext* context,
+                                                           const v1::ListSessionsRequest* request,
+                                                           v1::ListSessionsResponse* response) {
+    return answer(*context, *response, [&] { return list_sessions(registry_, *request); });
+}
+
+grpc::ServerUnaryReactor* SessionServiceImpl::DeleteSession(grpc::CallbackServerContext* context,
+                                                            const v1::DeleteSessionRequest* request,
+                                                            v1::DeleteSessionResponse* response) {
+    return answer_about_session(*context, registry_, *request, *response, delete_session);
+}
+
+grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* SurfaceServiceImpl::Stream(
+    grpc::CallbackServerContext* context) {
+    return start_stream(registry_, calls_, *context);
+}
+
+grpc::ServerWriteReactor<grpc::ByteBuffer>* SurfaceServiceImpl::Watch(grpc::CallbackServerContext* context,
+                                                                      const grpc::ByteBuffer* request) {
+    return start_watch(registry_, calls_, *context, *request);
+}
+
+}  // namespace meniscus::server

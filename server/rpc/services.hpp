@@ -1,0 +1,60 @@
+// The gRPC services: they find the handler of a call, and no more.
+#pragma once
+
+#include "meniscus/reconstructor.hpp"
+#include "meniscus/v1/server_service.grpc.pb.h"
+#include "meniscus/v1/session_service.grpc.pb.h"
+#include "meniscus/v1/surface_service.grpc.pb.h"
+#include "rpc/active_calls.hpp"
+#include "sessions/session_registry.hpp"
+
+namespace meniscus::server {
+
+class ServerServiceImpl final : public v1::ServerService::CallbackService {
+public:
+    ServerServiceImpl(BackendDescription backend, unsigned threads, const Limits& limits);
+
+    grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context, const v1::GetServerInfoRequest* request,
+                                            v1::GetServerInfoResponse* response) override;
+
+private:
+    const BackendDescription backend_;
+    const unsigned threads_;
+    const Limits limits_;
+};
+
+class SessionServiceImpl final : public v1::SessionService::CallbackService {
+public:
+    explicit SessionServiceImpl(SessionRegistry& registry) : registry_(registry) {}
+
+    grpc::ServerUnaryReactor* CreateSession(grpc::CallbackServerContext* context, const v1::CreateSessionRequest* request,
+                                            v1::CreateSessionResponse* response) override;
+    grpc::ServerUnaryReactor* GetSession(grpc::CallbackServerContext* context, const v1::GetSessionRequest* request,
+                                         v1::GetSessionResponse* response) override;
+    grpc::ServerUnaryReactor* ListSessions(grpc::CallbackServerContext* context, const v1::ListSessionsRequest* request,
+                                           v1::ListSessionsResponse* response) override;
+    grpc::ServerUnaryReactor* DeleteSession(grpc::CallbackServerContext* context, const v1::DeleteSessionRequest* request,
+                                            v1::DeleteSessionResponse* response) override;
+
+private:
+    SessionRegistry& registry_;
+};
+
+/// Raw, so that one encoded brick is shared by all who receive it.
+using RawSurfaceService = v1::SurfaceService::WithRawCallbackMethod_Stream<
+    v1::SurfaceService::WithRawCallbackMethod_Watch<v1::SurfaceService::Service>>;
+
+class SurfaceServiceImpl final : public RawSurfaceService {
+public:
+    SurfaceServiceImpl(SessionRegistry& registry, ActiveCalls& calls) : registry_(registry), calls_(calls) {}
+
+    grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* Stream(grpc::CallbackServerContext* context) override;
+    grpc::ServerWriteReactor<grpc::ByteBuffer>* Watch(grpc::CallbackServerContext* context,
+                                                      const grpc::ByteBuffer* request) override;
+
+private:
+    SessionRegistry& registry_;
+    ActiveCalls& calls_;
+};
+
+}  // namespace meniscus::server

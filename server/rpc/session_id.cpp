@@ -1,0 +1,52 @@
+#include "rpc/session_id.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "meniscus/error.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+constexpr std::string_view metadata_key = "x-session-id";
+
+void require_session_id(std::string_view name, std::string_view id) {
+    constexpr std::size_t shown = 64;
+    if (!is_session_id(id))
+        throw InvalidInput(fmt::format("{} is \"{}\"; it must be a UUID of 8-4-4-4-12 lower-case hexadecimal digits", name,
+                                       id.substr(0, shown)));
+}
+
+}  // namespace
+
+bool is_session_id(std::string_view text) {
+    constexpr std::string_view form = "xxxxxxxx-xxxx-xxxx-xxxx-xxxxxxxxxxxx";
+    if (text.size() != form.size()) return false;
+    for (std::size_t i = 0; i < form.size(); ++i) {
+        const char c = text[i];
+        const bool hexadecimal = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+        if (form[i] == '-' ? c != '-' : !hexadecimal) return false;
+    }
+    return true;
+}
+
+std::string metadata_session_id(const grpc::ServerContextBase& context) {
+    const auto& metadata = context.client_metadata();
+    const auto [first, last] = metadata.equal_range(grpc::string_ref(metadata_key.data(), metadata_key.size()));
+    if (first == last) throw InvalidInput(fmt::format("the call has no metadata {}", metadata_key));
+    if (std::next(first) != last) throw InvalidInput(fmt::format("the call has metadata {} more than once", metadata_key));
+    const std::string id(first->second.data(), first->second.size());
+    require_session_id(metadata_key, id);
+    return id;
+}
+
+void require_same_session(std::string_view metadata, std::string_view message) {
+    require_session_id("the message's session id", message);
+    if (metadata != message)
+        throw InvalidInput(
+            fmt::format("metadata {} is {}, but the message's session id is {}", metadata_key, metadata, message));
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,19 @@
+#include "rpc/session_message.hpp"
+
+#include "conversion/settings_conversion.hpp"
+
+namespace meniscus::server {
+
+v1::Session session_message(const Session& session) {
+    const SessionState state = session.state();
+    v1::Session message;
+    message.set_id(session.id());
+    *message.mutable_settings() = conversion::to_wire(session.settings());
+    message.set_uploading(state.uploading);
+    message.set_watchers(state.watchers);
+    message.set_frames(state.frames);
+    if (state.last_frame_index) message.set_last_frame_index(*state.last_frame_index);
+    return message;
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,48 @@
+#include "rpc/status.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <new>
+
+#include "meniscus/error.hpp"
+#include "sessions/refusal.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+grpc::StatusCode code_of(Refusal::Kind kind) {
+    switch (kind) {
+        case Refusal::Kind::not_found:
+            return grpc::StatusCode::NOT_FOUND;
+        case Refusal::Kind::already_exists:
+            return grpc::StatusCode::ALREADY_EXISTS;
+        case Refusal::Kind::failed_precondition:
+            return grpc::StatusCode::FAILED_PRECONDITION;
+        case Refusal::Kind::unavailable:
+            return grpc::StatusCode::UNAVAILABLE;
+    }
+    return grpc::StatusCode::INTERNAL;
+}
+
+}  // namespace
+
+grpc::Status to_status(const std::exception_ptr& error) {
+    if (!error) return grpc::Status::OK;
+    try {
+        std::rethrow_exception(error);
+    } catch (const InvalidInput& e) {
+        return {grpc::StatusCode::INVALID_ARGUMENT, e.what()};
+    } catch (const LimitExceeded& e) {
+        return {grpc::StatusCode::RESOURCE_EXHAUSTED, e.what()};
+    } catch (const Refusal& e) {
+        return {code_of(e.kind()), e.what()};
+    } catch (const std::bad_alloc&) {
+        return {grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory"};
+    } catch (const std::exception& e) {
+        spdlog::error("internal error: {}", e.what());
+        return {grpc::StatusCode::INTERNAL, e.what()};
+    }
+}
+
+}  // namespace meniscus::server

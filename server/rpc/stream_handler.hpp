@@ -1,0 +1,18 @@
+// SurfaceService.Stream: particle frames in, meshes out.
+#pragma once
+
+#include <grpcpp/server_context.h>
+#include <grpcpp/support/byte_buffer.h>
+#include <grpcpp/support/server_callback.h>
+
+#include "rpc/active_calls.hpp"
+#include "sessions/session_registry.hpp"
+
+namespace meniscus::server {
+
+/// The call's reactor, which owns itself until the call is done.
+grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* start_stream(SessionRegistry& registry,
+                                                                          ActiveCalls& calls,
+                                                                          grpc::CallbackServerContext& context);
+
+}  // namespace meniscus::server

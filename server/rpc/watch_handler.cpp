@@ -1,0 +1,130 @@
+#include "rpc/watch_handler.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "meniscus/v1/surface_service.pb.h"
+#include "rpc/normal_bits.hpp"
+#include "rpc/session_id.hpp"
+#include "rpc/status.hpp"
+#include "rpc/wire_bytes.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+/// Sends a frame to its end, then takes the newest. Finishes after a cancellation as soon as no write is under way.
+class WatchReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
+                           public std::enable_shared_from_this<WatchReactor> {
+public:
+    WatchReactor(ActiveCalls& calls, const grpc::CallbackServerContext& context) : active_(calls), peer_(context.peer()) {}
+
+    void start(SessionRegistry& registry, const grpc::CallbackServerContext& context, const grpc::ByteBuffer& request) {
+        self_ = shared_from_this();
+        try {
+            session_id_ = metadata_session_id(context);
+            grpc::ByteBuffer bytes(request);
+            v1::WatchRequest message;
+            parse(bytes, message, "WatchRequest");
+            require_same_session(session_id_, message.session_id());
+            const int normal_bits = normal_bits_of(message);
+            session_ = registry.find(session_id_);
+            slot_ = session_->open_watch(normal_bits, [self = weak_from_this()] {
+                if (const auto reactor = self.lock()) reactor->write();
+            });
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            finish(to_status(std::current_exception()));
+            return;
+        }
+        spdlog::info("session {}: watcher from {} connected", session_id_, peer_);
+        // At once: the client knows from here on that it misses no mesh.
+        StartSendInitialMetadata();
+        write();
+    }
+
+    void OnWriteDone(bool ok) override {
+        {
+            const std::lock_guard lock(mutex_);
+            writing_ = false;
+            if (!ok) canceled_ = true;
+        }
+        write();
+    }
+
+    void OnCancel() override {
+        {
+            const std::lock_guard lock(mutex_);
+            canceled_ = true;
+        }
+        write();
+    }
+
+    void OnDone() override {
+        if (slot_) {
+            session_->close_watch(slot_);
+            spdlog::info("session {}: watcher from {} gone", session_id_, peer_);
+        }
+        const auto self = std::move(self_);
+    }
+
+private:
+    void write() {
+        const std::lock_guard lock(mutex_);
+        if (writing_ || finished_) return;
+        if (canceled_) {
+            finish({grpc::StatusCode::CANCELLED, "the client has gone"});
+            return;
+        }
+        if (!frame_ || sent_ == frame_->messages.size()) {
+            frame_.reset();
+            sent_ = 0;
+            auto next = slot_->take();
+            if (auto* frame = std::get_if<std::shared_ptr<const EncodedFrame>>(&next))
+                frame_ = std::move(*frame);
+            else if (std::holds_alternative<LatestFrame::End>(next))
+                finish(grpc::Status::OK);
+        }
+        if (!frame_) return;
+        outgoing_ = to_bytes(frame_->messages[sent_++]);
+        writing_ = true;
+        StartWrite(&outgoing_);
+    }
+
+    void finish(const grpc::Status& status) {
+        finished_ = true;
+        Finish(status);
+    }
+
+    const ActiveCalls::Token active_;
+    const std::string peer_;
+    std::shared_ptr<WatchReactor> self_;  ///< until OnDone
+    std::string session_id_;
+    std::shared_ptr<Session> session_;
+    std::shared_ptr<LatestFrame> slot_;
+
+    std::mutex mutex_;  ///< for what follows
+    std::shared_ptr<const EncodedFrame> frame_;  ///< being sent
+    std::size_t sent_ = 0;                       ///< of its messages
+    grpc::ByteBuffer outgoing_;
+    bool writing_ = false;
+    bool canceled_ = false;
+    bool finished_ = false;
+};
+
+}  // namespace
+
+grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, ActiveCalls& calls,
+                                                        grpc::CallbackServerContext& context,
+                                                        const grpc::ByteBuffer& request) {
+    const auto reactor = std::make_shared<WatchReactor>(calls, context);
+    reactor->start(registry, context, request);
+    return reactor.get();
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,18 @@
+// SurfaceService.Watch: a session's newest meshes, whole.
+#pragma once
+
+#include <grpcpp/server_context.h>
+#include <grpcpp/support/byte_buffer.h>
+#include <grpcpp/support/server_callback.h>
+
+#include "rpc/active_calls.hpp"
+#include "sessions/session_registry.hpp"
+
+namespace meniscus::server {
+
+/// The call's reactor, which owns itself until the call is done.
+grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, ActiveCalls& calls,
+                                                        grpc::CallbackServerContext& context,
+                                                        const grpc::ByteBuffer& request);
+
+}  // namespace meniscus::server

@@ -1,0 +1,19 @@
+// Messages as gRPC carries them.
+#pragma once
+
+#include <google/protobuf/message_lite.h>
+#include <grpcpp/support/byte_buffer.h>
+
+#include <string_view>
+
+#include "sessions/encoded_frame.hpp"
+
+namespace meniscus::server {
+
+/// Refers to the message's memory, which it keeps alive: no copy per receiver.
+grpc::ByteBuffer to_bytes(const SharedMessage& message);
+
+/// Throws InvalidInput for bytes that are not a message of this type; `name` is that type's.
+void parse(grpc::ByteBuffer& bytes, google::protobuf::MessageLite& message, std::string_view name);
+
+}  // namespace meniscus::server

@@ -1,0 +1,91 @@
+#include "server.hpp"
+
+#include <fmt/format.h>
+#include <grpcpp/security/server_credentials.h>
+#include <grpcpp/server_builder.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <string_view>
+#include <thread>
+
+#include "meniscus/error.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+/// For clients to confirm that the connection ends.
+constexpr auto goodbye_time = std::chrono::milliseconds(500);
+
+unsigned threads_or_processors(unsigned threads) {
+    return threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+}
+
+/// gRPC takes a Unix socket over from a server that still listens on it; a socket that nobody listens on is fine.
+void require_unused_unix_socket(const std::string& listen) {
+    constexpr std::string_view scheme = "unix:";
+    if (!listen.starts_with(scheme)) return;
+    std::string path = listen.substr(scheme.size());
+    if (path.starts_with("//")) path.erase(0, 2);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    if (path.empty() || path.size() >= sizeof address.sun_path)
+        throw InvalidInput(fmt::format("cannot listen on {}: the path must have 1 to {} bytes", listen,
+                                       sizeof address.sun_path - 1));
+    path.copy(address.sun_path, path.size());
+    const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    if (probe < 0) return;
+    const bool in_use = ::connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    ::close(probe);
+    if (in_use) throw InvalidInput(fmt::format("cannot listen on {}: the address is in use", listen));
+}
+
+std::string with_port(const std::string& listen, int port) {
+    if (listen.starts_with("unix:")) return listen;
+    return fmt::format("{}:{}", listen.substr(0, listen.rfind(':')), port);
+}
+
+}  // namespace
+
+Server::Server(const ServerOptions& options)
+    : options_(options),
+      backend_(describe_backend(options.backend.backend)),
+      registry_(options.limits, options.backend, threads_or_processors(options.backend.threads)),
+      server_service_(backend_, threads_or_processors(options.backend.threads), options.limits),
+      session_service_(registry_),
+      surface_service_(registry_, calls_) {
+    require_unused_unix_socket(options.listen);
+    int port = 0;
+    grpc::ServerBuilder builder;
+    // Otherwise a second server on the same port would silently get half of the calls.
+    builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+    builder.AddListeningPort(options.listen, grpc::InsecureServerCredentials(), &port);
+    builder.RegisterService(&server_service_);
+    builder.RegisterService(&session_service_);
+    builder.RegisterService(&surface_service_);
+    grpc_ = builder.BuildAndStart();
+    if (!grpc_ || port == 0)
+        throw InvalidInput(
+            fmt::format("cannot listen on {}: the address is in use or not one of this machine", options.listen));
+    address_ = with_port(options.listen, port);
+}
+
+Server::~Server() {
+    shutdown();
+}
+
+void Server::shutdown() {
+    if (!grpc_) return;
+    const auto deadline = std::chrono::system_clock::now() + options_.shutdown_grace;
+    registry_.drain();
+    // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection once
+    // the client has confirmed the goodbye, or loses what the client has not read. Idle clients confirm late or never.
+    calls_.wait_until_none(deadline);
+    grpc_->Shutdown(std::min(deadline, std::chrono::system_clock::now() + goodbye_time));
+    grpc_.reset();
+}
+
+}  // namespace meniscus::server

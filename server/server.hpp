@@ -1,0 +1,53 @@
+// The whole server in one object: sessions, services, and the port.
+#pragma once
+
+#include <grpcpp/server.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "meniscus/reconstructor.hpp"
+#include "rpc/services.hpp"
+#include "sessions/limits.hpp"
+#include "sessions/session_registry.hpp"
+
+namespace meniscus::server {
+
+struct ServerOptions {
+    std::string listen = "127.0.0.1:50051";  ///< "HOST:PORT", port 0 for a free one, or "unix:PATH"
+    BackendOptions backend;                  ///< memory_limit is not used: limits has it
+    Limits limits;
+    /// How long shutdown() waits for clients to take what they are owed.
+    std::chrono::milliseconds shutdown_grace = std::chrono::seconds(10);
+};
+
+class Server {
+public:
+    /// Listens when it returns. Throws InvalidInput if the backend or the address cannot be used.
+    explicit Server(const ServerOptions& options);
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    /// As clients should give it, the port being the one chosen.
+    const std::string& address() const noexcept { return address_; }
+    const BackendDescription& backend() const noexcept { return backend_; }
+
+    /// Takes no new frames, answers those in flight, ends the watchers. Calls that are left after the grace period are
+    /// canceled.
+    void shutdown();
+
+private:
+    const ServerOptions options_;
+    const BackendDescription backend_;
+    SessionRegistry registry_;
+    ActiveCalls calls_;
+    ServerServiceImpl server_service_;
+    SessionServiceImpl session_service_;
+    SurfaceServiceImpl surface_service_;
+    std::unique_ptr<grpc::Server> grpc_;
+    std::string address_;
+};
+
+}  // namespace meniscus::server

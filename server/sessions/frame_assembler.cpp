@@ -1,0 +1,118 @@
+#include "sessions/frame_assembler.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "conversion/settings_conversion.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+bool is_quantized(const v1::FrameBegin& message) {
+    switch (message.encoding()) {
+        case v1::POSITION_ENCODING_UNSPECIFIED:
+        case v1::POSITION_ENCODING_FLOAT32:
+            return false;
+        case v1::POSITION_ENCODING_UINT16:
+            return true;
+        default:
+            throw InvalidInput(fmt::format("frame {}: encoding has the value {}, which this version does not know",
+                                           message.frame_index(), static_cast<int>(message.encoding())));
+    }
+}
+
+Box quantization_box(const v1::FrameBegin& message) {
+    if (!message.has_quantization_box())
+        throw InvalidInput(
+            fmt::format("frame {}: POSITION_ENCODING_UINT16 needs a quantization_box", message.frame_index()));
+    const Box box = conversion::from_wire(message.quantization_box(), "quantization_box");
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const char name = "xyz"[axis];
+        const double min = box.min[axis];
+        const double max = box.max[axis];
+        if (!std::isfinite(min) || !std::isfinite(max))
+            throw InvalidInput(fmt::format("frame {}: quantization_box runs from {} to {} on the {} axis; it must be finite",
+                                           message.frame_index(), min, max, name));
+        if (min > max)
+            throw InvalidInput(
+                fmt::format("frame {}: quantization_box runs from {} to {} on the {} axis; max must not be below min",
+                            message.frame_index(), min, max, name));
+    }
+    return box;
+}
+
+}  // namespace
+
+std::size_t FrameAssembler::admitted_bytes(const v1::FrameBegin& message, bool quantized) const {
+    const std::uint64_t count = message.particle_count();
+    if (limits_.particles_per_frame != 0 && count > limits_.particles_per_frame)
+        throw LimitExceeded(fmt::format("frame {}: {} particles; the server takes at most {} per frame",
+                                        message.frame_index(), count, limits_.particles_per_frame));
+    const std::uint64_t particle_bytes = (quantized ? 6U : 12U) + (message.has_levels() ? 1U : 0U);
+    const std::uint64_t limit =
+        limits_.bytes_per_session != 0 ? limits_.bytes_per_session : std::numeric_limits<std::ptrdiff_t>::max();
+    if (count > limit / particle_bytes)
+        throw LimitExceeded(fmt::format("frame {}: {} particles of {} bytes; the server holds at most {} bytes per session",
+                                        message.frame_index(), count, particle_bytes, limit));
+    return static_cast<std::size_t>(count * particle_bytes);
+}
+
+void FrameAssembler::begin(const v1::FrameBegin& message, InputFrame& frame) {
+    if (in_frame_)
+        throw InvalidInput(fmt::format("frame {} begins before frame {} has ended", message.frame_index(), *index_));
+    if (index_ && message.frame_index() <= *index_)
+        throw InvalidInput(
+            fmt::format("frame index {} after {}; indices must increase", message.frame_index(), *index_));
+    if (!std::isfinite(message.simulation_time()))
+        throw InvalidInput(fmt::format("frame {}: simulation_time is {}; it must be finite", message.frame_index(),
+                                       message.simulation_time()));
+    const bool quantized = is_quantized(message);
+    const Box box = quantized ? quantization_box(message) : Box{};
+    expected_ = admitted_bytes(message, quantized);
+
+    frame.allocate(expected_);
+    frame.index = message.frame_index();
+    frame.simulation_time = message.simulation_time();
+    frame.particle_count = static_cast<std::size_t>(message.particle_count());
+    frame.quantized = quantized;
+    frame.quantization_box = box;
+    frame.has_levels = message.has_levels();
+    index_ = message.frame_index();
+    filled_ = 0;
+    in_frame_ = true;
+}
+
+void FrameAssembler::append(const v1::FrameChunk& message, InputFrame& frame) {
+    if (!in_frame_) throw InvalidInput("a chunk outside of a frame; frame_begin comes first");
+    const std::string& data = message.data();
+    if (data.size() > chunk_bytes)
+        throw InvalidInput(
+            fmt::format("frame {}: a chunk of {} bytes; at most {} are allowed", *index_, data.size(), chunk_bytes));
+    if (data.size() > expected_ - filled_)
+        throw InvalidInput(fmt::format("frame {}: at least {} bytes for {} particles; {} were announced", *index_,
+                                       filled_ + data.size(), frame.particle_count, expected_));
+    if (!data.empty()) std::memcpy(frame.bytes.data() + filled_, data.data(), data.size());
+    filled_ += data.size();
+}
+
+void FrameAssembler::end(InputFrame& frame) {
+    if (!in_frame_) throw InvalidInput("frame_end outside of a frame; frame_begin comes first");
+    if (filled_ != expected_)
+        throw InvalidInput(fmt::format("frame {}: {} bytes for {} particles; {} were announced", *index_, filled_,
+                                       frame.particle_count, expected_));
+    frame.received_at = std::chrono::steady_clock::now();
+    in_frame_ = false;
+}
+
+void FrameAssembler::end_of_stream() const {
+    if (in_frame_)
+        throw InvalidInput(
+            fmt::format("the stream ended within frame {}, after {} of {} bytes", *index_, filled_, expected_));
+}
+
+}  // namespace meniscus::server

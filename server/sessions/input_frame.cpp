@@ -1,0 +1,35 @@
+#include "sessions/input_frame.hpp"
+
+#include <bit>
+
+namespace meniscus::server {
+
+static_assert(std::endian::native == std::endian::little, "the wire's numbers are used in place");
+
+void InputFrame::allocate(std::size_t size) {
+    if (bytes.capacity() < size) {
+        // A fresh array: growing the old one would hold both for a moment, and copy what nobody needs.
+        Array<std::byte>(bytes.get_allocator()).swap(bytes);
+        bytes.reserve(size);
+    }
+    bytes.resize(size);
+}
+
+ParticleFrame InputFrame::view() const {
+    ParticleFrame frame;
+    const std::size_t coordinates = 3 * particle_count;
+    std::size_t position_bytes = 0;
+    if (quantized) {
+        frame.quantized = {reinterpret_cast<const std::uint16_t*>(bytes.data()), coordinates};
+        frame.quantization_box = quantization_box;
+        position_bytes = frame.quantized.size_bytes();
+    } else {
+        frame.positions = {reinterpret_cast<const float*>(bytes.data()), coordinates};
+        position_bytes = frame.positions.size_bytes();
+    }
+    if (has_levels)
+        frame.levels = {reinterpret_cast<const std::uint8_t*>(bytes.data()) + position_bytes, particle_count};
+    return frame;
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,68 @@
+#include "sessions/output_queue.hpp"
+
+#include <utility>
+
+namespace meniscus::server {
+
+void OutputQueue::push(SharedMessage message) {
+    bool wake = false;
+    {
+        const std::lock_guard lock(mutex_);
+        if (finished_ || closed_) return;
+        messages_.push_back(std::move(message));
+        wake = std::exchange(consumer_waits_, false);
+    }
+    if (wake) wake_();
+}
+
+void OutputQueue::finish(std::exception_ptr error) {
+    end(std::move(error), false);
+}
+
+void OutputQueue::abort(std::exception_ptr error) {
+    end(std::move(error), true);
+}
+
+void OutputQueue::end(std::exception_ptr error, bool drop) {
+    bool wake = false;
+    {
+        const std::lock_guard lock(mutex_);
+        if (drop) messages_.clear();
+        if (finished_) return;
+        finished_ = true;
+        error_ = std::move(error);
+        wake = std::exchange(consumer_waits_, false);
+    }
+    changed_.notify_all();
+    if (wake) wake_();
+}
+
+bool OutputQueue::wait_for_room() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return finished_ || closed_ || messages_.size() <= room_for_a_frame; });
+    return !finished_ && !closed_;
+}
+
+OutputQueue::Next OutputQueue::take() {
+    const std::lock_guard lock(mutex_);
+    if (!messages_.empty()) {
+        SharedMessage message = std::move(messages_.front());
+        messages_.pop_front();
+        changed_.notify_all();
+        return message;
+    }
+    if (finished_) return End{error_};
+    consumer_waits_ = true;
+    return Nothing{};
+}
+
+void OutputQueue::close() {
+    {
+        const std::lock_guard lock(mutex_);
+        closed_ = true;
+        messages_.clear();
+    }
+    changed_.notify_all();
+}
+
+}  // namespace meniscus::server

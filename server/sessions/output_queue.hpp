@@ -1,0 +1,58 @@
+// Messages on their way to the simulator that uploads: every one, in order.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <variant>
+
+#include "sessions/encoded_frame.hpp"
+
+namespace meniscus::server {
+
+/// Bounded to one frame and a few messages: whoever produces waits for room before it begins a frame.
+class OutputQueue {
+public:
+    /// Frames begin only while no more than this many messages wait.
+    static constexpr std::size_t room_for_a_frame = 8;
+
+    struct Nothing {};  ///< for now: `wake` will be called
+    struct End {
+        std::exception_ptr error;  ///< none: all went well
+    };
+    using Next = std::variant<Nothing, SharedMessage, End>;
+
+    /// wake: called once, by a producing thread, after take() has found nothing and there is something again.
+    explicit OutputQueue(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+    // The producer's side.
+    void push(SharedMessage message);
+    /// Nothing follows; the first call counts.
+    void finish(std::exception_ptr error);
+    /// finish(), and what still waits is dropped.
+    void abort(std::exception_ptr error);
+    /// Waits until a frame may begin. False if nobody will read it.
+    bool wait_for_room();
+
+    // The consumer's side, one thread at a time.
+    Next take();
+    /// The consumer is gone: nothing is kept any more.
+    void close();
+
+private:
+    void end(std::exception_ptr error, bool drop);
+
+    const std::function<void()> wake_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<SharedMessage> messages_;
+    std::exception_ptr error_;
+    bool finished_ = false;
+    bool closed_ = false;
+    bool consumer_waits_ = false;
+};
+
+}  // namespace meniscus::server

@@ -1,0 +1,20 @@
+// Refusals that are neither bad input nor a limit: what is asked for does not fit the state of the server.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace meniscus::server {
+
+class Refusal : public std::runtime_error {
+public:
+    enum class Kind { not_found, already_exists, failed_precondition, unavailable };
+
+    Refusal(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+    Kind kind() const noexcept { return kind_; }
+
+private:
+    Kind kind_;
+};
+
+}  // namespace meniscus::server

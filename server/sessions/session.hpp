@@ -1,0 +1,139 @@
+// One simulator's settings, buffers, latest mesh and watchers.
+#pragma once
+
+#include <array>
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "meniscus/reconstructor.hpp"
+#include "sessions/channel.hpp"
+#include "sessions/frame_encoder.hpp"
+#include "sessions/input_frame.hpp"
+#include "sessions/latest_frame.hpp"
+#include "sessions/limits.hpp"
+#include "sessions/slot_pool.hpp"
+#include "sessions/upload.hpp"
+#include "sessions/worker_pool.hpp"
+
+namespace meniscus::server {
+
+struct SessionState {
+    bool uploading = false;
+    std::uint32_t watchers = 0;
+    std::uint64_t frames = 0;
+    std::optional<std::uint64_t> last_frame_index;
+};
+
+/// A pipeline of three steps that overlap: a frame is received (by its stream, into one of two input slots) while the
+/// one before is reconstructed (first thread, into one of two meshes) and the one before that is encoded (second
+/// thread). A step waits for the next one only through these slots, which is also all the memory that frames take.
+///
+/// join() must have returned before the last reference goes, unless no other thread has one.
+class Session {
+public:
+    /// Throws InvalidInput for settings out of range.
+    Session(std::string id, const Settings& settings, const Limits& limits, const BackendOptions& backend,
+            std::shared_ptr<WorkerPool> workers);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    const std::string& id() const noexcept { return id_; }
+    const Settings& settings() const noexcept { return settings_; }
+    const Limits& limits() const noexcept { return limits_; }
+    SessionState state() const;
+
+    // Uploading. Frames go: request_input, submit or return_input, ..., end_upload.
+
+    /// Throws Refusal if another stream uploads or the session ends.
+    std::shared_ptr<Upload> open_upload(const UploadOptions& options, std::function<void()> wake,
+                                        std::function<void()> drain);
+    void request_input(SlotPool<InputFrame>::Waiter waiter);
+    void return_input(InputFrame& input);
+    void submit(std::shared_ptr<Upload> upload, InputFrame& input);
+    /// What was submitted before is still answered; then the upload's output ends with the error.
+    void end_upload(std::shared_ptr<Upload> upload, std::exception_ptr error);
+
+    // Watching.
+
+    /// Gets the newest mesh at once if there is one. Throws LimitExceeded, or Refusal if the session ends.
+    std::shared_ptr<LatestFrame> open_watch(int normal_bits, std::function<void()> wake);
+    void close_watch(const std::shared_ptr<LatestFrame>& watch);
+
+    /// Lets the frame on its way in be the last, then ends the watchers. Returns at once.
+    void drain();
+    /// Drops what is in flight, and ends the upload and the watchers. Returns at once.
+    void close();
+    /// After close(): waits until the session's threads have ended. Once, and not from one of them.
+    void join();
+
+private:
+    struct Received {
+        std::shared_ptr<Upload> upload;
+        InputFrame* input = nullptr;  ///< none: the upload ends
+        std::exception_ptr error;
+    };
+    struct Encode {
+        std::shared_ptr<Upload> upload;
+        ReconstructedFrame* frame = nullptr;
+    };
+    struct EndUpload {
+        std::shared_ptr<Upload> upload;  ///< none: only looks whether the session drains
+        std::exception_ptr error;
+    };
+    struct EncodeForWatchers {};
+    using Task = std::variant<Encode, EndUpload, EncodeForWatchers>;
+
+    struct Watch {
+        int normal_bits = 0;
+        std::shared_ptr<LatestFrame> slot;
+    };
+
+    void reconstruct_frames();
+    void reconstruct(const InputFrame& input, ReconstructedFrame& frame);
+
+    void encode_frames();
+    void perform(Encode& task);
+    void perform(EndUpload& task);
+    void perform(EncodeForWatchers& task);
+    void publish(int normal_bits, std::shared_ptr<const EncodedFrame> frame);
+    /// Encodes the newest mesh for the watchers whose wishes nobody shared.
+    void encode_for_watchers();
+    std::optional<int> unpublished_normal_bits() const;
+
+    const std::string id_;
+    const Settings settings_;
+    const Limits limits_;
+    const std::shared_ptr<WorkerPool> workers_;
+    Reconstructor reconstructor_;
+
+    std::array<InputFrame, 2> inputs_;
+    std::array<ReconstructedFrame, 2> frames_;
+    SlotPool<InputFrame> free_inputs_;
+    Channel<Received> received_;
+    Channel<ReconstructedFrame*> free_frames_;
+    Channel<Task> tasks_;
+    ReconstructedFrame* newest_ = nullptr;  ///< of the encoding thread
+
+    mutable std::mutex mutex_;  ///< for what follows
+    SessionState state_;
+    std::shared_ptr<Upload> upload_;                     ///< the one that sends
+    std::vector<std::shared_ptr<Upload>> unanswered_;    ///< and those whose last frames are still on their way
+    std::vector<Watch> watches_;
+    std::map<int, std::shared_ptr<const EncodedFrame>> published_;  ///< the newest mesh, by normal_bits
+    bool draining_ = false;
+    bool closed_ = false;
+
+    std::thread reconstructing_;
+    std::thread encoding_;
+};
+
+}  // namespace meniscus::server

@@ -1,0 +1,54 @@
+// All sessions of a server, by their ids.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "sessions/channel.hpp"
+#include "sessions/limits.hpp"
+#include "sessions/session.hpp"
+#include "sessions/worker_pool.hpp"
+
+namespace meniscus::server {
+
+class SessionRegistry {
+public:
+    /// encoding_threads: at least 1.
+    SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads);
+    ~SessionRegistry();
+    SessionRegistry(const SessionRegistry&) = delete;
+    SessionRegistry& operator=(const SessionRegistry&) = delete;
+
+    /// Joins the session that exists with equal settings. Throws InvalidInput (settings), LimitExceeded, Refusal.
+    std::shared_ptr<Session> create(const std::string& id, const Settings& settings);
+    /// Throws Refusal if there is none.
+    std::shared_ptr<Session> find(const std::string& id) const;
+    /// Ordered by id.
+    std::vector<std::shared_ptr<Session>> list() const;
+    /// Ends the session, its stream and its watchers; its threads end in the background. Throws Refusal if there is none.
+    void remove(const std::string& id);
+
+    /// No new sessions and uploads; those that run end after the frame on its way in. Returns at once.
+    void drain();
+
+    const Limits& limits() const noexcept { return limits_; }
+
+private:
+    const Limits limits_;
+    const BackendOptions backend_;
+    const std::shared_ptr<WorkerPool> workers_;
+
+    mutable std::mutex mutex_;
+    std::map<std::string, std::shared_ptr<Session>> sessions_;
+    bool draining_ = false;
+
+    // Joins the threads of sessions that were removed, so that no gRPC thread has to wait for a reconstruction.
+    Channel<std::shared_ptr<Session>> removed_;
+    std::thread joining_;
+};
+
+}  // namespace meniscus::server

@@ -1,0 +1,69 @@
+// A few reusable objects, lent one at a time to whoever asked first.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <utility>
+
+namespace meniscus::server {
+
+/// Nobody blocks here: who asks is called when a slot is free, at once or by the thread that gives one back. That is
+/// how a stream is slowed down without holding a gRPC thread.
+template <class T>
+class SlotPool {
+public:
+    /// Takes the slot by returning true; false leaves it to the next.
+    using Waiter = std::function<bool(T&)>;
+
+    void request(Waiter waiter) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (closed_) return;
+            waiters_.push_back(std::move(waiter));
+        }
+        lend();
+    }
+
+    void give(T& slot) {
+        {
+            const std::lock_guard lock(mutex_);
+            free_.push_back(&slot);
+        }
+        lend();
+    }
+
+    /// Forgets who waits, and whoever asks from now on.
+    void close() {
+        std::deque<Waiter> forgotten;  // destroyed outside of the lock
+        const std::lock_guard lock(mutex_);
+        closed_ = true;
+        forgotten.swap(waiters_);
+    }
+
+private:
+    void lend() {
+        for (;;) {
+            T* slot = nullptr;
+            Waiter waiter;
+            {
+                const std::lock_guard lock(mutex_);
+                if (free_.empty() || waiters_.empty()) return;
+                slot = free_.front();
+                free_.pop_front();
+                waiter = std::move(waiters_.front());
+                waiters_.pop_front();
+            }
+            if (waiter(*slot)) continue;
+            const std::lock_guard lock(mutex_);
+            free_.push_front(slot);
+        }
+    }
+
+    std::mutex mutex_;
+    std::deque<T*> free_;
+    std::deque<Waiter> waiters_;
+    bool closed_ = false;
+};
+
+}  // namespace meniscus::server
