@@ -1,0 +1,16 @@
+# find_package(Meniscus) gives meniscus::client and meniscus::core. Static libraries: what they are made of is installed
+# with them.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS meniscus_client meniscus_conversion meniscus_proto
+        EXPORT MeniscusTargets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/client/lib/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
+set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/Meniscus)
+install(EXPORT MeniscusTargets NAMESPACE meniscus:: DESTINATION ${package_directory})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/MeniscusConfig.cmake.in
+  ${CMAKE_CURRENT_BINARY_DIR}/MeniscusConfig.cmake INSTALL_DESTINATION ${package_directory})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/MeniscusConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/MeniscusConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/MeniscusConfigVersion.cmake
+        DESTINATION ${package_directory})

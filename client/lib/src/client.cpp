@@ -1,0 +1,109 @@
+#include "meniscus/client/client.hpp"
+
+#include <utility>
+
+#include "connection.hpp"
+#include "conversion/settings_conversion.hpp"
+#include "error_mapping.hpp"
+#include "stream_impl.hpp"
+#include "watcher_impl.hpp"
+
+namespace meniscus::client {
+
+namespace {
+
+SessionInfo from_wire(const v1::Session& wire) {
+    SessionInfo info;
+    info.id = wire.id();
+    info.settings = conversion::from_wire(wire.settings());
+    info.uploading = wire.uploading();
+    info.watchers = wire.watchers();
+    info.frames = wire.frames();
+    if (wire.has_last_frame_index()) info.last_frame_index = wire.last_frame_index();
+    return info;
+}
+
+}  // namespace
+
+class Client::Impl {
+public:
+    Impl(const std::string& address, std::chrono::milliseconds timeout)
+        : connection_(std::make_shared<Connection>(address, timeout)) {}
+
+    const std::shared_ptr<Connection>& connection() const noexcept { return connection_; }
+
+    /// One unary call about a session, or (no id) about none.
+    template <class Stub, class Request, class Response>
+    void call(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+              const std::string& session_id, const Request& request, Response& response) const {
+        grpc::ClientContext context;
+        if (!session_id.empty()) add_session_id(context, session_id);
+        require_ok((stub.*method)(&context, request, &response), connection_->address);
+    }
+
+private:
+    std::shared_ptr<Connection> connection_;  ///< shared with the streams, which may outlive the client
+};
+
+Client::Client(const std::string& address, std::chrono::milliseconds timeout)
+    : impl_(std::make_unique<Impl>(address, timeout)) {}
+Client::Client(Client&&) noexcept = default;
+Client& Client::operator=(Client&&) noexcept = default;
+Client::~Client() = default;
+
+ServerInfo Client::server_info() {
+    v1::GetServerInfoResponse response;
+    impl_->call(*impl_->connection()->server, &v1::ServerService::Stub::GetServerInfo, {}, {}, response);
+    ServerInfo info;
+    info.version = response.version();
+    info.backend = response.backend();
+    info.device = response.device();
+    info.backend_reason = response.backend_reason();
+    info.threads = response.threads();
+    info.max_sessions = response.limits().sessions();
+    info.max_watchers_per_session = response.limits().watchers_per_session();
+    info.max_particles_per_frame = response.limits().particles_per_frame();
+    info.max_bytes_per_session = response.limits().bytes_per_session();
+    return info;
+}
+
+void Client::create_session(const std::string& id, const Settings& settings) {
+    v1::CreateSessionRequest request;
+    request.set_id(id);
+    *request.mutable_settings() = conversion::to_wire(settings);
+    v1::CreateSessionResponse response;
+    impl_->call(*impl_->connection()->sessions, &v1::SessionService::Stub::CreateSession, id, request, response);
+}
+
+SessionInfo Client::session(const std::string& id) {
+    v1::GetSessionRequest request;
+    request.set_id(id);
+    v1::GetSessionResponse response;
+    impl_->call(*impl_->connection()->sessions, &v1::SessionService::Stub::GetSession, id, request, response);
+    return from_wire(response.session());
+}
+
+std::vector<SessionInfo> Client::sessions() {
+    v1::ListSessionsResponse response;
+    impl_->call(*impl_->connection()->sessions, &v1::SessionService::Stub::ListSessions, {}, {}, response);
+    std::vector<SessionInfo> sessions;
+    for (const v1::Session& session : response.sessions()) sessions.push_back(from_wire(session));
+    return sessions;
+}
+
+void Client::delete_session(const std::string& id) {
+    v1::DeleteSessionRequest request;
+    request.set_id(id);
+    v1::DeleteSessionResponse response;
+    impl_->call(*impl_->connection()->sessions, &v1::SessionService::Stub::DeleteSession, id, request, response);
+}
+
+Stream Client::stream(const std::string& session_id, const StreamOptions& options) {
+    return Stream(std::make_unique<Stream::Impl>(impl_->connection(), session_id, options));
+}
+
+Watcher Client::watch(const std::string& session_id, int normal_bits) {
+    return Watcher(std::make_unique<Watcher::Impl>(impl_->connection(), session_id, normal_bits));
+}
+
+}  // namespace meniscus::client

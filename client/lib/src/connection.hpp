@@ -1,0 +1,32 @@
+// The channel to one server, shared by the client and its streams.
+#pragma once
+
+#include <grpcpp/channel.h>
+#include <grpcpp/client_context.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "meniscus/v1/server_service.grpc.pb.h"
+#include "meniscus/v1/session_service.grpc.pb.h"
+#include "meniscus/v1/surface_service.grpc.pb.h"
+
+namespace meniscus::client {
+
+class Connection {
+public:
+    /// Throws ServerError unless the server is there within the timeout.
+    Connection(std::string address, std::chrono::milliseconds timeout);
+
+    const std::string address;
+    const std::shared_ptr<grpc::Channel> channel;
+    const std::unique_ptr<v1::ServerService::Stub> server;
+    const std::unique_ptr<v1::SessionService::Stub> sessions;
+    const std::unique_ptr<v1::SurfaceService::Stub> surfaces;
+};
+
+/// Every call about one session carries its id as metadata too.
+void add_session_id(grpc::ClientContext& context, const std::string& session_id);
+
+}  // namespace meniscus::client
