@@ -1,0 +1,179 @@
+// The pieces through which frames pass from thread to thread.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <future>
+#include <latch>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "sessions/channel.hpp"
+#include "sessions/latest_frame.hpp"
+#include "sessions/output_queue.hpp"
+#include "sessions/slot_pool.hpp"
+
+namespace meniscus::server {
+namespace {
+
+SharedMessage message(const std::string& text) {
+    return std::make_shared<const std::string>(text);
+}
+
+std::shared_ptr<const EncodedFrame> frame(std::uint64_t index) {
+    auto frame = std::make_shared<EncodedFrame>();
+    frame->frame_index = index;
+    return frame;
+}
+
+TEST(Channel, KeepsTheOrderAcrossThreads) {
+    Channel<int> channel;
+    std::thread producer([&] {
+        for (int i = 0; i < 1000; ++i) channel.put(i);
+    });
+    for (int i = 0; i < 1000; ++i) EXPECT_EQ(channel.take(), i);
+    producer.join();
+}
+
+TEST(Channel, EndsAWaitingTakeWhenClosed) {
+    Channel<int> channel;
+    auto taken = std::async(std::launch::async, [&] { return channel.take(); });
+    channel.close();
+    EXPECT_EQ(taken.get(), std::nullopt);
+    channel.put(1);
+    EXPECT_EQ(channel.take(), std::nullopt);
+}
+
+TEST(SlotPool, LendsASlotToWhoAskedFirst) {
+    SlotPool<int> pool;
+    int slot = 0;
+    std::vector<int> order;
+    pool.request([&](int&) { order.push_back(1); return true; });
+    pool.request([&](int&) { order.push_back(2); return true; });
+    pool.give(slot);
+    EXPECT_EQ(order, (std::vector<int>{1}));
+    pool.give(slot);
+    EXPECT_EQ(order, (std::vector<int>{1, 2}));
+}
+
+TEST(SlotPool, OffersADeclinedSlotToTheNext) {
+    SlotPool<int> pool;
+    int slot = 0;
+    int* taken = nullptr;
+    pool.request([](int&) { return false; });
+    pool.request([&](int& s) { taken = &s; return true; });
+    pool.give(slot);
+    EXPECT_EQ(taken, &slot);
+}
+
+TEST(SlotPool, ForgetsWhoWaitsWhenClosed) {
+    SlotPool<int> pool;
+    int slot = 0;
+    pool.request([](int&) { ADD_FAILURE(); return true; });
+    pool.close();
+    pool.give(slot);
+    pool.request([](int&) { ADD_FAILURE(); return true; });
+}
+
+TEST(SlotPool, NeverLendsASlotTwice) {
+    SlotPool<std::atomic<int>> pool;
+    std::array<std::atomic<int>, 2> slots{};
+    for (auto& slot : slots) pool.give(slot);
+    constexpr int rounds = 500;
+    std::latch done(4 * rounds);
+    std::vector<std::thread> borrowers;
+    for (int borrower = 0; borrower < 4; ++borrower)
+        borrowers.emplace_back([&] {
+            for (int round = 0; round < rounds; ++round) {
+                std::promise<std::atomic<int>*> lent;
+                pool.request([&](std::atomic<int>& slot) { lent.set_value(&slot); return true; });
+                std::atomic<int>& slot = *lent.get_future().get();
+                EXPECT_EQ(slot.fetch_add(1), 0);
+                slot.fetch_sub(1);
+                pool.give(slot);
+                done.count_down();
+            }
+        });
+    done.wait();
+    for (std::thread& borrower : borrowers) borrower.join();
+}
+
+TEST(OutputQueue, GivesEveryMessageInOrderThenTheEnd) {
+    OutputQueue queue([] {});
+    queue.push(message("a"));
+    queue.push(message("b"));
+    queue.finish(nullptr);
+    queue.push(message("too late"));
+    EXPECT_EQ(*std::get<SharedMessage>(queue.take()), "a");
+    EXPECT_EQ(*std::get<SharedMessage>(queue.take()), "b");
+    EXPECT_EQ(std::get<OutputQueue::End>(queue.take()).error, nullptr);
+}
+
+TEST(OutputQueue, WakesAWaitingConsumerOnce) {
+    int woken = 0;
+    OutputQueue queue([&] { ++woken; });
+    queue.push(message("a"));
+    EXPECT_EQ(woken, 0);
+    queue.take();
+    EXPECT_TRUE(std::holds_alternative<OutputQueue::Nothing>(queue.take()));
+    queue.push(message("b"));
+    queue.push(message("c"));
+    EXPECT_EQ(woken, 1);
+}
+
+TEST(OutputQueue, HoldsTheNextFrameBackUntilTheConsumerTookEnough) {
+    OutputQueue queue([] {});
+    for (std::size_t i = 0; i < OutputQueue::room_for_a_frame + 1; ++i) queue.push(message("m"));
+    auto room = std::async(std::launch::async, [&] { return queue.wait_for_room(); });
+    queue.take();
+    EXPECT_TRUE(room.get());
+}
+
+TEST(OutputQueue, ReleasesAWaitingProducerWhenTheConsumerIsGone) {
+    OutputQueue queue([] {});
+    for (std::size_t i = 0; i < OutputQueue::room_for_a_frame + 1; ++i) queue.push(message("m"));
+    auto room = std::async(std::launch::async, [&] { return queue.wait_for_room(); });
+    queue.close();
+    EXPECT_FALSE(room.get());
+}
+
+TEST(OutputQueue, DropsWhatWaitsWhenAborted) {
+    OutputQueue queue([] {});
+    for (std::size_t i = 0; i < OutputQueue::room_for_a_frame + 1; ++i) queue.push(message("m"));
+    auto room = std::async(std::launch::async, [&] { return queue.wait_for_room(); });
+    queue.abort(std::make_exception_ptr(std::runtime_error("gone")));
+    EXPECT_FALSE(room.get());
+    EXPECT_NE(std::get<OutputQueue::End>(queue.take()).error, nullptr);
+}
+
+TEST(LatestFrame, IsReplacedByNewerState) {
+    LatestFrame latest([] {});
+    for (std::uint64_t i = 0; i < 5; ++i) latest.put(frame(i));
+    EXPECT_EQ(std::get<std::shared_ptr<const EncodedFrame>>(latest.take())->frame_index, 4U);
+    EXPECT_TRUE(std::holds_alternative<LatestFrame::Nothing>(latest.take()));
+}
+
+TEST(LatestFrame, WakesAWaitingConsumerOnce) {
+    int woken = 0;
+    LatestFrame latest([&] { ++woken; });
+    latest.put(frame(0));
+    EXPECT_EQ(woken, 0);
+    latest.take();
+    latest.take();
+    latest.put(frame(1));
+    latest.put(frame(2));
+    EXPECT_EQ(woken, 1);
+}
+
+TEST(LatestFrame, GivesTheLastFrameBeforeTheEnd) {
+    LatestFrame latest([] {});
+    latest.put(frame(3));
+    latest.finish();
+    latest.put(frame(4));
+    EXPECT_EQ(std::get<std::shared_ptr<const EncodedFrame>>(latest.take())->frame_index, 3U);
+    EXPECT_TRUE(std::holds_alternative<LatestFrame::End>(latest.take()));
+}
+
+}  // namespace
+}  // namespace meniscus::server

@@ -1,0 +1,94 @@
+// A server in the test's process, and clients of it.
+#pragma once
+
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "connection.hpp"
+#include "meniscus/client/client.hpp"
+#include "server.hpp"
+#include "test_frames.hpp"
+
+namespace meniscus::server::test {
+
+inline ServerOptions test_options() {
+    static std::atomic<int> number{0};
+    ServerOptions options;
+    options.listen = "unix:" + (std::filesystem::temp_directory_path() /
+                                ("meniscus-test-" + std::to_string(::getpid()) + "-" + std::to_string(number++)))
+                                   .string();
+    options.backend.threads = 2;
+    options.shutdown_grace = std::chrono::seconds(60);
+    return options;
+}
+
+struct RunningServer {
+    explicit RunningServer(const ServerOptions& options = test_options()) : server(options), client(server.address()) {}
+
+    /// A new session with the tests' settings.
+    std::string session() {
+        const std::string id = client::new_session_id();
+        client.create_session(id, settings());
+        return id;
+    }
+
+    Server server;
+    client::Client client;
+};
+
+/// The call itself, for what the client library would never send.
+struct RawStream {
+    RawStream(const std::string& address, const std::string& session_id, bool open = true)
+        : connection(address, std::chrono::seconds(10)) {
+        client::add_session_id(context, session_id);
+        start();
+        if (open) send_open(session_id);
+    }
+    /// Without metadata.
+    explicit RawStream(const std::string& address) : connection(address, std::chrono::seconds(10)) { start(); }
+
+    void start() { call = connection.surfaces->Stream(&context); }
+
+    void send_open(const std::string& session_id) {
+        v1::StreamRequest request;
+        request.mutable_open()->set_session_id(session_id);
+        call->Write(request);
+    }
+
+    void send_begin(std::uint64_t index, std::uint64_t particles) {
+        v1::StreamRequest request;
+        request.mutable_frame_begin()->set_frame_index(index);
+        request.mutable_frame_begin()->set_particle_count(particles);
+        call->Write(request);
+    }
+
+    void send_chunk(std::size_t bytes) {
+        v1::StreamRequest request;
+        request.mutable_frame_chunk()->set_data(std::string(bytes, '\0'));
+        call->Write(request);
+    }
+
+    void send_end() {
+        v1::StreamRequest request;
+        request.mutable_frame_end();
+        call->Write(request);
+    }
+
+    /// Reads to the end; counts the frames that were answered.
+    grpc::Status finish() {
+        v1::StreamResponse response;
+        while (call->Read(&response)) answered += response.has_frame_statistics() ? 1 : 0;
+        return call->Finish();
+    }
+
+    client::Connection connection;
+    grpc::ClientContext context;
+    std::unique_ptr<grpc::ClientReaderWriter<v1::StreamRequest, v1::StreamResponse>> call;
+    int answered = 0;
+};
+
+}  // namespace meniscus::server::test

@@ -1,0 +1,50 @@
+#include "server.hpp"
+
+#include <gtest/gtest.h>
+
+#include "meniscus/error.hpp"
+#include "running_server.hpp"
+
+namespace meniscus::server::test {
+namespace {
+
+TEST(Server, TakesAFreePortAndNamesIt) {
+    ServerOptions options = test_options();
+    options.listen = "127.0.0.1:0";
+    RunningServer running(options);
+    EXPECT_TRUE(running.server.address().starts_with("127.0.0.1:"));
+    EXPECT_FALSE(running.server.address().ends_with(":0"));
+    EXPECT_EQ(running.client.server_info().version, version());
+}
+
+TEST(Server, RefusesAnAddressInUse) {
+    ServerOptions options = test_options();
+    options.listen = "127.0.0.1:0";
+    const Server tcp(options);
+    options.listen = tcp.address();
+    EXPECT_THROW(Server{options}, InvalidInput);
+    const ServerOptions unix_options = test_options();
+    const Server unix_socket(unix_options);
+    EXPECT_THROW(Server{unix_options}, InvalidInput);
+}
+
+TEST(Server, RefusesAnAddressThatIsNone) {
+    ServerOptions options = test_options();
+    options.listen = "unix:" + std::string(300, 'x');
+    EXPECT_THROW(Server{options}, InvalidInput);
+}
+
+TEST(Client, SaysThatThereIsNoServer) {
+    const auto connect = [] { client::Client("127.0.0.1:1", std::chrono::milliseconds(100)); };
+    try {
+        connect();
+        FAIL();
+    } catch (const client::ServerError& error) {
+        const std::string message = error.what();
+        EXPECT_TRUE(message.starts_with("no server at 127.0.0.1:1 (")) << message;
+        EXPECT_TRUE(message.ends_with("): start meniscusd or check the address")) << message;
+    }
+}
+
+}  // namespace
+}  // namespace meniscus::server::test

@@ -1,0 +1,245 @@
+// The pipeline of a session, driven as its streams and watchers drive it.
+#include "sessions/session.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstring>
+#include <future>
+#include <limits>
+#include <optional>
+#include <semaphore>
+#include <thread>
+#include <vector>
+
+#include "meniscus/error.hpp"
+#include "meniscus/v1/surface_service.pb.h"
+#include "sessions/refusal.hpp"
+#include "test_frames.hpp"
+
+namespace meniscus::server {
+namespace {
+
+constexpr const char* id = "00000000-0000-4000-8000-000000000000";
+
+/// Plays a stream: one thread uploads, another reads.
+struct Simulator {
+    Simulator(Session& s, const UploadOptions& options)
+        : session(s), upload(session.open_upload(options, [this] { awake.release(); }, [this] { ++drained; })) {}
+
+    void send(std::uint64_t index, const test::Particles& particles) {
+        std::promise<InputFrame*> lent;
+        session.request_input([&](InputFrame& input) {
+            lent.set_value(&input);
+            return true;
+        });
+        InputFrame& input = *lent.get_future().get();
+        input.index = index;
+        input.simulation_time = 0.0;
+        input.quantized = false;
+        input.has_levels = false;
+        input.particle_count = particles.positions.size() / 3;
+        input.allocate(particles.positions.size() * sizeof(float));
+        if (!particles.positions.empty())
+            std::memcpy(input.bytes.data(), particles.positions.data(), input.bytes.size());
+        input.received_at = std::chrono::steady_clock::now();
+        session.submit(upload, input);
+    }
+    void end() { session.end_upload(upload, nullptr); }
+
+    /// The next message, or none at the end.
+    std::optional<v1::StreamResponse> receive() {
+        for (;;) {
+            auto next = upload->output.take();
+            if (const auto* message = std::get_if<SharedMessage>(&next)) {
+                v1::StreamResponse response;
+                EXPECT_TRUE(response.ParseFromString(**message));
+                return response;
+            }
+            if (const auto* end = std::get_if<OutputQueue::End>(&next)) {
+                error = end->error;
+                return std::nullopt;
+            }
+            awake.acquire();
+        }
+    }
+    /// Indices of the frames that are answered until the end.
+    std::vector<std::uint64_t> receive_all() {
+        std::vector<std::uint64_t> indices;
+        while (const auto response = receive())
+            if (response->has_frame_statistics()) indices.push_back(response->frame_statistics().frame_index());
+        return indices;
+    }
+
+    Session& session;
+    std::counting_semaphore<> awake{0};
+    std::atomic<int> drained{0};
+    std::shared_ptr<Upload> upload;
+    std::exception_ptr error;
+};
+
+/// Plays a watcher.
+struct Spectator {
+    explicit Spectator(Session& s, int normal_bits = 8)
+        : session(s), slot(session.open_watch(normal_bits, [this] { awake.release(); })) {}
+    ~Spectator() { session.close_watch(slot); }
+
+    std::shared_ptr<const EncodedFrame> receive() {
+        for (;;) {
+            auto next = slot->take();
+            if (auto* frame = std::get_if<std::shared_ptr<const EncodedFrame>>(&next)) return *frame;
+            if (std::holds_alternative<LatestFrame::End>(next)) return nullptr;
+            awake.acquire();
+        }
+    }
+
+    Session& session;
+    std::counting_semaphore<> awake{0};
+    std::shared_ptr<LatestFrame> slot;
+};
+
+struct SessionPipeline : testing::Test {
+    Limits limits{.watchers_per_session = 3};
+    std::shared_ptr<WorkerPool> workers = std::make_shared<WorkerPool>(2);
+    Session session{id, test::settings(), limits, {.threads = 2}, workers};
+    const test::Particles particles = test::wave(6, 0.0);
+};
+
+TEST_F(SessionPipeline, AnswersEveryFrameInOrder) {
+    Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});
+    auto received = std::async(std::launch::async, [&] { return simulator.receive_all(); });
+    for (std::uint64_t i = 0; i < 10; ++i) simulator.send(i, test::wave(5, 0.1 * static_cast<double>(i)));
+    simulator.end();
+    EXPECT_EQ(received.get(), (std::vector<std::uint64_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+    EXPECT_EQ(simulator.error, nullptr);
+    EXPECT_EQ(session.state().frames, 10U);
+    EXPECT_EQ(session.state().last_frame_index, 9U);
+}
+
+TEST_F(SessionPipeline, LendsNoThirdInputSlot) {
+    int lent = 0;
+    for (int i = 0; i < 3; ++i)
+        session.request_input([&](InputFrame&) {
+            ++lent;
+            return true;
+        });
+    EXPECT_EQ(lent, 2);
+}
+
+TEST_F(SessionPipeline, AnswersWhatCameBeforeABadFrameAndDropsWhatCameAfter) {
+    test::Particles bad = particles;
+    bad.positions[4] = std::numeric_limits<float>::quiet_NaN();
+    {
+        Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});
+        simulator.send(0, particles);
+        simulator.send(1, bad);
+        simulator.send(2, particles);
+        EXPECT_EQ(simulator.receive_all(), (std::vector<std::uint64_t>{0}));
+        EXPECT_THROW(std::rethrow_exception(simulator.error), InvalidInput);
+        EXPECT_FALSE(session.state().uploading);
+        simulator.end();
+    }
+    Simulator next(session, {.receive_meshes = true, .normal_bits = 8});
+    next.send(1, particles);
+    next.end();
+    EXPECT_EQ(next.receive_all(), (std::vector<std::uint64_t>{1}));
+    EXPECT_EQ(next.error, nullptr);
+}
+
+TEST_F(SessionPipeline, TakesOneUploadAtATime) {
+    const auto upload = session.open_upload({}, [] {}, [] {});
+    EXPECT_TRUE(session.state().uploading);
+    EXPECT_THROW(session.open_upload({}, [] {}, [] {}), Refusal);
+    session.end_upload(upload, nullptr);
+    EXPECT_NO_THROW(session.open_upload({}, [] {}, [] {}));
+}
+
+TEST_F(SessionPipeline, SendsStatisticsAloneToWhoWantsNoMeshes) {
+    Simulator simulator(session, {.receive_meshes = false, .normal_bits = 0});
+    simulator.send(0, particles);
+    simulator.end();
+    EXPECT_TRUE(simulator.receive()->has_frame_statistics());
+    EXPECT_EQ(simulator.receive(), std::nullopt);
+}
+
+TEST_F(SessionPipeline, SharesOneEncodeBetweenStreamAndWatchersWithTheSameWishes) {
+    Spectator first(session);
+    Spectator second(session);
+    Spectator other(session, 0);
+    Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});
+    simulator.send(0, particles);
+    const auto frame = first.receive();
+    EXPECT_EQ(frame, second.receive());
+    EXPECT_NE(frame, other.receive());
+    simulator.end();
+}
+
+TEST_F(SessionPipeline, GivesALateWatcherTheCurrentMeshWhateverItsWishes) {
+    Simulator simulator(session, {.receive_meshes = false, .normal_bits = 0});
+    simulator.send(3, particles);
+    simulator.end();
+    simulator.receive_all();
+    Spectator watcher(session, 10);
+    EXPECT_EQ(watcher.receive()->frame_index, 3U);
+    Spectator same(session, 10);
+    EXPECT_EQ(same.receive()->frame_index, 3U);
+}
+
+TEST_F(SessionPipeline, GivesALaggingWatcherTheNewestFrame) {
+    Spectator watcher(session);
+    Simulator simulator(session, {.receive_meshes = false, .normal_bits = 0});
+    auto received = std::async(std::launch::async, [&] { return simulator.receive_all(); });
+    for (std::uint64_t i = 0; i < 6; ++i) simulator.send(i, particles);
+    simulator.end();
+    received.get();
+    EXPECT_EQ(watcher.receive()->frame_index, 5U);
+}
+
+TEST_F(SessionPipeline, RefusesWatchersPastTheLimit) {
+    std::vector<std::shared_ptr<LatestFrame>> watches;
+    for (std::uint32_t i = 0; i < limits.watchers_per_session; ++i) watches.push_back(session.open_watch(8, [] {}));
+    EXPECT_EQ(session.state().watchers, limits.watchers_per_session);
+    EXPECT_THROW(session.open_watch(8, [] {}), LimitExceeded);
+    session.close_watch(watches.front());
+    EXPECT_NO_THROW(session.open_watch(8, [] {}));
+}
+
+TEST_F(SessionPipeline, EndsUploadAndWatchersWhenClosed) {
+    Spectator watcher(session);
+    Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});
+    session.close();
+    simulator.receive_all();
+    EXPECT_THROW(std::rethrow_exception(simulator.error), Refusal);
+    EXPECT_EQ(watcher.receive(), nullptr);
+    EXPECT_THROW(session.open_upload({}, [] {}, [] {}), Refusal);
+    EXPECT_THROW(session.open_watch(8, [] {}), Refusal);
+}
+
+TEST_F(SessionPipeline, ClosesWhileNobodyReads) {
+    Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});
+    // The pipeline takes a few frames, then its steps wait for each other, and the next request for a slot for ever.
+    for (std::uint64_t i = 0; i < 3; ++i) simulator.send(i, particles);
+    session.close();
+    session.join();
+}
+
+TEST_F(SessionPipeline, EndsWatchersAfterTheLastFrameWhenDrained) {
+    Spectator watcher(session);
+    Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});
+    simulator.send(0, particles);
+    session.drain();
+    EXPECT_EQ(simulator.drained, 1);
+    simulator.end();
+    EXPECT_EQ(simulator.receive_all(), (std::vector<std::uint64_t>{0}));
+    EXPECT_EQ(watcher.receive()->frame_index, 0U);
+    EXPECT_EQ(watcher.receive(), nullptr);
+}
+
+TEST_F(SessionPipeline, EndsWatchersAtOnceWhenDrainedWithoutAnUpload) {
+    Spectator watcher(session);
+    session.drain();
+    EXPECT_EQ(watcher.receive(), nullptr);
+}
+
+}  // namespace
+}  // namespace meniscus::server

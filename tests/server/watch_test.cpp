@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "meniscus/error.hpp"
+#include "running_server.hpp"
+
+namespace meniscus::server::test {
+namespace {
+
+TEST(Watch, ReceivesTheMeshesOfAStream) {
+    RunningServer running;
+    const std::string id = running.session();
+    auto watcher = running.client.watch(id);
+    auto stream = running.client.stream(id, {.receive_meshes = false});
+    for (std::uint64_t i = 0; i < 4; ++i) {
+        const Particles particles = wave(6, static_cast<double>(i));
+        stream.push(particles.view(), i, 0.5);
+        const auto frame = watcher.next();
+        ASSERT_TRUE(frame);
+        EXPECT_EQ(frame->index, i);
+        EXPECT_EQ(frame->simulation_time, 0.5);
+        EXPECT_EQ(mesh_sha256(frame->mesh()), local_sha256(particles));
+    }
+}
+
+TEST(Watch, StartsWithTheCurrentMesh) {
+    RunningServer running;
+    const std::string id = running.session();
+    const Particles particles = wave(6, 0.0);
+    auto stream = running.client.stream(id);
+    stream.push(particles.view(), 5, 0.0);
+    ASSERT_TRUE(stream.next());
+    for (const int normal_bits : {8, 0, 12}) {
+        auto watcher = running.client.watch(id, normal_bits);
+        const auto frame = watcher.next();
+        EXPECT_EQ(frame->index, 5U);
+        EXPECT_EQ(mesh_sha256(frame->mesh()), local_sha256(particles));
+    }
+}
+
+TEST(Watch, ServesSeveralWatchers) {
+    RunningServer running;
+    const std::string id = running.session();
+    auto first = running.client.watch(id);
+    auto second = running.client.watch(id, 0);
+    EXPECT_EQ(running.client.session(id).watchers, 2U);
+    const Particles particles = wave(6, 0.0);
+    auto stream = running.client.stream(id);
+    stream.push(particles.view(), 0, 0.0);
+    EXPECT_EQ(mesh_sha256(first.next()->mesh()), local_sha256(particles));
+    EXPECT_EQ(mesh_sha256(second.next()->mesh()), local_sha256(particles));
+}
+
+TEST(Watch, GivesWhoLagsWholeFramesAndTheNewestAtLast) {
+    RunningServer running;
+    const std::string id = running.session();
+    auto watcher = running.client.watch(id);
+    auto stream = running.client.stream(id, {.receive_meshes = false});
+    // Far more than gRPC's buffers hold.
+    constexpr std::uint64_t last = 80;
+    const Particles particles = spray(12);
+    for (std::uint64_t i = 0; i <= last; ++i) stream.push(particles.view(), i, 0.0);
+    stream.finish();
+    while (stream.next()) {
+    }
+    std::uint64_t received = 0;
+    for (;;) {
+        const auto frame = watcher.next();  // throws if a frame is torn
+        ASSERT_TRUE(frame);
+        ++received;
+        if (frame->index == last) break;
+    }
+    EXPECT_LT(received, last);
+}
+
+TEST(Watch, EndsWithItsSession) {
+    RunningServer running;
+    const std::string id = running.session();
+    auto watcher = running.client.watch(id);
+    running.client.delete_session(id);
+    EXPECT_FALSE(watcher.next());
+}
+
+TEST(Watch, EndsWhenItsCallerCancels) {
+    RunningServer running;
+    auto watcher = running.client.watch(running.session());
+    std::thread canceler([&] { watcher.cancel(); });
+    EXPECT_FALSE(watcher.next());
+    canceler.join();
+}
+
+TEST(Watch, IsRefusedWithoutASession) {
+    RunningServer running;
+    auto watcher = running.client.watch(client::new_session_id());
+    EXPECT_THROW(watcher.next(), client::ServerError);
+}
+
+TEST(Watch, IsRefusedPastTheLimit) {
+    ServerOptions options = test_options();
+    options.limits.watchers_per_session = 1;
+    RunningServer running(options);
+    const std::string id = running.session();
+    auto first = running.client.watch(id);
+    auto second = running.client.watch(id);
+    EXPECT_THROW(second.next(), LimitExceeded);
+}
+
+}  // namespace
+}  // namespace meniscus::server::test
