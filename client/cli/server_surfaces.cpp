@@ -20,11 +20,15 @@ ServerSurfaces::ServerSurfaces(const std::string& address, std::string session, 
 }
 
 ServerSurfaces::~ServerSurfaces() {
-    if (!receiver_.joinable()) return;
+    if (finished_) return;
+    // On the way out because of an earlier error, which is the one to report.
     try {
-        end_stream();
+        if (receiver_.joinable()) end_stream();
     } catch (const std::exception&) {
-        // On the way out because of an earlier error, which is the one to report.
+    }
+    try {
+        client_.delete_session(session_);
+    } catch (const std::exception&) {
     }
 }
 
@@ -37,6 +41,7 @@ void ServerSurfaces::finish() {
     end_stream();
     if (failed_) std::rethrow_exception(error_);
     client_.delete_session(session_);
+    finished_ = true;
 }
 
 void ServerSurfaces::end_stream() {

@@ -29,6 +29,7 @@ private:
     std::exception_ptr error_;          ///< of the receiver; read after `failed_`
     std::atomic<bool> failed_ = false;
     std::uint64_t frames_ = 0;
+    bool finished_ = false;
 };
 
 }  // namespace meniscus::cli
