@@ -9,12 +9,14 @@ namespace {
 /// Viewer's distance in radii of the bounding sphere: a mild perspective.
 constexpr double distance_in_radii = 3.5;
 
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Vector3& a, const Vector3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 }  // namespace
 
-Camera::Camera(std::span<const Vector3> points, UpAxis up, double azimuth, double elevation, std::size_t width, std::size_t height,
-               double margin) {
+Camera::Camera(std::span<const Vector3> points, UpAxis up, double azimuth, double elevation, std::size_t width,
+               std::size_t height, double margin) {
     const double a = azimuth * std::numbers::pi / 180.0;
     const double e = elevation * std::numbers::pi / 180.0;
     axes_ = {{{std::cos(a), 0.0, -std::sin(a)},
@@ -68,8 +70,10 @@ ScreenPoint Camera::project(const Vector3& point) const {
 }
 
 std::array<float, 3> Camera::turn(const std::array<float, 3>& direction) const {
-    const Vector3 d{static_cast<double>(direction[0]), static_cast<double>(direction[1]), static_cast<double>(direction[2])};
-    return {static_cast<float>(dot(d, axes_[0])), static_cast<float>(dot(d, axes_[1])), static_cast<float>(dot(d, axes_[2]))};
+    const Vector3 d{static_cast<double>(direction[0]), static_cast<double>(direction[1]),
+                    static_cast<double>(direction[2])};
+    return {static_cast<float>(dot(d, axes_[0])), static_cast<float>(dot(d, axes_[1])),
+            static_cast<float>(dot(d, axes_[2]))};
 }
 
 }  // namespace meniscus::cli

@@ -16,10 +16,10 @@ enum class UpAxis { y, z };
 /// Looks at a cloud of points from a direction, in perspective, so that they fill the picture.
 class Camera {
 public:
-    /// azimuth, elevation: where the viewer stands, degrees; (0, 0) is on the axis that points out of the screen when up
-    /// points up and x to the right. margin: part of the picture left free on each side.
-    Camera(std::span<const Vector3> points, UpAxis up, double azimuth, double elevation, std::size_t width, std::size_t height,
-           double margin = 0.05);
+    /// azimuth, elevation: where the viewer stands, degrees; (0, 0) is on the axis that points out of the screen when
+    /// up points up and x to the right. margin: part of the picture left free on each side.
+    Camera(std::span<const Vector3> points, UpAxis up, double azimuth, double elevation, std::size_t width,
+           std::size_t height, double margin = 0.05);
 
     ScreenPoint project(const Vector3& point) const;
     /// A direction in view space: x to the right, y up, z towards the viewer.

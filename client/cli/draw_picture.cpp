@@ -41,7 +41,8 @@ formats::Image draw_picture(const formats::TriangleMesh& mesh, const PictureOpti
         if (options.wireframe) return {1.0F, 1.0F, 1.0F};
         return {0.93F - 0.18F * row, 0.95F - 0.15F * row, 0.98F - 0.12F * row};
     });
-    const Direction up = camera.turn(options.up == UpAxis::y ? Direction{0.0F, 1.0F, 0.0F} : Direction{0.0F, 0.0F, 1.0F});
+    const Direction up =
+        camera.turn(options.up == UpAxis::y ? Direction{0.0F, 1.0F, 0.0F} : Direction{0.0F, 0.0F, 1.0F});
     std::vector<ScreenPoint> points;
     points.reserve(mesh.positions.size());
     for (const Vector3& p : mesh.positions) points.push_back(camera.project(p));

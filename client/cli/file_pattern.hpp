@@ -16,8 +16,8 @@ public:
     /// The path of that frame; the same for all frames if has_number() is false.
     std::filesystem::path at(std::uint64_t number) const;
 
-    /// Finds how existing files write `{}`: as it is, else padded to 2 to 9 digits, whichever file of this number exists
-    /// first. Leaves `{:0W}` alone.
+    /// Finds how existing files write `{}`: as it is, else padded to 2 to 9 digits, whichever file of this number
+    /// exists first. Leaves `{:0W}` alone.
     void match_existing(std::uint64_t number);
     /// Writes `{}` as the other pattern does.
     void pad_like(const FilePattern& other);

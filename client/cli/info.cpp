@@ -9,7 +9,9 @@
 namespace meniscus::cli {
 namespace {
 
-std::string limit(std::uint64_t value) { return value == 0 ? "no limit" : std::to_string(value); }
+std::string limit(std::uint64_t value) {
+    return value == 0 ? "no limit" : std::to_string(value);
+}
 
 void print_info(const std::string& server) {
     const client::ServerInfo info = connect(server).server_info();
@@ -38,8 +40,12 @@ void add(CLI::App& app, const char* name, const char* what, void (*print)(const 
 
 }  // namespace
 
-void add_info(CLI::App& app) { add(app, "info", "Describe a server: version, backend, limits", print_info); }
+void add_info(CLI::App& app) {
+    add(app, "info", "Describe a server: version, backend, limits", print_info);
+}
 
-void add_sessions(CLI::App& app) { add(app, "sessions", "List a server's sessions", print_sessions); }
+void add_sessions(CLI::App& app) {
+    add(app, "sessions", "List a server's sessions", print_sessions);
+}
 
 }  // namespace meniscus::cli

@@ -37,11 +37,18 @@ void add_picture(CLI::App& app) {
     command.add_option("-o,--output", options->out, "PNG file")->required();
     command.add_flag("--wireframe", options->options.wireframe,
                      "Lines colored by level (1 blue, 2 green, 3 red, crack filling purple), hidden lines removed");
-    command.add_option("--width", options->options.width, "Pixels")->check(CLI::Range(std::size_t{1}, largest_side))->capture_default_str();
-    command.add_option("--height", options->options.height, "Pixels")->check(CLI::Range(std::size_t{1}, largest_side))->capture_default_str();
+    command.add_option("--width", options->options.width, "Pixels")
+        ->check(CLI::Range(std::size_t{1}, largest_side))
+        ->capture_default_str();
+    command.add_option("--height", options->options.height, "Pixels")
+        ->check(CLI::Range(std::size_t{1}, largest_side))
+        ->capture_default_str();
     command.add_option("--view", options->view, "AZIMUTH ELEVATION: where the viewer stands, degrees (default 30 25)")
-        ->expected(2)->check(CLI::Range(-360.0, 360.0));
-    command.add_option("--up", options->up, "Axis that points up")->check(CLI::IsMember({"y", "z"}))->capture_default_str();
+        ->expected(2)
+        ->check(CLI::Range(-360.0, 360.0));
+    command.add_option("--up", options->up, "Axis that points up")
+        ->check(CLI::IsMember({"y", "z"}))
+        ->capture_default_str();
     command.callback([options] { picture(*options); });
 }
 

@@ -33,8 +33,11 @@ class Rasterizer {
 public:
     /// samples: per pixel and axis.
     Rasterizer(std::size_t width, std::size_t height, std::size_t samples)
-        : samples_(samples), width_(width * samples), height_(height * samples),
-          depth_(width_ * height_, std::numeric_limits<float>::infinity()), color_(width_ * height_) {}
+        : samples_(samples),
+          width_(width * samples),
+          height_(height * samples),
+          depth_(width_ * height_, std::numeric_limits<float>::infinity()),
+          color_(width_ * height_) {}
 
     /// Fills every sample with the color of its row; row: 0 at the top to 1 at the bottom.
     template <class Background>
@@ -58,7 +61,7 @@ private:
     static Stored store(const Color& color);
 
     std::size_t samples_;
-    std::size_t width_;   ///< in samples, as is the height
+    std::size_t width_;  ///< in samples, as is the height
     std::size_t height_;
     std::vector<float> depth_;
     std::vector<Stored> color_;

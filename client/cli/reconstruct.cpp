@@ -49,7 +49,9 @@ struct Input {
 
 Input check_input(const ReconstructOptions& options) {
     Input input{FilePattern(options.in), FilePattern(options.out)};
-    if (options.out.empty() && options.stats.empty()) throw InvalidInput("nothing to write: give -o OUT, --stats FILE.json or both");
+    if (options.out.empty() && options.stats.empty())
+        throw InvalidInput("nothing to write: give -o OUT, --stats FILE.json or both");
+    check_folder(options.stats);
     if (input.is_sequence() && !(options.start && options.end))
         throw InvalidInput("IN '" + options.in + "' is a sequence: --start and --end are needed");
     if (!input.is_sequence() && (options.start || options.end))
@@ -77,7 +79,8 @@ Input check_input(const ReconstructOptions& options) {
 }
 
 void print_progress(const std::string& name, const Statistics& s) {
-    std::cerr << name << ": " << s.particles << " particles, " << s.triangles << " triangles, " << s.total_seconds << " s\n";
+    std::cerr << name << ": " << s.particles << " particles, " << s.triangles << " triangles, " << s.total_seconds
+              << " s\n";
 }
 
 void reconstruct(const ReconstructOptions& options) {
@@ -85,9 +88,13 @@ void reconstruct(const ReconstructOptions& options) {
     const Input input = check_input(options);
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     std::vector<Statistics> runs;
+    const bool interactive = isatty(STDERR_FILENO) != 0;
 
     const auto handle = [&](const Surface& surface) {
         runs.push_back(surface.statistics());
+        if (options.repeat > 1 && interactive)
+            std::cerr << "run " << runs.size() << " of " << options.repeat << ": " << runs.back().total_seconds
+                      << " s\n";
         if (runs.size() < options.repeat) return;
         const std::uint64_t frame = input.start + surface.index() / options.repeat;
         if (!options.out.empty()) write_surface(input.out.at(frame), surface);
@@ -97,7 +104,7 @@ void reconstruct(const ReconstructOptions& options) {
             figures.update(to_json(runs, mesh_sha256(surface.mesh())));
             frames.push_back(std::move(figures));
         }
-        if (input.is_sequence() || isatty(STDERR_FILENO) != 0) print_progress(input.in.at(frame).string(), median_run(runs));
+        if (input.is_sequence() || interactive) print_progress(input.in.at(frame).string(), median_run(runs));
         runs.clear();
     };
 
@@ -113,7 +120,8 @@ void reconstruct(const ReconstructOptions& options) {
         std::optional<QuantizedPositions> quantized;
         if (options.positions == "uint16") quantized.emplace(particles.frame());
         // Files do not tell their simulation time.
-        for (unsigned run = 0; run < options.repeat; ++run) surfaces->submit(quantized ? quantized->frame() : particles.frame(), 0.0);
+        for (unsigned run = 0; run < options.repeat; ++run)
+            surfaces->submit(quantized ? quantized->frame() : particles.frame(), 0.0);
     }
     surfaces->finish();
     if (options.stats.empty()) return;
@@ -126,17 +134,26 @@ void reconstruct(const ReconstructOptions& options) {
 void add_reconstruct(CLI::App& app) {
     auto options = std::make_shared<ReconstructOptions>();
     CLI::App& command = *app.add_subcommand("reconstruct", "Reconstruct the surface of particle files");
-    command.add_option("IN", options->in, "Particles: .vtk (legacy), .ply, or .xyz, .bin, .raw (float32 triples); a sequence with {} or {:03} "
-                                          "for the frame number ({} also finds zero-padded names)")->required();
+    command
+        .add_option(
+            "IN", options->in,
+            "Particles: .vtk (legacy), .ply, or .xyz, .bin, .raw (float32 triples); a sequence with {} or {:03} "
+            "for the frame number ({} also finds zero-padded names)")
+        ->required();
     command.add_option("-o,--output", options->out, "Mesh: .ply, .obj or .bricks; with {} for a sequence");
     command.add_option("--particle-radius", options->particle_radius, "World units")->required();
     options->settings.add_to(command);
     options->surfaces.add_to(command);
-    command.add_option("--positions", options->positions, "Encoding of the positions; uint16 is over the frame's bounding box")
-        ->check(CLI::IsMember({"float32", "uint16"}))->capture_default_str();
+    command
+        .add_option("--positions", options->positions,
+                    "Encoding of the positions; uint16 is over the frame's bounding box")
+        ->check(CLI::IsMember({"float32", "uint16"}))
+        ->capture_default_str();
     command.add_option("--start", options->start, "First frame of a sequence");
     command.add_option("--end", options->end, "Last frame of a sequence");
-    command.add_option("--repeat", options->repeat, "Reconstruct each frame so often")->check(CLI::Range(1U, 1000000U))->capture_default_str();
+    command.add_option("--repeat", options->repeat, "Reconstruct each frame so often")
+        ->check(CLI::Range(1U, 1000000U))
+        ->capture_default_str();
     command.add_option("--stats", options->stats, "Figures of each frame, as JSON");
     command.callback([options] { reconstruct(*options); });
 }

@@ -10,8 +10,11 @@ constexpr std::size_t frames_ahead = 4;
 
 }  // namespace
 
-ServerSurfaces::ServerSurfaces(const std::string& address, std::string session, const Settings& settings, Handler handler)
-    : client_(connect(address)), session_(session.empty() ? client::new_session_id() : std::move(session)), handler_(std::move(handler)) {
+ServerSurfaces::ServerSurfaces(const std::string& address, std::string session, const Settings& settings,
+                               Handler handler)
+    : client_(connect(address)),
+      session_(session.empty() ? client::new_session_id() : std::move(session)),
+      handler_(std::move(handler)) {
     client_.create_session(session_, settings);
     client::StreamOptions options;
     options.waiting_limit = frames_ahead;

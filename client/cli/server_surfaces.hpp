@@ -26,7 +26,7 @@ private:
     Handler handler_;
     std::optional<client::Stream> stream_;
     std::thread receiver_;
-    std::exception_ptr error_;          ///< of the receiver; read after `failed_`
+    std::exception_ptr error_;  ///< of the receiver; read after `failed_`
     std::atomic<bool> failed_ = false;
     std::uint64_t frames_ = 0;
     bool finished_ = false;

@@ -5,21 +5,31 @@
 namespace meniscus::cli {
 
 void SettingsOptions::add_to(CLI::App& command) {
-    command.add_option("--smoothing-length", settings.smoothing_length, "In particle radii; the kernel's support is twice that")
+    command
+        .add_option("--smoothing-length", settings.smoothing_length,
+                    "In particle radii; the kernel's support is twice that")
         ->capture_default_str();
-    command.add_option("--cell-size", settings.cell_size, "Edge of a finest cell, in particle radii")->capture_default_str();
+    command.add_option("--cell-size", settings.cell_size, "Edge of a finest cell, in particle radii")
+        ->capture_default_str();
     command.add_option("--iso", settings.iso, "Field value at the surface")->capture_default_str();
     command.add_option("--field", field, "Function whose iso-surface is the fluid surface")
-        ->check(CLI::IsMember({"color", "density"}))->capture_default_str();
+        ->check(CLI::IsMember({"color", "density"}))
+        ->capture_default_str();
     command.add_option("--mode", mode, "Three levels of grid, or the finest cell everywhere")
-        ->check(CLI::IsMember({"adaptive", "uniform"}))->capture_default_str();
+        ->check(CLI::IsMember({"adaptive", "uniform"}))
+        ->capture_default_str();
     command.add_option("--criterion", criterion, "How the level of a base cell is decided")
-        ->check(CLI::IsMember({"count"}))->capture_default_str();
-    command.add_option("--count-threshold", settings.count_threshold, "Particles per base cell that decide about level 3")
+        ->check(CLI::IsMember({"count"}))
+        ->capture_default_str();
+    command
+        .add_option("--count-threshold", settings.count_threshold, "Particles per base cell that decide about level 3")
         ->capture_default_str();
     command.add_option("--edge-points", edge_points, "How the point on an edge is found")
-        ->check(CLI::IsMember({"interpolate", "bisect"}))->capture_default_str();
-    command.add_option("--bisection-steps", settings.bisection_steps, "With --edge-points bisect: iterations on a finest edge")
+        ->check(CLI::IsMember({"interpolate", "bisect"}))
+        ->capture_default_str();
+    command
+        .add_option("--bisection-steps", settings.bisection_steps,
+                    "With --edge-points bisect: iterations on a finest edge")
         ->capture_default_str();
     command.add_option("--domain", domain, "X0 Y0 Z0 X1 Y1 Z1: crops the surface, world units")->expected(6);
 }

@@ -5,7 +5,9 @@ namespace {
 
 using Direction = std::array<float, 3>;
 
-float dot(const Direction& a, const Direction& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+float dot(const Direction& a, const Direction& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 Direction normalized(const Direction& d) {
     const float length = std::sqrt(dot(d, d));
@@ -45,7 +47,8 @@ Color water(const Direction& normal, const Direction& up) {
 }
 
 Color wire(std::uint8_t level, float line, float facing) {
-    static constexpr std::array<Color, 4> colors{{{0.45F, 0.02F, 0.55F}, {0.02F, 0.12F, 0.75F}, {0.01F, 0.38F, 0.05F}, {0.80F, 0.06F, 0.01F}}};
+    static constexpr std::array<Color, 4> colors{
+        {{0.45F, 0.02F, 0.55F}, {0.02F, 0.12F, 0.75F}, {0.01F, 0.38F, 0.05F}, {0.80F, 0.06F, 0.01F}}};
     const Color& pure = colors[std::min<std::size_t>(level, 3)];
     const float shade = 0.45F + 0.55F * std::clamp(facing, 0.0F, 1.0F);
     const Color face = mix({0.95F, 0.95F, 0.95F}, pure, 0.10F);

@@ -47,7 +47,9 @@ simulator::LeveledParticles snapshot(const simulator::Simulation& simulation, bo
 void simulate(const SimulateOptions& options) {
     if (!options.session.empty() && options.surfaces.server.empty())
         throw InvalidInput("--session '" + options.session + "' needs --server");
-    simulator::Simulation simulation(simulator::make_scene(*simulator::scene_by_name(options.scene), options.particles));
+    check_folder(options.stats);
+    simulator::Simulation simulation(
+        simulator::make_scene(*simulator::scene_by_name(options.scene), options.particles));
     const Settings settings = options.settings.build(static_cast<double>(simulation.scene().particle_radius));
     for (const std::string& folder : {options.out, options.particles_out})
         if (!folder.empty()) formats::make_directory(folder);
@@ -61,8 +63,8 @@ void simulate(const SimulateOptions& options) {
             figures.update(to_json({s}, mesh_sha256(surface.mesh())));
             frames.push_back(std::move(figures));
         }
-        std::cerr << "frame " << surface.index() << ": " << s.particles << " particles, " << s.triangles << " triangles, "
-                  << s.total_seconds << " s\n";
+        std::cerr << "frame " << surface.index() << ": " << s.particles << " particles, " << s.triangles
+                  << " triangles, " << s.total_seconds << " s\n";
     };
     const std::string session = options.session.empty() ? client::new_session_id() : options.session;
     const auto surfaces = options.surfaces.open(settings, handle, session);
@@ -79,7 +81,8 @@ void simulate(const SimulateOptions& options) {
         surfaces->submit(quantized ? quantized->frame() : upload, simulation.time());
     }
     surfaces->finish();
-    if (!options.stats.empty()) formats::write_file(options.stats, nlohmann::ordered_json{{"frames", frames}}.dump(2) + "\n");
+    if (!options.stats.empty())
+        formats::write_file(options.stats, nlohmann::ordered_json{{"frames", frames}}.dump(2) + "\n");
 }
 
 }  // namespace
@@ -88,20 +91,32 @@ void add_simulate(CLI::App& app) {
     auto options = std::make_shared<SimulateOptions>();
     CLI::App& command = *app.add_subcommand("simulate", "Simulate water and reconstruct its surface frame by frame");
     command.add_option("--scene", options->scene, "What happens")
-        ->check(CLI::IsMember({"dam-break", "double-dam-break", "pour-on-obstacle"}))->capture_default_str();
-    command.add_option("--particles", options->particles, "Number of particles; the scene's size stays, their radius follows")->capture_default_str();
+        ->check(CLI::IsMember({"dam-break", "double-dam-break", "pour-on-obstacle"}))
+        ->capture_default_str();
+    command
+        .add_option("--particles", options->particles,
+                    "Number of particles; the scene's size stays, their radius follows")
+        ->capture_default_str();
     command.add_option("--frames", options->frames, "Number of frames")->capture_default_str();
     command.add_option("--frame-seconds", options->frame_seconds, "Simulated time between two frames")
-        ->check(CLI::Range(1e-4, 1.0))->capture_default_str();
+        ->check(CLI::Range(1e-4, 1.0))
+        ->capture_default_str();
     command.add_flag("--adaptive", options->adaptive,
-                     "Particles of two sizes: groups of eight that are more than four radii below the surface are uploaded as one of level 1");
+                     "Particles of two sizes: groups of eight that are more than four radii below the surface are "
+                     "uploaded as one of level 1");
     options->surfaces.add_to(command);
     options->settings.add_to(command);
-    command.add_option("--positions", options->positions, "Encoding of the positions; uint16 is over the frame's bounding box")
-        ->check(CLI::IsMember({"float32", "uint16"}))->capture_default_str();
-    command.add_option("--session", options->session, "With --server: UUID of the session to create (default: a new one)");
+    command
+        .add_option("--positions", options->positions,
+                    "Encoding of the positions; uint16 is over the frame's bounding box")
+        ->check(CLI::IsMember({"float32", "uint16"}))
+        ->capture_default_str();
+    command.add_option("--session", options->session,
+                       "With --server: UUID of the session to create (default: a new one)");
     command.add_option("--out", options->out, "Folder for the meshes");
-    command.add_option("--format", options->format, "Format of the meshes")->check(CLI::IsMember({"ply", "obj", "bricks"}))->capture_default_str();
+    command.add_option("--format", options->format, "Format of the meshes")
+        ->check(CLI::IsMember({"ply", "obj", "bricks"}))
+        ->capture_default_str();
     command.add_option("--particles-out", options->particles_out, "Folder for the particles, as VTK");
     command.add_option("--stats", options->stats, "Figures of each frame, as JSON");
     command.callback([options] { simulate(*options); });

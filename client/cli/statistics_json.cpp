@@ -9,7 +9,8 @@ const Statistics& median_run(const std::vector<Statistics>& runs) {
     if (runs.size() == 1) return runs.front();
     std::vector<const Statistics*> warm;
     for (std::size_t i = 1; i < runs.size(); ++i) warm.push_back(&runs[i]);
-    std::stable_sort(warm.begin(), warm.end(), [](const Statistics* a, const Statistics* b) { return a->total_seconds < b->total_seconds; });
+    std::stable_sort(warm.begin(), warm.end(),
+                     [](const Statistics* a, const Statistics* b) { return a->total_seconds < b->total_seconds; });
     return *warm[(warm.size() - 1) / 2];
 }
 
@@ -24,7 +25,8 @@ nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::s
     const auto& b = s.base_cells_by_level;
     out["base_cells_by_level"] = {{"level1", b[0]}, {"level2", b[1]}, {"level3", b[2]}};
     out["field_evaluations"] = s.field_evaluations;
-    for (std::size_t i = 0; i < stage_count; ++i) out["stage_seconds"][std::string(stage_names[i])] = s.stage_seconds[i];
+    for (std::size_t i = 0; i < stage_count; ++i)
+        out["stage_seconds"][std::string(stage_names[i])] = s.stage_seconds[i];
     out["total_seconds"] = s.total_seconds;
     out["first_seconds"] = runs.front().total_seconds;
     out["peak_bytes"] = s.peak_bytes;

@@ -9,8 +9,8 @@
 
 namespace meniscus::cli {
 
-/// One frame's figures. runs: at least one; the first is the cold one. The figures are those of the warm run with the median
-/// total (the lower of two in the middle), or of the only run; `first_seconds` is the first run's total.
+/// One frame's figures. runs: at least one; the first is the cold one. The figures are those of the warm run with the
+/// median total (the lower of two in the middle), or of the only run; `first_seconds` is the first run's total.
 nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::string& mesh_sha256);
 
 /// For tests and tables: that warm run.

@@ -14,7 +14,10 @@ Surface::Surface(const Mesh& mesh, client::FrameStatistics statistics, std::uint
     : index_(index), simulation_time_(simulation_time), statistics_(std::move(statistics)), mesh_(&mesh) {}
 
 Surface::Surface(const client::ReceivedFrame& received)
-    : index_(received.index), simulation_time_(received.simulation_time), statistics_(received.statistics), received_(&received) {}
+    : index_(received.index),
+      simulation_time_(received.simulation_time),
+      statistics_(received.statistics),
+      received_(&received) {}
 
 const Mesh& Surface::mesh() const {
     if (mesh_ != nullptr) return *mesh_;
@@ -31,10 +34,13 @@ const client::ReceivedFrame& Surface::encoded() const {
 void SurfacesOptions::add_to(CLI::App& command) {
     auto* here = command.add_flag("--local", local, "Reconstruct in this process (the default)");
     auto* there = command.add_option("--server", server, "HOST:PORT of a meniscusd that reconstructs")->excludes(here);
-    command.add_option("--threads", threads, "Worker threads of this process; 0: one per processor")->excludes(there)->capture_default_str();
+    command.add_option("--threads", threads, "Worker threads of this process; 0: one per processor")
+        ->excludes(there)
+        ->capture_default_str();
 }
 
-std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfaces::Handler handler, const std::string& session) const {
+std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfaces::Handler handler,
+                                                const std::string& session) const {
     if (server.empty()) return std::make_unique<LocalSurfaces>(settings, threads, std::move(handler));
     return std::make_unique<ServerSurfaces>(server, session, settings, std::move(handler));
 }

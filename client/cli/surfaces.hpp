@@ -61,8 +61,10 @@ struct SurfacesOptions {
     unsigned threads = 0;  ///< of this process; 0: one per processor
 
     void add_to(CLI::App& command);
-    /// session: id to create on the server, chosen here if empty. The handler may be called from another thread, one call at a time.
-    std::unique_ptr<Surfaces> open(const Settings& settings, Surfaces::Handler handler, const std::string& session = {}) const;
+    /// session: id to create on the server, chosen here if empty. The handler may be called from another thread, one
+    /// call at a time.
+    std::unique_ptr<Surfaces> open(const Settings& settings, Surfaces::Handler handler,
+                                   const std::string& session = {}) const;
 };
 
 /// A connection to the server. Throws InvalidInput if there is none.

@@ -45,8 +45,11 @@ void add_watch(CLI::App& app) {
     command.add_option("SESSION", options->session, "The session's id")->required();
     command.add_option("--server", options->server, "HOST:PORT")->required();
     command.add_option("-o,--output", options->directory, "Folder for the meshes")->required();
-    command.add_option("--format", options->format, "Format of the meshes")->check(CLI::IsMember({"ply", "obj", "bricks"}))->capture_default_str();
-    command.add_option("--frames", options->frames, "End after so many; 0: when the session ends")->capture_default_str();
+    command.add_option("--format", options->format, "Format of the meshes")
+        ->check(CLI::IsMember({"ply", "obj", "bricks"}))
+        ->capture_default_str();
+    command.add_option("--frames", options->frames, "End after so many; 0: when the session ends")
+        ->capture_default_str();
     command.callback([options] { watch(*options); });
 }
 

@@ -12,7 +12,8 @@
 namespace meniscus::formats {
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_) {
-    if (std::filesystem::is_directory(path_)) throw InvalidInput(path_.string() + ": cannot be written: it is a directory");
+    if (std::filesystem::is_directory(path_))
+        throw InvalidInput(path_.string() + ": cannot be written: it is a directory");
     temporary_ += ".partial-" + std::to_string(::getpid());
     errno = 0;
     out_.open(temporary_, std::ios::binary | std::ios::trunc);

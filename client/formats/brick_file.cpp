@@ -84,7 +84,8 @@ void write_bricks(const std::filesystem::path& path, const client::ReceivedFrame
 client::ReceivedFrame read_bricks(const std::string& name, std::string_view bytes) {
     const ByteCursor in(name, bytes);
     constexpr std::size_t limit = std::numeric_limits<int>::max();  // of protobuf's streams
-    if (bytes.size() > limit) in.fail(std::to_string(bytes.size()) + " bytes; at most " + std::to_string(limit) + " are read");
+    if (bytes.size() > limit)
+        in.fail(std::to_string(bytes.size()) + " bytes; at most " + std::to_string(limit) + " are read");
     google::protobuf::io::ArrayInputStream stream(bytes.data(), static_cast<int>(bytes.size()));
     client::FrameReceiver receiver(true);
     while (true) {
@@ -102,8 +103,8 @@ client::ReceivedFrame read_bricks(const std::string& name, std::string_view byte
     }
 }
 
-client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistics, std::uint64_t index, double simulation_time,
-                                   const CodingOptions& options) {
+client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistics, std::uint64_t index,
+                                   double simulation_time, const CodingOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     client::ReceivedFrame frame;
     frame.index = index;

@@ -1,8 +1,9 @@
 // Encoded bricks as a file, `.bricks`: what a server sends for one frame, kept as it came.
 //
-// A sequence of meniscus.v1.StreamResponse messages, each after its length in bytes as a protobuf varint (protobuf's usual
-// "delimited" framing): one with mesh_begin, then one or more with mesh_brick for each of its bricks (a brick of more than 1 MiB in
-// parts), then one with frame_statistics. Several frames may follow each other; the reader takes the first.
+// A sequence of meniscus.v1.StreamResponse messages, each after its length in bytes as a protobuf varint (protobuf's
+// usual "delimited" framing): one with mesh_begin, then one or more with mesh_brick for each of its bricks (a brick of
+// more than 1 MiB in parts), then one with frame_statistics. Several frames may follow each other; the reader takes the
+// first.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +21,7 @@ void write_bricks(const std::filesystem::path& path, const client::ReceivedFrame
 client::ReceivedFrame read_bricks(const std::string& name, std::string_view bytes);
 
 /// A mesh reconstructed here, encoded as a server would.
-client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistics, std::uint64_t index, double simulation_time,
-                                   const CodingOptions& options = {});
+client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistics, std::uint64_t index,
+                                   double simulation_time, const CodingOptions& options = {});
 
 }  // namespace meniscus::formats

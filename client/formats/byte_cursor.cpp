@@ -9,7 +9,9 @@
 namespace meniscus::formats {
 namespace {
 
-bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+bool is_space(char c) {
+    return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
 
 }  // namespace
 
@@ -39,7 +41,8 @@ std::string_view ByteCursor::line() {
 }
 
 std::string_view ByteCursor::word() {
-    if (!skip_space()) fail("truncated: the file ends at byte " + std::to_string(position_) + " where a word is expected");
+    if (!skip_space())
+        fail("truncated: the file ends at byte " + std::to_string(position_) + " where a word is expected");
     const std::size_t begin = position_;
     while (position_ < bytes_.size() && !is_space(bytes_[position_])) ++position_;
     return bytes_.substr(begin, position_ - begin);
@@ -59,16 +62,22 @@ std::string_view ByteCursor::take(std::size_t size) {
 
 void ByteCursor::expect(std::size_t count, std::size_t bytes_each, std::string_view what) const {
     if (count <= remaining() / bytes_each) return;
-    fail("truncated: " + std::to_string(count) + " " + std::string(what) + " of at least " + std::to_string(bytes_each) +
-         (bytes_each == 1 ? " byte" : " bytes") + " are announced at byte " + std::to_string(position_) + ", but only " +
-         std::to_string(remaining()) + " bytes follow");
+    fail("truncated: " + std::to_string(count) + " " + std::string(what) + " of at least " +
+         std::to_string(bytes_each) + (bytes_each == 1 ? " byte" : " bytes") + " are announced at byte " +
+         std::to_string(position_) + ", but only " + std::to_string(remaining()) + " bytes follow");
 }
 
-double ByteCursor::number(std::string_view what) { return to_number(word(), *this, what); }
+double ByteCursor::number(std::string_view what) {
+    return to_number(word(), *this, what);
+}
 
-std::size_t ByteCursor::count(std::string_view what) { return to_count(word(), *this, what); }
+std::size_t ByteCursor::count(std::string_view what) {
+    return to_count(word(), *this, what);
+}
 
-void ByteCursor::fail(const std::string& message) const { throw InvalidInput(name_ + ": " + message); }
+void ByteCursor::fail(const std::string& message) const {
+    throw InvalidInput(name_ + ": " + message);
+}
 
 std::string quote(std::string_view text) {
     std::string out = "'";

@@ -30,8 +30,8 @@ public:
     /// The next `size` bytes. Throws InvalidInput if fewer remain.
     std::string_view take(std::size_t size);
 
-    /// Throws InvalidInput unless `count` elements of at least `bytes_each` bytes can still follow: called before memory is
-    /// allocated by a count that a file announces. `what` names them.
+    /// Throws InvalidInput unless `count` elements of at least `bytes_each` bytes can still follow: called before
+    /// memory is allocated by a count that a file announces. `what` names them.
     void expect(std::size_t count, std::size_t bytes_each, std::string_view what) const;
 
     /// The next word as a number. Throws InvalidInput for anything else; NaN and infinity are numbers.

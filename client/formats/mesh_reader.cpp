@@ -31,7 +31,8 @@ std::uint32_t to_index(double value, std::size_t count, const ByteCursor& at) {
 
 void expect_addressable(std::size_t vertices, const ByteCursor& at) {
     constexpr std::size_t limit = std::numeric_limits<std::uint32_t>::max();
-    if (vertices > limit) at.fail(std::to_string(vertices) + " vertices; at most " + std::to_string(limit) + " are read");
+    if (vertices > limit)
+        at.fail(std::to_string(vertices) + " vertices; at most " + std::to_string(limit) + " are read");
 }
 
 /// Keywords of OBJ that say nothing about triangles: comments, textures, names, materials, lines and points.
@@ -54,7 +55,8 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         for (const double x : mesh.positions[i])
             if (!std::isfinite(x))
-                throw InvalidInput(name + ": vertex " + std::to_string(i) + " has the coordinate " + std::to_string(x) + "; coordinates are finite");
+                throw InvalidInput(name + ": vertex " + std::to_string(i) + " has the coordinate " + std::to_string(x) +
+                                   "; coordinates are finite");
     return mesh;
 }
 
@@ -87,11 +89,13 @@ TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes) {
             ply.read_rows(element, [&](std::size_t, const PlyRow& row) {
                 mesh.positions.push_back({row.scalars[*axes[0]], row.scalars[*axes[1]], row.scalars[*axes[2]]});
                 if (normals)
-                    mesh.normals.push_back({static_cast<float>(row.scalars[*normal[0]]), static_cast<float>(row.scalars[*normal[1]]),
+                    mesh.normals.push_back({static_cast<float>(row.scalars[*normal[0]]),
+                                            static_cast<float>(row.scalars[*normal[1]]),
                                             static_cast<float>(row.scalars[*normal[2]])});
             });
         } else if (element.name == "face") {
-            const auto list = element.list("vertex_indices") ? element.list("vertex_indices") : element.list("vertex_index");
+            const auto list =
+                element.list("vertex_indices") ? element.list("vertex_indices") : element.list("vertex_index");
             const auto level = element.scalar("level");
             if (!list) ply.in().fail("its faces have no list vertex_indices");
             if (!has_vertices) ply.in().fail("its faces come before its vertices");
@@ -102,7 +106,8 @@ TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes) {
                 append_polygon(mesh, corners);
                 if (!level) return;
                 const double l = row.scalars[*level];
-                mesh.levels.resize(mesh.triangles.size(), l >= 1.0 && l <= 3.0 ? static_cast<std::uint8_t>(l) : std::uint8_t{0});
+                mesh.levels.resize(mesh.triangles.size(),
+                                   l >= 1.0 && l <= 3.0 ? static_cast<std::uint8_t>(l) : std::uint8_t{0});
             });
         } else {
             ply.read_rows(element, [](std::size_t, const PlyRow&) {});

@@ -48,8 +48,10 @@ void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
     AtomicFile file(path);
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         for (const double x : mesh.world(mesh.vertices[i])) {
-            if (wide) store(out, x);
-            else store(out, static_cast<float>(x));
+            if (wide)
+                store(out, x);
+            else
+                store(out, static_cast<float>(x));
         }
         if (normals)
             for (const float n : mesh.normals[i]) store(out, n);
@@ -75,8 +77,10 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
         out += 'v';
         for (const double x : mesh.world(vertex)) {
             out += ' ';
-            if (wide) append(out, x);
-            else append(out, static_cast<float>(x));
+            if (wide)
+                append(out, x);
+            else
+                append(out, static_cast<float>(x));
         }
         out += '\n';
         flush(file, out, flush_bytes);

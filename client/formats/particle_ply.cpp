@@ -24,7 +24,8 @@ Particles read_particle_ply(const std::string& name, std::string_view bytes) {
         particles.positions.reserve(3 * element.count);
         if (level) particles.levels.reserve(element.count);
         ply.read_rows(element, [&](std::size_t index, const PlyRow& row) {
-            for (const auto& axis : axes) particles.positions.push_back(to_coordinate(row.scalars[*axis], index, ply.in()));
+            for (const auto& axis : axes)
+                particles.positions.push_back(to_coordinate(row.scalars[*axis], index, ply.in()));
             if (level) particles.levels.push_back(to_level(row.scalars[*level], index, ply.in()));
         });
     }

@@ -16,7 +16,8 @@ Particles read_particles(const std::filesystem::path& path) {
     const std::string extension = lower_extension(path);
     const bool raw = extension == ".xyz" || extension == ".bin" || extension == ".raw";
     if (!raw && extension != ".vtk" && extension != ".ply")
-        throw InvalidInput(path.string() + ": particle files end in .vtk, .ply, .xyz, .bin or .raw, not in '" + extension + "'");
+        throw InvalidInput(path.string() + ": particle files end in .vtk, .ply, .xyz, .bin or .raw, not in '" +
+                           extension + "'");
     const std::string bytes = read_file(path);
     if (raw) return read_xyz(path.string(), bytes);
     return extension == ".vtk" ? read_vtk(path.string(), bytes) : read_particle_ply(path.string(), bytes);
@@ -25,8 +26,9 @@ Particles read_particles(const std::filesystem::path& path) {
 Particles read_xyz(const std::string& name, std::string_view bytes) {
     constexpr std::size_t particle_bytes = 3 * sizeof(float);
     if (bytes.size() % particle_bytes != 0)
-        ByteCursor(name, bytes).fail("its size is " + std::to_string(bytes.size()) + " bytes, not a multiple of " +
-                                     std::to_string(particle_bytes) + " (three float32 per particle)");
+        ByteCursor(name, bytes)
+            .fail("its size is " + std::to_string(bytes.size()) + " bytes, not a multiple of " +
+                  std::to_string(particle_bytes) + " (three float32 per particle)");
     Particles particles;
     particles.positions.resize(bytes.size() / sizeof(float));
     for (std::size_t i = 0; i < particles.positions.size(); ++i)
@@ -38,7 +40,8 @@ float to_coordinate(double value, std::size_t particle, const ByteCursor& at) {
     constexpr auto limit = static_cast<double>(std::numeric_limits<float>::max());
     if (std::isfinite(value) && std::abs(value) > limit) {
         std::ostringstream message;
-        message << "coordinate " << value << " of particle " << particle << " is beyond float32 (at most " << limit << ")";
+        message << "coordinate " << value << " of particle " << particle << " is beyond float32 (at most " << limit
+                << ")";
         at.fail(message.str());
     }
     return static_cast<float>(value);

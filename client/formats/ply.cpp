@@ -9,9 +9,22 @@ namespace {
 ScalarType type_by_name(std::string_view name, const ByteCursor& at) {
     using enum ScalarType;
     static constexpr std::array<std::pair<std::string_view, ScalarType>, 16> types{{
-        {"char", int8}, {"int8", int8}, {"uchar", uint8}, {"uint8", uint8}, {"short", int16}, {"int16", int16},
-        {"ushort", uint16}, {"uint16", uint16}, {"int", int32}, {"int32", int32}, {"uint", uint32}, {"uint32", uint32},
-        {"float", float32}, {"float32", float32}, {"double", float64}, {"float64", float64},
+        {"char", int8},
+        {"int8", int8},
+        {"uchar", uint8},
+        {"uint8", uint8},
+        {"short", int16},
+        {"int16", int16},
+        {"ushort", uint16},
+        {"uint16", uint16},
+        {"int", int32},
+        {"int32", int32},
+        {"uint", uint32},
+        {"uint32", uint32},
+        {"float", float32},
+        {"float32", float32},
+        {"double", float64},
+        {"float64", float64},
     }};
     for (const auto& [key, type] : types)
         if (key == name) return type;
@@ -46,7 +59,8 @@ std::optional<std::size_t> PlyElement::list(std::string_view property) const {
 }
 
 PlyReader::PlyReader(const std::string& name, std::string_view bytes) : in_(name, bytes) {
-    if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r\n")) in_.fail("not a PLY file: it does not begin with 'ply'");
+    if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r\n"))
+        in_.fail("not a PLY file: it does not begin with 'ply'");
     in_.line();
     bool has_format = false;
     while (true) {
@@ -57,9 +71,12 @@ PlyReader::PlyReader(const std::string& name, std::string_view bytes) : in_(name
         if (keyword == "comment" || keyword == "obj_info") continue;
         if (keyword == "format") {
             const std::string_view format = words.word();
-            if (format == "binary_little_endian") binary_ = std::endian::little;
-            else if (format == "binary_big_endian") binary_ = std::endian::big;
-            else if (format != "ascii") in_.fail("PLY format " + quote(format) + " is not known");
+            if (format == "binary_little_endian")
+                binary_ = std::endian::little;
+            else if (format == "binary_big_endian")
+                binary_ = std::endian::big;
+            else if (format != "ascii")
+                in_.fail("PLY format " + quote(format) + " is not known");
             has_format = true;
         } else if (keyword == "element") {
             PlyElement element;
@@ -101,8 +118,8 @@ void PlyReader::read_rows(const PlyElement& element, const std::function<void(st
             }
             const double count = next(*property.list_count_type);
             if (!(count >= 0.0 && count <= static_cast<double>(in_.remaining())))
-                in_.fail("truncated: a list of " + std::to_string(count) + " items, but only " + std::to_string(in_.remaining()) +
-                         " bytes follow");
+                in_.fail("truncated: a list of " + std::to_string(count) + " items, but only " +
+                         std::to_string(in_.remaining()) + " bytes follow");
             const auto items = static_cast<std::size_t>(count);
             in_.expect(binary_ ? items : items / 2, binary_ ? size_of(property.type) : 2, "list items");
             values.lists[p].resize(items);

@@ -17,8 +17,8 @@ namespace meniscus::formats {
 
 struct PlyProperty {
     std::string name;
-    ScalarType type = ScalarType::float32;       ///< of the value, or of a list's items
-    std::optional<ScalarType> list_count_type;   ///< set for a list
+    ScalarType type = ScalarType::float32;      ///< of the value, or of a list's items
+    std::optional<ScalarType> list_count_type;  ///< set for a list
 };
 
 struct PlyElement {

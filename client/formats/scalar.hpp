@@ -14,17 +14,23 @@ enum class ScalarType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32
 constexpr std::size_t size_of(ScalarType type) {
     switch (type) {
         case ScalarType::int8:
-        case ScalarType::uint8: return 1;
+        case ScalarType::uint8:
+            return 1;
         case ScalarType::int16:
-        case ScalarType::uint16: return 2;
+        case ScalarType::uint16:
+            return 2;
         case ScalarType::int32:
         case ScalarType::uint32:
-        case ScalarType::float32: return 4;
-        default: return 8;
+        case ScalarType::float32:
+            return 4;
+        default:
+            return 8;
     }
 }
 
-constexpr bool is_integer(ScalarType type) { return type != ScalarType::float32 && type != ScalarType::float64; }
+constexpr bool is_integer(ScalarType type) {
+    return type != ScalarType::float32 && type != ScalarType::float64;
+}
 
 /// The sizeof(T) bytes at `bytes` as a T in the given byte order.
 template <class T>
@@ -39,16 +45,26 @@ T load(const char* bytes, std::endian order) {
 /// The size_of(type) bytes at `bytes` as a double; 64-bit integers beyond 2^53 are rounded.
 inline double load_scalar(ScalarType type, const char* bytes, std::endian order) {
     switch (type) {
-        case ScalarType::int8: return load<std::int8_t>(bytes, order);
-        case ScalarType::uint8: return load<std::uint8_t>(bytes, order);
-        case ScalarType::int16: return load<std::int16_t>(bytes, order);
-        case ScalarType::uint16: return load<std::uint16_t>(bytes, order);
-        case ScalarType::int32: return load<std::int32_t>(bytes, order);
-        case ScalarType::uint32: return load<std::uint32_t>(bytes, order);
-        case ScalarType::int64: return static_cast<double>(load<std::int64_t>(bytes, order));
-        case ScalarType::uint64: return static_cast<double>(load<std::uint64_t>(bytes, order));
-        case ScalarType::float32: return static_cast<double>(load<float>(bytes, order));
-        case ScalarType::float64: return load<double>(bytes, order);
+        case ScalarType::int8:
+            return load<std::int8_t>(bytes, order);
+        case ScalarType::uint8:
+            return load<std::uint8_t>(bytes, order);
+        case ScalarType::int16:
+            return load<std::int16_t>(bytes, order);
+        case ScalarType::uint16:
+            return load<std::uint16_t>(bytes, order);
+        case ScalarType::int32:
+            return load<std::int32_t>(bytes, order);
+        case ScalarType::uint32:
+            return load<std::uint32_t>(bytes, order);
+        case ScalarType::int64:
+            return static_cast<double>(load<std::int64_t>(bytes, order));
+        case ScalarType::uint64:
+            return static_cast<double>(load<std::uint64_t>(bytes, order));
+        case ScalarType::float32:
+            return static_cast<double>(load<float>(bytes, order));
+        case ScalarType::float64:
+            return load<double>(bytes, order);
     }
     return 0.0;
 }

@@ -1,5 +1,6 @@
-// Legacy VTK (vtk.org, "VTK File Formats", the simple legacy formats), versions up to 5.1: the points and the `level` array of a
-// point set. Everything else in the file is walked over with its size checked, so that a truncated file never passes.
+// Legacy VTK (vtk.org, "VTK File Formats", the simple legacy formats), versions up to 5.1: the points and the `level`
+// array of a point set. Everything else in the file is walked over with its size checked, so that a truncated file
+// never passes.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -24,10 +25,22 @@ std::string upper(std::string_view text) {
 std::optional<ScalarType> type_by_name(std::string_view name) {
     using enum ScalarType;
     static constexpr std::array<std::pair<std::string_view, ScalarType>, 16> types{{
-        {"FLOAT", float32}, {"DOUBLE", float64}, {"INT", int32}, {"UNSIGNED_INT", uint32},
-        {"CHAR", int8}, {"SIGNED_CHAR", int8}, {"UNSIGNED_CHAR", uint8}, {"SHORT", int16}, {"UNSIGNED_SHORT", uint16},
-        {"LONG", int64}, {"UNSIGNED_LONG", uint64}, {"VTKIDTYPE", int32}, {"VTKTYPEINT64", int64},
-        {"VTKTYPEUINT64", uint64}, {"VTKTYPEINT32", int32}, {"VTKTYPEUINT32", uint32},
+        {"FLOAT", float32},
+        {"DOUBLE", float64},
+        {"INT", int32},
+        {"UNSIGNED_INT", uint32},
+        {"CHAR", int8},
+        {"SIGNED_CHAR", int8},
+        {"UNSIGNED_CHAR", uint8},
+        {"SHORT", int16},
+        {"UNSIGNED_SHORT", uint16},
+        {"LONG", int64},
+        {"UNSIGNED_LONG", uint64},
+        {"VTKIDTYPE", int32},
+        {"VTKTYPEINT64", int64},
+        {"VTKTYPEUINT64", uint64},
+        {"VTKTYPEINT32", int32},
+        {"VTKTYPEUINT32", uint32},
     }};
     for (const auto& [key, type] : types)
         if (key == name) return type;
@@ -51,7 +64,8 @@ public:
 private:
     void header() {
         constexpr std::string_view magic = "# vtk DataFile Version ";
-        if (!in_.rest().starts_with(magic)) in_.fail("not a legacy VTK file: it does not begin with '# vtk DataFile Version'");
+        if (!in_.rest().starts_with(magic))
+            in_.fail("not a legacy VTK file: it does not begin with '# vtk DataFile Version'");
         const std::string_view version = in_.line().substr(magic.size());
         const std::size_t dot = version.find('.');
         const std::size_t major = to_count(version.substr(0, dot), in_, "VTK version");
@@ -94,7 +108,8 @@ private:
     /// Stands behind the word METADATA; a blank line ends the block.
     void skip_metadata() {
         if (in_.remaining() > 0) in_.line();
-        while (in_.remaining() > 0 && !blank(in_.line())) {}
+        while (in_.remaining() > 0 && !blank(in_.line())) {
+        }
     }
 
     void points() {
@@ -127,7 +142,8 @@ private:
         if (keyword == "SCALARS") return scalars();
         if (keyword == "LOOKUP_TABLE") {
             in_.word();
-            return skip(product(in_.count("size of the lookup table"), 4), binary_ ? ScalarType::uint8 : ScalarType::float32);
+            return skip(product(in_.count("size of the lookup table"), 4),
+                        binary_ ? ScalarType::uint8 : ScalarType::float32);
         }
         if (keyword == "COLOR_SCALARS") {
             in_.word();
@@ -140,7 +156,8 @@ private:
         if (keyword == "TENSORS6") components = 6;
         if (keyword == "GLOBAL_IDS" || keyword == "PEDIGREE_IDS" || keyword == "EDGE_FLAGS") components = 1;
         if (components == 0 && keyword != "TEXTURE_COORDINATES")
-            in_.fail(quote(keyword) + " at byte " + std::to_string(in_.position() - keyword.size()) + " is no keyword of a VTK file");
+            in_.fail(quote(keyword) + " at byte " + std::to_string(in_.position() - keyword.size()) +
+                     " is no keyword of a VTK file");
         in_.word();  // name
         if (components == 0) components = in_.count("number of texture coordinates");
         const ScalarType type = data_type();
@@ -218,7 +235,8 @@ private:
 
     std::size_t product(std::size_t a, std::size_t b) const {
         std::size_t result = 0;
-        if (__builtin_mul_overflow(a, b, &result)) in_.fail(std::to_string(a) + " x " + std::to_string(b) + " values are announced");
+        if (__builtin_mul_overflow(a, b, &result))
+            in_.fail(std::to_string(a) + " x " + std::to_string(b) + " values are announced");
         return result;
     }
 
@@ -227,7 +245,7 @@ private:
     ByteCursor in_;
     Particles particles_;
     bool binary_ = false;
-    bool offsets_ = false;     ///< version 5 writes cells as offsets and connectivity
+    bool offsets_ = false;  ///< version 5 writes cells as offsets and connectivity
     bool has_points_ = false;
     bool point_data_ = false;  ///< attributes that follow belong to points
     std::size_t attribute_count_ = 0;
@@ -235,6 +253,8 @@ private:
 
 }  // namespace
 
-Particles read_vtk(const std::string& name, std::string_view bytes) { return VtkReader(name, bytes).read(); }
+Particles read_vtk(const std::string& name, std::string_view bytes) {
+    return VtkReader(name, bytes).read();
+}
 
 }  // namespace meniscus::formats

@@ -11,7 +11,8 @@ namespace meniscus::formats {
 void write_vtk(const std::filesystem::path& path, const ParticleFrame& frame) {
     const std::size_t count = frame.count();
     const std::string n = std::to_string(count);
-    std::string out = "# vtk DataFile Version 4.1\nMeniscus particles\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS " + n + " float\n";
+    std::string out =
+        "# vtk DataFile Version 4.1\nMeniscus particles\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS " + n + " float\n";
     for (const float x : frame.positions) store(out, x, std::endian::big);
     out += "\nCELLS " + n + " " + std::to_string(2 * count) + "\n";
     for (std::size_t i = 0; i < count; ++i) {

@@ -13,12 +13,15 @@ constexpr std::size_t merged = 8;
 
 class MergeGrid {
 public:
-    MergeGrid(std::span<const float> positions, float particle_radius, const Tank& tank) : cell_(4.0F * particle_radius) {
+    MergeGrid(std::span<const float> positions, float particle_radius, const Tank& tank)
+        : cell_(4.0F * particle_radius) {
         for (std::size_t a = 0; a < 3; ++a) count_[a] = std::max(1, static_cast<int>(std::ceil(tank.size[a] / cell_)));
-        members_.resize(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(count_[2]));
+        members_.resize(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
+                        static_cast<std::size_t>(count_[2]));
         for (std::size_t i = 0; 3 * i < positions.size(); ++i) {
             std::array<int, 3> c{};
-            for (std::size_t a = 0; a < 3; ++a) c[a] = std::clamp(static_cast<int>(positions[3 * i + a] / cell_), 0, count_[a] - 1);
+            for (std::size_t a = 0; a < 3; ++a)
+                c[a] = std::clamp(static_cast<int>(positions[3 * i + a] / cell_), 0, count_[a] - 1);
             members_[index(c[0], c[1], c[2])].push_back(static_cast<std::uint32_t>(i));
         }
     }
@@ -42,7 +45,8 @@ private:
         for (int dz = -1; dz <= 1; ++dz)
             for (int dy = -1; dy <= 1; ++dy)
                 for (int dx = -1; dx <= 1; ++dx) {
-                    const bool wall = x + dx < 0 || y + dy < 0 || z + dz < 0 || x + dx >= count_[0] || y + dy >= count_[1] || z + dz >= count_[2];
+                    const bool wall = x + dx < 0 || y + dy < 0 || z + dz < 0 || x + dx >= count_[0] ||
+                                      y + dy >= count_[1] || z + dz >= count_[2];
                     if (!wall && members_[index(x + dx, y + dy, z + dz)].size() < filled) return false;
                 }
         return true;
@@ -50,7 +54,8 @@ private:
 
     std::size_t index(int x, int y, int z) const {
         return (static_cast<std::size_t>(z) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(y)) *
-                   static_cast<std::size_t>(count_[0]) + static_cast<std::size_t>(x);
+                   static_cast<std::size_t>(count_[0]) +
+               static_cast<std::size_t>(x);
     }
 
     float cell_;
@@ -66,10 +71,12 @@ LeveledParticles merge_deep_particles(std::span<const float> positions, float pa
     std::vector<float> coarse;
     grid.visit_deep([&](std::vector<std::uint32_t>& members, const Vector3& center) {
         const auto distance = [&](std::uint32_t i) {
-            const Vector3 d{positions[3 * i] - center[0], positions[3 * i + 1] - center[1], positions[3 * i + 2] - center[2]};
+            const Vector3 d{positions[3 * i] - center[0], positions[3 * i + 1] - center[1],
+                            positions[3 * i + 2] - center[2]};
             return dot(d, d);
         };
-        std::stable_sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) { return distance(a) < distance(b); });
+        std::stable_sort(members.begin(), members.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return distance(a) < distance(b); });
         Vector3 sum{};
         for (std::size_t m = 0; m < merged; ++m) {
             gone[members[m]] = true;
@@ -79,8 +86,9 @@ LeveledParticles merge_deep_particles(std::span<const float> positions, float pa
     });
     LeveledParticles out;
     for (std::size_t i = 0; i < gone.size(); ++i)
-        if (!gone[i]) out.positions.insert(out.positions.end(), positions.begin() + static_cast<std::ptrdiff_t>(3 * i),
-                                           positions.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+        if (!gone[i])
+            out.positions.insert(out.positions.end(), positions.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                                 positions.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
     out.levels.assign(out.positions.size() / 3, 0);
     out.positions.insert(out.positions.end(), coarse.begin(), coarse.end());
     out.levels.resize(out.positions.size() / 3, 1);

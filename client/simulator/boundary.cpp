@@ -30,7 +30,8 @@ void push_out(Vector3& position, Vector3& velocity, const Vector3& normal, float
 
 Boundary::Boundary(const Tank& tank, std::optional<Sphere> obstacle, float support)
     : tank_(tank), obstacle_(obstacle), support_(support), values_(table_size + 1), slopes_(table_size + 1) {
-    // area(d): the kernel's integral over the plane at distance d, 2 pi W(s) s ds from d on. The value behind the plane is its integral.
+    // area(d): the kernel's integral over the plane at distance d, 2 pi W(s) s ds from d on. The value behind the plane
+    // is its integral.
     const CubicSpline kernel(support, 1.0F);
     const float step = support / static_cast<float>(table_size);
     const auto at = [&](std::size_t i) { return static_cast<float>(i) * step; };
@@ -38,7 +39,8 @@ Boundary::Boundary(const Tank& tank, std::optional<Sphere> obstacle, float suppo
         const float middle = at(i) + 0.5F * step;
         slopes_[i] = slopes_[i + 1] - 2.0F * std::numbers::pi_v<float> * kernel.value(middle) * middle * step;
     }
-    for (std::size_t i = table_size; i-- > 0;) values_[i] = values_[i + 1] - 0.5F * (slopes_[i] + slopes_[i + 1]) * step;
+    for (std::size_t i = table_size; i-- > 0;)
+        values_[i] = values_[i + 1] - 0.5F * (slopes_[i] + slopes_[i + 1]) * step;
 }
 
 void Boundary::add(BoundaryDensity& all, float distance, const Vector3& normal) const {
@@ -60,7 +62,8 @@ BoundaryDensity Boundary::density(const Vector3& position) const {
         add(all, tank_.size[a] - position[a], axis_normal(a, -1.0F));
     }
     if (!obstacle_) return all;
-    const Vector3 d{position[0] - obstacle_->center[0], position[1] - obstacle_->center[1], position[2] - obstacle_->center[2]};
+    const Vector3 d{position[0] - obstacle_->center[0], position[1] - obstacle_->center[1],
+                    position[2] - obstacle_->center[2]};
     const float length = std::sqrt(dot(d, d));
     if (length > 0.0F) add(all, length - obstacle_->radius, {d[0] / length, d[1] / length, d[2] / length});
     return all;
@@ -68,10 +71,12 @@ BoundaryDensity Boundary::density(const Vector3& position) const {
 
 void Boundary::keep_out(Vector3& position, Vector3& velocity, float clearance) const {
     if (obstacle_) {
-        const Vector3 d{position[0] - obstacle_->center[0], position[1] - obstacle_->center[1], position[2] - obstacle_->center[2]};
+        const Vector3 d{position[0] - obstacle_->center[0], position[1] - obstacle_->center[1],
+                        position[2] - obstacle_->center[2]};
         const float length = std::sqrt(dot(d, d));
         if (length > 0.0F)
-            push_out(position, velocity, {d[0] / length, d[1] / length, d[2] / length}, obstacle_->radius + clearance - length);
+            push_out(position, velocity, {d[0] / length, d[1] / length, d[2] / length},
+                     obstacle_->radius + clearance - length);
     }
     for (std::size_t a = 0; a < 3; ++a) {
         push_out(position, velocity, axis_normal(a, 1.0F), clearance - position[a]);

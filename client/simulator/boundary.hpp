@@ -25,8 +25,8 @@ struct BoundaryDensity {
 };
 
 /// A solid acts as if it were filled with fluid at rest: it adds the kernel's integral over the half-space behind its
-/// surface (a sphere is flat at the scale of the kernel). No boundary particles: nothing to sample, and walls without bumps.
-/// Where solids meet, the free parts that they leave multiply, as they do at a right-angled edge.
+/// surface (a sphere is flat at the scale of the kernel). No boundary particles: nothing to sample, and walls without
+/// bumps. Where solids meet, the free parts that they leave multiply, as they do at a right-angled edge.
 class Boundary {
 public:
     /// support: the kernel's, meters.
@@ -36,8 +36,8 @@ public:
     const std::optional<Sphere>& obstacle() const { return obstacle_; }
 
     BoundaryDensity density(const Vector3& position) const;
-    /// Moves a particle that is nearer to a solid than `clearance` away and takes the velocity into the solid from it: the last
-    /// resort behind the pressure.
+    /// Moves a particle that is nearer to a solid than `clearance` away and takes the velocity into the solid from it:
+    /// the last resort behind the pressure.
     void keep_out(Vector3& position, Vector3& velocity, float clearance) const;
 
 private:

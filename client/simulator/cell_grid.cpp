@@ -17,13 +17,15 @@ CellGrid::CellGrid(const Vector3& size, float cell) : inverse_cell_(1.0F / cell)
 std::array<std::int32_t, 3> CellGrid::cell_of(const Vector3& position) const {
     std::array<std::int32_t, 3> cell{};
     for (std::size_t a = 0; a < 3; ++a)
-        cell[a] = static_cast<std::int32_t>(std::clamp(position[a] * inverse_cell_, 0.0F, static_cast<float>(count_[a] - 1)));
+        cell[a] =
+            static_cast<std::int32_t>(std::clamp(position[a] * inverse_cell_, 0.0F, static_cast<float>(count_[a] - 1)));
     return cell;
 }
 
 std::size_t CellGrid::index(std::int32_t x, std::int32_t y, std::int32_t z) const {
     return (static_cast<std::size_t>(z) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(count_[0]) + static_cast<std::size_t>(x);
+               static_cast<std::size_t>(count_[0]) +
+           static_cast<std::size_t>(x);
 }
 
 const std::vector<std::uint32_t>& CellGrid::sort(std::span<const Vector3> positions) {

@@ -4,7 +4,8 @@
 
 namespace meniscus::simulator {
 
-void Neighbors::find(std::span<const Vector3> positions, const CellGrid& grid, const CubicSpline& kernel, float support) {
+void Neighbors::find(std::span<const Vector3> positions, const CellGrid& grid, const CubicSpline& kernel,
+                     float support) {
     offsets.assign(1, 0);
     offsets.reserve(positions.size() + 1);
     index.clear();

@@ -12,10 +12,10 @@
 namespace meniscus::simulator {
 
 struct Neighbors {
-    std::vector<std::size_t> offsets;      ///< particle i's pairs are offsets[i] ... offsets[i + 1]
-    std::vector<std::uint32_t> index;      ///< the other particle
-    std::vector<float> weight;             ///< kernel value
-    std::vector<float> gradient_x;         ///< gradient by particle i's position
+    std::vector<std::size_t> offsets;  ///< particle i's pairs are offsets[i] ... offsets[i + 1]
+    std::vector<std::uint32_t> index;  ///< the other particle
+    std::vector<float> weight;         ///< kernel value
+    std::vector<float> gradient_x;     ///< gradient by particle i's position
     std::vector<float> gradient_y;
     std::vector<float> gradient_z;
 

@@ -30,7 +30,8 @@ std::vector<Vector3> disc(const Nozzle& nozzle, float particle_radius) {
 }  // namespace
 
 Simulation::Simulation(const Scene& scene)
-    : scene_(scene), solver_(solver_settings(scene), Boundary(scene.tank, scene.obstacle, 4.0F * scene.particle_radius)) {
+    : scene_(scene),
+      solver_(solver_settings(scene), Boundary(scene.tank, scene.obstacle, 4.0F * scene.particle_radius)) {
     solver_.add(scene_.particles, {});
     if (scene_.nozzle) layer_ = disc(*scene_.nozzle, scene_.particle_radius);
 }

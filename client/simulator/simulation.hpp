@@ -29,10 +29,10 @@ private:
 
     Scene scene_;
     Solver solver_;
-    std::vector<Vector3> layer_;   ///< what the nozzle adds at a time
+    std::vector<Vector3> layer_;  ///< what the nozzle adds at a time
     std::mt19937 random_{1};
     double time_ = 0.0;
-    double next_layer_ = 0.0;      ///< time at which it does
+    double next_layer_ = 0.0;  ///< time at which it does
 };
 
 }  // namespace meniscus::simulator

@@ -17,7 +17,9 @@ constexpr float clearance = 0.5F;
 /// Fewer neighbors than this are spray, whose divergence means nothing.
 constexpr std::size_t dense_neighbors = 18;
 
-float cube(float x) { return x * x * x; }
+float cube(float x) {
+    return x * x * x;
+}
 
 template <class T>
 void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& order, std::vector<T>& scratch) {
@@ -29,8 +31,11 @@ void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& order, st
 }  // namespace
 
 Solver::Solver(const SolverSettings& settings, const Boundary& boundary)
-    : settings_(settings), boundary_(boundary), support_(support_in_radii * settings.particle_radius),
-      kernel_(support_, cube(2.0F * settings.particle_radius)), grid_(boundary.tank().size, support_) {}
+    : settings_(settings),
+      boundary_(boundary),
+      support_(support_in_radii * settings.particle_radius),
+      kernel_(support_, cube(2.0F * settings.particle_radius)),
+      grid_(boundary.tank().size, support_) {}
 
 void Solver::add(std::span<const Vector3> positions, const Vector3& velocity) {
     for (const Vector3& p : positions) {
@@ -178,13 +183,15 @@ void Solver::solve(std::vector<float>& pressure, float dt, const Compression& co
         for (std::size_t i = 0; i < positions_.size(); ++i) {
             const float residual = compression(i);
             // Where particles crowd, Jacobi's steps overshoot ever further: shorter ones there.
-            if (residual * residual_[i] < 0.0F && std::abs(residual) > 0.7F * std::abs(residual_[i])) relaxation_[i] *= 0.5F;
+            if (residual * residual_[i] < 0.0F && std::abs(residual) > 0.7F * std::abs(residual_[i]))
+                relaxation_[i] *= 0.5F;
             residual_[i] = residual;
             pressure[i] = std::max(0.0F, pressure[i] + relaxation_[i] * residual * response_[i] / (dt * dt));
             error += static_cast<double>(std::max(0.0F, residual));
         }
         const double mean = error / static_cast<double>(positions_.size());
-        if (iteration + 1 >= settings_.min_iterations && mean <= static_cast<double>(settings_.density_tolerance)) break;
+        if (iteration + 1 >= settings_.min_iterations && mean <= static_cast<double>(settings_.density_tolerance))
+            break;
     }
     accelerate(pressure, dt);
     velocities_.swap(predicted_);
@@ -192,7 +199,8 @@ void Solver::solve(std::vector<float>& pressure, float dt, const Compression& co
 
 void Solver::solve_divergence(float dt) {
     solve(divergence_pressure_, dt, [&](std::size_t i) {
-        const bool spray = neighbors_.offsets[i + 1] - neighbors_.offsets[i] < dense_neighbors && boundary_gradient_[i] == Vector3{};
+        const bool spray =
+            neighbors_.offsets[i + 1] - neighbors_.offsets[i] < dense_neighbors && boundary_gradient_[i] == Vector3{};
         return spray || density_[i] + dt * rate_[i] < 0.95F ? -1.0F : dt * rate_[i];
     });
 }

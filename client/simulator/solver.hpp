@@ -1,8 +1,9 @@
 // Incompressible SPH: a pressure that keeps density and divergence, found by relaxed Jacobi iterations.
 //
-// After Bender and Koschier, "Divergence-Free SPH for Incompressible and Viscous Fluids" (2017): one solve makes the velocity
-// field free of divergence where it compresses, a second one makes the density after the step the rest density. All particles
-// have the same mass; densities are relative to rest. Single-threaded and in a fixed order: the same input gives the same bits.
+// After Bender and Koschier, "Divergence-Free SPH for Incompressible and Viscous Fluids" (2017): one solve makes the
+// velocity field free of divergence where it compresses, a second one makes the density after the step the rest
+// density. All particles have the same mass; densities are relative to rest. Single-threaded and in a fixed order: the
+// same input gives the same bits.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +17,12 @@
 namespace meniscus::simulator {
 
 struct SolverSettings {
-    float particle_radius = 0.025F;    ///< meters; particles at rest are two radii apart
-    float gravity = 9.81F;             ///< m/s^2, along -y
-    float viscosity = 6.0F;            ///< 1/s: rate at which a particle takes on its neighbors' velocity
-    float density_tolerance = 2e-3F;   ///< mean compression that ends the iterations
+    float particle_radius = 0.025F;   ///< meters; particles at rest are two radii apart
+    float gravity = 9.81F;            ///< m/s^2, along -y
+    float viscosity = 6.0F;           ///< 1/s: rate at which a particle takes on its neighbors' velocity
+    float density_tolerance = 2e-3F;  ///< mean compression that ends the iterations
     int min_iterations = 2;
-    int max_iterations = 40;           ///< of each solve
+    int max_iterations = 40;  ///< of each solve
 };
 
 class Solver {
@@ -46,7 +47,8 @@ private:
     void sort();
     void compute_densities();
     void apply_forces(float dt);
-    /// Changes velocities_ by the pressure that takes back compression(i), the relative one of particle i over this step.
+    /// Changes velocities_ by the pressure that takes back compression(i), the relative one of particle i over this
+    /// step.
     template <class Compression>
     void solve(std::vector<float>& pressure, float dt, const Compression& compression);
     void solve_divergence(float dt);
@@ -67,16 +69,16 @@ private:
     std::vector<Vector3> positions_;
     std::vector<Vector3> velocities_;
     std::vector<std::uint32_t> ids_;
-    std::vector<float> density_pressure_;     ///< of the last step: where the next one starts
+    std::vector<float> density_pressure_;  ///< of the last step: where the next one starts
     std::vector<float> divergence_pressure_;
 
     std::vector<float> density_;
-    std::vector<float> response_;             ///< how much a particle's own pressure lowers its compression
+    std::vector<float> response_;  ///< how much a particle's own pressure lowers its compression
     std::vector<Vector3> boundary_gradient_;
-    std::vector<Vector3> predicted_;          ///< velocities with the pressure applied
-    std::vector<float> relaxation_;           ///< of each particle's pressure
-    std::vector<float> residual_;             ///< of the iteration before
-    std::vector<float> rate_;                 ///< d density / dt with the predicted velocities
+    std::vector<Vector3> predicted_;  ///< velocities with the pressure applied
+    std::vector<float> relaxation_;   ///< of each particle's pressure
+    std::vector<float> residual_;     ///< of the iteration before
+    std::vector<float> rate_;         ///< d density / dt with the predicted velocities
     std::uint64_t steps_ = 0;
 };
 

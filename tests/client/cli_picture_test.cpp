@@ -39,9 +39,12 @@ TEST(Rasterizer, TheNearerTriangleWinsInAnyOrder) {
         for (int i = 0; i < 2; ++i) {
             const bool near = (i == 0) == near_first;
             const float depth = near ? 1.0F : 2.0F;
-            const std::array<ScreenPoint, 3> triangle{{{-9.0F, -9.0F, depth}, {20.0F, -9.0F, depth}, {-9.0F, 20.0F, depth}}};
-            if (near) rasterizer.draw(triangle, paint_red);
-            else rasterizer.draw(triangle, paint_white);
+            const std::array<ScreenPoint, 3> triangle{
+                {{-9.0F, -9.0F, depth}, {20.0F, -9.0F, depth}, {-9.0F, 20.0F, depth}}};
+            if (near)
+                rasterizer.draw(triangle, paint_red);
+            else
+                rasterizer.draw(triangle, paint_white);
         }
         EXPECT_EQ(pixel(rasterizer.image(), 2, 2), red);
     }
@@ -49,7 +52,8 @@ TEST(Rasterizer, TheNearerTriangleWinsInAnyOrder) {
 
 TEST(Rasterizer, SmoothsEdgesBySeveralSamples) {
     Rasterizer rasterizer(1, 1, 2);
-    rasterizer.draw({{{0.0F, -1.0F, 1.0F}, {0.5F, -1.0F, 1.0F}, {0.5F, 9.0F, 1.0F}}}, paint_white);  // the left half, roughly
+    rasterizer.draw({{{0.0F, -1.0F, 1.0F}, {0.5F, -1.0F, 1.0F}, {0.5F, 9.0F, 1.0F}}},
+                    paint_white);  // the left half, roughly
     rasterizer.draw({{{0.0F, -1.0F, 1.0F}, {0.0F, 9.0F, 1.0F}, {0.5F, 9.0F, 1.0F}}}, paint_white);
     EXPECT_NEAR(pixel(rasterizer.image(), 0, 0)[0], 188, 2);  // half of the light, in sRGB
 }

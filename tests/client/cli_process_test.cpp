@@ -17,14 +17,17 @@
 namespace meniscus::test {
 namespace {
 
-ProcessResult run_meniscus(const std::vector<std::string>& arguments) { return run_process(MENISCUS_CLI, arguments); }
+ProcessResult run_meniscus(const std::vector<std::string>& arguments) {
+    return run_process(MENISCUS_CLI, arguments);
+}
 
 /// A file of 4 x 4 x 4 particles of radius 0.5, with a gap in between two halves.
 class Cli : public testing::Test {
 protected:
     Cli() {
         for (int i = 0; i < 64; ++i)
-            for (const int x : {i % 4 + (i % 4 > 1 ? 3 : 0), i / 4 % 4, i / 16}) positions_.push_back(static_cast<float>(x));
+            for (const int x : {i % 4 + (i % 4 > 1 ? 3 : 0), i / 4 % 4, i / 16})
+                positions_.push_back(static_cast<float>(x));
         std::string bytes;
         for (const float x : positions_) formats::store(bytes, x);
         in_ = write("particles.xyz", bytes);
@@ -58,7 +61,8 @@ protected:
         EXPECT_EQ(result.exit_code, 2);
         EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
         EXPECT_EQ(result.out, "");
-        for (const std::string& word : words) EXPECT_NE(result.err.find(word), std::string::npos) << word << " in: " << result.err;
+        for (const std::string& word : words)
+            EXPECT_NE(result.err.find(word), std::string::npos) << word << " in: " << result.err;
     }
 
     TemporaryDirectory directory_;
@@ -95,9 +99,12 @@ TEST_F(Cli, RefusesContradictions) {
     expect_refused(reconstruct({"--local", "--server", "localhost:1"}), {"--local", "--server"});
     expect_refused(reconstruct({"--threads", "2", "--server", "localhost:1"}), {"--threads", "--server"});
     expect_refused(reconstruct({"--start", "1"}), {"--start"});
-    expect_refused({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "1"}, {"--start", "--end"});
-    expect_refused({"reconstruct", path("f_{}.vtk"), "-o", out_, "--particle-radius", "1", "--start", "1", "--end", "2"}, {"{}"});
-    expect_refused({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "1", "--start", "3", "--end", "2"},
+    expect_refused({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "1"},
+                   {"--start", "--end"});
+    expect_refused(
+        {"reconstruct", path("f_{}.vtk"), "-o", out_, "--particle-radius", "1", "--start", "1", "--end", "2"}, {"{}"});
+    expect_refused({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "1", "--start", "3",
+                    "--end", "2"},
                    {"3", "2"});
     expect_refused({"simulate", "--session", "0", "--frames", "1"}, {"--session", "--server"});
 }
@@ -133,7 +140,8 @@ TEST_F(Cli, RefusesPositionsThatAreNotFinite) {
     for (const char* value : {"nan", "inf"}) {
         std::string text = vtk_ascii();
         text.replace(text.find("4 5 6"), 5, std::string("4 ") + value + " 6");
-        expect_refused({"reconstruct", write("bad.vtk", text), "-o", out_, "--particle-radius", "0.5"}, {"bad.vtk", "particle 1", value});
+        expect_refused({"reconstruct", write("bad.vtk", text), "-o", out_, "--particle-radius", "0.5"},
+                       {"bad.vtk", "particle 1", value});
     }
 }
 
@@ -143,9 +151,11 @@ TEST_F(Cli, RefusesOutputsThatCannotBeWritten) {
     };
     refused(path("no/such/mesh.ply"), {"no/such", "cannot be written"});
     refused(path("mesh.stl"), {"mesh.stl", ".ply"});
+    expect_refused(reconstruct({"--stats", path("no/such/s.json")}), {"no/such", "cannot be written"});
     std::filesystem::create_directory(directory_ / "folder.ply");
     refused(path("folder.ply"), {"folder.ply", "directory"});
-    expect_refused({"picture", write("m.obj", "v 0 0 0\n"), "-o", "/no/such/p.png"}, {"/no/such/p.png", "cannot be written"});
+    expect_refused({"picture", write("m.obj", "v 0 0 0\n"), "-o", "/no/such/p.png"},
+                   {"/no/such/p.png", "cannot be written"});
     expect_refused({"picture", path("none.ply"), "-o", path("p.png")}, {"none.ply", "no such file"});
     expect_refused({"picture", path("m.obj"), "-o", path("p.png"), "--width", "0"}, {"--width", "0"});
 }
@@ -161,21 +171,24 @@ TEST_F(Cli, RefusesAGapInASequenceByName) {
     frame.positions = positions_;
     formats::write_vtk(directory_ / "f_08.vtk", frame);
     formats::write_vtk(directory_ / "f_10.vtk", frame);
-    expect_refused({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "0.5", "--start", "8", "--end", "10"},
+    expect_refused({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "0.5", "--start", "8",
+                    "--end", "10"},
                    {"f_09.vtk", "no such file"});
 }
 
 TEST_F(Cli, StatisticsHaveEveryFigure) {
     const nlohmann::json s = stats({"--threads", "1", "--repeat", "3"});
     EXPECT_EQ(s.at("particles"), 64);
-    for (const char* key : {"vertices", "triangles", "field_evaluations", "total_seconds", "first_seconds", "peak_bytes"})
+    for (const char* key :
+         {"vertices", "triangles", "field_evaluations", "total_seconds", "first_seconds", "peak_bytes"})
         EXPECT_GT(s.at(key).get<double>(), 0.0) << key;
     std::uint64_t triangles = 0;
     for (const char* level : {"level1", "level2", "level3", "crack"})
         triangles += s.at("triangles_by_level").at(level).get<std::uint64_t>();
     EXPECT_EQ(s.at("triangles"), triangles);
     for (const char* level : {"level1", "level2", "level3"}) EXPECT_TRUE(s.at("base_cells_by_level").contains(level));
-    for (const std::string_view stage : ::meniscus::stage_names) EXPECT_GE(s.at("stage_seconds").at(std::string(stage)).get<double>(), 0.0) << stage;
+    for (const std::string_view stage : ::meniscus::stage_names)
+        EXPECT_GE(s.at("stage_seconds").at(std::string(stage)).get<double>(), 0.0) << stage;
     EXPECT_EQ(s.at("backend"), "cpu");
     EXPECT_EQ(s.at("threads"), 1);
     EXPECT_EQ(s.at("mesh_sha256").get<std::string>().size(), 64U);
@@ -186,7 +199,8 @@ TEST_F(Cli, StatisticsHaveEveryFigure) {
 
 TEST_F(Cli, ThreadsDoNotChangeTheMesh) {
     for (const char* mode : {"adaptive", "uniform"})
-        EXPECT_EQ(stats({"--mode", mode, "--threads", "1"}).at("mesh_sha256"), stats({"--mode", mode, "--threads", "2"}).at("mesh_sha256"));
+        EXPECT_EQ(stats({"--mode", mode, "--threads", "1"}).at("mesh_sha256"),
+                  stats({"--mode", mode, "--threads", "2"}).at("mesh_sha256"));
 }
 
 TEST_F(Cli, EveryOutputFormatHoldsTheSameTriangles) {
@@ -198,14 +212,18 @@ TEST_F(Cli, EveryOutputFormatHoldsTheSameTriangles) {
         EXPECT_EQ(mesh.triangles.size(), triangles) << name;
         EXPECT_EQ(mesh.levels.size(), triangles) << name;
         EXPECT_EQ(mesh.normals.size(), mesh.positions.size()) << name;
-        EXPECT_EQ(run_meniscus({"picture", path(name), "-o", path("p.png"), "--wireframe", "--width", "60", "--height", "40"}).exit_code, 0);
+        EXPECT_EQ(
+            run_meniscus({"picture", path(name), "-o", path("p.png"), "--wireframe", "--width", "60", "--height", "40"})
+                .exit_code,
+            0);
     }
 }
 
 TEST_F(Cli, AnEmptyFrameGivesAnEmptyMesh) {
     const std::string empty = write("empty.xyz", "");
     for (const char* positions : {"float32", "uint16"}) {
-        const ProcessResult result = run_meniscus({"reconstruct", empty, "-o", out_, "--particle-radius", "0.5", "--positions", positions});
+        const ProcessResult result =
+            run_meniscus({"reconstruct", empty, "-o", out_, "--particle-radius", "0.5", "--positions", positions});
         EXPECT_EQ(result.exit_code, 0) << result.err;
         EXPECT_TRUE(formats::read_mesh(out_).triangles.empty());
     }
@@ -215,8 +233,9 @@ TEST_F(Cli, ASequenceGivesItsMeshesAndFigures) {
     ParticleFrame frame;
     frame.positions = positions_;
     for (const char* name : {"f_009.vtk", "f_010.vtk"}) formats::write_vtk(directory_ / name, frame);
-    const ProcessResult result = run_meniscus({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "0.5", "--start", "9",
-                                           "--end", "10", "--repeat", "2", "--stats", path("s.json")});
+    const ProcessResult result =
+        run_meniscus({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "0.5", "--start",
+                      "9", "--end", "10", "--repeat", "2", "--stats", path("s.json")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 2) << result.err;
     EXPECT_TRUE(std::filesystem::exists(path("m_009.ply")));
@@ -229,16 +248,16 @@ TEST_F(Cli, ASequenceGivesItsMeshesAndFigures) {
 }
 
 TEST_F(Cli, SimulatesAndWritesParticlesThatItReadsBack) {
-    const ProcessResult result =
-        run_meniscus({"simulate", "--local", "--particles", "500", "--frames", "3", "--adaptive", "--positions", "uint16", "--cell-size", "1",
-                  "--out", path("meshes"), "--particles-out", path("particles"), "--stats", path("s.json")});
+    const ProcessResult result = run_meniscus(
+        {"simulate", "--local", "--particles", "500", "--frames", "3", "--adaptive", "--positions", "uint16",
+         "--cell-size", "1", "--out", path("meshes"), "--particles-out", path("particles"), "--stats", path("s.json")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(std::filesystem::exists(path("meshes/frame_000002.ply")));
     const nlohmann::json last = nlohmann::json::parse(formats::read_file(path("s.json"))).at("frames").at(2);
     const double radius = 0.025 * std::cbrt(16000.0 / 500.0);
     const ProcessResult again =
-        run_meniscus({"reconstruct", path("particles/frame_000002.vtk"), "--cell-size", "1", "--positions", "uint16", "--particle-radius",
-                  std::to_string(static_cast<float>(radius)), "--stats", path("again.json")});
+        run_meniscus({"reconstruct", path("particles/frame_000002.vtk"), "--cell-size", "1", "--positions", "uint16",
+                      "--particle-radius", std::to_string(static_cast<float>(radius)), "--stats", path("again.json")});
     ASSERT_EQ(again.exit_code, 0) << again.err;
     EXPECT_EQ(nlohmann::json::parse(formats::read_file(path("again.json"))).at("particles"), last.at("particles"));
 }
@@ -247,8 +266,8 @@ TEST_F(Cli, ReconstructsRealFrames) {
     const auto folder = data_folder();
     if (!folder) GTEST_SKIP() << "MENISCUS_DATA is not set";
     const ProcessResult result =
-        run_meniscus({"reconstruct", (*folder / "double_dam_break_with_sphere/frame_{}.vtk").string(), "--start", "20", "--end", "21",
-                  "--particle-radius", "0.025", "--cell-size", "1", "--stats", path("s.json")});
+        run_meniscus({"reconstruct", (*folder / "double_dam_break_with_sphere/frame_{}.vtk").string(), "--start", "20",
+                      "--end", "21", "--particle-radius", "0.025", "--cell-size", "1", "--stats", path("s.json")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     for (const auto& frame : nlohmann::json::parse(formats::read_file(path("s.json"))).at("frames"))
         EXPECT_EQ(frame.at("particles"), 11492);

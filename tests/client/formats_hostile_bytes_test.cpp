@@ -45,7 +45,8 @@ TEST(Readers, SurviveDigitsThatLie) {
     for (const Sample& sample : samples())
         for (std::size_t i = 0; i < sample.bytes.size(); ++i) {
             if (sample.bytes[i] < '0' || sample.bytes[i] > '9') continue;
-            for (const char* lie : {"99999999999999999999", "18446744073709551615", "4611686018427387904", "-1", "1000000000", "0"}) {
+            for (const char* lie :
+                 {"99999999999999999999", "18446744073709551615", "4611686018427387904", "-1", "1000000000", "0"}) {
                 std::string bytes = sample.bytes;
                 bytes.replace(i, 1, lie);
                 SCOPED_TRACE(sample.name + ", " + lie + " at " + std::to_string(i));

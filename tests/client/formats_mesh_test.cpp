@@ -35,8 +35,10 @@ TEST(MeshWriters, WriteAnEmptyMesh) {
     const TemporaryDirectory directory;
     for (const char* name : {"m.ply", "m.obj"}) {
         const auto path = directory / name;
-        if (path.extension() == ".ply") formats::write_ply(path, Mesh{});
-        else formats::write_obj(path, Mesh{});
+        if (path.extension() == ".ply")
+            formats::write_ply(path, Mesh{});
+        else
+            formats::write_obj(path, Mesh{});
         EXPECT_TRUE(formats::read_mesh(path).triangles.empty());
     }
 }
@@ -65,9 +67,11 @@ TEST(MeshWriters, UseFloat32WhereItSuffices) {
 }
 
 TEST(PlyMeshReader, CutsPolygonsIntoFans) {
-    const auto mesh = formats::read_mesh_ply("f", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-                                                  "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
-                                                  "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
+    const auto mesh =
+        formats::read_mesh_ply("f",
+                               "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                               "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
+                               "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
     ASSERT_EQ(mesh.triangles.size(), 2U);
     EXPECT_EQ(mesh.triangles[1], (Triangle{0, 2, 3}));
     EXPECT_TRUE(mesh.levels.empty());

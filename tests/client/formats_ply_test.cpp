@@ -14,9 +14,12 @@ using formats::store;
 
 /// Two particles with levels 1 and 2 among properties that are not ours.
 std::string particle_ply(std::endian order) {
-    std::string out = order == std::endian::big ? "ply\nformat binary_big_endian 1.0\n" : "ply\nformat binary_little_endian 1.0\n";
-    out += "obj_info none\nelement vertex 2\nproperty double x\nproperty float y\nproperty double z\nproperty list uchar short more\n"
-           "property int level\nend_header\n";
+    std::string out =
+        order == std::endian::big ? "ply\nformat binary_big_endian 1.0\n" : "ply\nformat binary_little_endian 1.0\n";
+    out +=
+        "obj_info none\nelement vertex 2\nproperty double x\nproperty float y\nproperty double z\nproperty list uchar "
+        "short more\n"
+        "property int level\nend_header\n";
     for (int i = 0; i < 2; ++i) {
         store(out, 1.0 + 3 * i, order);
         store(out, static_cast<float>(2 + 3 * i), order);
@@ -38,8 +41,10 @@ TEST(ParticlePlyReader, ReadsBothByteOrders) {
 }
 
 TEST(ParticlePlyReader, ReadsAscii) {
-    const auto particles = read_particle_ply("f", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float z\nproperty float x\n"
-                                                  "property float y\nend_header\n3 1 2\n6 4 5");
+    const auto particles =
+        read_particle_ply("f",
+                          "ply\nformat ascii 1.0\nelement vertex 2\nproperty float z\nproperty float x\n"
+                          "property float y\nend_header\n3 1 2\n6 4 5");
     EXPECT_EQ(particles.positions, (std::vector<float>{1, 2, 3, 4, 5, 6}));
     EXPECT_TRUE(particles.levels.empty());
 }
@@ -58,15 +63,22 @@ TEST(ParticlePlyReader, RefusesACountBeyondTheFile) {
 
 TEST(ParticlePlyReader, RefusesAListBeyondTheFile) {
     EXPECT_NE(refusal([] {
-                  read_particle_ply("f", "ply\nformat ascii 1.0\nelement vertex 1\nproperty list uint int a\nproperty float x\n"
-                                         "property float y\nproperty float z\nend_header\n4000000000 1 2 3");
-              }).find("bytes follow"), std::string::npos);
+                  read_particle_ply(
+                      "f",
+                      "ply\nformat ascii 1.0\nelement vertex 1\nproperty list uint int a\nproperty float x\n"
+                      "property float y\nproperty float z\nend_header\n4000000000 1 2 3");
+              }).find("bytes follow"),
+              std::string::npos);
 }
 
 TEST(ParticlePlyReader, RefusesFilesWithoutCoordinates) {
-    EXPECT_NE(refusal([] { read_particle_ply("f", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"); }), "");
+    EXPECT_NE(refusal([] {
+                  read_particle_ply("f", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n");
+              }),
+              "");
     EXPECT_NE(refusal([] { read_particle_ply("f", "ply\nformat ascii 1.0\nend_header\n"); }), "");
-    EXPECT_NE(refusal([] { read_particle_ply("f", "ply\nformat ascii 1.0\nelement vertex 99999999999\nend_header\n"); }), "");
+    EXPECT_NE(
+        refusal([] { read_particle_ply("f", "ply\nformat ascii 1.0\nelement vertex 99999999999\nend_header\n"); }), "");
 }
 
 }  // namespace

@@ -24,7 +24,10 @@ TEST(PngWriter, IsDecodedToTheSamePixels) {
 }
 
 TEST(PngWriter, RefusesAPathThatCannotBeWritten) {
-    EXPECT_NE(refusal([] { formats::write_png("/no/such/folder/a.png", {1, 1, {0, 0, 0}}); }).find("cannot be written"), std::string::npos);
+    EXPECT_NE(refusal([] {
+                  formats::write_png("/no/such/folder/a.png", {1, 1, {0, 0, 0}});
+              }).find("cannot be written"),
+              std::string::npos);
 }
 
 }  // namespace

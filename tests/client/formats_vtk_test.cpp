@@ -49,12 +49,14 @@ TEST(VtkReader, IgnoresLevelsOfCells) {
 }
 
 TEST(VtkReader, ReadsNoParticles) {
-    const Particles particles = read_vtk("f", "# vtk DataFile Version 4.1\nt\nBINARY\nDATASET POLYDATA\nPOINTS 0 float\n");
+    const Particles particles =
+        read_vtk("f", "# vtk DataFile Version 4.1\nt\nBINARY\nDATASET POLYDATA\nPOINTS 0 float\n");
     EXPECT_EQ(particles.count(), 0U);
 }
 
 TEST(VtkReader, RefusesACountBeyondTheFile) {
-    const std::string message = refusal([] { read_vtk("f", replaced(vtk_binary(), "POINTS 2 ", "POINTS 4000000000 ")); });
+    const std::string message =
+        refusal([] { read_vtk("f", replaced(vtk_binary(), "POINTS 2 ", "POINTS 4000000000 ")); });
     EXPECT_NE(message.find("12000000000 coordinates"), std::string::npos) << message;
     EXPECT_NE(message.find("bytes follow"), std::string::npos) << message;
 }
@@ -72,12 +74,16 @@ TEST(VtkReader, RefusesALevelAboveTheLimitByName) {
 }
 
 TEST(VtkReader, RefusesACoordinateBeyondFloat32) {
-    EXPECT_NE(refusal([] { read_vtk("f", replaced(vtk_ascii(), "1 2 3", "1 2e300 3")); }).find("2e+300 of particle 0"), std::string::npos);
+    EXPECT_NE(refusal([] { read_vtk("f", replaced(vtk_ascii(), "1 2 3", "1 2e300 3")); }).find("2e+300 of particle 0"),
+              std::string::npos);
 }
 
 TEST(VtkReader, RefusesOtherVersionsAndDatasets) {
-    EXPECT_NE(refusal([] { read_vtk("f", replaced(vtk_ascii(), "Version 5.1", "Version 6.0")); }).find("6.0"), std::string::npos);
-    EXPECT_NE(refusal([] { read_vtk("f", replaced(vtk_ascii(), "UNSTRUCTURED_GRID", "STRUCTURED_POINTS")); }).find("STRUCTURED_POINTS"),
+    EXPECT_NE(refusal([] { read_vtk("f", replaced(vtk_ascii(), "Version 5.1", "Version 6.0")); }).find("6.0"),
+              std::string::npos);
+    EXPECT_NE(refusal([] {
+                  read_vtk("f", replaced(vtk_ascii(), "UNSTRUCTURED_GRID", "STRUCTURED_POINTS"));
+              }).find("STRUCTURED_POINTS"),
               std::string::npos);
 }
 
@@ -98,7 +104,8 @@ TEST(VtkReader, ReadsRealFrames) {
     EXPECT_EQ(formats::read_particles(*folder / "double_dam_break_with_sphere/frame_040.vtk").count(), 11492U);
     EXPECT_EQ(formats::read_particles(*folder / "single_frames/bunny_frame_14_7705_particles.vtk").count(), 7706U);
     EXPECT_EQ(formats::read_particles(*folder / "single_frames/free_particles_1000_particles.vtk").count(), 1000U);
-    EXPECT_EQ(formats::read_particles(*folder / "single_frames/double_dam_break_frame_26_4732_particles.vtk").count(), 4732U);
+    EXPECT_EQ(formats::read_particles(*folder / "single_frames/double_dam_break_frame_26_4732_particles.vtk").count(),
+              4732U);
     const Particles cube = formats::read_particles(*folder / "single_frames/cube_8_particles.vtk");
     ASSERT_EQ(cube.count(), 8U);
     EXPECT_EQ(cube.positions[1], 0.4995095F);

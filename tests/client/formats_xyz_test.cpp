@@ -23,9 +23,11 @@ TEST(XyzReader, RefusesASizeThatIsNoMultipleOfTwelve) {
 
 TEST(ReadParticles, RefusesMissingFilesFoldersAndUnknownExtensions) {
     const TemporaryDirectory directory;
-    EXPECT_NE(refusal([&] { formats::read_particles(directory / "none.vtk"); }).find("no such file"), std::string::npos);
+    EXPECT_NE(refusal([&] { formats::read_particles(directory / "none.vtk"); }).find("no such file"),
+              std::string::npos);
     std::filesystem::create_directory(directory / "folder.xyz");
-    EXPECT_NE(refusal([&] { formats::read_particles(directory / "folder.xyz"); }).find("not a regular file"), std::string::npos);
+    EXPECT_NE(refusal([&] { formats::read_particles(directory / "folder.xyz"); }).find("not a regular file"),
+              std::string::npos);
     EXPECT_NE(refusal([&] { formats::read_particles("a.vtu"); }).find("'.vtu'"), std::string::npos);
 }
 
@@ -40,7 +42,8 @@ TEST(AtomicFile, LeavesNothingWithoutCommit) {
 
 TEST(AtomicFile, RefusesAPathThatCannotBeWritten) {
     const TemporaryDirectory directory;
-    EXPECT_NE(refusal([&] { formats::write_file(directory / "no/such/folder", "x"); }).find("cannot be written"), std::string::npos);
+    EXPECT_NE(refusal([&] { formats::write_file(directory / "no/such/folder", "x"); }).find("cannot be written"),
+              std::string::npos);
     EXPECT_NE(refusal([&] { formats::write_file(directory.path(), "x"); }).find("directory"), std::string::npos);
 }
 

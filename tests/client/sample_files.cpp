@@ -66,7 +66,8 @@ Mesh tetrahedron(std::int32_t origin) {
     mesh.cell_size = 0.125;
     mesh.offset_bits = 6;
     const std::int32_t o = origin;
-    for (const LatticePosition& p : {LatticePosition{o, o, o}, {o + 9, o, o}, {o, o + 9, o}, {o, o, o + 9}}) mesh.vertices.push_back(p);
+    for (const LatticePosition& p : {LatticePosition{o, o, o}, {o + 9, o, o}, {o, o + 9, o}, {o, o, o + 9}})
+        mesh.vertices.push_back(p);
     const float s = 1.0F / std::sqrt(3.0F);
     for (const Normal& n : {Normal{-s, -s, -s}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) mesh.normals.push_back(n);
     for (const Triangle& t : {Triangle{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}) mesh.triangles.push_back(t);
@@ -90,8 +91,9 @@ std::vector<Sample> samples() {
     };
     out.push_back({"vtk binary", vtk_binary(), particles(formats::read_vtk)});
     out.push_back({"vtk ascii", vtk_ascii(), particles(formats::read_vtk)});
-    std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
-                      "property uchar level\nelement extra 1\nproperty list uchar int numbers\nend_header\n";
+    std::string ply =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+        "property uchar level\nelement extra 1\nproperty list uchar int numbers\nend_header\n";
     for (const float x : {1.0F, 2.0F, 3.0F}) store(ply, x);
     ply += char{1};
     for (const float x : {4.0F, 5.0F, 6.0F}) store(ply, x);
@@ -99,9 +101,11 @@ std::vector<Sample> samples() {
     ply += char{1};
     store(ply, std::int32_t{5});
     out.push_back({"particle ply binary", ply, particles(formats::read_particle_ply)});
-    out.push_back({"particle ply ascii",
-                   "ply\nformat ascii 1.0\ncomment c\nelement vertex 2\nproperty double x\nproperty double y\nproperty double z\n"
-                   "end_header\n1 2 3\n4 5 6\n", particles(formats::read_particle_ply)});
+    out.push_back(
+        {"particle ply ascii",
+         "ply\nformat ascii 1.0\ncomment c\nelement vertex 2\nproperty double x\nproperty double y\nproperty double z\n"
+         "end_header\n1 2 3\n4 5 6\n",
+         particles(formats::read_particle_ply)});
     std::string xyz;
     for (int i = 0; i < 6; ++i) store(xyz, static_cast<float>(i));
     out.push_back({"xyz", xyz, particles(formats::read_xyz)});

@@ -37,7 +37,8 @@ TEST(CubicSpline, IntegratesToItsMassAndSlopesAsItFalls) {
     constexpr int steps = 2000;
     for (int i = 0; i < steps; ++i) {
         const double r = (i + 0.5) * 2.0 / steps;
-        integral += 4.0 * std::numbers::pi * r * r * static_cast<double>(kernel.value(static_cast<float>(r))) * 2.0 / steps;
+        integral +=
+            4.0 * std::numbers::pi * r * r * static_cast<double>(kernel.value(static_cast<float>(r))) * 2.0 / steps;
     }
     EXPECT_NEAR(integral, 3.0, 1e-3);
     for (const float r : {0.2F, 0.9F, 1.1F, 1.7F})
@@ -152,7 +153,8 @@ TEST(Solver, WaterAtRestStaysAtRest) {
     scene.particle_radius = 0.05F;
     scene.tank.size = {1.0F, 2.0F, 1.0F};
     for (int i = 0; i < 500; ++i)
-        scene.particles.push_back({0.05F + 0.1F * static_cast<float>(i % 10), 0.05F + 0.1F * static_cast<float>(i / 100),
+        scene.particles.push_back({0.05F + 0.1F * static_cast<float>(i % 10),
+                                   0.05F + 0.1F * static_cast<float>(i / 100),
                                    0.05F + 0.1F * static_cast<float>(i / 10 % 10)});
     scene.total_particles = scene.particles.size();
     Simulation simulation(scene);
