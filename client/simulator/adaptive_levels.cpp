@@ -42,13 +42,11 @@ private:
     float center(int cell) const { return (static_cast<float>(cell) + 0.5F) * cell_; }
 
     bool is_deep(int x, int y, int z) const {
+        if (x == 0 || y == 0 || z == 0 || x + 1 == count_[0] || y + 1 == count_[1] || z + 1 == count_[2]) return false;
         for (int dz = -1; dz <= 1; ++dz)
             for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx) {
-                    const bool wall = x + dx < 0 || y + dy < 0 || z + dz < 0 || x + dx >= count_[0] ||
-                                      y + dy >= count_[1] || z + dz >= count_[2];
-                    if (!wall && members_[index(x + dx, y + dy, z + dz)].size() < filled) return false;
-                }
+                for (int dx = -1; dx <= 1; ++dx)
+                    if (members_[index(x + dx, y + dy, z + dz)].size() < filled) return false;
         return true;
     }
 
