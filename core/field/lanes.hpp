@@ -2,7 +2,10 @@
 // for a type F gives the same bits with F = float (a midpoint, a CUDA thread) and F = Lanes (a block of samples).
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "lattice/host_device.hpp"
 
@@ -13,6 +16,17 @@
 namespace meniscus {
 
 #ifndef __CUDACC__
+
+/// For every set of eight lanes, the lanes that are in it, ascending, then any.
+inline constexpr auto lanes_of_set = [] {
+    std::array<std::array<std::int32_t, 8>, 256> table{};
+    for (std::size_t set = 0; set < 256; ++set) {
+        std::size_t count = 0;
+        for (std::int32_t lane = 0; lane < 8; ++lane)
+            if ((set >> lane & 1) != 0) table[set][count++] = lane;
+    }
+    return table;
+}();
 
 #if defined(__AVX2__) && defined(__FMA__)
 
@@ -32,6 +46,13 @@ struct Lanes {
 inline Lanes fused(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
 inline Lanes root(Lanes a) { return _mm256_sqrt_ps(a.v); }
 inline Lanes larger(Lanes a, Lanes b) { return _mm256_max_ps(a.v, b.v); }
+/// The set of lanes in which a <= b.
+inline unsigned not_above(Lanes a, Lanes b) { return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ))); }
+/// Stores the lanes of a set one after the other; writes eight floats in all.
+inline void store_set(float* p, Lanes a, unsigned set) {
+    const __m256i order = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(lanes_of_set[set].data()));
+    _mm256_storeu_ps(p, _mm256_permutevar8x32_ps(a.v, order));
+}
 
 #else
 
@@ -55,6 +76,14 @@ inline Lanes fused(const Lanes& a, const Lanes& b, const Lanes& c) {
 inline Lanes root(const Lanes& a) { return Lanes::each([&](int i) { return std::sqrt(a.v[i]); }); }
 inline Lanes larger(const Lanes& a, const Lanes& b) {
     return Lanes::each([&](int i) { return a.v[i] > b.v[i] ? a.v[i] : b.v[i]; });
+}
+inline unsigned not_above(const Lanes& a, const Lanes& b) {
+    unsigned set = 0;
+    for (unsigned i = 0; i < Lanes::count; ++i) set |= (a.v[i] <= b.v[i] ? 1U : 0U) << i;
+    return set;
+}
+inline void store_set(float* p, const Lanes& a, unsigned set) {
+    for (std::size_t i = 0; i < Lanes::count; ++i) p[i] = a.v[lanes_of_set[set][i]];
 }
 
 #endif

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cli/file_pattern.hpp"
 #include "cli/quantized_positions.hpp"
 #include "cli/statistics_json.hpp"
+#include "formats/atomic_file.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::cli {
@@ -21,7 +21,7 @@ TEST(FilePattern, ReplacesTheNumber) {
 
 TEST(FilePattern, FindsThePaddingOfExistingFiles) {
     const test::TemporaryDirectory directory;
-    std::ofstream(directory / "f_009.vtk");
+    formats::write_file(directory / "f_009.vtk", "");
     FilePattern pattern((directory / "f_{}.vtk").string());
     pattern.match_existing(9);
     EXPECT_EQ(pattern.at(9), directory / "f_009.vtk");

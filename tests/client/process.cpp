@@ -10,8 +10,6 @@
 #include "formats/byte_cursor.hpp"
 #include "sample_files.hpp"
 
-extern char** environ;
-
 namespace meniscus::test {
 
 ProcessResult run_process(const std::string& program, const std::vector<std::string>& arguments) {
@@ -26,6 +24,7 @@ ProcessResult run_process(const std::string& program, const std::vector<std::str
     std::vector<std::string> copies{program};
     copies.insert(copies.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
+    argv.reserve(copies.size() + 1);
     for (std::string& argument : copies) argv.push_back(argument.data());
     argv.push_back(nullptr);
     pid_t child = 0;

@@ -152,10 +152,12 @@ TEST(Solver, WaterAtRestStaysAtRest) {
     Scene scene;
     scene.particle_radius = 0.05F;
     scene.tank.size = {1.0F, 2.0F, 1.0F};
-    for (int i = 0; i < 500; ++i)
-        scene.particles.push_back({0.05F + 0.1F * static_cast<float>(i % 10),
-                                   0.05F + 0.1F * static_cast<float>(i / 100),
-                                   0.05F + 0.1F * static_cast<float>(i / 10 % 10)});
+    for (int i = 0; i < 500; ++i) {
+        const int layer = i / 100;
+        const int row = i / 10 % 10;
+        scene.particles.push_back({0.05F + 0.1F * static_cast<float>(i % 10), 0.05F + 0.1F * static_cast<float>(layer),
+                                   0.05F + 0.1F * static_cast<float>(row)});
+    }
     scene.total_particles = scene.particles.size();
     Simulation simulation(scene);
     const double height = mean(simulation.positions(), 1);

@@ -64,7 +64,7 @@ void expect_naive_values(const Settings& user, const test::Particles& particles)
     cpu::ParticleSets sets(account, workers, settings);
     cpu::ParticleField field(account, workers, sets);
     sets.assign(particles.frame());
-    if (user.field == Field::color) field.divide_weights_by_density();
+    field.begin_frame(user.field);
     const NaiveField naive(user, particles);
 
     std::mt19937 random(9);

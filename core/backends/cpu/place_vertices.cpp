@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "backends/cpu/clusters.hpp"
 #include "backends/cpu/surface.hpp"
 #include "meniscus/error.hpp"
 
@@ -94,15 +95,14 @@ void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& 
     const BlocksView blocks = s.view();
     const auto bits = s.settings.offset_bits;
     std::atomic<std::uint64_t> evaluations{0};
-    s.workers.for_ranges(s.block_count(), 256, [&](std::size_t begin, std::size_t end, unsigned worker) {
+    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         BlockVertices vertices;
         PointList points;
         alignas(32) float gx[max_points];
         alignas(32) float gy[max_points];
         alignas(32) float gz[max_points];
-        for (std::size_t b = begin; b < end; ++b) {
-            const auto block = static_cast<std::uint32_t>(b);
-            if (s.edges[b].count() == 0) continue;
+        const auto place_block = [&](std::uint32_t block) {
+            if (s.edges[block].count() == 0) return;
             find_vertices(blocks, block, vertices);
             const Int3 at = blocks.coordinate(block);
             if (user.edge_points == EdgePoints::bisect) {
@@ -120,11 +120,12 @@ void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& 
                                   (at.y * base_cell_size + point_coordinate(bit, 1)) * (1 << bits),
                                   (at.z * base_cell_size + point_coordinate(bit, 2)) * (1 << bits)};
                 p[vertices.axis[i]] += vertices.offset[i];
-                mesh.vertices[s.first_vertex[b] + i] = p;
-                mesh.normals[s.first_vertex[b] + i] =
+                mesh.vertices[s.first_vertex[block] + i] = p;
+                mesh.normals[s.first_vertex[block] + i] =
                     outward(vertices.ends[i], vertices.axis[i], gx[i], gy[i], gz[i], s.settings.iso);
             }
-        }
+        };
+        for (std::size_t brick = begin; brick < end; ++brick) for_each_clustered_member(s.grid.bricks[brick], place_block);
     });
     s.field_evaluations += evaluations.load(std::memory_order_relaxed);
 }

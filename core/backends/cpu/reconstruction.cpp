@@ -51,7 +51,7 @@ private:
         number_members(surface_.grid, workers_);
         store_blocks(surface_);
         if (counts_particles()) particles_.count_per_cell(surface_.grid, counts_);
-        if (user_.field == Field::color) field_.divide_weights_by_density();
+        field_.begin_frame(user_.field);
     }
 
     bool counts_particles() const { return user_.mode == Mode::adaptive && user_.criterion == Criterion::count; }

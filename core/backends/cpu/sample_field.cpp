@@ -3,13 +3,12 @@
 #include <atomic>
 #include <string>
 
+#include "backends/cpu/clusters.hpp"
 #include "backends/cpu/surface.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cpu {
 namespace {
-
-constexpr std::size_t grain = 256;
 
 /// Values of some points of a block, then its array of samples with old and new ones in the order of the points.
 void sample_block(Surface& s, FieldSource& field, std::uint32_t block, const float* old_samples, unsigned worker) {
@@ -90,13 +89,14 @@ void sample_wanted_points(Surface& s, FieldSource& field) {
     if (added == 0) return;
     if (s.samples.capacity() < used + added) s.samples.reserve(used + added + (used + added) / 4);
     s.samples.resize(used + added);
-    s.workers.for_ranges(n, grain, [&](std::size_t begin, std::size_t end, unsigned worker) {
+    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         std::uint64_t here = 0;
-        for (std::size_t b = begin; b < end; ++b) {
-            if (room(b) == 0) continue;
-            here += static_cast<std::uint64_t>(popcount(s.wanted_points[b] & ~s.sampled[b]));
-            sample_block(s, field, static_cast<std::uint32_t>(b), s.samples.data() + s.old_first_sample[b], worker);
-        }
+        for (std::size_t brick = begin; brick < end; ++brick)
+            for_each_clustered_member(s.grid.bricks[brick], [&](std::uint32_t b) {
+                if (room(b) == 0) return;
+                here += static_cast<std::uint64_t>(popcount(s.wanted_points[b] & ~s.sampled[b]));
+                sample_block(s, field, b, s.samples.data() + s.old_first_sample[b], worker);
+            });
         evaluations.fetch_add(here, std::memory_order_relaxed);
     });
     s.field_evaluations += evaluations.load(std::memory_order_relaxed);
