@@ -13,7 +13,7 @@ std::uint8_t to_srgb(float linear) {
 Rasterizer::Stored Rasterizer::store(const Color& color) {
     Stored stored{};
     for (std::size_t i = 0; i < 3; ++i)
-        stored[i] = static_cast<std::uint8_t>(255.0F * std::sqrt(std::clamp(color[i], 0.0F, 1.0F)) + 0.5F);
+        stored[i] = static_cast<std::uint8_t>(std::lround(255.0F * std::sqrt(std::clamp(color[i], 0.0F, 1.0F))));
     return stored;
 }
 

@@ -68,7 +68,7 @@ LeveledParticles merge_deep_particles(std::span<const float> positions, float pa
     std::vector<bool> gone(positions.size() / 3, false);
     std::vector<float> coarse;
     grid.visit_deep([&](std::vector<std::uint32_t>& members, const Vector3& center) {
-        const auto distance = [&](std::uint32_t i) {
+        const auto distance = [&](std::size_t i) {
             const Vector3 d{positions[3 * i] - center[0], positions[3 * i + 1] - center[1],
                             positions[3 * i + 2] - center[2]};
             return dot(d, d);
@@ -78,7 +78,7 @@ LeveledParticles merge_deep_particles(std::span<const float> positions, float pa
         Vector3 sum{};
         for (std::size_t m = 0; m < merged; ++m) {
             gone[members[m]] = true;
-            for (std::size_t a = 0; a < 3; ++a) sum[a] += positions[3 * members[m] + a];
+            for (std::size_t a = 0; a < 3; ++a) sum[a] += positions[3 * std::size_t{members[m]} + a];
         }
         for (const float s : sum) coarse.push_back(s / static_cast<float>(merged));
     });

@@ -20,10 +20,11 @@ void fill_column(Scene& scene, std::size_t count, float first_x, float sign, std
     const float r = scene.particle_radius;
     for (std::size_t i = 0; i < count; ++i) {
         const auto x = static_cast<float>(i % along_x);
-        const auto z = static_cast<float>(i / along_x % along_z);
-        const auto y = static_cast<float>(i / (along_x * along_z));
-        scene.particles.push_back(
-            {first_x + sign * r * (2.0F * x + 1.0F), r * (2.0F * y + 1.0F), r * (2.0F * z + 1.0F)});
+        const std::size_t row = i / along_x % along_z;
+        const std::size_t layer = i / (along_x * along_z);
+        scene.particles.push_back({first_x + sign * r * (2.0F * x + 1.0F),
+                                   r * (2.0F * static_cast<float>(layer) + 1.0F),
+                                   r * (2.0F * static_cast<float>(row) + 1.0F)});
     }
 }
 

@@ -107,13 +107,13 @@ TEST(Camera, FitsThePointsWithUpUpwards) {
 TEST(Picture, WireframeColorsLevelsDifferentlyAndHidesLines) {
     formats::TriangleMesh mesh;
     // One large triangle per level, each in its own quarter, and one behind the first.
-    for (const std::uint8_t level : {0, 1, 2, 3}) {
+    for (const unsigned level : {0U, 1U, 2U, 3U}) {
         const double x = (level & 1U) != 0 ? 10.0 : 0.0;
         const double y = level > 1 ? 10.0 : 0.0;
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.positions.insert(mesh.positions.end(), {{x, y, 0}, {x + 9, y, 0}, {x, y + 9, 0}});
         mesh.triangles.push_back({first, first + 1, first + 2});
-        mesh.levels.push_back(level);
+        mesh.levels.push_back(static_cast<std::uint8_t>(level));
     }
     PictureOptions options;
     options.width = 200;
