@@ -54,6 +54,7 @@ void validate(const Settings& s) {
     // In float32 the iso value must remain above zero, or the outside would be inside.
     require_positive("iso value", static_cast<float>(s.iso));
     require_support(s, 0);
+    require_positive("tolerance", s.tolerance);
     if (s.count_threshold < 1) throw InvalidInput("count threshold is 0, must be at least 1");
     if (s.edge_points == EdgePoints::bisect && (s.bisection_steps < 1 || s.bisection_steps > 7))
         throw InvalidInput("bisection steps are " + std::to_string(s.bisection_steps) + ", must be 1 to 7");

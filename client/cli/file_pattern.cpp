@@ -1,18 +1,22 @@
 #include "cli/file_pattern.hpp"
 
-#include <regex>
+#include <string_view>
 
 namespace meniscus::cli {
 
 FilePattern::FilePattern(const std::string& text) : before_(text) {
-    static const std::regex number(R"(\{(?::0([1-9]))?\})");
-    std::smatch match;
-    if (!std::regex_search(text, match, number)) return;
-    has_number_ = true;
-    before_ = match.prefix();
-    after_ = match.suffix();
-    fixed_width_ = match[1].matched;
-    if (fixed_width_) width_ = std::stoul(match[1]);
+    for (std::size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open + 1)) {
+        const std::string_view rest = std::string_view(text).substr(open);
+        const bool padded =
+            rest.size() > 4 && rest.starts_with("{:0") && rest[3] >= '1' && rest[3] <= '9' && rest[4] == '}';
+        if (!padded && !rest.starts_with("{}")) continue;
+        has_number_ = true;
+        fixed_width_ = padded;
+        if (padded) width_ = static_cast<std::size_t>(rest[3] - '0');
+        before_ = text.substr(0, open);
+        after_ = rest.substr(padded ? 5 : 2);
+        return;
+    }
 }
 
 std::filesystem::path FilePattern::at(std::uint64_t number) const {

@@ -19,10 +19,14 @@ void SettingsOptions::add_to(CLI::App& command) {
         ->check(CLI::IsMember({"adaptive", "uniform"}))
         ->capture_default_str();
     command.add_option("--criterion", criterion, "How the level of a base cell is decided")
-        ->check(CLI::IsMember({"count"}))
+        ->check(CLI::IsMember({"curvature", "count"}))
         ->capture_default_str();
     command
-        .add_option("--count-threshold", settings.count_threshold, "Particles per base cell that decide about level 3")
+        .add_option("--tolerance", settings.tolerance,
+                    "With --criterion curvature: how far the surface may depart from that of the finest cells, in those")
+        ->capture_default_str();
+    command
+        .add_option("--count-threshold", settings.count_threshold, "With --criterion count: particles per base cell that decide about level 3")
         ->capture_default_str();
     command.add_option("--edge-points", edge_points, "How the point on an edge is found")
         ->check(CLI::IsMember({"interpolate", "bisect"}))
@@ -39,6 +43,7 @@ Settings SettingsOptions::build(double particle_radius) const {
     out.particle_radius = particle_radius;
     out.field = field == "density" ? Field::density : Field::color;
     out.mode = mode == "uniform" ? Mode::uniform : Mode::adaptive;
+    out.criterion = criterion == "count" ? Criterion::count : Criterion::curvature;
     out.edge_points = edge_points == "bisect" ? EdgePoints::bisect : EdgePoints::interpolate;
     if (!domain.empty()) out.domain = Box{{domain[0], domain[1], domain[2]}, {domain[3], domain[4], domain[5]}};
     validate(out);

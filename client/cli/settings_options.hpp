@@ -16,7 +16,7 @@ struct SettingsOptions {
     Settings settings;  ///< numbers are parsed into it; complete only after build()
     std::string field = "color";
     std::string mode = "adaptive";
-    std::string criterion = "count";
+    std::string criterion = "curvature";
     std::string edge_points = "interpolate";
     std::vector<double> domain;  ///< empty, or x0 y0 z0 x1 y1 z1
 

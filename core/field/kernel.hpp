@@ -45,4 +45,44 @@ MENISCUS_HD inline void add_gradient(F& x, F& y, F& z, F dx, F dy, F dz, float w
     z = fused(slope, dz, z);
 }
 
+/// Second derivative of cubic_spline by q.
+template <class F>
+MENISCUS_HD inline F cubic_spline_bend(F q) {
+    const F a = larger(F(1.0F) - q, F(0.0F));
+    const F b = larger(F(0.5F) - q, F(0.0F));
+    return fused(F(-48.0F), b, F(12.0F) * a);
+}
+
+/// The field at a point to second order. Lengths in units.
+template <class F>
+struct FieldJet {
+    F value = F(0.0F);
+    F x = F(0.0F), y = F(0.0F), z = F(0.0F);                                                               ///< gradient
+    F xx = F(0.0F), yy = F(0.0F), zz = F(0.0F), xy = F(0.0F), xz = F(0.0F), yz = F(0.0F);  ///< Hessian
+};
+
+/// Adds one particle's share to a jet.
+template <class F>
+MENISCUS_HD inline void add_jet(FieldJet<F>& jet, F dx, F dy, F dz, float weight, float inverse_support) {
+    const F distance = larger(length(dx, dy, dz), F(1.0F / 64.0F));
+    const F q = distance * F(inverse_support);
+    const F inverse = F(1.0F) / distance;
+    const F scale = F(weight * inverse_support);
+    jet.value = fused(F(weight), cubic_spline(q), jet.value);
+    // W'/r, and what W'' has beyond it along the direction to the particle.
+    const F first = scale * cubic_spline_slope(q) * inverse;
+    const F second = (scale * F(inverse_support) * cubic_spline_bend(q) - first) * (inverse * inverse);
+    jet.x = fused(first, dx, jet.x);
+    jet.y = fused(first, dy, jet.y);
+    jet.z = fused(first, dz, jet.z);
+    const F sx = second * dx;
+    const F sy = second * dy;
+    jet.xx = fused(sx, dx, jet.xx) + first;
+    jet.yy = fused(sy, dy, jet.yy) + first;
+    jet.zz = fused(second * dz, dz, jet.zz) + first;
+    jet.xy = fused(sx, dy, jet.xy);
+    jet.xz = fused(sx, dz, jet.xz);
+    jet.yz = fused(sy, dz, jet.yz);
+}
+
 }  // namespace meniscus

@@ -13,6 +13,19 @@ std::int32_t to_cell(double cells) {
     return static_cast<std::int32_t>(std::clamp(cells, -limit, limit));
 }
 
+/// The distance, in supports, at which the kernel has fallen to this share of its largest value.
+double lone_particle_reach(double share) {
+    double low = 0.0;
+    double high = 1.0;
+    for (int i = 0; i < 50; ++i) {
+        const double q = (low + high) / 2.0;
+        const double a = 1.0 - q;
+        const double b = std::max(0.5 - q, 0.0);
+        (2.0 * a * a * a - 8.0 * b * b * b > share ? low : high) = q;
+    }
+    return low;
+}
+
 }  // namespace
 
 LatticeSettings::LatticeSettings(const Settings& s) {
@@ -24,6 +37,9 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     weight = static_cast<float>(8.0 / (std::numbers::pi * l * l * l));
     iso = static_cast<float>(s.iso);
     if (s.field == Field::color) deep_inside = static_cast<float>(s.iso * (0.85 / 0.6));
+    // A lone particle's blob in the color field: W(q) = iso W(0). At iso 0.6 that is q = 0.28; a quarter support is enough there.
+    if (s.field == Field::color && s.iso < 1.0) blob_closest = static_cast<float>(1.0 - std::min(0.25 * lone_particle_reach(s.iso) / lone_particle_reach(0.6), 1.0));
+    if (s.cell_size > 0.17 * 2.0 * s.smoothing_length) blob_level = 3;
     // Bisection ends in the middle of an interval of c / 2^steps.
     if (s.edge_points == EdgePoints::bisect) offset_bits = s.bisection_steps + 1;
     if (s.domain) {

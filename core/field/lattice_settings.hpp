@@ -21,6 +21,8 @@ struct LatticeSettings {
     float weight = 0.0F;
     float iso = 0.0F;
     float deep_inside = std::numeric_limits<float>::infinity();  ///< see BandTest
+    float blob_closest = 0.75F;  ///< see BlobRule
+    int blob_level = 2;
     std::uint32_t offset_bits = 6;
     bool has_domain = false;
     Int3 domain_low, domain_high;  ///< in cells, rounded outward

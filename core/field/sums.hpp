@@ -27,12 +27,15 @@ MENISCUS_HD inline void sum_values(const CandidateView& c, const F (&x)[G], cons
 }
 
 /// Adds to upper bounds of the field in boxes of half edge `half` around the points: every particle counts with the
-/// kernel at its distance from the box.
+/// kernel at its distance from the box. `closest` becomes the largest of 1 - distance/h.
 template <class F>
-MENISCUS_HD inline void sum_bounds(const CandidateView& c, F x, F y, F z, float half, F& sum) {
+MENISCUS_HD inline void sum_bounds(const CandidateView& c, F x, F y, F z, float half, F& sum, F& closest) {
     const auto gap = [half](F d) { return larger(larger(d - F(half), F(-half) - d), F(0.0F)); };
-    for (std::size_t j = 0; j < c.count; ++j)
-        sum = add_value(sum, gap(x - F(c.x[j])), gap(y - F(c.y[j])), gap(z - F(c.z[j])), c.weight[j], c.inverse_support);
+    for (std::size_t j = 0; j < c.count; ++j) {
+        const F q = length(gap(x - F(c.x[j])), gap(y - F(c.y[j])), gap(z - F(c.z[j]))) * F(c.inverse_support);
+        sum = fused(F(c.weight[j]), cubic_spline(q), sum);
+        closest = larger(closest, F(1.0F) - q);
+    }
 }
 
 /// Adds to the gradient, up to a positive factor common to all levels (the paper's Equation 2).
@@ -40,6 +43,13 @@ template <class F>
 MENISCUS_HD inline void sum_gradients(const CandidateView& c, F x, F y, F z, F& gx, F& gy, F& gz) {
     for (std::size_t j = 0; j < c.count; ++j)
         add_gradient(gx, gy, gz, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]), c.weight[j] * c.inverse_support, c.inverse_support);
+}
+
+/// Adds to the field's jets.
+template <class F>
+MENISCUS_HD inline void sum_jets(const CandidateView& c, F x, F y, F z, FieldJet<F>& jet) {
+    for (std::size_t j = 0; j < c.count; ++j)
+        add_jet(jet, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]), c.weight[j], c.inverse_support);
 }
 
 }  // namespace meniscus

@@ -64,6 +64,37 @@ MENISCUS_HD inline bool joins_band(const BlocksView& blocks, std::uint32_t block
     return false;
 }
 
+/// Whether a finer neighbor sees surface on their common face where this cell's own corners show none: its part there would
+/// end in a closed sliver at the face.
+MENISCUS_HD inline bool misses_surface_on_face(const BlocksView& blocks, std::uint32_t block) {
+    const int level = blocks.level[block];
+    if (level == 0 || level == 3) return false;
+    const int stride = level_stride(level);
+    for (int axis = 0; axis < 3; ++axis)
+        for (int side = 0; side < 2; ++side) {
+            if (blocks.level_or_none(blocks.neighbor(block, axis_offset(axis, 2 * side - 1))) <= level) continue;
+            const ClosedCell cell(blocks, block);
+            const int u = (axis + 1) % 3;
+            const int v = (axis + 2) % 3;
+            for (int cv = 0; cv < base_cell_size; cv += stride)
+                for (int cu = 0; cu < base_cell_size; cu += stride) {
+                    int inside = 0;
+                    int corners = 0;
+                    for (int i = 0; i < 9; ++i) {
+                        int point[3];
+                        point[axis] = side * base_cell_size;
+                        point[u] = cu + i % 3 * stride / 2;
+                        point[v] = cv + i / 3 * stride / 2;
+                        const int in = static_cast<int>(cell.inside(blocks, point[0], point[1], point[2]));
+                        inside += in;
+                        if (i % 2 == 0 && i != 4) corners += in;
+                    }
+                    if ((corners == 0 && inside != 0) || (corners == 4 && inside != 9)) return true;
+                }
+        }
+    return false;
+}
+
 /// The points of a block that lie strictly inside the domain [low, high], in cells.
 MENISCUS_HD inline BlockMask domain_points(const Int3& base_cell, const Int3& low, const Int3& high) {
     const std::int32_t corner[3] = {base_cell.x * base_cell_size, base_cell.y * base_cell_size, base_cell.z * base_cell_size};

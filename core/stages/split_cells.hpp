@@ -3,20 +3,23 @@
 
 #include <cstdint>
 
+#include "field/lanes.hpp"
 #include "lattice/host_device.hpp"
 #include "meniscus/settings.hpp"
 #include "stages/blocks.hpp"
 
 namespace meniscus {
 
+// A criterion is a callable from a block to its level, 1 to 3. It is asked when the band is known and levels are not: a
+// block's level is 0 outside of the band.
+
 /// The paper's criterion: few particles in a cell are a splash, which needs the finest level.
-/// A criterion is a callable from a block's number to its level, 1 to 3.
 struct CountCriterion {
     const std::uint32_t* counts = nullptr;  ///< particles per block; adaptive SPH: those of level 0
     std::uint32_t threshold = 1;
     bool adaptive_sph = false;
 
-    MENISCUS_HD int operator()(std::uint32_t block) const {
+    MENISCUS_HD int operator()(const BlocksView&, std::uint32_t block) const {
         const std::uint32_t count = counts[block];
         const bool fine = adaptive_sph ? count >= threshold : count >= 1 && count <= threshold;
         return fine ? 3 : 1;
@@ -25,7 +28,49 @@ struct CountCriterion {
 
 /// Marching cubes at the finest cell: the baseline.
 struct UniformCriterion {
-    MENISCUS_HD int operator()(std::uint32_t) const { return 3; }
+    MENISCUS_HD int operator()(const BlocksView&, std::uint32_t) const { return 3; }
+};
+
+/// What is known of the surface in a cell of the band before it is sampled; zeros outside of the band.
+struct CellBend {
+    float curvature;  ///< times c
+    int least_level;  ///< for what curvature does not tell: a surface that no corner shows
+};
+
+/// A cell of edge s departs from a surface of curvature k by k s^2 / 8, which may be at most `tolerance` cells. A cell bends
+/// at least half as much as its face neighbors, so that levels do not fall off faster than the surface calms.
+struct CurvatureCriterion {
+    const CellBend* cells = nullptr;  ///< per block
+    float tolerance = 0.15F;          ///< in cells
+
+    MENISCUS_HD int operator()(const BlocksView& blocks, std::uint32_t block) const {
+        float curvature = cells[block].curvature;
+        for (int axis = 0; axis < 3; ++axis)
+            for (int side = -1; side <= 1; side += 2) {
+                const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, side));
+                if (other != no_index) curvature = larger(curvature, 0.5F * cells[other].curvature);
+            }
+        const int level = curvature * 2.0F <= tolerance ? 1 : curvature * 0.5F <= tolerance ? 2 : 3;
+        // A cell that joins the band later holds surface that its corners do not show.
+        const int least = blocks.level[block] == 0 ? 2 : cells[block].least_level;
+        return level > least ? level : least;
+    }
+};
+
+/// What a cell's particles alone say of it.
+struct CellReach {
+    float bound;    ///< no field value in the cell is above this
+    float closest;  ///< largest 1 - distance/h of a particle from the cell
+};
+
+/// Drops that no corner shows: a cell whose corners are all outside, but with a particle so near that its own blob may reach in.
+struct BlobRule {
+    float closest = 0.75F;  ///< see CellReach
+    int level = 2;          ///< 3 where the finest cells are large against the support
+
+    MENISCUS_HD int least_level(int inside_corners, const CellReach& reach) const {
+        return inside_corners == 0 && reach.closest >= closest ? level : 1;
+    }
 };
 
 struct BandTest {

@@ -50,6 +50,8 @@ Mode mode_from_wire(v1::Mode wire) {
 Criterion criterion_from_wire(v1::Criterion wire) {
     switch (wire) {
         case v1::CRITERION_UNSPECIFIED:
+        case v1::CRITERION_CURVATURE:
+            return Criterion::curvature;
         case v1::CRITERION_COUNT:
             return Criterion::count;
         default:
@@ -93,6 +95,7 @@ Settings from_wire(const v1::Settings& wire) {
     settings.field = field_from_wire(wire.field());
     settings.mode = mode_from_wire(wire.mode());
     settings.criterion = criterion_from_wire(wire.criterion());
+    if (wire.has_tolerance()) settings.tolerance = wire.tolerance();
     if (wire.has_count_threshold()) settings.count_threshold = wire.count_threshold();
     settings.edge_points = edge_points_from_wire(wire.edge_points());
     if (wire.has_bisection_steps()) settings.bisection_steps = wire.bisection_steps();
@@ -108,7 +111,8 @@ v1::Settings to_wire(const Settings& settings) {
     wire.set_iso(settings.iso);
     wire.set_field(settings.field == Field::density ? v1::FIELD_DENSITY : v1::FIELD_COLOR);
     wire.set_mode(settings.mode == Mode::uniform ? v1::MODE_UNIFORM : v1::MODE_ADAPTIVE);
-    wire.set_criterion(v1::CRITERION_COUNT);
+    wire.set_criterion(settings.criterion == Criterion::count ? v1::CRITERION_COUNT : v1::CRITERION_CURVATURE);
+    wire.set_tolerance(settings.tolerance);
     wire.set_count_threshold(settings.count_threshold);
     wire.set_edge_points(settings.edge_points == EdgePoints::bisect ? v1::EDGE_POINTS_BISECT
                                                                     : v1::EDGE_POINTS_INTERPOLATE);

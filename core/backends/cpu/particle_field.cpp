@@ -1,9 +1,11 @@
 #include "backends/cpu/particle_field.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "backends/cpu/clusters.hpp"
 #include "field/sums.hpp"
+#include "stages/curvature.hpp"
 #include "stages/sample_field.hpp"
 
 namespace meniscus::cpu {
@@ -143,8 +145,8 @@ void ParticleField::divide_weights_by_density() {
     even_out_lists();
 }
 
-void ParticleField::sample_base_vertices(Surface& s, Array<float>& bounds) {
-    resize_for_overwrite(bounds, s.block_count());
+void ParticleField::sample_base_vertices(Surface& s, Array<CellReach>& reaches) {
+    resize_for_overwrite(reaches, s.block_count());
     s.samples.reserve(s.block_count());
     s.samples.resize(s.block_count());
     // Base vertices of 2 x 2 x 2 cells fill the lanes; their cells' bounds need the same particles.
@@ -157,27 +159,28 @@ void ParticleField::sample_base_vertices(Surface& s, Array<float>& bounds) {
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         const Lanes x[1] = {Lanes::load(lane_x)}, y[1] = {Lanes::load(lane_y)}, z[1] = {Lanes::load(lane_z)};
         const Lanes half(base_edge / 2);
-        alignas(32) float value[8], bound[8];
+        alignas(32) float value[8], bound[8], closest[8];
         for (std::size_t b = begin; b < end; ++b) {
             const Brick& brick = s.grid.bricks[b];
             for_each_cluster(brick, [&](const Int3& corner) {
                 const Int3 base{brick.coordinate.x * brick_size + corner.x, brick.coordinate.y * brick_size + corner.y,
                                 brick.coordinate.z * brick_size + corner.z};
                 Lanes sum[1] = {Lanes(0.0F)};
-                Lanes most(0.0F);
+                Lanes most(0.0F), nearest(0.0F);
                 for (const Candidates& c : near_cluster(base, worker)) {
                     sum_values<1>(c.view(), x, y, z, sum);
-                    sum_bounds(c.view(), x[0] + half, y[0] + half, z[0] + half, base_edge / 2, most);
+                    sum_bounds(c.view(), x[0] + half, y[0] + half, z[0] + half, base_edge / 2, most, nearest);
                 }
                 sum[0].store(value);
                 most.store(bound);
+                nearest.store(closest);
                 for (int i = 0; i < 8; ++i) {
                     const Int3 step{i & 1, i >> 1 & 1, i >> 2};
                     const int place = index_in_brick(corner + step);
                     if (!brick.holds(place)) continue;
                     const std::uint32_t block = brick.number(place);
                     s.samples[block] = value[i];
-                    bounds[block] = bound[i];
+                    reaches[block] = {bound[i], closest[i]};
                     s.first_sample[block] = block;
                     s.sampled[block] = 1;
                     const bool allowed = !s.settings.has_domain ||
@@ -188,6 +191,69 @@ void ParticleField::sample_base_vertices(Surface& s, Array<float>& bounds) {
         }
     });
     s.field_evaluations += s.block_count();
+    even_out_lists();
+}
+
+void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, Array<CellBend>& bends) {
+    resize_for_overwrite(bends, s.block_count());
+    const BlocksView blocks = s.view();
+    const BlobRule blobs{s.settings.blob_closest, s.settings.blob_level};
+    const float iso = s.settings.iso;
+    std::atomic<std::uint64_t> evaluations{0};
+    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+        for (std::size_t b = begin; b < end; ++b) {
+            const Brick& brick = s.grid.bricks[b];
+            for_each_cluster(brick, [&](const Int3& corner) {
+                alignas(32) float corners[8][8], starts[3][8], mixed[8];  // [corner][cell]
+                std::uint32_t block[8];
+                int inside_corners[8] = {};
+                std::uint64_t cells = 0;
+                for (int i = 0; i < 8; ++i) {
+                    const Int3 step{i & 1, i >> 1 & 1, i >> 2};
+                    const int place = index_in_brick(corner + step);
+                    block[i] = brick.holds(place) ? brick.number(place) : no_index;
+                    if (block[i] != no_index) bends[block[i]] = {0.0F, 1};
+                    const bool in_band = blocks.level_or_none(block[i]) != 0;
+                    cells += in_band ? 1 : 0;
+                    if (!in_band) block[i] = no_index;
+                    for (int k = 0; k < 8; ++k) {
+                        const std::uint32_t owner = in_band ? blocks.neighbor(block[i], {k & 1, k >> 1 & 1, k >> 2}) : no_index;
+                        corners[k][i] = (owner == no_index ? 0.0F : blocks.value(owner, 0)) - iso;
+                        inside_corners[i] += static_cast<int>(blocks.inside_or_none(owner) & 1);
+                    }
+                    mixed[i] = inside_corners[i] != 0 && inside_corners[i] != 8 ? 1.0F : 0.0F;
+                    starts[0][i] = static_cast<float>(step.x) * base_edge;
+                    starts[1][i] = static_cast<float>(step.y) * base_edge;
+                    starts[2][i] = static_cast<float>(step.z) * base_edge;
+                }
+                if (cells == 0) return;
+                evaluations.fetch_add(2 * cells, std::memory_order_relaxed);
+                const Int3 base{brick.coordinate.x * brick_size + corner.x, brick.coordinate.y * brick_size + corner.y,
+                                brick.coordinate.z * brick_size + corner.z};
+                const CandidateLists::Levels& near = near_cluster(base, worker);
+                const auto jet_at = [&](const Point3<Lanes>& p) {
+                    FieldJet<Lanes> jet;
+                    for (const Candidates& c : near) sum_jets(c.view(), p.x, p.y, p.z, jet);
+                    return jet;
+                };
+                CellCorners<Lanes> values;
+                for (int k = 0; k < 8; ++k) values.value[k] = Lanes::load(corners[k]);
+                const Point3<Lanes> origin{Lanes::load(starts[0]), Lanes::load(starts[1]), Lanes::load(starts[2])};
+                const SurfaceSearch<Lanes> search = search_surface(values, Lanes::load(mixed), origin, iso, jet_at);
+                alignas(32) float curvature[8], inside[8];
+                search.curvature.store(curvature);
+                search.inside.store(inside);
+                for (int i = 0; i < 8; ++i) {
+                    if (block[i] == no_index) continue;
+                    const bool agree = mixed[i] == 0.0F;
+                    const bool hidden = agree && inside[i] >= 0.0F;
+                    bends[block[i]].curvature = agree && !hidden ? 0.0F : curvature[i] * units_per_cell;
+                    bends[block[i]].least_level = std::max(hidden ? 2 : 1, blobs.least_level(inside_corners[i], reaches[block[i]]));
+                }
+            });
+        }
+    });
+    s.field_evaluations += evaluations.load(std::memory_order_relaxed);
     even_out_lists();
 }
 

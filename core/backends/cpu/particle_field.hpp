@@ -8,6 +8,7 @@
 #include "backends/cpu/field_source.hpp"
 #include "backends/cpu/particle_sets.hpp"
 #include "backends/cpu/surface.hpp"
+#include "stages/split_cells.hpp"
 
 namespace meniscus::cpu {
 
@@ -19,8 +20,10 @@ public:
     /// the color field.
     void begin_frame(Field field);
 
-    /// Step 2's samples: the value at every stored block's base vertex, and a bound of the field in the whole cell.
-    void sample_base_vertices(Surface& surface, Array<float>& bounds);
+    /// Step 2's samples: the value at every stored block's base vertex, and what its particles may do in the whole cell.
+    void sample_base_vertices(Surface& surface, Array<CellReach>& reaches);
+    /// How much the surface bends in every cell of the band.
+    void measure_bends(Surface& surface, const Array<CellReach>& reaches, Array<CellBend>& bends);
 
     void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) override;
     void gradients(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) override;

@@ -14,16 +14,19 @@ public:
     Reconstruction(const Settings& user, unsigned threads, const std::shared_ptr<MemoryAccount>& account)
         : user_(user), settings_(user), workers_(threads), surface_(account, workers_, settings_),
           particles_(account, workers_, settings_), field_(account, workers_, particles_),
-          counts_(make_array<std::uint32_t>(account)), bounds_(make_array<float>(account)) {}
+          counts_(make_array<std::uint32_t>(account)), reaches_(make_array<CellReach>(account)),
+          bends_(make_array<CellBend>(account)) {}
 
     void reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) override {
         StageClock clock(statistics);
         clock.enter(Stage::register_particles);
         register_particles(frame);
         clock.enter(Stage::sample_field);
-        field_.sample_base_vertices(surface_, bounds_);
+        field_.sample_base_vertices(surface_, reaches_);
         clock.enter(Stage::split_cells);
-        split_cells(surface_, criterion(frame), bounds_);
+        find_band(surface_, reaches_);
+        if (measures_bends()) field_.measure_bends(surface_, reaches_, bends_);
+        split_cells(surface_, criterion(frame));
         clock.enter(Stage::adjust_levels);
         if (user_.mode == Mode::adaptive) adjust_levels(surface_);
         clock.enter(Stage::sample_field);
@@ -56,8 +59,11 @@ private:
 
     bool counts_particles() const { return user_.mode == Mode::adaptive && user_.criterion == Criterion::count; }
 
+    bool measures_bends() const { return user_.mode == Mode::adaptive && user_.criterion == Criterion::curvature; }
+
     SplitCriterion criterion(const ParticleFrame& frame) const {
         if (counts_particles()) return CountCriterion{counts_.data(), user_.count_threshold, !frame.levels.empty()};
+        if (measures_bends()) return CurvatureCriterion{bends_.data(), static_cast<float>(user_.tolerance)};
         return UniformCriterion{};
     }
 
@@ -68,7 +74,8 @@ private:
     ParticleSets particles_;
     ParticleField field_;
     Array<std::uint32_t> counts_;
-    Array<float> bounds_;
+    Array<CellReach> reaches_;
+    Array<CellBend> bends_;
 };
 
 }  // namespace

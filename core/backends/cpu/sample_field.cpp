@@ -51,24 +51,41 @@ void want(Surface& s, const Wanted& wanted) {
     });
 }
 
-/// Takes the cells into the band that a neighbor's samples show to hold surface; returns whether there were any.
-bool grow_band(Surface& s) {
+/// Maps all levels to new ones; returns whether any has changed.
+template <class NewLevel>
+bool change_levels(Surface& s, const NewLevel& new_level) {
     const BlocksView blocks = s.view();
-    std::atomic<bool> grown{false};
+    std::atomic<bool> changed{false};
     s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
+        bool here = false;
         for (std::size_t b = begin; b < end; ++b) {
-            s.next_level[b] = blocks.level[b];
-            if (blocks.level[b] == 0 && joins_band(blocks, static_cast<std::uint32_t>(b))) {
-                s.next_level[b] = s.wanted_level[b];
-                grown.store(true, std::memory_order_relaxed);
-            }
+            s.next_level[b] = static_cast<std::uint8_t>(new_level(blocks, static_cast<std::uint32_t>(b)));
+            here |= s.next_level[b] != blocks.level[b];
         }
+        if (here) changed.store(true, std::memory_order_relaxed);
     });
     s.level.swap(s.next_level);
-    return grown.load(std::memory_order_relaxed);
+    return changed.load(std::memory_order_relaxed);
 }
 
 }  // namespace
+
+bool grow_band(Surface& s) {
+    return change_levels(s, [&s](const BlocksView& blocks, std::uint32_t block) -> int {
+        return blocks.level[block] == 0 && joins_band(blocks, block) ? s.wanted_level[block] : blocks.level[block];
+    });
+}
+
+bool raise_at_slivers(Surface& s) {
+    return change_levels(s, [](const BlocksView& blocks, std::uint32_t block) {
+        return blocks.level[block] + static_cast<int>(misses_surface_on_face(blocks, block));
+    });
+}
+
+void sample_corner_points(Surface& s, FieldSource& field) {
+    want(s, corner_points);
+    sample_wanted_points(s, field);
+}
 
 void sample_wanted_points(Surface& s, FieldSource& field) {
     // A block that gains points moves to new room at the end of the samples; its old room stays unused until the next frame.
@@ -104,9 +121,10 @@ void sample_wanted_points(Surface& s, FieldSource& field) {
 
 void sample_field(Surface& s, FieldSource& field) {
     for (;;) {
-        want(s, corner_points);
-        sample_wanted_points(s, field);
-        if (!grow_band(s)) return;
+        sample_corner_points(s, field);
+        const bool grown = grow_band(s);
+        const bool raised = raise_at_slivers(s);
+        if (!grown && !raised) return;
         adjust_levels(s);
     }
 }

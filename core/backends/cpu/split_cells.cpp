@@ -6,7 +6,7 @@
 
 namespace meniscus::cpu {
 
-void split_cells(Surface& s, const SplitCriterion& criterion, const Array<float>& bounds) {
+void find_band(Surface& s, const Array<CellReach>& reaches) {
     const BlocksView blocks = s.view();
     const BandTest test{s.settings.iso, s.settings.deep_inside};
     s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
@@ -19,11 +19,23 @@ void split_cells(Surface& s, const SplitCriterion& criterion, const Array<float>
                 inside_corners += static_cast<int>(blocks.inside_or_none(corner) & 1);
                 smallest = std::min(smallest, corner == no_index ? 0.0F : blocks.value(corner, 0));
             }
-            const int level = std::visit([block](const auto& rule) { return rule(block); }, criterion);
-            s.wanted_level[b] = static_cast<std::uint8_t>(level);
-            s.level[b] = test.may_hold_surface(inside_corners, smallest, bounds[b]) ? s.wanted_level[b] : std::uint8_t{0};
+            s.level[b] = test.may_hold_surface(inside_corners, smallest, reaches[b].bound) ? 1 : 0;
         }
     });
+}
+
+void split_cells(Surface& s, const SplitCriterion& criterion) {
+    const BlocksView blocks = s.view();
+    std::visit(
+        [&](const auto& level_of) {
+            s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
+                for (std::size_t b = begin; b < end; ++b) {
+                    s.wanted_level[b] = static_cast<std::uint8_t>(level_of(blocks, static_cast<std::uint32_t>(b)));
+                    if (s.level[b] != 0) s.level[b] = s.wanted_level[b];
+                }
+            });
+        },
+        criterion);
 }
 
 }  // namespace meniscus::cpu

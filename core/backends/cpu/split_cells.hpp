@@ -9,10 +9,12 @@
 namespace meniscus::cpu {
 
 /// Any one of the rules that decide a cell's level.
-using SplitCriterion = std::variant<UniformCriterion, CountCriterion>;
+using SplitCriterion = std::variant<UniformCriterion, CountCriterion, CurvatureCriterion>;
 
-/// Every stored cell gets the level that the criterion asks for, and joins the surface band if it may hold surface.
-/// Base vertices must be sampled; bounds: per block, above every field value in its cell.
-void split_cells(Surface& surface, const SplitCriterion& criterion, const Array<float>& bounds);
+/// Puts the stored cells that may hold surface into the band, at level 1. Base vertices must be sampled.
+void find_band(Surface& surface, const Array<CellReach>& reaches);
+
+/// Gives every stored cell the level that the criterion asks for.
+void split_cells(Surface& surface, const SplitCriterion& criterion);
 
 }  // namespace meniscus::cpu

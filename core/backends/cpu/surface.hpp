@@ -58,6 +58,12 @@ void adjust_levels(Surface& surface);
 void sample_wanted_points(Surface& surface, FieldSource& field);
 /// Step 4. Samples what the cells of the band need; cells that the samples draw into the band are adjusted and sampled in turn.
 void sample_field(Surface& surface, FieldSource& field);
+/// One pass of that: samples the wanted points of all blocks near the band.
+void sample_corner_points(Surface& surface, FieldSource& field);
+/// Takes the cells into the band that a neighbor's samples show to hold surface; returns whether there were any.
+bool grow_band(Surface& surface);
+/// Raises the cells by one level that would cut off a finer neighbor's surface in a sliver; returns whether there were any.
+bool raise_at_slivers(Surface& surface);
 /// Samples the middles of coarse edges that cross the surface.
 void sample_edge_middles(Surface& surface, FieldSource& field);
 

@@ -21,7 +21,8 @@ enum class Mode : std::uint8_t {
 
 /// How the level of a base cell is decided.
 enum class Criterion : std::uint8_t {
-    count,  ///< by the number of particles in the cell (the paper's Step 2)
+    curvature,  ///< by how much the surface bends in the cell
+    count,      ///< by the number of particles in the cell (the paper's Step 2)
 };
 
 /// How the point on an edge that crosses the surface is found.
@@ -45,7 +46,10 @@ struct Settings {
     double iso = 0.6;                 ///< field value at the surface, > 0
     Field field = Field::color;
     Mode mode = Mode::adaptive;
-    Criterion criterion = Criterion::count;
+    Criterion criterion = Criterion::curvature;
+    /// Criterion::curvature: how far the surface may depart from that of the finest cells, in finest cells, > 0: about the 99th
+    /// percentile of the distance between the two.
+    double tolerance = 0.15;
     /// Criterion::count: a base cell is of level 3 if it holds 1 to this many particles; for adaptive SPH, if it
     /// holds at least this many particles of level 0. At least 1.
     std::uint32_t count_threshold = 1;

@@ -1,0 +1,129 @@
+// How strongly the surface bends inside a base cell, told before anything finer than base vertices is sampled.
+#pragma once
+
+#include <cstdint>
+
+#include "field/kernel.hpp"
+#include "lattice/coordinates.hpp"
+#include "lattice/host_device.hpp"
+
+namespace meniscus {
+
+/// Corner values of a cell, i = x + 2 y + 4 z, less the iso-value.
+template <class F>
+struct CellCorners {
+    F value[8];
+};
+
+template <class F>
+struct Point3 {
+    F x, y, z;
+};
+
+namespace curvature_detail {
+
+template <class F>
+MENISCUS_HD inline F clamped(F v, F low, F high) {
+    return F(0.0F) - larger(F(0.0F) - larger(v, low), F(0.0F) - high);
+}
+
+/// Length of a squared gradient to divide by, never zero.
+template <class F>
+MENISCUS_HD inline F divisor(F x, F y, F z) {
+    return larger(fused(x, x, fused(y, y, z * z)), F(1e-30F));
+}
+
+}  // namespace curvature_detail
+
+/// A point of the surface by the trilinear model of the cell's corners: some Newton steps along the gradient from the
+/// middle. Coordinates of 0 to 1.
+template <class F>
+MENISCUS_HD inline Point3<F> trilinear_root(const CellCorners<F>& corners) {
+    Point3<F> p{F(0.5F), F(0.5F), F(0.5F)};
+    const F* c = corners.value;
+    for (int step = 0; step < 3; ++step) {
+        F plane[2][2];  // the x edges' values at p.x, and along y
+        F slope_x[2][2];
+        for (int z = 0; z < 2; ++z)
+            for (int y = 0; y < 2; ++y) {
+                slope_x[z][y] = c[1 + 2 * y + 4 * z] - c[2 * y + 4 * z];
+                plane[z][y] = fused(slope_x[z][y], p.x, c[2 * y + 4 * z]);
+            }
+        const F low = fused(plane[0][1] - plane[0][0], p.y, plane[0][0]);
+        const F high = fused(plane[1][1] - plane[1][0], p.y, plane[1][0]);
+        const F value = fused(high - low, p.z, low);
+        const F slope_low = fused(slope_x[0][1] - slope_x[0][0], p.y, slope_x[0][0]);
+        const F slope_high = fused(slope_x[1][1] - slope_x[1][0], p.y, slope_x[1][0]);
+        const F gx = fused(slope_high - slope_low, p.z, slope_low);
+        const F rise_low = plane[0][1] - plane[0][0];
+        const F gy = fused((plane[1][1] - plane[1][0]) - rise_low, p.z, rise_low);
+        const F gz = high - low;
+        const F t = value / curvature_detail::divisor(gx, gy, gz);
+        p.x = curvature_detail::clamped(p.x - t * gx, F(0.0F), F(1.0F));
+        p.y = curvature_detail::clamped(p.y - t * gy, F(0.0F), F(1.0F));
+        p.z = curvature_detail::clamped(p.z - t * gz, F(0.0F), F(1.0F));
+    }
+    return p;
+}
+
+/// One Newton step of the field toward the iso-value, along the gradient. Units.
+template <class F>
+MENISCUS_HD inline Point3<F> newton_step(const FieldJet<F>& jet, float iso, const Point3<F>& p) {
+    const F t = (jet.value - F(iso)) / curvature_detail::divisor(jet.x, jet.y, jet.z);
+    return {p.x - t * jet.x, p.y - t * jet.y, p.z - t * jet.z};
+}
+
+template <class F>
+MENISCUS_HD inline Point3<F> clamped_to_cell(const Point3<F>& p, const Point3<F>& corner) {
+    const F edge(static_cast<float>(units_per_base_cell));
+    return {curvature_detail::clamped(p.x, corner.x, corner.x + edge), curvature_detail::clamped(p.y, corner.y, corner.y + edge),
+            curvature_detail::clamped(p.z, corner.z, corner.z + edge)};
+}
+
+/// The larger principal curvature of the field's level set, absolute, per unit: the largest |eigenvalue| of the Hessian's
+/// tangential part over the length of the gradient. Large, not infinite, where the gradient vanishes.
+template <class F>
+MENISCUS_HD inline F principal_curvature(const FieldJet<F>& j) {
+    const F size = larger(root(fused(j.x, j.x, fused(j.y, j.y, j.z * j.z))), F(1e-15F));
+    const F nx = j.x / size, ny = j.y / size, nz = j.z / size;
+    const F hx = fused(j.xx, nx, fused(j.xy, ny, j.xz * nz));
+    const F hy = fused(j.xy, nx, fused(j.yy, ny, j.yz * nz));
+    const F hz = fused(j.xz, nx, fused(j.yz, ny, j.zz * nz));
+    const F trace = (j.xx + j.yy + j.zz) - fused(nx, hx, fused(ny, hy, nz * hz));
+    // n . adjugate(H) n is the product of the two tangential eigenvalues.
+    const F cxx = j.yy * j.zz - j.yz * j.yz, cyy = j.xx * j.zz - j.xz * j.xz, czz = j.xx * j.yy - j.xy * j.xy;
+    const F cxy = j.xz * j.yz - j.xy * j.zz, cxz = j.xy * j.yz - j.xz * j.yy, cyz = j.xy * j.xz - j.yz * j.xx;
+    const F product = fused(nx, fused(cxx, nx, fused(cxy, ny, cxz * nz)),
+                            fused(ny, fused(cxy, nx, fused(cyy, ny, cyz * nz)), nz * fused(cxz, nx, fused(cyz, ny, czz * nz))));
+    const F half = F(0.5F) * trace;
+    const F spread = root(larger(half * half - product, F(0.0F)));
+    return (larger(half, F(0.0F) - half) + spread) / size;
+}
+
+/// What a search for the surface in a cell found.
+template <class F>
+struct SurfaceSearch {
+    F curvature;  ///< per unit, at the point found
+    F inside;     ///< distance of that point from the cell's nearest face, units; negative if it left the cell
+};
+
+/// Looks for the surface in a cell: from the trilinear root where the corners' signs are mixed (1), from the middle where they
+/// agree (0), one Newton step, held inside the cell; then curvature, and where a second step leads.
+/// corner: the cell's lowest point, units. jet_at: from a Point3<F> to the FieldJet<F> there.
+template <class F, class JetAt>
+MENISCUS_HD inline SurfaceSearch<F> search_surface(const CellCorners<F>& corners, F mixed, const Point3<F>& corner, float iso,
+                                                   const JetAt& jet_at) {
+    const F edge(static_cast<float>(units_per_base_cell));
+    const Point3<F> start = trilinear_root(corners);
+    const auto blend = [&](F from, F s) { return from + edge * fused(mixed, s - F(0.5F), F(0.5F)); };
+    Point3<F> p{blend(corner.x, start.x), blend(corner.y, start.y), blend(corner.z, start.z)};
+    p = clamped_to_cell(newton_step(jet_at(p), iso, p), corner);
+    const FieldJet<F> jet = jet_at(p);
+    const Point3<F> end = newton_step(jet, iso, p);
+    const auto depth = [&](F v, F low) { return F(0.0F) - larger(low - v, v - (low + edge)); };
+    const F depth_x = depth(end.x, corner.x), depth_y = depth(end.y, corner.y), depth_z = depth(end.z, corner.z);
+    const F depth_xy = F(0.0F) - larger(F(0.0F) - depth_x, F(0.0F) - depth_y);
+    return {principal_curvature(jet), F(0.0F) - larger(F(0.0F) - depth_xy, F(0.0F) - depth_z)};
+}
+
+}  // namespace meniscus
