@@ -17,6 +17,8 @@ TEST(FilePattern, ReplacesTheNumber) {
     EXPECT_EQ(FilePattern("frame_{:02}.vtk").at(123), "frame_123.vtk");
     EXPECT_EQ(FilePattern("frame.vtk").at(123), "frame.vtk");
     EXPECT_FALSE(FilePattern("frame.vtk").has_number());
+    EXPECT_FALSE(FilePattern("a{x}b{:0}c{:00}d{:03").has_number());
+    EXPECT_EQ(FilePattern("a{x}b{:02}").at(7), "a{x}b07");
 }
 
 TEST(FilePattern, FindsThePaddingOfExistingFiles) {

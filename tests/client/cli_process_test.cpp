@@ -269,8 +269,9 @@ TEST_F(Cli, ReconstructsRealFrames) {
         run_meniscus({"reconstruct", (*folder / "double_dam_break_with_sphere/frame_{}.vtk").string(), "--start", "20",
                       "--end", "21", "--particle-radius", "0.025", "--cell-size", "1", "--stats", path("s.json")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    for (const auto& frame : nlohmann::json::parse(formats::read_file(path("s.json"))).at("frames"))
-        EXPECT_EQ(frame.at("particles"), 11492);
+    const nlohmann::json frames = nlohmann::json::parse(formats::read_file(path("s.json"))).at("frames");
+    ASSERT_EQ(frames.size(), 2U);
+    for (const nlohmann::json& frame : frames) EXPECT_EQ(frame.at("particles"), 11492);
 }
 
 }  // namespace

@@ -102,6 +102,7 @@ Mesh mesh_of_noise(std::uint64_t seed, const World& world) {
     Mesh mesh;
     mesh.cell_size = settings.cell_size;
     mesh.offset_bits = settings.offset_bits;
+    cpu::levels_are_new(surface);
     if (!world.uniform) cpu::adjust_levels(surface);
     if (world.raise_at_slivers) {
         cpu::sample_field(surface, field);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <future>
 #include <latch>
 #include <stdexcept>
@@ -80,12 +81,14 @@ TEST(SlotPool, NeverLendsASlotTwice) {
     SlotPool<std::atomic<int>> pool;
     std::array<std::atomic<int>, 2> slots{};
     for (auto& slot : slots) pool.give(slot);
-    constexpr int rounds = 500;
-    std::latch done(4 * rounds);
+    constexpr std::ptrdiff_t rounds = 500;
+    constexpr std::ptrdiff_t borrower_count = 4;
+    std::latch done(borrower_count * rounds);
     std::vector<std::thread> borrowers;
-    for (int borrower = 0; borrower < 4; ++borrower)
+    borrowers.reserve(borrower_count);
+    for (std::ptrdiff_t borrower = 0; borrower < borrower_count; ++borrower)
         borrowers.emplace_back([&] {
-            for (int round = 0; round < rounds; ++round) {
+            for (std::ptrdiff_t round = 0; round < rounds; ++round) {
                 std::promise<std::atomic<int>*> lent;
                 pool.request([&](std::atomic<int>& slot) { lent.set_value(&slot); return true; });
                 std::atomic<int>& slot = *lent.get_future().get();

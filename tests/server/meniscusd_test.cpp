@@ -26,6 +26,7 @@ public:
         if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("pipe");
         arguments.insert(arguments.begin(), MENISCUSD_PATH);
         std::vector<char*> argv;
+        argv.reserve(arguments.size() + 1);
         for (std::string& argument : arguments) argv.push_back(argument.data());
         argv.push_back(nullptr);
         pid_ = ::fork();

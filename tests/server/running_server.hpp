@@ -31,7 +31,7 @@ struct RunningServer {
 
     /// A new session with the tests' settings.
     std::string session() {
-        const std::string id = client::new_session_id();
+        std::string id = client::new_session_id();
         client.create_session(id, settings());
         return id;
     }

@@ -183,6 +183,7 @@ TEST(Stream, EndsWithItsSession) {
 TEST(Stream, SessionsStreamSideBySide) {
     RunningServer running;
     std::vector<std::thread> simulators;
+    simulators.reserve(3);
     for (int s = 0; s < 3; ++s)
         simulators.emplace_back([&running, s] {
             client::Client own(running.server.address());

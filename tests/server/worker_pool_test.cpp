@@ -35,6 +35,7 @@ TEST(WorkerPool, ServesSeveralCallersAtTheSameTime) {
     WorkerPool pool(3);
     std::atomic<std::size_t> sum{0};
     std::vector<std::thread> callers;
+    callers.reserve(4);
     for (int caller = 0; caller < 4; ++caller)
         callers.emplace_back([&] {
             for (int round = 0; round < 50; ++round) pool.for_each(20, [&](std::size_t i) { sum += i; });

@@ -31,7 +31,7 @@ public:
         if (user_.mode == Mode::adaptive) adjust_levels(surface_);
         clock.enter(Stage::sample_field);
         sample_field(surface_, field_);
-        sample_edge_middles(surface_, field_);
+        if (user_.mode == Mode::adaptive) sample_edge_middles(surface_, field_);
         clock.enter(Stage::count_triangles);
         count_triangles(surface_, mesh);
         clock.enter(Stage::place_vertices);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "backends/cpu/clusters.hpp"
+#include "backends/cpu/level_sweep.hpp"
 #include "backends/cpu/surface.hpp"
 #include "meniscus/error.hpp"
 
@@ -43,47 +44,26 @@ void sample_block(Surface& s, FieldSource& field, std::uint32_t block, const flo
     s.inside[block] = inside;
 }
 
-template <class Wanted>
-void want(Surface& s, const Wanted& wanted) {
-    const BlocksView blocks = s.view();
-    s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
-        for (std::size_t b = begin; b < end; ++b) s.wanted_points[b] = wanted(blocks, static_cast<std::uint32_t>(b));
-    });
-}
-
-/// Maps all levels to new ones; returns whether any has changed.
-template <class NewLevel>
-bool change_levels(Surface& s, const NewLevel& new_level) {
-    const BlocksView blocks = s.view();
-    std::atomic<bool> changed{false};
-    s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
-        bool here = false;
-        for (std::size_t b = begin; b < end; ++b) {
-            s.next_level[b] = static_cast<std::uint8_t>(new_level(blocks, static_cast<std::uint32_t>(b)));
-            here |= s.next_level[b] != blocks.level[b];
-        }
-        if (here) changed.store(true, std::memory_order_relaxed);
-    });
-    s.level.swap(s.next_level);
-    return changed.load(std::memory_order_relaxed);
-}
-
 }  // namespace
 
 bool grow_band(Surface& s) {
-    return change_levels(s, [&s](const BlocksView& blocks, std::uint32_t block) -> int {
+    return sweep_levels(s, band_rule, [&s](const BlocksView& blocks, std::uint32_t block) -> int {
         return blocks.level[block] == 0 && joins_band(blocks, block) ? s.wanted_level[block] : blocks.level[block];
     });
 }
 
 bool raise_at_slivers(Surface& s) {
-    return change_levels(s, [](const BlocksView& blocks, std::uint32_t block) {
+    return sweep_levels(s, sliver_rule, [](const BlocksView& blocks, std::uint32_t block) {
         return blocks.level[block] + static_cast<int>(misses_surface_on_face(blocks, block));
     });
 }
 
 void sample_corner_points(Surface& s, FieldSource& field) {
-    want(s, corner_points);
+    const BlocksView blocks = s.view();
+    s.workers.for_ranges(s.block_count(), 4096, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t b = begin; b < end; ++b)
+            if (take_stale(s, b, corner_rule)) s.wanted_points[b] = s.corner_points[b] = corner_points(blocks, static_cast<std::uint32_t>(b));
+    });
     sample_wanted_points(s, field);
 }
 
@@ -130,8 +110,12 @@ void sample_field(Surface& s, FieldSource& field) {
 }
 
 void sample_edge_middles(Surface& s, FieldSource& field) {
+    const BlocksView blocks = s.view();
     for (const int length : {4, 2}) {
-        want(s, [length](const BlocksView& blocks, std::uint32_t block) { return edge_middles(blocks, block, length); });
+        s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t b = begin; b < end; ++b)
+                s.wanted_points[b] = s.corner_points[b] == 0 ? 0 : edge_middles(blocks, static_cast<std::uint32_t>(b), length);
+        });
         sample_wanted_points(s, field);
     }
 }

@@ -36,6 +36,7 @@ void split_cells(Surface& s, const SplitCriterion& criterion) {
             });
         },
         criterion);
+    levels_are_new(s);
 }
 
 }  // namespace meniscus::cpu

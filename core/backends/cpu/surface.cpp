@@ -10,8 +10,9 @@ Surface::Surface(const std::shared_ptr<MemoryAccount>& account, Workers& own_wor
     : workers(own_workers), settings(own_settings), scan(account), grid(account),
       brick(make_array<std::uint32_t>(account)), place(make_array<std::uint16_t>(account)),
       level(make_array<std::uint8_t>(account)), wanted_level(make_array<std::uint8_t>(account)),
-      next_level(make_array<std::uint8_t>(account)), sampled(make_array<BlockMask>(account)),
-      inside(make_array<BlockMask>(account)), wanted_points(make_array<BlockMask>(account)),
+      next_level(make_array<std::uint8_t>(account)), stale(make_array<std::uint8_t>(account)),
+      sampled(make_array<BlockMask>(account)),
+      inside(make_array<BlockMask>(account)), corner_points(make_array<BlockMask>(account)), wanted_points(make_array<BlockMask>(account)),
       first_sample(make_array<std::uint32_t>(account)), old_first_sample(make_array<std::uint32_t>(account)),
       edges(make_array<EdgeMasks>(account)),
       first_vertex(make_array<std::uint32_t>(account)), slots(make_array<TriangleSlots>(account)),
@@ -51,7 +52,9 @@ void store_blocks(Surface& s) {
     resize_for_overwrite(s.level, n);
     resize_for_overwrite(s.wanted_level, n);
     resize_for_overwrite(s.next_level, n);
+    resize_for_overwrite(s.stale, n);
     resize_for_overwrite(s.sampled, n);
+    resize_for_overwrite(s.corner_points, n);
     resize_for_overwrite(s.inside, n);
     resize_for_overwrite(s.wanted_points, n);
     resize_for_overwrite(s.first_sample, n);
@@ -73,6 +76,8 @@ void store_blocks(Surface& s) {
                     s.sampled[block] = 0;
                     s.inside[block] = 0;
                     s.first_sample[block] = 0;
+                    s.wanted_points[block] = 0;
+                    s.corner_points[block] = 0;
                 }
         }
     });

@@ -27,9 +27,11 @@ struct Surface {
     Array<std::uint16_t> place;
     Array<std::uint8_t> level;
     Array<std::uint8_t> wanted_level;  ///< by the split criterion
-    Array<std::uint8_t> next_level;
+    Array<std::uint8_t> next_level;    ///< equal to `level` between sweeps
+    Array<std::uint8_t> stale;         ///< see level_sweep.hpp
     Array<BlockMask> sampled;
     Array<BlockMask> inside;
+    Array<BlockMask> corner_points;  ///< points that cells of the band need as corners; none: nothing to do in this block
     Array<BlockMask> wanted_points;
     Array<std::uint32_t> first_sample;
     Array<std::uint32_t> old_first_sample;  ///< while a block's samples move
@@ -51,6 +53,9 @@ void store_blocks(Surface& surface);
 /// Numbers the members of a grid whose bits are set, and finds its bricks' neighbors.
 void number_members(BrickGrid& grid, Workers& workers);
 
+/// After levels have been given to all blocks at once: everything that follows from levels is to be found anew.
+void levels_are_new(Surface& surface);
+
 /// Step 3. Balance and promotion among the cells of the band, until nothing changes.
 void adjust_levels(Surface& surface);
 
@@ -58,7 +63,7 @@ void adjust_levels(Surface& surface);
 void sample_wanted_points(Surface& surface, FieldSource& field);
 /// Step 4. Samples what the cells of the band need; cells that the samples draw into the band are adjusted and sampled in turn.
 void sample_field(Surface& surface, FieldSource& field);
-/// One pass of that: samples the wanted points of all blocks near the band.
+/// One pass of that: samples the corner points of the cells whose surroundings have changed.
 void sample_corner_points(Surface& surface, FieldSource& field);
 /// Takes the cells into the band that a neighbor's samples show to hold surface; returns whether there were any.
 bool grow_band(Surface& surface);
