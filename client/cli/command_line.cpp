@@ -30,6 +30,7 @@ int run(int argc, const char* const* argv) {
     add_simulate(app);
     add_watch(app);
     add_picture(app);
+    add_compare(app);
     add_info(app);
     add_sessions(app);
     try {

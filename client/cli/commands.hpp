@@ -11,6 +11,7 @@ void add_reconstruct(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_watch(CLI::App& app);
 void add_picture(CLI::App& app);
+void add_compare(CLI::App& app);
 void add_info(CLI::App& app);
 void add_sessions(CLI::App& app);
 
