@@ -4,18 +4,11 @@
 #include <cmath>
 #include <cstdint>
 
-#include "field/lanes.hpp"
 #include "lattice/brick_grid.hpp"
 #include "lattice/coordinates.hpp"
 #include "lattice/host_device.hpp"
 
 namespace meniscus {
-
-/// Position in units from the corner of its support cell's brick: exact in float32.
-struct Particle {
-    float x, y, z;
-    float weight;  ///< mass (color: mass over density) times the kernel's W0
-};
 
 /// A box in units, relative to some origin.
 struct UnitBox {
@@ -30,46 +23,49 @@ MENISCUS_HD constexpr std::int64_t support_cell_units(std::int64_t support_units
     return (edge + 15) / 16 * 16;
 }
 
+/// Coordinates in units from the corner of the particle's support cell's brick: exact in float32.
 struct ParticleSetView {
     BrickGridView cells;
     const std::uint32_t* first = nullptr;  ///< first particle of each cell, and one past the last
-    const Particle* particles = nullptr;
+    const float* x = nullptr;
+    const float* y = nullptr;
+    const float* z = nullptr;
+    const float* weight = nullptr;         ///< mass (color: mass over density) times the kernel's W0
     std::int64_t cell_units = 0;           ///< edge of a support cell
     float support = 0.0F;                  ///< h, units
 
-    MENISCUS_HD Int3 cell_of(std::int64_t x, std::int64_t y, std::int64_t z) const {
-        return {static_cast<std::int32_t>(floor_div(x, cell_units)), static_cast<std::int32_t>(floor_div(y, cell_units)),
-                static_cast<std::int32_t>(floor_div(z, cell_units))};
+    MENISCUS_HD Int3 cell_of(std::int64_t px, std::int64_t py, std::int64_t pz) const {
+        return {static_cast<std::int32_t>(floor_div(px, cell_units)), static_cast<std::int32_t>(floor_div(py, cell_units)),
+                static_cast<std::int32_t>(floor_div(pz, cell_units))};
     }
 
-    /// Calls visit(x, y, z, weight), in the order of the particles, for every particle that may reach into the box;
-    /// positions are relative to `origin` (a multiple of 16 units). Particles beyond are culled with a margin, since a
-    /// rounded distance just below the support still adds a tiny term.
+    /// Particles farther from a box than this may be passed over. A little more than the support, since a rounded distance just
+    /// below it still adds a tiny term.
+    MENISCUS_HD float reach() const { return support + 1.0F; }
+
+    /// Calls visit(first particle, one past the last, shift) for runs of particles, in their order, that hold all those within
+    /// reach of the box. A particle's position plus shift (x, y, z) is relative to `origin`, a multiple of 16 units.
     template <class Visit>
-    MENISCUS_HD void for_each_near(const Units3& origin, const UnitBox& box, Visit&& visit) const {
+    MENISCUS_HD void for_each_run_near(const Units3& origin, const UnitBox& box, Visit&& visit) const {
         // Positions are whole units: one that is a support away or farther along an axis adds exactly zero.
         const auto below = [this](float v) { return static_cast<std::int64_t>(floorf(v - support)); };
         const auto above = [this](float v) { return static_cast<std::int64_t>(ceilf(v + support)) - 1; };
         const Int3 low = cell_of(origin.x + below(box.low[0]), origin.y + below(box.low[1]), origin.z + below(box.low[2]));
         const Int3 high = cell_of(origin.x + above(box.high[0]), origin.y + above(box.high[1]), origin.z + above(box.high[2]));
-        const float reach2 = (support + 1.0F) * (support + 1.0F);
         cells.for_each_run(low, high, [&](std::uint32_t brick, std::uint32_t cell, std::uint32_t count) {
             const Int3 corner = cells.bricks[brick].coordinate;
             const std::int64_t edge = cell_units * brick_size;
-            const float shift_x = static_cast<float>(corner.x * edge - origin.x);
-            const float shift_y = static_cast<float>(corner.y * edge - origin.y);
-            const float shift_z = static_cast<float>(corner.z * edge - origin.z);
-            const std::uint32_t end = first[cell + count];
-            for (std::uint32_t i = first[cell]; i < end; ++i) {
-                const Particle p = particles[i];
-                const float x = p.x + shift_x;
-                const float y = p.y + shift_y;
-                const float z = p.z + shift_z;
-                const float dx = larger(larger(box.low[0] - x, x - box.high[0]), 0.0F);
-                const float dy = larger(larger(box.low[1] - y, y - box.high[1]), 0.0F);
-                const float dz = larger(larger(box.low[2] - z, z - box.high[2]), 0.0F);
-                if (dx * dx + dy * dy + dz * dz <= reach2) visit(x, y, z, p.weight);
-            }
+            const float shift[3] = {static_cast<float>(corner.x * edge - origin.x), static_cast<float>(corner.y * edge - origin.y),
+                                    static_cast<float>(corner.z * edge - origin.z)};
+            visit(first[cell], first[cell + count], shift);
+        });
+    }
+
+    /// Calls visit(x, y, z) for all particles of those runs, relative to `origin`.
+    template <class Visit>
+    MENISCUS_HD void for_each_near(const Units3& origin, const UnitBox& box, Visit&& visit) const {
+        for_each_run_near(origin, box, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+            for (std::uint32_t i = begin; i < end; ++i) visit(x[i] + shift[0], y[i] + shift[1], z[i] + shift[2]);
         });
     }
 };

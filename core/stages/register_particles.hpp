@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "field/lanes.hpp"
 #include "field/particle_set.hpp"
 #include "lattice/brick_grid.hpp"
 #include "lattice/coordinates.hpp"
@@ -43,15 +44,16 @@ MENISCUS_HD inline Int3 key_brick(std::uint64_t cell_key) {
 }
 MENISCUS_HD inline int key_index(std::uint64_t cell_key) { return static_cast<int>(cell_key & 0xFFF); }
 
-/// The particle of a key, without its weight.
-MENISCUS_HD inline Particle particle_of(const ParticleKey& key, std::int64_t cell_units) {
+/// A key's position, in units from the corner of its support cell's brick.
+MENISCUS_HD inline void key_position(const ParticleKey& key, std::int64_t cell_units, float& x, float& y, float& z) {
     constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
     const int index = key_index(key.cell);
     const auto coordinate = [&](int in_brick, std::uint64_t in_cell) {
         return static_cast<float>(in_brick * cell_units + static_cast<std::int64_t>(in_cell & mask));
     };
-    return {coordinate(index & 15, key.place), coordinate(index >> 4 & 15, key.place >> place_axis_bits),
-            coordinate(index >> 8, key.place >> (2 * place_axis_bits)), 0.0F};
+    x = coordinate(index & 15, key.place);
+    y = coordinate(index >> 4 & 15, key.place >> place_axis_bits);
+    z = coordinate(index >> 8, key.place >> (2 * place_axis_bits));
 }
 
 /// Marks the base cells of a brick whose closed box lies within a particle's support. Position and support in units, relative to

@@ -2,6 +2,7 @@
 #include "field/sums.hpp"
 #include "stages/adjust_levels.hpp"
 #include "stages/count_triangles.hpp"
+#include "stages/curvature.hpp"
 #include "stages/emit_triangles.hpp"
 #include "stages/fill_cracks.hpp"
 #include "stages/place_vertices.hpp"
@@ -11,12 +12,11 @@
 
 namespace meniscus {
 
-__global__ void register_bodies(const Units3* positions, std::int64_t cell_units, ParticleKey* keys, Particle* particles, Brick* bricks,
-                                float support, Int3 low, Int3 high) {
+__global__ void register_bodies(const Units3* positions, std::int64_t cell_units, ParticleKey* keys, float* out, Brick* bricks, float support, Int3 low, Int3 high) {
     const unsigned i = blockIdx.x * blockDim.x + threadIdx.x;
     keys[i] = particle_key(positions[i], cell_units);
-    particles[i] = particle_of(keys[i], cell_units);
-    mark_reached(bricks[0], particles[i].x, particles[i].y, particles[i].z, support);
+    key_position(keys[i], cell_units, out[3 * i], out[3 * i + 1], out[3 * i + 2]);
+    mark_reached(bricks[0], out[3 * i], out[3 * i + 1], out[3 * i + 2], support);
     clear_beyond_domain(bricks[0], low, high);
     bricks[0].first = bricks[0].count();
 }
@@ -26,19 +26,28 @@ __global__ void field_bodies(ParticleSetView set, CandidateView candidates, floa
     float value[1] = {0.0F};
     float bound = 0.0F, gx = 0.0F, gy = 0.0F, gz = 0.0F;
     sum_values<1>(candidates, x, y, z, value);
-    sum_bounds(candidates, x[0], y[0], z[0], 8192.0F, bound);
+    float closest = 0.0F;
+    sum_bounds(candidates, x[0], y[0], z[0], 8192.0F, bound, closest);
+    const auto jet_at = [&](const Point3<float>& p) {
+        FieldJet<float> jet;
+        sum_jets(candidates, p.x, p.y, p.z, jet);
+        return jet;
+    };
+    bound += closest + search_surface(CellCorners<float>{}, 1.0F, {0.0F, 0.0F, 0.0F}, 0.6F, jet_at).curvature;
     sum_gradients(candidates, x[0], y[0], z[0], gx, gy, gz);
-    set.for_each_near({0, 0, 0}, {{0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}}, [&](float px, float, float, float w) { gx += px * w; });
+    set.for_each_near({0, 0, 0}, {{0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}}, [&](float px, float, float) { gx += px; });
     out[3] = value[0] + bound + gx + gy + gz;
 }
 
-__global__ void surface_bodies(BlocksView blocks, const std::uint32_t* counts, const CubeCase* cubes, const CrackCase* cracks, Triangle* triangles,
+__global__ void surface_bodies(BlocksView blocks, const std::uint32_t* counts, const CellBend* cells, const CubeCase* cubes, const CrackCase* cracks, Triangle* triangles,
                                Int3 low, Int3 high) {
     const std::uint32_t b = blockIdx.x * blockDim.x + threadIdx.x;
     if (b >= blocks.count) return;
     const CountCriterion criterion{counts, 1, false};
     const BandTest band{0.6F, 0.85F};
-    blocks.level[b] = static_cast<std::uint8_t>(band.may_hold_surface(4, blocks.value(b, 0), 1.0F) ? criterion(b) : UniformCriterion{}(b));
+    const CurvatureCriterion bends{cells, 0.15F};
+    const int level = band.may_hold_surface(4, blocks.value(b, 0), 1.0F) ? criterion(blocks, b) : UniformCriterion{}(blocks, b);
+    blocks.level[b] = static_cast<std::uint8_t>(level + bends(blocks, b) + BlobRule{}.least_level(0, {1.0F, 0.9F}) + misses_surface_on_face(blocks, b));
     blocks.level[b] = static_cast<std::uint8_t>(balanced_level(blocks, b) + promoted_level(blocks, b));
     blocks.sampled[b] = corner_points(blocks, b) | edge_middles(blocks, b, 4) | edge_middles(blocks, b, 2);
     blocks.inside[b] = domain_points(blocks.coordinate(b), low, high);

@@ -19,17 +19,20 @@ public:
 
     /// Searches a set for the particles that may reach into a box relative to `origin`.
     void gather(const ParticleSetView& set, const Units3& origin, const UnitBox& box);
-    /// Those of another list that may reach into a box, their positions less `offset`.
-    void cull(const Candidates& from, const std::array<float, 3>& offset, const UnitBox& box);
+    /// Those of another list that may reach into a box, their positions moved by `shift`.
+    void cull(const Candidates& from, const std::array<float, 3>& shift, const UnitBox& box);
 
     CandidateView view() const { return {x_.data(), y_.data(), z_.data(), weight_.data(), count_, inverse_support_}; }
     std::size_t capacity() const { return x_.size(); }
     void reserve(std::size_t n);
 
 private:
+    /// Arrays of `from` have room for whole lanes beyond the last particle.
+    void append_near(const CandidateView& from, const std::array<float, 3>& shift, const UnitBox& box);
+
     Array<float> x_, y_, z_, weight_;
     std::size_t count_ = 0;
-    float support_ = 0.0F;
+    float reach_ = 0.0F;
     float inverse_support_ = 0.0F;
 };
 

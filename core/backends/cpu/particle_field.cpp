@@ -78,8 +78,8 @@ const CandidateLists::Levels& ParticleField::near_points(const Int3& base_cell, 
     const CandidateLists::Levels& cluster = near_cluster(base_cell, worker);
     CandidateLists& lists = lists_[worker];
     const Int3 offset = base_cell - lists.corner;
-    const std::array<float, 3> shift{static_cast<float>(offset.x) * base_edge, static_cast<float>(offset.y) * base_edge,
-                                     static_cast<float>(offset.z) * base_edge};
+    const std::array<float, 3> shift{static_cast<float>(-offset.x) * base_edge, static_cast<float>(-offset.y) * base_edge,
+                                     static_cast<float>(-offset.z) * base_edge};
     const UnitBox box = box_of(points);
     for (std::size_t k = 0; k < particle_level_count; ++k) lists.near[k].cull(cluster[k], shift, box);
     return lists.near;
@@ -105,7 +105,7 @@ void ParticleField::divide_weights_by_density() {
     // A density is a sum of the weights that it will divide: all are computed before any is.
     for (unsigned k = 0; k < particle_level_count; ++k) {
         ParticleSet& set = sets_[k];
-        resize_for_overwrite(set.densities, set.particles.size());
+        resize_for_overwrite(set.densities, set.count());
         const BrickGridView grid = set.cells.view();
         workers_.for_ranges(grid.brick_count, 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
             CandidateLists::Levels& near = lists_[worker].near;
@@ -125,8 +125,8 @@ void ParticleField::divide_weights_by_density() {
                             const std::uint32_t first = i;
                             points.count = 0;
                             for (; i < set.first[cell + 1] && points.count < max_points; ++i)
-                                points.add(set.particles[i].x - static_cast<float>(in_brick[0]), set.particles[i].y - static_cast<float>(in_brick[1]),
-                                           set.particles[i].z - static_cast<float>(in_brick[2]));
+                                points.add(set.x[i] - static_cast<float>(in_brick[0]), set.y[i] - static_cast<float>(in_brick[1]),
+                                           set.z[i] - static_cast<float>(in_brick[2]));
                             pad(points);
                             for (std::size_t j = 0; j < particle_level_count; ++j) near[j].gather(sets_[j].view(), origin, box_of(points));
                             sum_points(near, points, out);
@@ -138,8 +138,8 @@ void ParticleField::divide_weights_by_density() {
     }
     for (unsigned k = 0; k < particle_level_count; ++k) {
         ParticleSet& set = sets_[k];
-        workers_.for_ranges(set.particles.size(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
-            for (std::size_t i = begin; i < end; ++i) set.particles[i].weight /= set.densities[i];
+        workers_.for_ranges(set.count(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t i = begin; i < end; ++i) set.weight[i] /= set.densities[i];
         });
     }
     even_out_lists();

@@ -33,7 +33,8 @@ Int3 key_coordinate(std::uint64_t key) {
 
 ParticleSet::ParticleSet(const std::shared_ptr<MemoryAccount>& account)
     : cells(account), keys(make_array<ParticleKey>(account)), first(make_array<std::uint32_t>(account)),
-      cell_keys(make_array<std::uint64_t>(account)), particles(make_array<Particle>(account)),
+      cell_keys(make_array<std::uint64_t>(account)), x(make_array<float>(account)),
+      y(make_array<float>(account)), z(make_array<float>(account)), weight(make_array<float>(account)),
       densities(make_array<float>(account)) {}
 
 ParticleSets::ParticleSets(const std::shared_ptr<MemoryAccount>& account, Workers& workers, const LatticeSettings& settings)
@@ -72,11 +73,14 @@ void ParticleSets::sort(const ParticleFrame& frame, unsigned level) {
         });
     }
     workers_.sort(set.keys.data(), set.keys.data() + set.keys.size(), std::less<>());
-    resize_for_overwrite(set.particles, set.keys.size());
-    workers_.for_ranges(set.keys.size(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
+    for (Array<float>* a : {&set.x, &set.y, &set.z, &set.weight}) {
+        resize_for_overwrite(*a, set.count() + Lanes::count);
+        std::fill(a->end() - Lanes::count, a->end(), 0.0F);
+    }
+    workers_.for_ranges(set.count(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {
-            set.particles[i] = particle_of(set.keys[i], set.cell_units);
-            set.particles[i].weight = settings_.weight;
+            key_position(set.keys[i], set.cell_units, set.x[i], set.y[i], set.z[i]);
+            set.weight[i] = settings_.weight;
         }
     });
 }
@@ -155,7 +159,7 @@ void ParticleSets::mark_reached_cells(BrickGrid& grid) {
             const auto size = static_cast<float>(edge);
             for (const ParticleSet& set : sets_)
                 set.view().for_each_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
-                                         [&](float x, float y, float z, float) { mark_reached(brick, x, y, z, set.support); });
+                                         [&](float x, float y, float z) { mark_reached(brick, x, y, z, set.support); });
             if (settings_.has_domain) clear_beyond_domain(brick, settings_.domain_low, settings_.domain_high);
         }
     });
@@ -173,7 +177,7 @@ void ParticleSets::count_per_cell(const BrickGrid& grid, Array<std::uint32_t>& c
             const Units3 origin{brick.coordinate.x * edge, brick.coordinate.y * edge, brick.coordinate.z * edge};
             const auto size = static_cast<float>(edge);
             // Wider than needed by the support; particles of other bricks are passed over.
-            set.view().for_each_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, [&](float x, float y, float z, float) {
+            set.view().for_each_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, [&](float x, float y, float z) {
                 if (x < 0.0F || y < 0.0F || z < 0.0F || x >= size || y >= size || z >= size) return;
                 constexpr float cell = units_per_base_cell;
                 const Int3 at{static_cast<int>(x / cell), static_cast<int>(y / cell), static_cast<int>(z / cell)};

@@ -22,13 +22,15 @@ struct ParticleSet {
     Array<ParticleKey> keys;
     Array<std::uint32_t> first;
     Array<std::uint64_t> cell_keys;
-    Array<Particle> particles;
+    // Of every particle, and room for whole lanes beyond the last; ParticleSetView explains them.
+    Array<float> x, y, z, weight;
     Array<float> densities;  ///< relative to the rest density; color field only
+    std::size_t count() const { return keys.size(); }
     std::int64_t cell_units = 0;
     float support = 0.0F;
 
     ParticleSetView view() const {
-        return {cells.view(), first.data(), particles.data(), cell_units, support};
+        return {cells.view(), first.data(), x.data(), y.data(), z.data(), weight.data(), cell_units, support};
     }
 };
 
