@@ -37,7 +37,7 @@ std::string metadata_session_id(const grpc::ServerContextBase& context) {
     const auto [first, last] = metadata.equal_range(grpc::string_ref(metadata_key.data(), metadata_key.size()));
     if (first == last) throw InvalidInput(fmt::format("the call has no metadata {}", metadata_key));
     if (std::next(first) != last) throw InvalidInput(fmt::format("the call has metadata {} more than once", metadata_key));
-    const std::string id(first->second.data(), first->second.size());
+    std::string id(first->second.data(), first->second.size());
     require_session_id(metadata_key, id);
     return id;
 }

@@ -232,7 +232,7 @@ void Session::perform(EncodeForWatchers&) {
     encode_for_watchers();
 }
 
-void Session::publish(int normal_bits, std::shared_ptr<const EncodedFrame> frame) {
+void Session::publish(int normal_bits, const std::shared_ptr<const EncodedFrame>& frame) {
     std::vector<std::shared_ptr<LatestFrame>> slots;
     {
         const std::lock_guard lock(mutex_);

@@ -104,7 +104,7 @@ private:
     void perform(Encode& task);
     void perform(EndUpload& task);
     void perform(EncodeForWatchers& task);
-    void publish(int normal_bits, std::shared_ptr<const EncodedFrame> frame);
+    void publish(int normal_bits, const std::shared_ptr<const EncodedFrame>& frame);
     /// Encodes the newest mesh for the watchers whose wishes nobody shared.
     void encode_for_watchers();
     std::optional<int> unpublished_normal_bits() const;
