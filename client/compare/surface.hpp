@@ -1,0 +1,31 @@
+// A triangle mesh as this library looks at it: borrowed, whoever made it.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+
+#include "meniscus/mesh.hpp"
+
+namespace meniscus::compare {
+
+using Point = std::array<double, 3>;
+
+/// Borrowed. Positions are finite, in world units; triangles are indices into them.
+struct SurfaceView {
+    std::span<const Point> positions;
+    std::span<const Triangle> triangles;
+
+    std::array<Point, 3> corners(const Triangle& t) const {
+        return {positions[t[0]], positions[t[1]], positions[t[2]]};
+    }
+};
+
+/// Beyond that, squares of areas are no finite numbers.
+inline constexpr double largest_coordinate = 1e60;
+
+/// Throws InvalidInput, in one line that begins with `name`, unless the surface has area and coordinates of at most
+/// `largest_coordinate` in size: what the other functions of this library take for granted.
+void validate(SurfaceView surface, const std::string& name);
+
+}  // namespace meniscus::compare

@@ -1,0 +1,34 @@
+// Finds the triangle of a surface that is nearest to a point.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "compare/surface.hpp"
+
+namespace meniscus::compare {
+
+/// Triangles in Morton order under a tree of boxes with a fixed number of children: no node holds a pointer.
+class TriangleTree {
+public:
+    /// Copies the triangles; there is at least one.
+    explicit TriangleTree(SurfaceView surface);
+
+    /// Square of the distance from `point` to the surface: exact, not to some sample of it. hint: any number on the
+    /// first call, what the last call left on the next ones; fast where consecutive points are close together, and
+    /// without influence on the result.
+    double squared_distance(const Point& point, std::uint32_t& hint) const;
+
+private:
+    struct Box {
+        Point low;
+        Point high;
+    };
+    static double squared_distance(const Point& point, const Box& box);
+
+    std::vector<std::array<Point, 3>> triangles_;
+    std::vector<std::vector<Box>> levels_;  ///< from the boxes of triangles to the root
+};
+
+}  // namespace meniscus::compare
