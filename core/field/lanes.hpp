@@ -46,6 +46,7 @@ struct Lanes {
 inline Lanes fused(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
 inline Lanes root(Lanes a) { return _mm256_sqrt_ps(a.v); }
 inline Lanes larger(Lanes a, Lanes b) { return _mm256_max_ps(a.v, b.v); }
+inline Lanes smaller(Lanes a, Lanes b) { return _mm256_min_ps(a.v, b.v); }
 /// The set of lanes in which a <= b.
 inline unsigned not_above(Lanes a, Lanes b) { return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ))); }
 /// Stores the lanes of a set one after the other; writes eight floats in all.
@@ -77,6 +78,9 @@ inline Lanes root(const Lanes& a) { return Lanes::each([&](int i) { return std::
 inline Lanes larger(const Lanes& a, const Lanes& b) {
     return Lanes::each([&](int i) { return a.v[i] > b.v[i] ? a.v[i] : b.v[i]; });
 }
+inline Lanes smaller(const Lanes& a, const Lanes& b) {
+    return Lanes::each([&](int i) { return a.v[i] < b.v[i] ? a.v[i] : b.v[i]; });
+}
 inline unsigned not_above(const Lanes& a, const Lanes& b) {
     unsigned set = 0;
     for (unsigned i = 0; i < Lanes::count; ++i) set |= (a.v[i] <= b.v[i] ? 1U : 0U) << i;
@@ -87,6 +91,16 @@ inline void store_set(float* p, const Lanes& a, unsigned set) {
 }
 
 #endif
+
+inline float smallest_lane(Lanes a) {
+    alignas(32) float v[Lanes::count];
+    a.store(v);
+    float result = v[0];
+    for (const float x : v) result = x < result ? x : result;
+    return result;
+}
+inline float largest_lane(Lanes a) { return -smallest_lane(Lanes(0.0F) - a); }
+
 #endif
 
 MENISCUS_HD inline float fused(float a, float b, float c) {

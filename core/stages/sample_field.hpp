@@ -5,6 +5,7 @@
 
 #include "lattice/host_device.hpp"
 #include "stages/blocks.hpp"
+#include "stages/count_triangles.hpp"
 #include "stages/place_vertices.hpp"
 
 namespace meniscus {
@@ -59,7 +60,10 @@ MENISCUS_HD inline bool joins_band(const BlocksView& blocks, std::uint32_t block
         for (int side = 0; side < 2; ++side) {
             const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, 2 * side - 1));
             const int level = blocks.level_or_none(other);
-            if (level != 0 && face_is_mixed(blocks, ClosedCell(blocks, other), level, axis, 1 - side)) return true;
+            if (level == 0) continue;
+            const ClosedCell cell(blocks, other);
+            if (SubcellCorners(blocks, cell, level_stride(level)).mixed(level_stride(level)) == 0) continue;
+            if (face_is_mixed(blocks, cell, level, axis, 1 - side)) return true;
         }
     return false;
 }

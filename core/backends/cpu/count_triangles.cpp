@@ -82,12 +82,14 @@ void order_by_level_and_brick(Surface& s, Mesh& mesh) {
 
 void count_triangles(Surface& s, Mesh& mesh) {
     list_band(s);
+    resize_for_overwrite(s.has_cracks, s.band.size());
     const BlocksView blocks = s.view();
     s.workers.for_ranges(s.band.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t block = s.band[i];
             s.slots[block] = {count_cell_triangles(blocks, block, cube_table.data()),
                               count_crack_triangles(blocks, block, crack_table.data())};
+            s.has_cracks[i] = s.slots[block].cracks != 0 ? 1 : 0;
         }
     });
     order_by_level_and_brick(s, mesh);

@@ -8,7 +8,8 @@ void fill_cracks(Surface& s, Mesh& mesh) {
     const BlocksView blocks = s.view();
     s.workers.for_ranges(s.band.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i)
-            emit_crack_triangles(blocks, s.band[i], crack_table.data(), mesh.triangles.data() + s.slots[s.band[i]].cracks);
+            if (s.has_cracks[i] != 0)
+                emit_crack_triangles(blocks, s.band[i], crack_table.data(), mesh.triangles.data() + s.slots[s.band[i]].cracks);
     });
 }
 

@@ -13,15 +13,20 @@ namespace {
 
 constexpr float base_edge = units_per_base_cell;
 
-/// The smallest box around points.
+/// The smallest box around padded points.
 UnitBox box_of(const PointList& points) {
-    UnitBox box{{points.x[0], points.y[0], points.z[0]}, {points.x[0], points.y[0], points.z[0]}};
+    UnitBox box;
     const float* coordinates[3] = {points.x, points.y, points.z};
-    for (int axis = 0; axis < 3; ++axis)
-        for (std::size_t i = 1; i < points.count; ++i) {
-            box.low[axis] = std::min(box.low[axis], coordinates[axis][i]);
-            box.high[axis] = std::max(box.high[axis], coordinates[axis][i]);
+    for (int axis = 0; axis < 3; ++axis) {
+        Lanes low = Lanes::load(coordinates[axis]);
+        Lanes high = low;
+        for (std::size_t i = Lanes::count; i < points.count; i += Lanes::count) {
+            low = smaller(low, Lanes::load(coordinates[axis] + i));
+            high = larger(high, Lanes::load(coordinates[axis] + i));
         }
+        box.low[axis] = smallest_lane(low);
+        box.high[axis] = largest_lane(high);
+    }
     return box;
 }
 

@@ -1,47 +1,70 @@
 #include "stages/sample_field.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <string>
 
 #include "backends/cpu/clusters.hpp"
 #include "backends/cpu/level_sweep.hpp"
 #include "backends/cpu/surface.hpp"
+#include "field/lanes.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cpu {
 namespace {
 
-/// Values of some points of a block, then its array of samples with old and new ones in the order of the points.
-void sample_block(Surface& s, FieldSource& field, std::uint32_t block, const float* old_samples, unsigned worker) {
-    const BlocksView blocks = s.view();
-    const Int3 at = blocks.coordinate(block);
-    const BlockMask known = s.sampled[block];
-    const BlockMask missing = s.wanted_points[block] & ~known;
+/// A block's points, in the order of their bits.
+PointList list_points(BlockMask mask) {
     PointList points;
-    for (BlockMask left = missing; left != 0; left &= left - 1) {
+    for (BlockMask left = mask; left != 0; left &= left - 1) {
         const int bit = lowest_bit(left);
         points.add(static_cast<float>(point_coordinate(bit, 0) * units_per_cell),
                    static_cast<float>(point_coordinate(bit, 1) * units_per_cell),
                    static_cast<float>(point_coordinate(bit, 2) * units_per_cell));
     }
+    return points;
+}
+
+/// The values of all points of a block. That of the base vertex is found a second time, to the same bits: cheaper than sorting
+/// it in.
+void sample_whole_block(Surface& s, FieldSource& field, std::uint32_t block, const Int3& at, unsigned worker) {
+    PointList points = list_points(~BlockMask{0});
     alignas(32) float values[max_points];
     field.values(at, points, values, worker);
-    const BlockMask allowed = s.settings.has_domain
-                                  ? domain_points(at, s.settings.domain_low, s.settings.domain_high) : ~BlockMask{0};
+    std::copy(values, values + 64, s.samples.data() + s.first_sample[block]);
+    BlockMask outside = 0;
+    for (int i = 0; i < 64; i += Lanes::count)
+        outside |= BlockMask{not_above(Lanes::load(values + i), Lanes(s.settings.iso))} << i;
+    s.inside[block] = ~outside;
+}
+
+/// Values of the missing points of a block, then its samples with old and new ones in the order of the points.
+void sample_missing_points(Surface& s, FieldSource& field, std::uint32_t block, const Int3& at, const float* old_samples, unsigned worker) {
+    const BlockMask known = s.sampled[block];
+    const BlockMask missing = s.wanted_points[block] & ~known;
+    PointList points = list_points(missing);
+    alignas(32) float values[max_points];
+    field.values(at, points, values, worker);
     float* out = s.samples.data() + s.first_sample[block];
     const float* fresh = values;
-    BlockMask inside = s.inside[block];
     for (BlockMask left = known | missing; left != 0; left &= left - 1) {
         const BlockMask bit = left & (~left + 1);
         if ((known & bit) != 0) {
             *out++ = *old_samples++;
         } else {
-            if (*fresh > s.settings.iso && (allowed & bit) != 0) inside |= bit;
+            if (*fresh > s.settings.iso) s.inside[block] |= bit;
             *out++ = *fresh++;
         }
     }
-    s.sampled[block] = known | missing;
-    s.inside[block] = inside;
+}
+
+void sample_block(Surface& s, FieldSource& field, std::uint32_t block, const float* old_samples, unsigned worker) {
+    const Int3 at = s.view().coordinate(block);
+    const BlockMask sampled = s.wanted_points[block] | s.sampled[block];
+    if (sampled == ~BlockMask{0}) sample_whole_block(s, field, block, at, worker);
+    else sample_missing_points(s, field, block, at, old_samples, worker);
+    s.sampled[block] = sampled;
+    if (s.settings.has_domain) s.inside[block] &= domain_points(at, s.settings.domain_low, s.settings.domain_high);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ Surface::Surface(const std::shared_ptr<MemoryAccount>& account, Workers& own_wor
       edges(make_array<EdgeMasks>(account)),
       first_vertex(make_array<std::uint32_t>(account)), slots(make_array<TriangleSlots>(account)),
       samples(make_array<float>(account)), band(make_array<std::uint32_t>(account)),
+      has_cracks(make_array<std::uint8_t>(account)),
       brick_triangles(make_array<std::array<std::uint32_t, triangle_level_count>>(account)) {}
 
 BlocksView Surface::view() {

@@ -40,6 +40,7 @@ struct Surface {
     Array<TriangleSlots> slots;
     Array<float> samples;
     Array<std::uint32_t> band;  ///< the blocks of the surface band, ascending
+    Array<std::uint8_t> has_cracks;  ///< for each of them, whether any of its faces is to be filled
     Array<std::array<std::uint32_t, triangle_level_count>> brick_triangles;  ///< per brick and level
     std::uint64_t field_evaluations = 0;
 
