@@ -53,7 +53,7 @@ std::vector<LocalPosition> local_positions(const Mesh& mesh, const MeshBrick& br
 
 std::vector<std::byte> cell_levels(const Mesh& mesh, const MeshBrick& brick, const BrickIndex& index,
                                    const std::vector<LocalPosition>& positions) {
-    std::array<std::uint8_t, brick_base_cells * brick_base_cells * brick_base_cells> level_of_cell{};
+    std::array<std::uint8_t, std::size_t{brick_base_cells} * brick_base_cells * brick_base_cells> level_of_cell{};
     std::size_t t = 0;
     for (std::size_t level = 0; level < triangle_level_count; ++level)
         for (std::uint32_t i = 0; i < brick.ranges[level].count; ++i, ++t) {

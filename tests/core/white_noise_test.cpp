@@ -21,8 +21,8 @@ public:
     void values(const Int3& base_cell, cpu::PointList& points, float* out, unsigned) override {
         for (std::size_t i = 0; i < points.count; ++i) out[i] = value(base_cell, points.x[i], points.y[i], points.z[i]);
     }
-    void gradients(const Int3&, cpu::PointList& points, float* x, float* y, float* z, unsigned) override {
-        for (std::size_t i = 0; i < points.count; ++i) x[i] = y[i] = z[i] = 0.0F;
+    void normals(const Int3&, cpu::PointList& points, float* x, float* y, float* z, unsigned) override {
+        for (std::size_t i = 0; i < points.count; ++i) x[i] = y[i] = z[i] = std::nanf("");
     }
 
 private:

@@ -31,8 +31,8 @@ class FieldSource {
 public:
     virtual ~FieldSource() = default;
     virtual void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) = 0;
-    /// Up to a positive factor.
-    virtual void gradients(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) = 0;
+    /// Unit vectors against the gradient; not-a-numbers where it vanishes.
+    virtual void normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) = 0;
 };
 
 }  // namespace meniscus::cpu

@@ -267,16 +267,17 @@ void ParticleField::values(const Int3& base_cell, PointList& points, float* valu
     sum_points(near_points(base_cell, points, worker), points, values);
 }
 
-void ParticleField::gradients(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) {
+void ParticleField::normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) {
     pad(points);
     const CandidateLists::Levels& near = near_points(base_cell, points, worker);
     for (std::size_t i = 0; i < points.count; i += Lanes::count) {
         const Lanes px = Lanes::load(points.x + i), py = Lanes::load(points.y + i), pz = Lanes::load(points.z + i);
         Lanes gx(0.0F), gy(0.0F), gz(0.0F);
         for (const Candidates& c : near) sum_gradients(c.view(), px, py, pz, gx, gy, gz);
-        gx.store(x + i);
-        gy.store(y + i);
-        gz.store(z + i);
+        const Lanes size = Lanes(0.0F) - root(fused(gx, gx, fused(gy, gy, gz * gz)));
+        (gx / size).store(x + i);
+        (gy / size).store(y + i);
+        (gz / size).store(z + i);
     }
 }
 

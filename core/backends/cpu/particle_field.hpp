@@ -26,7 +26,7 @@ public:
     void measure_bends(Surface& surface, const Array<CellReach>& reaches, Array<CellBend>& bends);
 
     void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) override;
-    void gradients(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) override;
+    void normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) override;
 
 private:
     void divide_weights_by_density();

@@ -61,14 +61,13 @@ void bisect(FieldSource& field, const Int3& at, const LatticeSettings& settings,
     }
 }
 
-Normal outward(const EdgeEnds& ends, int axis, float gx, float gy, float gz, float iso) {
-    const float size = std::sqrt(gx * gx + gy * gy + gz * gz);
-    if (ends.cropped(iso) || !(size > 0.0F) || !std::isfinite(size)) {
-        Normal normal{0.0F, 0.0F, 0.0F};
-        normal[static_cast<std::size_t>(axis)] = ends.low_inside ? 1.0F : -1.0F;
-        return normal;
-    }
-    return {-gx / size, -gy / size, -gz / size};
+/// The field's normal, or along the edge where the domain's border or a vanishing gradient leaves none.
+Normal outward(const EdgeEnds& ends, int axis, const Normal& of_field, float iso) {
+    const float sum = of_field[0] + of_field[1] + of_field[2];
+    if (std::isfinite(sum) && !ends.cropped(iso)) return of_field;
+    Normal normal{0.0F, 0.0F, 0.0F};
+    normal[static_cast<std::size_t>(axis)] = ends.low_inside ? 1.0F : -1.0F;
+    return normal;
 }
 
 void number_vertices(Surface& s, Mesh& mesh) {
@@ -98,9 +97,9 @@ void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& 
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         BlockVertices vertices;
         PointList points;
-        alignas(32) float gx[max_points];
-        alignas(32) float gy[max_points];
-        alignas(32) float gz[max_points];
+        alignas(32) float nx[max_points];
+        alignas(32) float ny[max_points];
+        alignas(32) float nz[max_points];
         const auto place_block = [&](std::uint32_t block) {
             if (s.edges[block].count() == 0) return;
             find_vertices(blocks, block, vertices);
@@ -113,7 +112,7 @@ void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& 
                     vertices.offset[i] = interpolated_offset(vertices.ends[i], s.settings.iso, static_cast<int>(bits));
             }
             list_points(vertices, bits, points);
-            field.gradients(at, points, gx, gy, gz, worker);
+            field.normals(at, points, nx, ny, nz, worker);
             for (std::size_t i = 0; i < vertices.count; ++i) {
                 const int bit = vertices.bit[i];
                 LatticePosition p{(at.x * base_cell_size + point_coordinate(bit, 0)) * (1 << bits),
@@ -122,7 +121,7 @@ void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& 
                 p[vertices.axis[i]] += vertices.offset[i];
                 mesh.vertices[s.first_vertex[block] + i] = p;
                 mesh.normals[s.first_vertex[block] + i] =
-                    outward(vertices.ends[i], vertices.axis[i], gx[i], gy[i], gz[i], s.settings.iso);
+                    outward(vertices.ends[i], vertices.axis[i], {nx[i], ny[i], nz[i]}, s.settings.iso);
             }
         };
         for (std::size_t brick = begin; brick < end; ++brick) for_each_clustered_member(s.grid.bricks[brick], place_block);

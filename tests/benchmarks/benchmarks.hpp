@@ -1,0 +1,14 @@
+// The subcommands of `meniscus-bench`, one file each.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace meniscus::benchmarks {
+
+void add_experiment(CLI::App& app);
+void add_scaling(CLI::App& app);
+void add_encoding(CLI::App& app);
+
+}  // namespace meniscus::benchmarks

@@ -1,0 +1,86 @@
+#include "report.hpp"
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <sstream>
+
+#include "formats/atomic_file.hpp"
+#include "meniscus/reconstructor.hpp"
+
+namespace meniscus::benchmarks {
+namespace {
+
+std::string command_line;
+
+/// The commit that the sources are at, "-dirty" if they were changed since, "unknown" outside of a checkout.
+std::string commit() {
+    const std::unique_ptr<FILE, int (*)(FILE*)> git(
+        popen("git -C '" MENISCUS_SOURCE_DIR "' describe --always --dirty --abbrev=12 --exclude='*' 2>/dev/null", "r"),
+        &pclose);
+    std::array<char, 64> text{};
+    if (!git || std::fgets(text.data(), text.size(), git.get()) == nullptr) return "unknown";
+    std::string out(text.data());
+    while (!out.empty() && out.back() == '\n') out.pop_back();
+    return out;
+}
+
+std::string to_csv(const Rows& rows) {
+    std::ostringstream out;
+    const char* separator = "";
+    for (const auto& column : rows.at(0).items()) {
+        out << separator << column.key();
+        separator = ",";
+    }
+    out << '\n';
+    for (const Row& row : rows) {
+        separator = "";
+        for (const auto& value : row) {
+            out << separator << (value.is_string() ? value.get<std::string>() : value.dump());
+            separator = ",";
+        }
+        out << '\n';
+    }
+    return out.str();
+}
+
+}  // namespace
+
+void remember_command(int argc, const char* const* argv) {
+    command_line = "meniscus-bench";
+    for (int i = 1; i < argc; ++i) {
+        const std::filesystem::path argument(argv[i]);
+        command_line += ' ';
+        command_line += (argument.is_absolute() ? argument.filename() : argument).string();
+    }
+}
+
+void add_statistics(Row& row, const Statistics& s) {
+    row["total_seconds"] = s.total_seconds;
+    for (std::size_t i = 0; i < stage_count; ++i) row[std::string(stage_names[i]) + "_seconds"] = s.stage_seconds[i];
+    row["triangles"] = s.triangles;
+    row["level1_triangles"] = s.triangles_by_level[0];
+    row["level2_triangles"] = s.triangles_by_level[1];
+    row["level3_triangles"] = s.triangles_by_level[2];
+    row["crack_triangles"] = s.triangles_by_level[3];
+    row["vertices"] = s.vertices;
+    row["field_evaluations"] = s.field_evaluations;
+    row["peak_bytes"] = s.peak_bytes;
+    row["allocations"] = s.allocations;
+}
+
+void write_report(const std::filesystem::path& directory, const std::string& name, const nlohmann::ordered_json& summary,
+                  const Rows& rows) {
+    nlohmann::ordered_json all;
+    all["machine"] = describe_backend(Backend::cpu).device;
+    all["compiler"] = __VERSION__;
+    all["commit"] = commit();
+    all["command"] = command_line;
+    all.update(summary);
+    all["rows"] = rows;
+    formats::make_directory(directory);
+    formats::write_file(directory / (name + ".csv"), to_csv(rows));
+    formats::write_file(directory / (name + ".json"), all.dump(2) + "\n");
+}
+
+}  // namespace meniscus::benchmarks

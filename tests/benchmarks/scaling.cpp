@@ -1,0 +1,183 @@
+// meniscus-bench scaling: how time and memory grow with the particles, and how far they are from the floor.
+#include <CLI/CLI.hpp>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+#include "benchmarks.hpp"
+#include "machine_peaks.hpp"
+#include "neighbors.hpp"
+#include "report.hpp"
+#include "warm_runs.hpp"
+#include "water.hpp"
+
+namespace meniscus::benchmarks {
+namespace {
+
+struct ScalingOptions {
+    std::size_t max_particles = 1024 * basin_particles;
+    std::size_t max_particles_fine = 256 * basin_particles;
+    unsigned threads = 1;
+    double tolerance = Settings{}.tolerance;
+    RepeatLimits limits;
+    std::string out = "tests/benchmarks/results";
+};
+
+constexpr double particle_radius = 0.025;
+/// From one size to the next.
+constexpr std::size_t growth = 4;
+/// Cell sizes in radii.
+constexpr double coarse = 1.0;
+constexpr double fine = 0.5;
+/// Vector instructions for one particle's share in the field at a point: distance 7, kernel 11, sum 1.
+constexpr double instructions_per_kernel = 19.0;
+
+/// Particles within the kernel's support, on average.
+struct Neighborhood {
+    double of_particle = 0.0;
+    double of_vertex = 0.0;
+};
+
+Neighborhood sample_neighborhood(const std::vector<float>& positions, const Mesh& mesh, const Settings& settings) {
+    constexpr std::size_t samples = 2000;
+    std::vector<float> particles;
+    for (const std::size_t i : pick_evenly(positions.size() / 3, samples))
+        for (std::size_t axis = 0; axis < 3; ++axis) particles.push_back(positions[3 * i + axis]);
+    std::vector<float> vertices;
+    for (const std::size_t i : pick_evenly(mesh.vertices.size(), samples))
+        for (const double coordinate : mesh.world(mesh.vertices[i])) vertices.push_back(static_cast<float>(coordinate));
+    const auto support = static_cast<float>(2.0 * settings.smoothing_length * settings.particle_radius);
+    return {mean_neighbors(positions, particles, support), mean_neighbors(positions, vertices, support)};
+}
+
+/// What could not be done in less time: the kernel for every pair within its support (densities at the particles, the
+/// field at its points, whose neighborhoods are taken to be like the vertices'), and one pass over the memory.
+void add_floor(Row& row, const Statistics& s, const Neighborhood& neighbors, const MachinePeaks& peaks) {
+    const double kernels = static_cast<double>(s.particles) * neighbors.of_particle +
+                           static_cast<double>(s.field_evaluations) * neighbors.of_vertex;
+    const double kernel_seconds = kernels * instructions_per_kernel / (peaks.multiply_adds_per_second * s.threads);
+    const double copy_seconds = static_cast<double>(s.peak_bytes) / peaks.copied_bytes_per_second;
+    row["particles_in_support_of_particle"] = neighbors.of_particle;
+    row["particles_in_support_of_vertex"] = neighbors.of_vertex;
+    row["kernel_evaluations"] = kernels;
+    row["share_of_multiply_add_peak"] = kernel_seconds / s.total_seconds;
+    row["share_of_copy_bandwidth"] = copy_seconds / s.total_seconds;
+}
+
+Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<float>& positions, double cell_size, Mode mode,
+            const MachinePeaks& peaks) {
+    Settings settings;
+    settings.particle_radius = particle_radius;
+    settings.cell_size = cell_size;
+    settings.mode = mode;
+    settings.tolerance = options.tolerance;
+    ParticleFrame frame;
+    frame.positions = positions;
+    Mesh mesh;
+    const WarmRuns runs = reconstruct_repeatedly(frame, settings, options.threads, options.limits, mesh);
+    const Statistics& s = runs.median;
+    const auto particles = static_cast<double>(s.particles);
+
+    Row row;
+    row["water"] = name_of(kind);
+    row["cell_size"] = cell_size;
+    row["mode"] = mode == Mode::uniform ? "uniform" : "adaptive";
+    row["particles"] = s.particles;
+    row["warm_runs"] = runs.count;
+    row["first_seconds"] = runs.first.total_seconds;
+    row["first_over_warm"] = runs.first.total_seconds / s.total_seconds;
+    add_statistics(row, s);
+    row["seconds_per_million_particles"] = 1e6 * s.total_seconds / particles;
+    row["bytes_per_particle"] = static_cast<double>(s.peak_bytes) / particles;
+    row["bytes_per_triangle"] = static_cast<double>(s.peak_bytes) / static_cast<double>(s.triangles);
+    add_floor(row, s, sample_neighborhood(positions, mesh, settings), peaks);
+    return row;
+}
+
+void print(const Row& row) {
+    std::cout << std::left << std::setw(10) << row["water"].get<std::string>() << std::setw(5) << row["cell_size"].get<double>()
+              << std::setw(9) << row["mode"].get<std::string>() << std::right << std::setw(10)
+              << row["particles"].get<std::uint64_t>() << std::fixed << std::setprecision(3) << std::setw(10)
+              << row["seconds_per_million_particles"].get<double>() << std::setprecision(2) << std::setw(8)
+              << row["first_over_warm"].get<double>() << std::setprecision(0) << std::setw(10)
+              << row["bytes_per_particle"].get<double>() << std::setw(10) << row["bytes_per_triangle"].get<double>()
+              << std::setw(8) << row["allocations"].get<std::uint64_t>() << std::setprecision(3) << std::setw(8)
+              << row["share_of_multiply_add_peak"].get<double>() << std::setw(8)
+              << row["share_of_copy_bandwidth"].get<double>() << std::defaultfloat << std::endl;
+}
+
+/// For every scene, cell size and mode: the largest against the smallest.
+Rows compare_sizes(const Rows& rows) {
+    Rows out = Rows::array();
+    for (const Row& largest : rows) {
+        const auto same_series = [&](const Row& row) {
+            return row["water"] == largest["water"] && row["cell_size"] == largest["cell_size"] && row["mode"] == largest["mode"];
+        };
+        const auto is_larger = [&](const Row& row) { return same_series(row) && row["particles"] > largest["particles"]; };
+        if (std::any_of(rows.begin(), rows.end(), is_larger)) continue;
+        const Row& smallest = *std::find_if(rows.begin(), rows.end(), same_series);
+        const auto ratio = [&](const char* name) { return largest[name].get<double>() / smallest[name].get<double>(); };
+        out.push_back({{"water", largest["water"]},
+                       {"cell_size", largest["cell_size"]},
+                       {"mode", largest["mode"]},
+                       {"particles_smallest", smallest["particles"]},
+                       {"particles_largest", largest["particles"]},
+                       {"time_per_particle_ratio", ratio("seconds_per_million_particles")},
+                       {"memory_per_particle_ratio", ratio("bytes_per_particle")}});
+    }
+    return out;
+}
+
+void run_scaling(const ScalingOptions& options) {
+    const MachinePeaks peaks = measure_peaks();
+    std::cout << "multiply-add peak " << 1e-9 * peaks.multiply_adds_per_second << " G/s per core, copy bandwidth "
+              << 1e-9 * peaks.copied_bytes_per_second << " GB/s\n"
+              << "water     c    mode      particles s/million   first  B/part.  B/triang.  allocs   mul-add   copy\n";
+    Rows rows = Rows::array();
+    for (std::size_t particles = basin_particles; particles <= options.max_particles; particles *= growth)
+        for (const WaterKind kind : water_kinds) {
+            const std::vector<float> positions = make_water(kind, particles, static_cast<float>(particle_radius));
+            for (const double cell_size : {coarse, fine}) {
+                if (cell_size == fine && particles > options.max_particles_fine) continue;
+                for (const Mode mode : {Mode::uniform, Mode::adaptive}) {
+                    rows.push_back(measure(options, kind, positions, cell_size, mode, peaks));
+                    print(rows.back());
+                }
+            }
+        }
+    nlohmann::ordered_json summary;
+    summary["runs"] = "warm medians; first: a new reconstructor's first frame";
+    summary["threads"] = options.threads;
+    summary["tolerance"] = options.tolerance;
+    summary["multiply_adds_per_second_and_core"] = peaks.multiply_adds_per_second;
+    summary["copied_bytes_per_second"] = peaks.copied_bytes_per_second;
+    summary["instructions_per_kernel"] = instructions_per_kernel;
+    summary["largest_against_smallest"] = compare_sizes(rows);
+    write_report(options.out, "scaling", summary, rows);
+}
+
+}  // namespace
+
+void add_scaling(CLI::App& app) {
+    auto options = std::make_shared<ScalingOptions>();
+    CLI::App& command = *app.add_subcommand(
+        "scaling", "Time and memory from 16 thousand to 16 million particles, and the distance from the floor");
+    const CLI::Range at_least_one_basin(basin_particles, std::size_t{1} << 32U);
+    command.add_option("--max-particles", options->max_particles, "Largest scene")
+        ->check(at_least_one_basin)
+        ->capture_default_str();
+    command.add_option("--max-particles-fine", options->max_particles_fine, "Largest scene at cell size 0.5")
+        ->capture_default_str();
+    command.add_option("--threads", options->threads, "Worker threads")->capture_default_str();
+    command.add_option("--tolerance", options->tolerance, "Of the curvature criterion, in cells")->capture_default_str();
+    command.add_option("--repeats", options->limits.runs, "Warm runs of each case, of which the median counts")
+        ->check(CLI::Range(1U, 1000U))
+        ->capture_default_str();
+    command.add_option("--seconds-per-case", options->limits.seconds, "No further warm run begins after so long")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--out", options->out, "Folder for the results")->capture_default_str();
+    command.callback([options] { run_scaling(*options); });
+}
+
+}  // namespace meniscus::benchmarks

@@ -1,0 +1,50 @@
+"""Runs every subcommand of meniscus-bench at a tiny size: smoke_test.py MENISCUS-BENCH."""
+
+import csv
+import json
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree
+from pathlib import Path
+
+RUNS = {
+    "experiment": (["--frames", "3", "--particles", "500"], 6),
+    "scaling": (["--max-particles", "20000", "--repeats", "1", "--seconds-per-case", "1"], 8),
+    "encoding": (["--particles", "16000", "--cell-size", "1.0", "--repeats", "1"], 16),
+}
+
+
+def check(condition, what):
+    if not condition:
+        sys.exit(f"failed: {what}")
+
+
+def read_rows(folder, name):
+    with open(folder / f"{name}.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def main():
+    bench = sys.argv[1]
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        for name, (options, rows) in RUNS.items():
+            subprocess.run([bench, name, *options, "--out", folder], check=True)
+            table = read_rows(folder, name)
+            check(len(table) == rows, f"{name}: {len(table)} rows, should be {rows}")
+            check(all(int(row["triangles"]) > 0 for row in table), f"{name}: a row without triangles")
+            report = json.loads((folder / f"{name}.json").read_text())
+            check(len(report["rows"]) == rows, f"{name}: the JSON has other rows than the CSV")
+            for key in ("machine", "commit", "command"):
+                check(report[key], f"{name}: the JSON has no {key}")
+        check(all(float(row["total_seconds"]) > 0 for row in read_rows(folder, "experiment")), "experiment: a time of 0")
+        plots = sorted(folder.glob("experiment-*.svg"))
+        check(len(plots) == 4, f"experiment: {len(plots)} plots, should be 4")
+        lines = [len(xml.etree.ElementTree.parse(p).findall("{http://www.w3.org/2000/svg}polyline")) for p in plots]
+        check(lines == [2, 2, 8, 4], f"experiment: lines in the plots are {lines}")
+    check(subprocess.run([bench, "encoding", "--water", "ice"], capture_output=True).returncode == 2, "wrong input is refused")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,29 @@
+// Water of any amount whose surface grows with it: basins side by side.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace meniscus::benchmarks {
+
+enum class WaterKind {
+    splashing,  ///< half of it a jittered block, half of it drops, threads and sheets in the air
+    calm,       ///< a block at rest with low waves
+};
+inline constexpr std::array<WaterKind, 2> water_kinds{WaterKind::splashing, WaterKind::calm};
+
+std::string name_of(WaterKind kind);
+/// The kind so named. Throws InvalidInput for other names.
+WaterKind water_by_name(const std::string& name);
+
+/// What one basin holds.
+inline constexpr std::size_t basin_particles = 16000;
+
+/// x y z per particle, y up, particles two radii apart: as many full basins as `particles` fill, at least one, next to
+/// each other in x and z and apart by a kernel's support at smoothing length 2. No two are alike; the same call gives
+/// the same positions.
+std::vector<float> make_water(WaterKind kind, std::size_t particles, float particle_radius);
+
+}  // namespace meniscus::benchmarks
