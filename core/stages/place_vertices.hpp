@@ -89,14 +89,14 @@ struct EdgeEnds {
     MENISCUS_HD bool cropped(float iso) const { return (low > iso) == (high > iso); }
 };
 
-MENISCUS_HD inline EdgeEnds edge_ends(const BlocksView& blocks, std::uint32_t block, int axis, int bit) {
+/// next: the block's neighbor up the axis.
+MENISCUS_HD inline EdgeEnds edge_ends(const BlocksView& blocks, std::uint32_t block, std::uint32_t next, int axis, int bit) {
     EdgeEnds ends;
     ends.low = blocks.value(block, bit);
     ends.low_inside = (blocks.inside[block] >> bit & 1) != 0;
     if (point_coordinate(bit, axis) < 3) {
         ends.high = blocks.value(block, bit + bit_step(axis));
     } else {
-        const std::uint32_t next = blocks.neighbor(block, axis_offset(axis));
         ends.high = next == no_index ? 0.0F : blocks.value(next, bit - 3 * bit_step(axis));
     }
     return ends;

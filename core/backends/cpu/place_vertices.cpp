@@ -22,14 +22,16 @@ struct BlockVertices {
 
 void find_vertices(const BlocksView& blocks, std::uint32_t block, BlockVertices& vertices) {
     vertices.count = 0;
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::uint32_t next = blocks.neighbor(block, axis_offset(axis));
         for (BlockMask left = blocks.edges[block].axis[axis]; left != 0; left &= left - 1) {
             const int bit = lowest_bit(left);
             vertices.axis[vertices.count] = static_cast<std::uint8_t>(axis);
             vertices.bit[vertices.count] = static_cast<std::uint8_t>(bit);
-            vertices.ends[vertices.count] = edge_ends(blocks, block, axis, bit);
+            vertices.ends[vertices.count] = edge_ends(blocks, block, next, axis, bit);
             ++vertices.count;
         }
+    }
 }
 
 /// Points in units, at the vertices' offsets in steps of c / 2^bits.

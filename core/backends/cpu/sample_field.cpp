@@ -28,10 +28,10 @@ PointList list_points(BlockMask mask) {
 /// The values of all points of a block. That of the base vertex is found a second time, to the same bits: cheaper than sorting
 /// it in.
 void sample_whole_block(Surface& s, FieldSource& field, std::uint32_t block, const Int3& at, unsigned worker) {
-    PointList points = list_points(~BlockMask{0});
-    alignas(32) float values[max_points];
+    static const PointList all = list_points(~BlockMask{0});
+    float* values = s.samples.data() + s.first_sample[block];
+    PointList points = all;
     field.values(at, points, values, worker);
-    std::copy(values, values + 64, s.samples.data() + s.first_sample[block]);
     BlockMask outside = 0;
     for (int i = 0; i < 64; i += Lanes::count)
         outside |= BlockMask{not_above(Lanes::load(values + i), Lanes(s.settings.iso))} << i;
