@@ -1,5 +1,6 @@
 // meniscus-bench experiment: the paper's comparison of uniform and adaptive grids (its Figure 8).
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <iostream>
 #include <memory>
@@ -31,8 +32,7 @@ constexpr std::array<const char*, 2> mode_names{"uniform", "adaptive"};
 
 /// One mode's reconstructor, and what it did for every frame.
 struct Series {
-    Series(Settings settings, Mode mode, const BackendOptions& options)
-        : reconstructor((settings.mode = mode, settings), options) {}
+    Series(const Settings& settings, const BackendOptions& options) : reconstructor(settings, options) {}
 
     Reconstructor reconstructor;
     Mesh mesh;
@@ -68,7 +68,10 @@ BothSeries simulate(const ExperimentOptions& options, const simulator::Scene& sc
     backend.backend = Backend::cpu;
     backend.threads = options.threads;
     BothSeries series;
-    for (std::size_t m = 0; m < modes.size(); ++m) series[m] = std::make_unique<Series>(settings, modes[m], backend);
+    for (std::size_t m = 0; m < modes.size(); ++m) {
+        settings.mode = modes[m];
+        series[m] = std::make_unique<Series>(settings, backend);
+    }
 
     simulator::Simulation simulation(scene);
     for (std::size_t i = 0; i < options.frames; ++i) {

@@ -78,10 +78,10 @@ void draw_axes(std::ostream& out, const LinePlot& plot, const Axis& x, const Axi
         draw_segment(out, left, pixel, right, pixel, grid.c_str());
         draw_text(out, left - 7.0, pixel + 4.0, "end", tick_label(i * y.step));
     }
-    for (double tick = std::ceil(x.low / x.step) * x.step; tick <= x.high * (1.0 + 1e-9); tick += x.step) {
-        const double pixel = x.pixel(tick);
+    for (auto i = static_cast<int>(std::ceil(x.low / x.step)); i * x.step <= x.high * (1.0 + 1e-9); ++i) {
+        const double pixel = x.pixel(i * x.step);
         draw_segment(out, pixel, bottom, pixel, bottom + 5.0, stroke.c_str());
-        draw_text(out, pixel, bottom + 19.0, "middle", tick_label(tick));
+        draw_text(out, pixel, bottom + 19.0, "middle", tick_label(i * x.step));
     }
     draw_segment(out, left, bottom, right, bottom, stroke.c_str());
     draw_text(out, 0.5 * (left + right), bottom + 39.0, "middle", plot.x_label);

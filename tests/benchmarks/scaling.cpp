@@ -1,5 +1,6 @@
 // meniscus-bench scaling: how time and memory grow with the particles, and how far they are from the floor.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -128,6 +129,13 @@ Rows compare_sizes(const Rows& rows) {
     return out;
 }
 
+void print_comparison(const Row& row) {
+    std::cout << std::left << std::setw(10) << row["water"].get<std::string>() << std::setw(5) << row["cell_size"].get<double>()
+              << std::setw(9) << row["mode"].get<std::string>() << std::right << std::fixed << std::setprecision(2)
+              << std::setw(8) << row["time_per_particle_ratio"].get<double>() << std::setw(8)
+              << row["memory_per_particle_ratio"].get<double>() << std::defaultfloat << '\n';
+}
+
 void run_scaling(const ScalingOptions& options) {
     const MachinePeaks peaks = measure_peaks();
     std::cout << "multiply-add peak " << 1e-9 * peaks.multiply_adds_per_second << " G/s per core, copy bandwidth "
@@ -152,7 +160,10 @@ void run_scaling(const ScalingOptions& options) {
     summary["multiply_adds_per_second_and_core"] = peaks.multiply_adds_per_second;
     summary["copied_bytes_per_second"] = peaks.copied_bytes_per_second;
     summary["instructions_per_kernel"] = instructions_per_kernel;
-    summary["largest_against_smallest"] = compare_sizes(rows);
+    const Rows comparison = compare_sizes(rows);
+    std::cout << "\nper particle, largest over smallest: time, memory\n";
+    for (const Row& row : comparison) print_comparison(row);
+    summary["largest_against_smallest"] = comparison;
     write_report(options.out, "scaling", summary, rows);
 }
 
