@@ -31,7 +31,8 @@ MENISCUS_HD constexpr BlockMask stride_points(int stride) {
 
 /// For every point p, the value of `own` at p + distance along the axis; `next` is the neighbour block on that side.
 MENISCUS_HD constexpr BlockMask shifted(BlockMask own, BlockMask next, int axis, int distance) {
-    if (distance == 4) return next;
+    if (distance <= 0) return own;
+    if (distance >= 4) return next;
     // The points whose coordinate is below 4 - distance keep their own block's values.
     BlockMask keep = low_face(axis);
     for (int i = 1; i < 4 - distance; ++i) keep |= low_face(axis) << (i * bit_step(axis));

@@ -12,6 +12,7 @@ namespace meniscus {
 /// The level of a cell of the band, at least its face neighbors' less one.
 MENISCUS_HD inline int balanced_level(const BlocksView& blocks, std::uint32_t block) {
     int level = blocks.level[block];
+    if (level == 3) return level;
     for (int axis = 0; axis < 3; ++axis)
         for (int side = -1; side <= 1; side += 2) {
             const int needed = blocks.level_or_none(blocks.neighbor(block, axis_offset(axis, side))) - 1;
@@ -25,18 +26,21 @@ MENISCUS_HD inline int balanced_level(const BlocksView& blocks, std::uint32_t bl
 MENISCUS_HD inline int promoted_level(const BlocksView& blocks, std::uint32_t block) {
     const int level = blocks.level[block];
     if (level == 3) return level;
+    bool finer[3][2];
+    for (int axis = 0; axis < 3; ++axis)
+        for (int side = 0; side < 2; ++side)
+            finer[axis][side] = blocks.level_or_none(blocks.neighbor(block, axis_offset(axis, 2 * side - 1))) > level;
     for (int axis = 0; axis < 3; ++axis) {
         const int u = axis == 0 ? 1 : 0;
         const int v = axis == 2 ? 1 : 2;
         // The cell across comes later in (z, y, x) exactly if it lies up the later of the two axes, v.
-        for (int side = -1; side <= 1; side += 2) {
-            const Int3 along_u = axis_offset(u, side);
+        for (int side = 0; side < 2; ++side) {
+            if (!finer[u][side] || !finer[v][1]) continue;
+            const Int3 along_u = axis_offset(u, 2 * side - 1);
             const Int3 along_v = axis_offset(v, 1);
             const int across = blocks.level_or_none(blocks.neighbor(block, along_u + along_v));
-            if (across == 0) continue;
-            const int coarse = across > level ? across : level;
-            if (blocks.level_or_none(blocks.neighbor(block, along_u)) > coarse &&
-                blocks.level_or_none(blocks.neighbor(block, along_v)) > coarse)
+            if (across != 0 && blocks.level_or_none(blocks.neighbor(block, along_u)) > across &&
+                blocks.level_or_none(blocks.neighbor(block, along_v)) > across)
                 return level + 1;
         }
     }

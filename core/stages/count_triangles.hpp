@@ -39,8 +39,7 @@ struct SubcellCorners {
 
 /// Calls visit(bit of the subcell's lower corner, cube case) for every subcell of a cell that the surface passes.
 template <class Visit>
-MENISCUS_HD void for_each_subcell(const BlocksView& blocks, const ClosedCell& cell, int level, Visit&& visit) {
-    const int stride = level_stride(level);
+MENISCUS_HD void for_each_subcell(const BlocksView& blocks, const ClosedCell& cell, int stride, Visit&& visit) {
     const SubcellCorners corners(blocks, cell, stride);
     for (BlockMask left = corners.mixed(stride); left != 0; left &= left - 1) {
         const int bit = lowest_bit(left);
@@ -50,7 +49,7 @@ MENISCUS_HD void for_each_subcell(const BlocksView& blocks, const ClosedCell& ce
 
 MENISCUS_HD inline std::uint32_t count_cell_triangles(const BlocksView& blocks, std::uint32_t block, const CubeCase* table) {
     std::uint32_t count = 0;
-    for_each_subcell(blocks, ClosedCell(blocks, block), blocks.level[block],
+    for_each_subcell(blocks, ClosedCell(blocks, block), level_stride(blocks.level[block]),
                      [&](int, int cube_case) { count += table[cube_case].triangles; });
     return count;
 }

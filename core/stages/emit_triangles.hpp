@@ -25,13 +25,12 @@ inline constexpr std::uint64_t edge_starts = [] {
     return starts;
 }();
 
-/// Writes the triangles of a cell from `out` on.
-MENISCUS_HD inline void emit_cell_triangles(const BlocksView& blocks, std::uint32_t block, const CubeCase* table, Triangle* out) {
+/// Writes the triangles of a cell of this stride from `out` on.
+template <int stride>
+MENISCUS_HD void emit_subcell_triangles(const BlocksView& blocks, std::uint32_t block, const CubeCase* table, Triangle* out) {
     const ClosedCell cell(blocks, block);
     const CellVertices vertices(blocks, cell);
-    const int level = blocks.level[block];
-    const int stride = level_stride(level);
-    for_each_subcell(blocks, cell, level, [&](int bit, int cube_case) {
+    for_each_subcell(blocks, cell, stride, [&](int bit, int cube_case) {
         const CubeCase& pattern = table[cube_case];
         const int x = point_coordinate(bit, 0);
         const int y = point_coordinate(bit, 1);
@@ -44,6 +43,15 @@ MENISCUS_HD inline void emit_cell_triangles(const BlocksView& blocks, std::uint3
                     x + (start & 1) * stride, y + (start >> 1 & 1) * stride, z + (start >> 2) * stride, edge >> 2, stride);
             }
     });
+}
+
+/// Writes the triangles of a cell from `out` on.
+MENISCUS_HD inline void emit_cell_triangles(const BlocksView& blocks, std::uint32_t block, const CubeCase* table, Triangle* out) {
+    switch (blocks.level[block]) {
+        case 1: return emit_subcell_triangles<4>(blocks, block, table, out);
+        case 2: return emit_subcell_triangles<2>(blocks, block, table, out);
+        default: return emit_subcell_triangles<1>(blocks, block, table, out);
+    }
 }
 
 }  // namespace meniscus

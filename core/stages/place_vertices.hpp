@@ -21,10 +21,12 @@ struct CrossedEdges {
     MENISCUS_HD CrossedEdges(const BlocksView& blocks, std::uint32_t block, int along) : axis(along) {
         const int u = axis == 0 ? 1 : 0;
         const int v = axis == 2 ? 1 : 2;
+        const int own_level = blocks.level[block];
         BlockMask used[4] = {0, 0, 0, 0};  // by level
-        for (int i = 0; i < 4; ++i) {
+        // A cell of level 3 uses all of its block's finest edges, among them those that longer edges come down to.
+        for (int i = 0; i < (own_level == 3 ? 1 : 4); ++i) {
             const Int3 offset = axis_offset(u, -(i & 1)) + axis_offset(v, -(i >> 1));
-            const int level = blocks.level_or_none(i == 0 ? block : blocks.neighbor(block, offset));
+            const int level = i == 0 ? own_level : blocks.level_or_none(blocks.neighbor(block, offset));
             BlockMask shared = stride_points(level_stride(level == 0 ? 1 : level));
             if (i & 1) shared &= low_face(u);
             if (i >> 1) shared &= low_face(v);

@@ -5,13 +5,13 @@
 
 #include "lattice/host_device.hpp"
 #include "stages/blocks.hpp"
-#include "stages/count_triangles.hpp"
 #include "stages/place_vertices.hpp"
 
 namespace meniscus {
 
 /// The points of a block that the cells around it need as corners: all cells of the band whose closed box holds the point.
 MENISCUS_HD inline BlockMask corner_points(const BlocksView& blocks, std::uint32_t block) {
+    if (blocks.level[block] == 3) return ~BlockMask{0};
     BlockMask wanted = 0;
     for (int i = 0; i < 8; ++i) {
         const int level = blocks.level_or_none(blocks.neighbor(block, {-(i & 1), -(i >> 1 & 1), -(i >> 2)}));
@@ -35,23 +35,29 @@ MENISCUS_HD inline BlockMask edge_middles(const BlocksView& blocks, std::uint32_
     return wanted & ~blocks.sampled[block];
 }
 
-/// Whether a cell of the band sees both signs on one of its faces, with the points of its own level.
-MENISCUS_HD inline bool face_is_mixed(const BlocksView& blocks, const ClosedCell& cell, int level, int axis, int side) {
-    const int stride = level_stride(level);
-    const int u = (axis + 1) % 3;
-    const int v = (axis + 2) % 3;
-    int point[3];
-    point[axis] = side * base_cell_size;
-    bool any = false;
-    bool all = true;
-    for (point[v] = 0; point[v] <= base_cell_size; point[v] += stride)
-        for (point[u] = 0; point[u] <= base_cell_size; point[u] += stride) {
-            const bool in = cell.inside(blocks, point[0], point[1], point[2]);
-            any |= in;
-            all &= in;
-        }
-    return any && !all;
-}
+/// The signs of the points, `stride` apart, of the face at the lower side of a base cell along an axis.
+struct FaceSigns {
+    bool any_inside = false;
+    bool all_inside = true;
+
+    MENISCUS_HD FaceSigns(const BlocksView& blocks, std::uint32_t upper, int axis, int stride) {
+        const int u = (axis + 1) % 3;
+        const int v = (axis + 2) % 3;
+        const BlockMask face = stride_points(stride) & low_face(axis);
+        add(blocks.inside_or_none(upper), face);
+        if (upper == no_index) return;
+        add(blocks.inside_or_none(blocks.neighbor(upper, axis_offset(u))), face & low_face(u));
+        add(blocks.inside_or_none(blocks.neighbor(upper, axis_offset(v))), face & low_face(v));
+        add(blocks.inside_or_none(blocks.neighbor(upper, axis_offset(u) + axis_offset(v))), face & low_face(u) & low_face(v));
+    }
+    MENISCUS_HD bool mixed() const { return any_inside && !all_inside; }
+
+private:
+    MENISCUS_HD void add(BlockMask inside, BlockMask points) {
+        any_inside |= (inside & points) != 0;
+        all_inside &= (inside & points) == points;
+    }
+};
 
 /// Whether a stored cell outside the band must join it: a neighbor in the band sees both signs on their common face, so that
 /// skipping the cell would leave the mesh open.
@@ -60,10 +66,7 @@ MENISCUS_HD inline bool joins_band(const BlocksView& blocks, std::uint32_t block
         for (int side = 0; side < 2; ++side) {
             const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, 2 * side - 1));
             const int level = blocks.level_or_none(other);
-            if (level == 0) continue;
-            const ClosedCell cell(blocks, other);
-            if (SubcellCorners(blocks, cell, level_stride(level)).mixed(level_stride(level)) == 0) continue;
-            if (face_is_mixed(blocks, cell, level, axis, 1 - side)) return true;
+            if (level != 0 && FaceSigns(blocks, side == 1 ? other : block, axis, level_stride(level)).mixed()) return true;
         }
     return false;
 }
@@ -76,7 +79,9 @@ MENISCUS_HD inline bool misses_surface_on_face(const BlocksView& blocks, std::ui
     const int stride = level_stride(level);
     for (int axis = 0; axis < 3; ++axis)
         for (int side = 0; side < 2; ++side) {
-            if (blocks.level_or_none(blocks.neighbor(block, axis_offset(axis, 2 * side - 1))) <= level) continue;
+            const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, 2 * side - 1));
+            if (blocks.level_or_none(other) <= level) continue;
+            if (!FaceSigns(blocks, side == 1 ? other : block, axis, stride / 2).mixed()) continue;
             const ClosedCell cell(blocks, block);
             const int u = (axis + 1) % 3;
             const int v = (axis + 2) % 3;

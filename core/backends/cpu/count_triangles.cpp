@@ -1,5 +1,6 @@
 #include "stages/count_triangles.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "backends/cpu/surface.hpp"
@@ -83,12 +84,13 @@ void order_by_level_and_brick(Surface& s, Mesh& mesh) {
 void count_triangles(Surface& s, Mesh& mesh) {
     list_band(s);
     resize_for_overwrite(s.has_cracks, s.band.size());
+    const bool one_level = std::all_of(s.band.begin(), s.band.end(), [&](std::uint32_t b) { return s.level[b] == s.level[s.band[0]]; });
     const BlocksView blocks = s.view();
     s.workers.for_ranges(s.band.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t block = s.band[i];
             s.slots[block] = {count_cell_triangles(blocks, block, cube_table.data()),
-                              count_crack_triangles(blocks, block, crack_table.data())};
+                              one_level ? 0 : count_crack_triangles(blocks, block, crack_table.data())};
             s.has_cracks[i] = s.slots[block].cracks != 0 ? 1 : 0;
         }
     });
