@@ -1,7 +1,6 @@
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,27 +12,31 @@
 namespace meniscus {
 namespace {
 
-/// The brick's triangles over vertices of its own, numbered in the order of the mesh's.
+/// The brick's triangles over vertices of its own, numbered as they are met.
 struct BrickIndex {
-    std::vector<std::uint32_t> vertices;  ///< into the mesh, ascending
+    std::vector<std::uint32_t> vertices;  ///< into the mesh
     std::vector<Triangle> triangles;      ///< into `vertices`
 };
 
 BrickIndex index_brick(const Mesh& mesh, const MeshBrick& brick) {
+    // From a mesh's vertex to the brick's: an entry holds only if the brick's vertex points back, so that what earlier bricks
+    // have left behind need not be cleared. One table per thread, as large as the largest mesh.
+    thread_local std::vector<std::uint32_t> local_of;
+    if (local_of.size() < mesh.vertices.size()) local_of.resize(mesh.vertices.size());
     BrickIndex index;
-    index.vertices.reserve(3 * std::size_t{brick.triangle_count()});
-    for (const TriangleRange& range : brick.ranges)
-        for (std::uint32_t t = 0; t < range.count; ++t)
-            for (const std::uint32_t v : mesh.triangles[range.first + t]) index.vertices.push_back(v);
-    std::sort(index.vertices.begin(), index.vertices.end());
-    index.vertices.erase(std::unique(index.vertices.begin(), index.vertices.end()), index.vertices.end());
+    index.vertices.reserve(brick.triangle_count());
     index.triangles.reserve(brick.triangle_count());
     for (const TriangleRange& range : brick.ranges)
         for (std::uint32_t t = 0; t < range.count; ++t) {
             Triangle local;
-            for (std::size_t i = 0; i < 3; ++i)
-                local[i] = static_cast<std::uint32_t>(
-                    std::lower_bound(index.vertices.begin(), index.vertices.end(), mesh.triangles[range.first + t][i]) - index.vertices.begin());
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::uint32_t v = mesh.triangles[range.first + t][i];
+                if (local_of[v] >= index.vertices.size() || index.vertices[local_of[v]] != v) {
+                    local_of[v] = static_cast<std::uint32_t>(index.vertices.size());
+                    index.vertices.push_back(v);
+                }
+                local[i] = local_of[v];
+            }
             index.triangles.push_back(local);
         }
     return index;
