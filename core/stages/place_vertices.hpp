@@ -110,7 +110,8 @@ MENISCUS_HD inline int interpolated_offset(const EdgeEnds& ends, float iso, int 
     const int last = (1 << bits) - 1;
     if (ends.cropped(iso)) return ends.low_inside ? last : 1;
     const float t = (iso - ends.low) / (ends.high - ends.low);
-    const int offset = static_cast<int>(t * static_cast<float>(1 << bits) + 0.5F);
+    const int half_steps = static_cast<int>(t * static_cast<float>(2 << bits)) + 1;
+    const int offset = half_steps / 2;  // to the nearest step
     return offset < 1 ? 1 : offset > last ? last : offset;
 }
 
