@@ -42,7 +42,7 @@ private:
 struct HashedTriangle {
     std::uint8_t level;
     std::array<LatticePosition, 3> corners;
-    auto operator<=>(const HashedTriangle&) const = default;
+    bool operator<(const HashedTriangle& o) const { return level != o.level ? level < o.level : corners < o.corners; }
 };
 
 }  // namespace

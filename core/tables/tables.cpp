@@ -11,6 +11,23 @@ constexpr int none = -1;
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// From every edge point the next one of its loop, or none; then all loops in triangles.
+template <class Case, class Allowed>
+constexpr Case triangulate_loops(const std::array<int, 12>& next, const Allowed& allowed) {
+    Case result;
+    std::array<bool, 12> used{};
+    for (int start = 0; start < 12; ++start) {
+        if (next[at(start)] == none || used[at(start)]) continue;
+        Loop loop;
+        for (int edge = start; !used[at(edge)]; edge = next[at(edge)]) {
+            used[at(edge)] = true;
+            loop.points[at(loop.size++)] = static_cast<std::uint8_t>(edge);
+        }
+        if (!triangulate(loop, 0, loop.size - 1, result, allowed)) throw "a case has no triangulation";
+    }
+    return result;
+}
+
 // ---- cube -------------------------------------------------------------------------------------------------------
 
 constexpr int corner_coordinate(int corner, int axis) { return corner >> axis & 1; }
@@ -58,18 +75,7 @@ constexpr CubeCase make_cube_case(int inside) {
                 next[at(edge(joined.segments[at(s)].enter))] = edge(joined.segments[at(s)].leave);
             }
         }
-    CubeCase result;
-    std::array<bool, 12> used{};
-    for (int start = 0; start < 12; ++start) {
-        if (next[at(start)] == none || used[at(start)]) continue;
-        Loop loop;
-        for (int edge = start; !used[at(edge)]; edge = next[at(edge)]) {
-            used[at(edge)] = true;
-            loop.points[at(loop.size++)] = static_cast<std::uint8_t>(edge);
-        }
-        if (!triangulate(loop, 0, loop.size - 1, result, off_the_faces)) throw "a cube case has no triangulation";
-    }
-    return result;
+    return triangulate_loops<CubeCase>(next, off_the_faces);
 }
 
 // ---- crack ------------------------------------------------------------------------------------------------------
@@ -137,18 +143,7 @@ constexpr CrackCase make_crack_case(int inside) {
             next[at(from_p ? p : q)] = from_p ? q : p;
         }
     }
-    CrackCase result;
-    std::array<bool, 12> used{};
-    for (int start = 0; start < 12; ++start) {
-        if (next[at(start)] == none || used[at(start)]) continue;
-        Loop loop;
-        for (int edge = start; !used[at(edge)]; edge = next[at(edge)]) {
-            used[at(edge)] = true;
-            loop.points[at(loop.size++)] = static_cast<std::uint8_t>(edge);
-        }
-        if (!triangulate(loop, 0, loop.size - 1, result, off_the_coarse_edges)) throw "a crack case has no triangulation";
-    }
-    return result;
+    return triangulate_loops<CrackCase>(next, off_the_coarse_edges);
 }
 
 constexpr CubeTable make_cube_table() {

@@ -11,13 +11,6 @@
 namespace meniscus {
 namespace {
 
-Mesh reconstruct(const Settings& settings, const test::Particles& particles) {
-    Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
-    Mesh mesh;
-    reconstructor.reconstruct(particles.frame(), mesh);
-    return mesh;
-}
-
 Mesh round_trip(const Mesh& mesh, const CodingOptions& options) {
     std::vector<DecodedBrick> bricks;
     for (std::size_t b = 0; b < mesh.bricks.size(); ++b) bricks.push_back(decode_brick(encode_brick(mesh, b, options), mesh.offset_bits));
@@ -31,7 +24,7 @@ TEST(BrickCoding, KeepsPositionsConnectivityLevelsAndJoints) {
             Settings settings = test::default_settings();
             settings.mode = mode;
             settings.cell_size = 0.4;
-            const Mesh mesh = reconstruct(settings, particles);
+            const Mesh mesh = test::reconstruct(settings, particles.frame());
             const Mesh received = round_trip(mesh, {});
             EXPECT_EQ(mesh_sha256(received), mesh_sha256(mesh));
             EXPECT_TRUE(test::check(received).closed_manifold());
@@ -44,14 +37,14 @@ TEST(BrickCoding, KeepsEveryNumberOfOffsetBits) {
         Settings settings = test::default_settings();
         settings.edge_points = EdgePoints::bisect;
         settings.bisection_steps = steps;
-        const Mesh mesh = reconstruct(settings, test::splash(61, 8));
+        const Mesh mesh = test::reconstruct(settings, test::splash(61, 8).frame());
         EXPECT_EQ(mesh.offset_bits, steps + 1);
         EXPECT_EQ(mesh_sha256(round_trip(mesh, {})), mesh_sha256(mesh));
     }
 }
 
 TEST(BrickCoding, KeepsNormalsWithinTwoDegreesAtEightBits) {
-    const Mesh mesh = reconstruct(test::default_settings(), test::splash(62));
+    const Mesh mesh = test::reconstruct(test::default_settings(), test::splash(62).frame());
     const Mesh received = round_trip(mesh, {});
     std::vector<std::pair<LatticePosition, Normal>> before, after;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) before.emplace_back(mesh.vertices[v], mesh.normals[v]);
@@ -70,7 +63,7 @@ TEST(BrickCoding, KeepsNormalsWithinTwoDegreesAtEightBits) {
 }
 
 TEST(BrickCoding, RefusesADamagedBrickOrDecodesSomeMesh) {
-    const Mesh mesh = reconstruct(test::default_settings(), test::splash(63, 6));
+    const Mesh mesh = test::reconstruct(test::default_settings(), test::splash(63, 6).frame());
     const EncodedBrick whole = encode_brick(mesh, 0);
     int refused = 0;
     const auto attempt = [&](const EncodedBrick& damaged) {
@@ -108,7 +101,7 @@ TEST(BrickCoding, RefusesADamagedBrickOrDecodesSomeMesh) {
 }
 
 TEST(BrickCoding, RefusesABrickThatOccursTwice) {
-    const Mesh mesh = reconstruct(test::default_settings(), test::splash(64, 6));
+    const Mesh mesh = test::reconstruct(test::default_settings(), test::splash(64, 6).frame());
     const DecodedBrick brick = decode_brick(encode_brick(mesh, 0), mesh.offset_bits);
     EXPECT_THROW(weld_bricks(std::vector{brick, brick}, mesh.cell_size, mesh.offset_bits), InvalidInput);
 }

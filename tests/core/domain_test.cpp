@@ -8,13 +8,6 @@
 namespace meniscus {
 namespace {
 
-Mesh reconstruct(const Settings& settings, const test::Particles& particles) {
-    Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
-    Mesh mesh;
-    reconstructor.reconstruct(particles.frame(), mesh);
-    return mesh;
-}
-
 TEST(Domain, CropsTheSurfaceClosedAtItsBorder) {
     const test::Particles particles = test::splash(31);
     const std::vector<Box> boxes{{{0.11, -0.02, 0.13}, {0.42, 0.2, 0.37}}, {{0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}}, {{-9, 0.07, -9}, {9, 0.08, 9}},
@@ -28,7 +21,7 @@ TEST(Domain, CropsTheSurfaceClosedAtItsBorder) {
                     settings.mode = mode;
                     settings.edge_points = edge_points;
                     settings.cell_size = cell_size;
-                    const Mesh mesh = reconstruct(settings, particles);
+                    const Mesh mesh = test::reconstruct(settings, particles.frame());
                     const test::MeshReport report = test::check(mesh);
                     EXPECT_TRUE(report.closed_manifold()) << report.text();
                     const double c = world_cell_size(settings);
@@ -50,7 +43,7 @@ TEST(Domain, CutsFullWaterFlatNextToTheBorder) {
     Settings settings = test::default_settings();
     settings.domain = Box{{0.2, 0.2, 0.2}, {0.35, 0.35, 0.35}};
     settings.mode = Mode::uniform;
-    const Mesh mesh = reconstruct(settings, particles);
+    const Mesh mesh = test::reconstruct(settings, particles.frame());
     const double c = world_cell_size(settings);
     const test::MeshReport report = test::check(mesh);
     ASSERT_TRUE(report.closed_manifold()) << report.text();
@@ -71,17 +64,17 @@ TEST(Domain, CutsFullWaterFlatNextToTheBorder) {
 TEST(Domain, ThatHoldsEverythingChangesNothing) {
     const test::Particles particles = test::splash(32, 8);
     Settings settings = test::default_settings();
-    const Mesh free = reconstruct(settings, particles);
+    const Mesh free = test::reconstruct(settings, particles.frame());
     settings.domain = Box{{-50, -50, -50}, {50, 50, 50}};
-    EXPECT_EQ(mesh_sha256(reconstruct(settings, particles)), mesh_sha256(free));
+    EXPECT_EQ(mesh_sha256(test::reconstruct(settings, particles.frame())), mesh_sha256(free));
     settings.domain = Box{{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
-    EXPECT_EQ(mesh_sha256(reconstruct(settings, particles)), mesh_sha256(free));
+    EXPECT_EQ(mesh_sha256(test::reconstruct(settings, particles.frame())), mesh_sha256(free));
 }
 
 TEST(Domain, FarFromTheFluidGivesAnEmptyMesh) {
     Settings settings = test::default_settings();
     settings.domain = Box{{50, 50, 50}, {51, 51, 51}};
-    EXPECT_TRUE(reconstruct(settings, test::splash(33, 6)).triangles.empty());
+    EXPECT_TRUE(test::reconstruct(settings, test::splash(33, 6).frame()).triangles.empty());
 }
 
 }  // namespace

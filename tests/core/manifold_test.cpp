@@ -11,13 +11,6 @@
 namespace meniscus {
 namespace {
 
-Mesh reconstruct(const Settings& settings, const test::Particles& particles, unsigned threads = 1) {
-    Reconstructor reconstructor(settings, {Backend::cpu, threads, 0});
-    Mesh mesh;
-    reconstructor.reconstruct(particles.frame(), mesh);
-    return mesh;
-}
-
 void expect_closed_in_all_settings(const std::string& name, const test::Particles& particles, std::initializer_list<double> cell_sizes) {
     for (const double cell_size : cell_sizes)
         for (const Mode mode : {Mode::adaptive, Mode::uniform})
@@ -30,7 +23,7 @@ void expect_closed_in_all_settings(const std::string& name, const test::Particle
                     settings.edge_points = edge_points;
                     // One particle alone has a density of 0.32 at its place: low enough an iso-value shows it in both fields.
                     settings.iso = field == Field::density ? 0.2 : 0.6;
-                    const Mesh mesh = reconstruct(settings, particles);
+                    const Mesh mesh = test::reconstruct(settings, particles.frame());
                     const test::MeshReport report = test::check(mesh);
                     SCOPED_TRACE(name + ", cell size " + std::to_string(cell_size) + (mode == Mode::uniform ? ", uniform" : ", adaptive") +
                                  (field == Field::density ? ", density" : ", color") + (edge_points == EdgePoints::bisect ? ", bisect" : ""));
@@ -61,7 +54,7 @@ TEST(Manifold, HoldsForManyRandomClouds) {
         for (int i = 0; i < 250; ++i) particles.add(place(random), place(random), place(random));
         Settings settings = test::default_settings();
         settings.cell_size = 0.4 + 0.02 * seed;
-        const Mesh mesh = reconstruct(settings, particles);
+        const Mesh mesh = test::reconstruct(settings, particles.frame());
         const test::MeshReport report = test::check(mesh);
         ASSERT_TRUE(report.closed_manifold()) << "seed " << seed << ": " << report.text();
         triangles += mesh.triangles.size();
@@ -77,7 +70,7 @@ TEST(Manifold, HoldsForAdaptiveSph) {
             Settings settings = test::default_settings();
             settings.cell_size = cell_size;
             settings.count_threshold = threshold;
-            const Mesh mesh = reconstruct(settings, particles);
+            const Mesh mesh = test::reconstruct(settings, particles.frame());
             const test::MeshReport report = test::check(mesh);
             EXPECT_TRUE(report.closed_manifold()) << report.text();
             EXPECT_GT(mesh.levels[2].count, 0U);
@@ -85,7 +78,7 @@ TEST(Manifold, HoldsForAdaptiveSph) {
 }
 
 TEST(Manifold, AnEmptyFrameGivesAnEmptyMesh) {
-    const Mesh mesh = reconstruct(test::default_settings(), {});
+    const Mesh mesh = test::reconstruct(test::default_settings(), {});
     EXPECT_TRUE(mesh.vertices.empty());
     EXPECT_TRUE(mesh.triangles.empty());
     EXPECT_TRUE(mesh.bricks.empty());
@@ -96,7 +89,7 @@ TEST(Manifold, AFieldBelowTheIsoValueGivesAnEmptyMesh) {
     particles.add(0.0F, 0.0F, 0.0F);
     Settings settings = test::default_settings();
     settings.field = Field::density;  // at most 8 / (8 pi) = 0.32 for one particle
-    EXPECT_TRUE(reconstruct(settings, particles).triangles.empty());
+    EXPECT_TRUE(test::reconstruct(settings, particles.frame()).triangles.empty());
 }
 
 TEST(Manifold, ASingleParticleIsASphere) {
@@ -106,7 +99,7 @@ TEST(Manifold, ASingleParticleIsASphere) {
     Settings settings = test::default_settings();
     settings.cell_size = 0.1;
     settings.mode = Mode::uniform;
-    const Mesh mesh = reconstruct(settings, particles);
+    const Mesh mesh = test::reconstruct(settings, particles.frame());
     const test::MeshReport report = test::check(mesh);
     // 1 - 6 q^2 + 6 q^3 = 0.6 for q below one half.
     double low = 0.0, high = 0.5;

@@ -11,13 +11,6 @@
 namespace meniscus {
 namespace {
 
-Mesh reconstruct(const Settings& settings, const ParticleFrame& frame, unsigned threads) {
-    Reconstructor reconstructor(settings, {Backend::cpu, threads, 0});
-    Mesh mesh;
-    reconstructor.reconstruct(frame, mesh);
-    return mesh;
-}
-
 template <class T>
 bool same_bytes(const Array<T>& a, const Array<T>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
@@ -34,9 +27,9 @@ TEST(Reproducibility, AnyNumberOfThreadsGivesTheSameBytes) {
             Settings settings = test::default_settings();
             settings.field = field;
             settings.edge_points = edge_points;
-            const Mesh one = reconstruct(settings, particles.frame(), 1);
+            const Mesh one = test::reconstruct(settings, particles.frame(), 1);
             ASSERT_FALSE(one.triangles.empty());
-            for (const unsigned threads : {2U, 3U, 8U}) EXPECT_TRUE(same(one, reconstruct(settings, particles.frame(), threads))) << threads;
+            for (const unsigned threads : {2U, 3U, 8U}) EXPECT_TRUE(same(one, test::reconstruct(settings, particles.frame(), threads))) << threads;
         }
 }
 
@@ -52,7 +45,7 @@ TEST(Reproducibility, TheOrderOfParticlesDoesNotMatter) {
         shuffled.levels.push_back(particles.levels[i]);
     }
     const Settings settings = test::default_settings();
-    EXPECT_TRUE(same(reconstruct(settings, particles.frame(), 1), reconstruct(settings, shuffled.frame(), 2)));
+    EXPECT_TRUE(same(test::reconstruct(settings, particles.frame(), 1), test::reconstruct(settings, shuffled.frame(), 2)));
 }
 
 TEST(Reproducibility, AUsedReconstructorGivesTheSameBytesAsANewOne) {
@@ -62,7 +55,7 @@ TEST(Reproducibility, AUsedReconstructorGivesTheSameBytesAsANewOne) {
     for (unsigned seed = 1; seed <= 4; ++seed) {
         const test::Particles particles = test::splash(seed, 6 + 2 * static_cast<int>(seed % 3));
         used.reconstruct(particles.frame(), mesh);
-        EXPECT_TRUE(same(mesh, reconstruct(settings, particles.frame(), 1))) << seed;
+        EXPECT_TRUE(same(mesh, test::reconstruct(settings, particles.frame(), 1))) << seed;
     }
 }
 
@@ -81,8 +74,8 @@ TEST(Reproducibility, AFluidMovedByWholeBricksKeepsItsShapeToTheBit) {
         here.add(p[0], p[1], p[2]);
         there.add(p[0] + shift, p[1] - shift, p[2] + 2 * shift);
     }
-    const Mesh a = reconstruct(settings, here.frame(), 1);
-    const Mesh b = reconstruct(settings, there.frame(), 1);
+    const Mesh a = test::reconstruct(settings, here.frame(), 1);
+    const Mesh b = test::reconstruct(settings, there.frame(), 1);
     ASSERT_FALSE(a.triangles.empty());
     ASSERT_TRUE(same_bytes(a.triangles, b.triangles));
     EXPECT_TRUE(same_bytes(a.normals, b.normals));
@@ -93,7 +86,7 @@ TEST(Reproducibility, AFluidMovedByWholeBricksKeepsItsShapeToTheBit) {
 
 TEST(Reproducibility, TheHashDoesNotDependOnTheOrderOfTriangles) {
     const test::Particles particles = test::splash(7, 6);
-    Mesh mesh = reconstruct(test::default_settings(), particles.frame(), 1);
+    Mesh mesh = test::reconstruct(test::default_settings(), particles.frame(), 1);
     const std::string before = mesh_sha256(mesh);
     ASSERT_EQ(before.size(), 64U);
     const auto first = mesh.triangles.begin() + mesh.levels[2].first;

@@ -1,5 +1,7 @@
 #include "support/particles.hpp"
 
+#include "meniscus/reconstructor.hpp"
+
 namespace meniscus::test {
 
 ParticleFrame Particles::frame() const {
@@ -7,6 +9,13 @@ ParticleFrame Particles::frame() const {
     frame.positions = positions;
     frame.levels = levels;
     return frame;
+}
+
+Mesh reconstruct(const Settings& settings, const ParticleFrame& frame, unsigned threads) {
+    Reconstructor reconstructor(settings, {Backend::cpu, threads, 0});
+    Mesh mesh;
+    reconstructor.reconstruct(frame, mesh);
+    return mesh;
 }
 
 Settings default_settings() {

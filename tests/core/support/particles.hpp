@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "meniscus/mesh.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 
@@ -23,6 +24,9 @@ struct Particles {
     std::size_t count() const { return positions.size() / 3; }
     ParticleFrame frame() const;
 };
+
+/// In process, on the CPU, by a reconstructor of its own.
+Mesh reconstruct(const Settings& settings, const ParticleFrame& frame, unsigned threads = 1);
 
 /// Radius 0.025 and the defaults.
 Settings default_settings();
