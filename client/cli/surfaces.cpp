@@ -49,7 +49,7 @@ client::Client connect(const std::string& address) {
     try {
         return client::Client(address);
     } catch (const client::ServerError& e) {
-        throw InvalidInput("no server at '" + address + "': " + e.what());
+        throw InvalidInput(e.what());
     }
 }
 
