@@ -11,7 +11,7 @@ namespace meniscus {
 using BlockMask = std::uint64_t;
 
 /// The distance of two bits one point apart along an axis (0 x, 1 y, 2 z).
-MENISCUS_HD constexpr int bit_step(int axis) { return 1 << (2 * axis); }
+MENISCUS_HD constexpr int bit_step(int axis) { return axis == 0 ? 1 : axis == 1 ? 4 : 16; }
 
 MENISCUS_HD constexpr int point_bit(int x, int y, int z) { return x + 4 * y + 16 * z; }
 MENISCUS_HD constexpr int point_coordinate(int bit, int axis) { return (bit >> (2 * axis)) & 3; }
