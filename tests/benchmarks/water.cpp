@@ -45,12 +45,15 @@ private:
 
     void add_calm_block() {
         constexpr float wave_height = 0.25F;
-        constexpr auto wave_number = 2.0F * std::numbers::pi_v<float> / static_cast<float>(side / 2);
+        constexpr std::size_t wave_length = side / 2;
+        constexpr auto wave_number = 2.0F * std::numbers::pi_v<float> / static_cast<float>(wave_length);
         const float phase = std::numbers::pi_v<float> * noise_();
         for (std::size_t i = 0; i < basin_particles; ++i) {
             const auto x = static_cast<float>(i % side);
-            const auto z = static_cast<float>(i / side % side);
-            const auto y = static_cast<float>(i / (side * side));
+            const std::size_t row = i / side % side;
+            const std::size_t layer = i / (side * side);
+            const auto z = static_cast<float>(row);
+            const auto y = static_cast<float>(layer);
             const float wave = std::sin(wave_number * x + phase) * std::cos(wave_number * z);
             add(x, y * (1.0F + wave_height / static_cast<float>(calm_layers) * wave), z, 0.03F);
         }
@@ -58,14 +61,19 @@ private:
 
     void add_splash() {
         const std::size_t end = positions_.size() + 3 * basin_particles;
-        for (std::size_t i = 0; i < side * side * splashing_layers; ++i)
-            add(static_cast<float>(i % side), static_cast<float>(i / (side * side)), static_cast<float>(i / side % side),
-                0.3F);
+        for (std::size_t i = 0; i < side * side * splashing_layers; ++i) {
+            const std::size_t row = i / side % side;
+            const std::size_t layer = i / (side * side);
+            add(static_cast<float>(i % side), static_cast<float>(layer), static_cast<float>(row), 0.3F);
+        }
         constexpr auto rooms = static_cast<std::size_t>(static_cast<float>(side) / drop_room);
-        for (std::size_t i = 0; positions_.size() < end; ++i)
+        for (std::size_t i = 0; positions_.size() < end; ++i) {
+            const std::size_t row = i / rooms % rooms;
+            const std::size_t layer = i / (rooms * rooms);
             add_drop((0.5F + static_cast<float>(i % rooms)) * drop_room,
-                     static_cast<float>(splashing_layers) + (0.5F + static_cast<float>(i / (rooms * rooms))) * drop_room,
-                     (0.5F + static_cast<float>(i / rooms % rooms)) * drop_room, end);
+                     static_cast<float>(splashing_layers) + (0.5F + static_cast<float>(layer)) * drop_room,
+                     (0.5F + static_cast<float>(row)) * drop_room, end);
+        }
     }
 
     /// An ellipsoid: a drop, a thread or a sheet. end: what `positions_` holds at most.
@@ -108,10 +116,12 @@ std::vector<float> make_water(WaterKind kind, std::size_t particles, float parti
     constexpr float pitch = static_cast<float>(side) + gap;
     std::vector<float> positions;
     positions.reserve(3 * basins * basin_particles);
-    for (std::size_t i = 0; i < basins; ++i)
-        Basin(positions, 2.0F * particle_radius, pitch * static_cast<float>(i % along_x),
-              pitch * static_cast<float>(i / along_x), static_cast<std::uint32_t>(i + 1))
+    for (std::size_t i = 0; i < basins; ++i) {
+        const std::size_t row = i / along_x;
+        Basin(positions, 2.0F * particle_radius, pitch * static_cast<float>(i % along_x), pitch * static_cast<float>(row),
+              static_cast<std::uint32_t>(i + 1))
             .fill(kind);
+    }
     return positions;
 }
 
