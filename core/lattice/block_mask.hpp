@@ -35,9 +35,10 @@ MENISCUS_HD constexpr BlockMask shifted(BlockMask own, BlockMask next, int axis,
     if (distance >= 4) return next;
     // The points whose coordinate is below 4 - distance keep their own block's values.
     BlockMask keep = low_face(axis);
-    for (int i = 1; i < 4 - distance; ++i) keep |= low_face(axis) << (i * bit_step(axis));
+    if (distance <= 2) keep |= low_face(axis) << bit_step(axis);
+    if (distance <= 1) keep |= low_face(axis) << (2 * bit_step(axis));
     const int low = distance * bit_step(axis);
-    const int high = (4 - distance) * bit_step(axis) & 63;  // below 64 as it is; the analyzer does not see it
+    const int high = (4 - distance) * bit_step(axis);
     return ((own >> low) & keep) | ((next << high) & ~keep);
 }
 
