@@ -29,7 +29,7 @@ MENISCUS_HD constexpr BlockMask stride_points(int stride) {
     return stride == 1 ? ~BlockMask{0} : stride == 2 ? 0x0000050500000505ULL : BlockMask{1};
 }
 
-/// For every point p, the value of `own` at p + distance along the axis; `next` is the neighbour block on that side.
+/// For every point p, the value of `own` at p + distance along the axis; `next` is the neighbor block on that side.
 MENISCUS_HD constexpr BlockMask shifted(BlockMask own, BlockMask next, int axis, int distance) {
     if (distance <= 0) return own;
     if (distance >= 4) return next;
