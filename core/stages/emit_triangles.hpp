@@ -8,49 +8,42 @@
 #include "stages/blocks.hpp"
 #include "stages/count_triangles.hpp"
 #include "stages/place_vertices.hpp"
+#include "stages/vertex_table.hpp"
 
 namespace meniscus {
 
-/// The corner (x + 2 y + 4 z) at which an edge of the cube starts.
-MENISCUS_HD constexpr int edge_start(int edge) {
-    const int k = edge & 3;
-    const int axis = edge >> 2;
-    return axis == 0 ? k << 1 : axis == 1 ? (k & 1) | (k & 2) << 1 : k;
-}
-
-/// Three bits for each edge.
-inline constexpr std::uint64_t edge_starts = [] {
-    std::uint64_t starts = 0;
-    for (int edge = 0; edge < 12; ++edge) starts |= static_cast<std::uint64_t>(edge_start(edge)) << (3 * edge);
-    return starts;
-}();
-
-/// Writes the triangles of a cell of this stride from `out` on.
+/// The vertices of a cell with subcells of this stride, found edge by edge.
 template <int stride>
-MENISCUS_HD void emit_subcell_triangles(const BlocksView& blocks, std::uint32_t block, const CubeCase* table, Triangle* out) {
-    const ClosedCell cell(blocks, block);
-    const CellVertices vertices(blocks, cell);
+struct SubcellVertices {
+    CellVertices vertices;
+
+    /// The vertex on an edge (tables.hpp) of the subcell with this lower corner.
+    MENISCUS_HD std::uint32_t operator()(int bit, int edge) const {
+        const int start = edge_start(edge);
+        return vertices.on_edge(point_coordinate(bit, 0) + (start & 1) * stride, point_coordinate(bit, 1) + (start >> 1 & 1) * stride,
+                                point_coordinate(bit, 2) + (start >> 2) * stride, edge >> 2, stride);
+    }
+};
+
+/// Writes the triangles of a cell from `out` on. vertex: from a subcell's lower corner and an edge to the vertex's number.
+template <class Vertices>
+MENISCUS_HD inline void emit_subcell_triangles(const BlocksView& blocks, const ClosedCell& cell, int stride, const Vertices& vertex, const CubeCase* table,
+                                               Triangle* out) {
     for_each_subcell(blocks, cell, stride, [&](int bit, int cube_case) {
         const CubeCase& pattern = table[cube_case];
-        const int x = point_coordinate(bit, 0);
-        const int y = point_coordinate(bit, 1);
-        const int z = point_coordinate(bit, 2);
         for (int t = 0; t < pattern.triangles; ++t, ++out)
-            for (int corner = 0; corner < 3; ++corner) {
-                const int edge = pattern.edges[static_cast<std::size_t>(3 * t + corner)];
-                const int start = static_cast<int>(edge_starts >> (3 * edge)) & 7;
-                (*out)[static_cast<std::size_t>(corner)] = vertices.on_edge(
-                    x + (start & 1) * stride, y + (start >> 1 & 1) * stride, z + (start >> 2) * stride, edge >> 2, stride);
-            }
+            for (int corner = 0; corner < 3; ++corner)
+                (*out)[static_cast<std::size_t>(corner)] = vertex(bit, pattern.edges[static_cast<std::size_t>(3 * t + corner)]);
     });
 }
 
 /// Writes the triangles of a cell from `out` on.
 MENISCUS_HD inline void emit_cell_triangles(const BlocksView& blocks, std::uint32_t block, const CubeCase* table, Triangle* out) {
+    const ClosedCell cell(blocks, block);
     switch (blocks.level[block]) {
-        case 1: return emit_subcell_triangles<4>(blocks, block, table, out);
-        case 2: return emit_subcell_triangles<2>(blocks, block, table, out);
-        default: return emit_subcell_triangles<1>(blocks, block, table, out);
+        case 1: return emit_subcell_triangles(blocks, cell, 4, SubcellVertices<4>{{blocks, cell}}, table, out);
+        case 2: return emit_subcell_triangles(blocks, cell, 2, SubcellVertices<2>{{blocks, cell}}, table, out);
+        default: return emit_subcell_triangles(blocks, cell, 1, VertexTable(blocks, cell), table, out);
     }
 }
 

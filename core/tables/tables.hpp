@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "lattice/host_device.hpp"
+
 namespace meniscus {
 
 /// Triangles of one cube case, as edges of the cube, counter-clockwise seen from outside the fluid.
@@ -13,6 +15,13 @@ struct CubeCase {
     std::uint8_t triangles = 0;
     std::array<std::uint8_t, 15> edges{};
 };
+
+/// The corner (x + 2 y + 4 z) at which an edge of the cube starts.
+MENISCUS_HD constexpr int edge_start(int edge) {
+    const int k = edge & 3;
+    const int axis = edge >> 2;
+    return axis == 0 ? k << 1 : axis == 1 ? (k & 1) | (k & 2) << 1 : k;
+}
 
 /// Triangles that close the gap on one face between a coarse cell and the fine cells beyond, as edges of the fine side.
 /// The face's points are u + 3 v, with u x v = the face's axis. Edge u + 2 v (0 to 5) runs along u, edge 6 + u + 3 v (6 to 11) along v.
