@@ -47,6 +47,8 @@ inline Lanes fused(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_ps(a.v, b.v,
 inline Lanes root(Lanes a) { return _mm256_sqrt_ps(a.v); }
 inline Lanes larger(Lanes a, Lanes b) { return _mm256_max_ps(a.v, b.v); }
 inline Lanes smaller(Lanes a, Lanes b) { return _mm256_min_ps(a.v, b.v); }
+/// Rounded toward zero.
+inline Lanes truncated(Lanes a) { return _mm256_round_ps(a.v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC); }
 /// The set of lanes in which a <= b.
 inline unsigned not_above(Lanes a, Lanes b) { return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ))); }
 /// Stores the lanes of a set one after the other; writes eight floats in all.
@@ -81,6 +83,7 @@ inline Lanes larger(const Lanes& a, const Lanes& b) {
 inline Lanes smaller(const Lanes& a, const Lanes& b) {
     return Lanes::each([&](int i) { return a.v[i] < b.v[i] ? a.v[i] : b.v[i]; });
 }
+inline Lanes truncated(const Lanes& a) { return Lanes::each([&](int i) { return std::trunc(a.v[i]); }); }
 inline unsigned not_above(const Lanes& a, const Lanes& b) {
     unsigned set = 0;
     for (unsigned i = 0; i < Lanes::count; ++i) set |= (a.v[i] <= b.v[i] ? 1U : 0U) << i;
@@ -117,6 +120,14 @@ MENISCUS_HD inline float root(float a) {
     return __builtin_sqrtf(a);
 #endif
 }
+MENISCUS_HD inline float truncated(float a) {
+#ifdef __CUDA_ARCH__
+    return truncf(a);
+#else
+    return __builtin_truncf(a);
+#endif
+}
 MENISCUS_HD inline float larger(float a, float b) { return a > b ? a : b; }
+MENISCUS_HD inline float smaller(float a, float b) { return a < b ? a : b; }
 
 }  // namespace meniscus

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "field/lanes.hpp"
 #include "lattice/host_device.hpp"
 #include "stages/blocks.hpp"
 
@@ -19,6 +20,9 @@ struct CrossedEdges {
     int axis = 0;
 
     MENISCUS_HD CrossedEdges(const BlocksView& blocks, std::uint32_t block, int along) : axis(along) {
+        const BlockMask own = blocks.inside[block];
+        const BlockMask next = blocks.inside_or_none(blocks.neighbor(block, axis_offset(axis)));
+        if (own == next && (own == 0 || own == ~BlockMask{0})) return;
         const int u = axis == 0 ? 1 : 0;
         const int v = axis == 2 ? 1 : 2;
         const int own_level = blocks.level[block];
@@ -32,8 +36,6 @@ struct CrossedEdges {
             if (i >> 1) shared &= low_face(v);
             used[level] |= shared;
         }
-        const BlockMask own = blocks.inside[block];
-        const BlockMask next = blocks.inside_or_none(blocks.neighbor(block, axis_offset(axis)));
         change1 = own ^ shifted(own, next, axis, 1);
         change2 = own ^ shifted(own, next, axis, 2);
         length4 = used[1] & (own ^ next);
@@ -83,36 +85,37 @@ struct CellVertices {
     }
 };
 
-/// The two ends of a finest edge that carries a vertex.
-struct EdgeEnds {
-    float low = 0.0F, high = 0.0F;  ///< field values
-    bool low_inside = false;        ///< whether the lower end is inside, and the upper one outside
+/// The field values of a block's sampled points; zero where no block is stored.
+struct SampledValues {
+    const BlocksView& blocks;
+    std::uint32_t block;
+    MENISCUS_HD float operator()(int bit) const { return block == no_index ? 0.0F : blocks.value(block, bit); }
+};
+
+/// The field values at the ends of a finest edge.
+struct EdgeValues {
+    float low, high;
     /// Whether the domain's border, not the field, makes the outer end outside.
     MENISCUS_HD bool cropped(float iso) const { return (low > iso) == (high > iso); }
 };
 
-/// next: the block's neighbor up the axis.
-MENISCUS_HD inline EdgeEnds edge_ends(const BlocksView& blocks, std::uint32_t block, std::uint32_t next, int axis, int bit) {
-    EdgeEnds ends;
-    ends.low = blocks.value(block, bit);
-    ends.low_inside = (blocks.inside[block] >> bit & 1) != 0;
-    if (point_coordinate(bit, axis) < 3) {
-        ends.high = blocks.value(block, bit + bit_step(axis));
-    } else {
-        ends.high = next == no_index ? 0.0F : blocks.value(next, bit - 3 * bit_step(axis));
-    }
-    return ends;
+/// own, next: from a point's bit to its value, in the edge's block and in the neighbor up the axis.
+template <class Values>
+MENISCUS_HD inline EdgeValues edge_values(const Values& own, const Values& next, int axis, int bit) {
+    return {own(bit), point_coordinate(bit, axis) < 3 ? own(bit + bit_step(axis)) : next(bit - 3 * bit_step(axis))};
 }
 
-/// Place of the vertex on its edge in steps of c / 2^bits, 1 to 2^bits - 1, by linear interpolation. A cropped edge has it
-/// next to the border.
-MENISCUS_HD inline int interpolated_offset(const EdgeEnds& ends, float iso, int bits) {
-    const int last = (1 << bits) - 1;
-    if (ends.cropped(iso)) return ends.low_inside ? last : 1;
-    const float t = (iso - ends.low) / (ends.high - ends.low);
-    const int half_steps = static_cast<int>(t * static_cast<float>(2 << bits)) + 1;
-    const int offset = half_steps / 2;  // to the nearest step
-    return offset < 1 ? 1 : offset > last ? last : offset;
+/// Place of the vertex on a finest edge between field values `low` and `high`, on both sides of the iso-value, by linear
+/// interpolation: in steps of c / 2^bits, 1 to 2^bits - 1. F is float or Lanes.
+template <class F>
+MENISCUS_HD inline F interpolated_offset(F low, F high, float iso, int bits) {
+    const F t = (F(iso) - low) / (high - low);
+    const F half_steps = truncated(t * F(static_cast<float>(2 << bits))) + F(1.0F);
+    const F nearest = truncated(half_steps * F(0.5F));
+    return larger(smaller(nearest, F(static_cast<float>((1 << bits) - 1))), F(1.0F));
 }
+
+/// A cropped edge has its vertex next to the border.
+MENISCUS_HD inline float cropped_offset(bool low_inside, int bits) { return static_cast<float>(low_inside ? (1 << bits) - 1 : 1); }
 
 }  // namespace meniscus

@@ -1,75 +1,138 @@
 #include "stages/place_vertices.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "backends/cpu/clusters.hpp"
 #include "backends/cpu/surface.hpp"
+#include "field/lanes.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cpu {
 namespace {
 
-/// The vertices of one block, in the order of their numbers.
+/// The values of a block's sampled points by point, unpacked where not all points are sampled.
+class UnpackedValues {
+public:
+    void read(const BlocksView& blocks, std::uint32_t block) {
+        of_ = room_;
+        if (block == no_index) {
+            std::fill(std::begin(room_), std::end(room_), 0.0F);
+        } else if (blocks.sampled[block] == ~BlockMask{0}) {
+            of_ = blocks.samples + blocks.first_sample[block];
+        } else {
+            const float* next = blocks.samples + blocks.first_sample[block];
+            for (BlockMask left = blocks.sampled[block]; left != 0; left &= left - 1) room_[lowest_bit(left)] = *next++;
+        }
+    }
+    float operator()(int bit) const { return of_[bit]; }
+
+private:
+    const float* of_ = nullptr;
+    float room_[64];
+};
+
+/// The vertices of one block, in the order of their numbers. Arrays have room for whole lanes.
 struct BlockVertices {
     std::size_t count = 0;
-    std::uint8_t axis[max_points];
-    std::uint8_t bit[max_points];
-    EdgeEnds ends[max_points];
-    int offset[max_points];  ///< in steps of c / 2^bits
+    std::size_t first[4];             ///< of every axis, and one past the last
+    std::uint8_t bit[max_points];     ///< lower end of the edge
+    alignas(32) float low[max_points], high[max_points];  ///< field values at the edge's ends
+    alignas(32) float offset[max_points];                 ///< in steps of c / 2^bits
 };
 
 void find_vertices(const BlocksView& blocks, std::uint32_t block, BlockVertices& vertices) {
-    vertices.count = 0;
+    UnpackedValues own, next;
+    own.read(blocks, block);
+    std::size_t count = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        const std::uint32_t next = blocks.neighbor(block, axis_offset(axis));
-        for (BlockMask left = blocks.edges[block].axis[axis]; left != 0; left &= left - 1) {
+        vertices.first[axis] = count;
+        const BlockMask edges = blocks.edges[block].axis[axis];
+        const BlockMask high_face = low_face(axis) << (3 * bit_step(axis));
+        if ((edges & high_face) != 0) next.read(blocks, blocks.neighbor(block, axis_offset(axis)));
+        for (BlockMask left = edges; left != 0; left &= left - 1, ++count) {
             const int bit = lowest_bit(left);
-            vertices.axis[vertices.count] = static_cast<std::uint8_t>(axis);
-            vertices.bit[vertices.count] = static_cast<std::uint8_t>(bit);
-            vertices.ends[vertices.count] = edge_ends(blocks, block, next, axis, bit);
-            ++vertices.count;
+            const EdgeValues ends = edge_values(own, next, axis, bit);
+            vertices.bit[count] = static_cast<std::uint8_t>(bit);
+            vertices.low[count] = ends.low;
+            vertices.high[count] = ends.high;
         }
     }
+    vertices.first[3] = vertices.count = count;
+    for (std::size_t i = count; i % Lanes::count != 0; ++i) {
+        vertices.low[i] = 0.0F;
+        vertices.high[i] = 1.0F;
+    }
+}
+
+bool is_low_inside(const BlocksView& blocks, std::uint32_t block, const BlockVertices& vertices, std::size_t i) {
+    return (blocks.inside[block] >> vertices.bit[i] & 1) != 0;
+}
+
+void interpolate(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings, BlockVertices& vertices) {
+    const int bits = static_cast<int>(settings.offset_bits);
+    for (std::size_t i = 0; i < vertices.count; i += Lanes::count)
+        interpolated_offset(Lanes::load(vertices.low + i), Lanes::load(vertices.high + i), settings.iso, bits).store(vertices.offset + i);
+    if (!settings.has_domain) return;
+    for (std::size_t i = 0; i < vertices.count; ++i)
+        if (EdgeValues{vertices.low[i], vertices.high[i]}.cropped(settings.iso))
+            vertices.offset[i] = cropped_offset(is_low_inside(blocks, block, vertices, i), bits);
 }
 
 /// Points in units, at the vertices' offsets in steps of c / 2^bits.
 void list_points(const BlockVertices& vertices, std::uint32_t bits, PointList& points) {
-    const int step = units_per_cell >> bits;
-    points.count = 0;
-    for (std::size_t i = 0; i < vertices.count; ++i) {
-        int p[3];
-        for (int axis = 0; axis < 3; ++axis) p[axis] = point_coordinate(vertices.bit[i], axis) * units_per_cell;
-        p[vertices.axis[i]] += vertices.offset[i] * step;
-        points.add(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
-    }
+    const auto step = static_cast<float>(units_per_cell >> bits);
+    float* const coordinates[3] = {points.x, points.y, points.z};
+    for (std::size_t i = 0; i < vertices.count; ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            coordinates[axis][i] = static_cast<float>(point_coordinate(vertices.bit[i], axis) * units_per_cell);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i) coordinates[axis][i] += vertices.offset[i] * step;
+    points.count = vertices.count;
 }
 
 /// The paper's bisection, on the finest edge: the halves of coarse edges have been chosen by the samples already.
-void bisect(FieldSource& field, const Int3& at, const LatticeSettings& settings, unsigned worker, BlockVertices& vertices) {
+void bisect(FieldSource& field, const Int3& at, const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings, unsigned worker,
+            BlockVertices& vertices) {
     PointList points;
     alignas(32) float values[max_points];
     const int whole = 1 << settings.offset_bits;
-    for (std::size_t i = 0; i < vertices.count; ++i) vertices.offset[i] = whole / 2;
+    for (std::size_t i = 0; i < vertices.count; ++i) vertices.offset[i] = static_cast<float>(whole / 2);
     // Every step moves to the middle of the half that still has a change of sign.
     for (int half = whole / 4; half >= 1; half /= 2) {
         list_points(vertices, settings.offset_bits, points);
         field.values(at, points, values, worker);
         for (std::size_t i = 0; i < vertices.count; ++i) {
-            const bool same_as_low = (values[i] > settings.iso) == vertices.ends[i].low_inside;
-            vertices.offset[i] += same_as_low ? half : -half;
+            const bool same_as_low = (values[i] > settings.iso) == is_low_inside(blocks, block, vertices, i);
+            vertices.offset[i] += static_cast<float>(same_as_low ? half : -half);
         }
     }
 }
 
-/// The field's normal, or along the edge where the domain's border or a vanishing gradient leaves none.
-Normal outward(const EdgeEnds& ends, int axis, const Normal& of_field, float iso) {
-    const float sum = of_field[0] + of_field[1] + of_field[2];
-    if (std::isfinite(sum) && !ends.cropped(iso)) return of_field;
-    Normal normal{0.0F, 0.0F, 0.0F};
-    normal[static_cast<std::size_t>(axis)] = ends.low_inside ? 1.0F : -1.0F;
-    return normal;
+/// The field's normals, or along the edge where the domain's border or a vanishing gradient leaves none.
+void write_normals(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings, const BlockVertices& vertices, const float* x,
+                   const float* y, const float* z, Normal* out) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i) {
+            out[i] = {x[i], y[i], z[i]};
+            const bool is_cropped = settings.has_domain && EdgeValues{vertices.low[i], vertices.high[i]}.cropped(settings.iso);
+            if (std::isfinite(x[i] + y[i] + z[i]) && !is_cropped) continue;
+            out[i] = {0.0F, 0.0F, 0.0F};
+            out[i][axis] = is_low_inside(blocks, block, vertices, i) ? 1.0F : -1.0F;
+        }
+}
+
+/// The points' places in steps of c / 2^bits.
+void write_positions(const Int3& at, std::uint32_t bits, const PointList& points, LatticePosition* out) {
+    const int steps_per_base_cell = base_cell_size << bits;
+    const auto steps_per_unit = 1.0F / static_cast<float>(units_per_cell >> bits);
+    for (std::size_t i = 0; i < points.count; ++i)
+        out[i] = {at.x * steps_per_base_cell + static_cast<int>(points.x[i] * steps_per_unit),
+                  at.y * steps_per_base_cell + static_cast<int>(points.y[i] * steps_per_unit),
+                  at.z * steps_per_base_cell + static_cast<int>(points.z[i] * steps_per_unit)};
 }
 
 void number_vertices(Surface& s, Mesh& mesh) {
@@ -94,7 +157,6 @@ void number_vertices(Surface& s, Mesh& mesh) {
 void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& mesh) {
     number_vertices(s, mesh);
     const BlocksView blocks = s.view();
-    const auto bits = s.settings.offset_bits;
     std::atomic<std::uint64_t> evaluations{0};
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         BlockVertices vertices;
@@ -107,24 +169,15 @@ void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& 
             find_vertices(blocks, block, vertices);
             const Int3 at = blocks.coordinate(block);
             if (user.edge_points == EdgePoints::bisect) {
-                bisect(field, at, s.settings, worker, vertices);
+                bisect(field, at, blocks, block, s.settings, worker, vertices);
                 evaluations.fetch_add(vertices.count * user.bisection_steps, std::memory_order_relaxed);
             } else {
-                for (std::size_t i = 0; i < vertices.count; ++i)
-                    vertices.offset[i] = interpolated_offset(vertices.ends[i], s.settings.iso, static_cast<int>(bits));
+                interpolate(blocks, block, s.settings, vertices);
             }
-            list_points(vertices, bits, points);
+            list_points(vertices, s.settings.offset_bits, points);
             field.normals(at, points, nx, ny, nz, worker);
-            for (std::size_t i = 0; i < vertices.count; ++i) {
-                const int bit = vertices.bit[i];
-                LatticePosition p{(at.x * base_cell_size + point_coordinate(bit, 0)) * (1 << bits),
-                                  (at.y * base_cell_size + point_coordinate(bit, 1)) * (1 << bits),
-                                  (at.z * base_cell_size + point_coordinate(bit, 2)) * (1 << bits)};
-                p[vertices.axis[i]] += vertices.offset[i];
-                mesh.vertices[s.first_vertex[block] + i] = p;
-                mesh.normals[s.first_vertex[block] + i] =
-                    outward(vertices.ends[i], vertices.axis[i], {nx[i], ny[i], nz[i]}, s.settings.iso);
-            }
+            write_positions(at, s.settings.offset_bits, points, mesh.vertices.data() + s.first_vertex[block]);
+            write_normals(blocks, block, s.settings, vertices, nx, ny, nz, mesh.normals.data() + s.first_vertex[block]);
         };
         for (std::size_t brick = begin; brick < end; ++brick) for_each_clustered_member(s.grid.bricks[brick], place_block);
     });
