@@ -26,6 +26,20 @@ MENISCUS_HD inline void sum_values(const CandidateView& c, const F (&x)[G], cons
             sum[g] = add_value(sum[g], x[g] - F(c.x[j]), y[g] - F(c.y[j]), z[g] - F(c.z[j]), c.weight[j], c.inverse_support);
 }
 
+/// The same for a grid of points: NY x NZ, lane by lane at (x, y[i], z[j]), i running first in `sum`.
+template <int NY, int NZ, class F>
+MENISCUS_HD inline void sum_grid_values(const CandidateView& c, F x, const F (&y)[NY], const float (&z)[NZ], F (&sum)[NY * NZ]) {
+    for (std::size_t j = 0; j < c.count; ++j) {
+        const F dx = x - F(c.x[j]);
+        F dy[NY];
+        for (int i = 0; i < NY; ++i) dy[i] = y[i] - F(c.y[j]);
+        for (int k = 0; k < NZ; ++k) {
+            const F dz(z[k] - c.z[j]);
+            for (int i = 0; i < NY; ++i) sum[NY * k + i] = add_value(sum[NY * k + i], dx, dy[i], dz, c.weight[j], c.inverse_support);
+        }
+    }
+}
+
 /// Adds to upper bounds of the field in boxes of half edge `half` around the points: every particle counts with the
 /// kernel at its distance from the box. `closest` becomes the largest of 1 - distance/h.
 template <class F>

@@ -79,13 +79,12 @@ const CandidateLists::Levels& ParticleField::near_cluster(const Int3& base_cell,
     return lists.cluster;
 }
 
-const CandidateLists::Levels& ParticleField::near_points(const Int3& base_cell, const PointList& points, unsigned worker) {
+const CandidateLists::Levels& ParticleField::near_box(const Int3& base_cell, const UnitBox& box, unsigned worker) {
     const CandidateLists::Levels& cluster = near_cluster(base_cell, worker);
     CandidateLists& lists = lists_[worker];
     const Int3 offset = base_cell - lists.corner;
     const std::array<float, 3> shift{static_cast<float>(-offset.x) * base_edge, static_cast<float>(-offset.y) * base_edge,
                                      static_cast<float>(-offset.z) * base_edge};
-    const UnitBox box = box_of(points);
     for (std::size_t k = 0; k < particle_level_count; ++k) lists.near[k].cull(cluster[k], shift, box);
     return lists.near;
 }
@@ -264,12 +263,26 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
 
 void ParticleField::values(const Int3& base_cell, PointList& points, float* values, unsigned worker) {
     pad(points);
-    sum_points(near_points(base_cell, points, worker), points, values);
+    sum_points(near_box(base_cell, box_of(points), worker), points, values);
+}
+
+void ParticleField::block_values(const Int3& base_cell, float* values, unsigned worker) {
+    constexpr float cell = units_per_cell;
+    static constexpr float row_x[8] = {0, cell, 2 * cell, 3 * cell, 0, cell, 2 * cell, 3 * cell};
+    static constexpr float row_y[8] = {0, 0, 0, 0, cell, cell, cell, cell};
+    static constexpr float z[4] = {0, cell, 2 * cell, 3 * cell};
+    const Lanes x = Lanes::load(row_x);
+    const Lanes y[2] = {Lanes::load(row_y), Lanes::load(row_y) + Lanes(2 * cell)};
+    Lanes sum[8];
+    for (Lanes& v : sum) v = Lanes(0.0F);
+    for (const Candidates& c : near_box(base_cell, {{0.0F, 0.0F, 0.0F}, {3 * cell, 3 * cell, 3 * cell}}, worker))
+        sum_grid_values<2, 4>(c.view(), x, y, z, sum);
+    for (int i = 0; i < 8; ++i) sum[i].store(values + i * Lanes::count);
 }
 
 void ParticleField::normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) {
     pad(points);
-    const CandidateLists::Levels& near = near_points(base_cell, points, worker);
+    const CandidateLists::Levels& near = near_box(base_cell, box_of(points), worker);
     for (std::size_t i = 0; i < points.count; i += Lanes::count) {
         const Lanes px = Lanes::load(points.x + i), py = Lanes::load(points.y + i), pz = Lanes::load(points.z + i);
         Lanes gx(0.0F), gy(0.0F), gz(0.0F);

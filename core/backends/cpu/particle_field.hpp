@@ -26,13 +26,14 @@ public:
     void measure_bends(Surface& surface, const Array<CellReach>& reaches, Array<CellBend>& bends);
 
     void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) override;
+    void block_values(const Int3& base_cell, float* values, unsigned worker) override;
     void normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) override;
 
 private:
     void divide_weights_by_density();
     /// The particles near a cluster, from the last call if it asked for the same one.
     const CandidateLists::Levels& near_cluster(const Int3& base_cell, unsigned worker);
-    const CandidateLists::Levels& near_points(const Int3& base_cell, const PointList& points, unsigned worker);
+    const CandidateLists::Levels& near_box(const Int3& base_cell, const UnitBox& box, unsigned worker);
     /// Gives every worker room for the longest lists that any has met, so that a warm frame allocates nothing.
     void even_out_lists();
 

@@ -28,10 +28,8 @@ PointList list_points(BlockMask mask) {
 /// The values of all points of a block. That of the base vertex is found a second time, to the same bits: cheaper than sorting
 /// it in.
 void sample_whole_block(Surface& s, FieldSource& field, std::uint32_t block, const Int3& at, unsigned worker) {
-    static const PointList all = list_points(~BlockMask{0});
     float* values = s.samples.data() + s.first_sample[block];
-    PointList points = all;
-    field.values(at, points, values, worker);
+    field.block_values(at, values, worker);
     BlockMask outside = 0;
     for (int i = 0; i < 64; i += Lanes::count)
         outside |= BlockMask{not_above(Lanes::load(values + i), Lanes(s.settings.iso))} << i;
