@@ -6,6 +6,10 @@
 
 #include "lattice/host_device.hpp"
 
+#if defined(__AVX2__) && !defined(__CUDACC__)
+#include <immintrin.h>
+#endif
+
 namespace meniscus {
 
 MENISCUS_HD inline int popcount(std::uint64_t bits) {
@@ -22,6 +26,21 @@ MENISCUS_HD inline int lowest_bit(std::uint64_t bits) {
     return __ffsll(static_cast<long long>(bits)) - 1;
 #else
     return std::countr_zero(bits);
+#endif
+}
+
+/// Bit `place` of each of eight words, the first word's lowest.
+MENISCUS_HD inline int bits_across(const std::uint64_t (&words)[8], int place) {
+#if defined(__AVX2__) && !defined(__CUDACC__)
+    const auto highest_bits = [&](int first) {
+        const __m256i four = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(words + first));
+        return _mm256_movemask_pd(_mm256_castsi256_pd(_mm256_sll_epi64(four, _mm_cvtsi32_si128(63 - place))));
+    };
+    return highest_bits(0) | highest_bits(4) << 4;
+#else
+    int bits = 0;
+    for (int i = 0; i < 8; ++i) bits |= static_cast<int>(words[i] >> place & 1) << i;
+    return bits;
 #endif
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "lattice/bits.hpp"
 #include "lattice/host_device.hpp"
 #include "stages/blocks.hpp"
 #include "tables/tables.hpp"
@@ -30,11 +31,7 @@ struct SubcellCorners {
         }
         return any & ~all & stride_points(stride);
     }
-    MENISCUS_HD int cube_case(int bit) const {
-        int index = 0;
-        for (int i = 0; i < 8; ++i) index |= static_cast<int>(corner[i] >> bit & 1) << i;
-        return index;
-    }
+    MENISCUS_HD int cube_case(int bit) const { return bits_across(corner, bit); }
 };
 
 /// Calls visit(bit of the subcell's lower corner, cube case) for every subcell of a cell that the surface passes.

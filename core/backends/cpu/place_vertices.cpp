@@ -35,11 +35,22 @@ private:
     float room_[64];
 };
 
+/// A block's points in units.
+struct BlockPoints {
+    float coordinate[3][64];
+};
+constexpr BlockPoints block_points = [] {
+    BlockPoints points{};
+    for (int axis = 0; axis < 3; ++axis)
+        for (int bit = 0; bit < 64; ++bit) points.coordinate[axis][bit] = static_cast<float>(point_coordinate(bit, axis) * units_per_cell);
+    return points;
+}();
+
 /// The vertices of one block, in the order of their numbers. Arrays have room for whole lanes.
 struct BlockVertices {
     std::size_t count = 0;
-    std::size_t first[4];             ///< of every axis, and one past the last
-    std::uint8_t bit[max_points];     ///< lower end of the edge
+    std::size_t first[4];                                 ///< of every axis, and one past the last
+    std::uint8_t bit[max_points];                         ///< lower end of the edge
     alignas(32) float low[max_points], high[max_points];  ///< field values at the edge's ends
     alignas(32) float offset[max_points];                 ///< in steps of c / 2^bits
 };
@@ -85,10 +96,12 @@ void interpolate(const BlocksView& blocks, std::uint32_t block, const LatticeSet
 /// Points in units, at the vertices' offsets in steps of c / 2^bits.
 void list_points(const BlockVertices& vertices, std::uint32_t bits, PointList& points) {
     const auto step = static_cast<float>(units_per_cell >> bits);
+    for (std::size_t i = 0; i < vertices.count; ++i) {
+        points.x[i] = block_points.coordinate[0][vertices.bit[i]];
+        points.y[i] = block_points.coordinate[1][vertices.bit[i]];
+        points.z[i] = block_points.coordinate[2][vertices.bit[i]];
+    }
     float* const coordinates[3] = {points.x, points.y, points.z};
-    for (std::size_t i = 0; i < vertices.count; ++i)
-        for (int axis = 0; axis < 3; ++axis)
-            coordinates[axis][i] = static_cast<float>(point_coordinate(vertices.bit[i], axis) * units_per_cell);
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i) coordinates[axis][i] += vertices.offset[i] * step;
     points.count = vertices.count;
