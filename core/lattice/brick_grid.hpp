@@ -91,6 +91,26 @@ struct BrickGridView {
         return bricks[brick].holds(there) ? bricks[brick].number(there) : no_index;
     }
 
+    /// The numbers of the members at `offset` (x = 0) and one further along x.
+    struct Pair {
+        std::uint32_t first, second;
+    };
+    MENISCUS_HD Pair neighbor_pair(std::uint32_t brick, int index, const Int3& offset) const {
+        // In a row, members are numbered one after the other.
+        if ((index & 15) == brick_size - 1) return {neighbor(brick, index, offset), neighbor(brick, index, {1, offset.y, offset.z})};
+        const int y = (index >> 4 & 15) + offset.y;
+        const int z = (index >> 8) + offset.z;
+        if (((y | z) & ~15) != 0) {
+            brick = neighbors[brick].brick[13 + 3 * (y >> 4) + 9 * (z >> 4)];
+            if (brick == no_index) return {no_index, no_index};
+        }
+        const int there = (index & 15) | (y & 15) << 4 | (z & 15) << 8;
+        const std::uint64_t members = bricks[brick].occupied[there >> 6] >> (there & 63);
+        const std::uint32_t number = bricks[brick].number(there);
+        const bool first = (members & 1) != 0;
+        return {first ? number : no_index, (members & 2) != 0 ? number + static_cast<std::uint32_t>(first) : no_index};
+    }
+
     /// Calls visit(brick index, first number, count) for every run of members in a row along x of the box [low, high],
     /// in ascending order of their numbers.
     template <class Visit>

@@ -65,8 +65,11 @@ struct ClosedCell {
     std::uint32_t block[8];
 
     MENISCUS_HD ClosedCell(const BlocksView& blocks, std::uint32_t own) {
-        block[0] = own;
-        for (int i = 1; i < 8; ++i) block[i] = blocks.neighbor(own, {i & 1, i >> 1 & 1, i >> 2});
+        for (int row = 0; row < 4; ++row) {
+            const auto pair = blocks.grid.neighbor_pair(blocks.brick[own], blocks.place[own], {0, row & 1, row >> 1});
+            block[2 * row] = pair.first;
+            block[2 * row + 1] = pair.second;
+        }
     }
     /// The block that owns a point of the closed cell, coordinates 0 to 4.
     MENISCUS_HD std::uint32_t owner(int x, int y, int z) const { return block[x >> 2 | (y >> 2) << 1 | (z >> 2) << 2]; }
