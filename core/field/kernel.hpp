@@ -1,5 +1,5 @@
 // The SPH kernel: the cubic spline of compact support h, in the form without a branch,
-// W(q) / W0 = 2 max(1 - q, 0)^3 - 8 max(1/2 - q, 0)^3, q = distance / h, W0 = 8 / (pi h^3).
+// W(q) / W0 = max(1 - q, 0)^3 - 4 max(1/2 - q, 0)^3, q = distance / h, W0 = 16 / (pi h^3).
 #pragma once
 
 #include "field/lanes.hpp"
@@ -12,7 +12,8 @@ template <class F>
 MENISCUS_HD inline F cubic_spline(F q) {
     const F a = larger(F(1.0F) - q, F(0.0F));
     const F b = larger(F(0.5F) - q, F(0.0F));
-    return fused(b * b, F(-8.0F) * b, (F(2.0F) * a) * (a * a));
+    const F b2 = b + b;
+    return fused_minus(b2 * b2, b, a * (a * a));
 }
 
 /// Derivative of cubic_spline by q.
@@ -20,7 +21,7 @@ template <class F>
 MENISCUS_HD inline F cubic_spline_slope(F q) {
     const F a = larger(F(1.0F) - q, F(0.0F));
     const F b = larger(F(0.5F) - q, F(0.0F));
-    return fused(F(24.0F) * b, b, F(-6.0F) * (a * a));
+    return fused(F(12.0F) * b, b, F(-3.0F) * (a * a));
 }
 
 template <class F>
@@ -50,7 +51,7 @@ template <class F>
 MENISCUS_HD inline F cubic_spline_bend(F q) {
     const F a = larger(F(1.0F) - q, F(0.0F));
     const F b = larger(F(0.5F) - q, F(0.0F));
-    return fused(F(-48.0F), b, F(12.0F) * a);
+    return fused(F(-24.0F), b, F(6.0F) * a);
 }
 
 /// The field at a point to second order. Lengths in units.

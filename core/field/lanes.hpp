@@ -44,6 +44,8 @@ struct Lanes {
     friend Lanes operator/(Lanes a, Lanes b) { return _mm256_div_ps(a.v, b.v); }
 };
 inline Lanes fused(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
+/// c - a b, rounded once.
+inline Lanes fused_minus(Lanes a, Lanes b, Lanes c) { return _mm256_fnmadd_ps(a.v, b.v, c.v); }
 inline Lanes root(Lanes a) { return _mm256_sqrt_ps(a.v); }
 inline Lanes larger(Lanes a, Lanes b) { return _mm256_max_ps(a.v, b.v); }
 inline Lanes smaller(Lanes a, Lanes b) { return _mm256_min_ps(a.v, b.v); }
@@ -75,6 +77,9 @@ struct Lanes {
 };
 inline Lanes fused(const Lanes& a, const Lanes& b, const Lanes& c) {
     return Lanes::each([&](int i) { return std::fmaf(a.v[i], b.v[i], c.v[i]); });
+}
+inline Lanes fused_minus(const Lanes& a, const Lanes& b, const Lanes& c) {
+    return Lanes::each([&](int i) { return std::fmaf(-a.v[i], b.v[i], c.v[i]); });
 }
 inline Lanes root(const Lanes& a) { return Lanes::each([&](int i) { return std::sqrt(a.v[i]); }); }
 inline Lanes larger(const Lanes& a, const Lanes& b) {
@@ -113,6 +118,7 @@ MENISCUS_HD inline float fused(float a, float b, float c) {
     return __builtin_fmaf(a, b, c);
 #endif
 }
+MENISCUS_HD inline float fused_minus(float a, float b, float c) { return fused(-a, b, c); }
 MENISCUS_HD inline float root(float a) {
 #ifdef __CUDA_ARCH__
     return sqrtf(a);

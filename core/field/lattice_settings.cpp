@@ -34,7 +34,7 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     const double support_units = 2.0 * s.smoothing_length / s.cell_size * units_per_cell;
     for (unsigned k = 0; k < particle_level_count; ++k) support[k] = static_cast<float>(std::ldexp(support_units, static_cast<int>(k)));
     const double l = s.smoothing_length;
-    weight = static_cast<float>(8.0 / (std::numbers::pi * l * l * l));
+    weight = static_cast<float>(16.0 / (std::numbers::pi * l * l * l));
     iso = static_cast<float>(s.iso);
     if (s.field == Field::color) deep_inside = static_cast<float>(s.iso * (0.85 / 0.6));
     // A lone particle's blob in the color field: W(q) = iso W(0). At iso 0.6 that is q = 0.28; a quarter support is enough there.

@@ -147,7 +147,7 @@ TEST(Field, TheKernelIntegratesToOne) {
     const int steps = 20000;
     for (int i = 0; i < steps; ++i) {
         const double q = (i + 0.5) / steps;
-        integral += 4 * std::numbers::pi * q * q / steps * static_cast<double>(cubic_spline(static_cast<float>(q))) * 8 / std::numbers::pi;
+        integral += 4 * std::numbers::pi * q * q / steps * static_cast<double>(cubic_spline(static_cast<float>(q))) * 16 / std::numbers::pi;
     }
     EXPECT_NEAR(integral, 1.0, 1e-5);
 }
