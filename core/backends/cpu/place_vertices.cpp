@@ -64,12 +64,15 @@ void find_vertices(const BlocksView& blocks, std::uint32_t block, BlockVertices&
         const BlockMask edges = blocks.edges[block].axis[axis];
         const BlockMask high_face = low_face(axis) << (3 * bit_step(axis));
         if ((edges & high_face) != 0) next.read(blocks, blocks.neighbor(block, axis_offset(axis)));
+        // Which of the two blocks holds an edge's upper end is as good as random: chosen without a branch.
+        const UnpackedValues* const above[2] = {&own, &next};
+        const int step[2] = {bit_step(axis), -3 * bit_step(axis)};
         for (BlockMask left = edges; left != 0; left &= left - 1, ++count) {
             const int bit = lowest_bit(left);
-            const EdgeValues ends = edge_values(own, next, axis, bit);
+            const auto beyond = static_cast<std::size_t>(high_face >> bit & 1);
             vertices.bit[count] = static_cast<std::uint8_t>(bit);
-            vertices.low[count] = ends.low;
-            vertices.high[count] = ends.high;
+            vertices.low[count] = own(bit);
+            vertices.high[count] = (*above[beyond])(bit + step[beyond]);
         }
     }
     vertices.first[3] = vertices.count = count;
@@ -128,9 +131,14 @@ void bisect(FieldSource& field, const Int3& at, const BlocksView& blocks, std::u
 /// The field's normals, or along the edge where the domain's border or a vanishing gradient leaves none.
 void write_normals(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings, const BlockVertices& vertices, const float* x,
                    const float* y, const float* z, Normal* out) {
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < vertices.count; ++i) {
+        out[i] = {x[i], y[i], z[i]};
+        sum += x[i] + y[i] + z[i];
+    }
+    if (std::isfinite(sum) && !settings.has_domain) return;
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i) {
-            out[i] = {x[i], y[i], z[i]};
             const bool is_cropped = settings.has_domain && EdgeValues{vertices.low[i], vertices.high[i]}.cropped(settings.iso);
             if (std::isfinite(x[i] + y[i] + z[i]) && !is_cropped) continue;
             out[i] = {0.0F, 0.0F, 0.0F};
@@ -141,11 +149,11 @@ void write_normals(const BlocksView& blocks, std::uint32_t block, const LatticeS
 /// The points' places in steps of c / 2^bits.
 void write_positions(const Int3& at, std::uint32_t bits, const PointList& points, LatticePosition* out) {
     const int steps_per_base_cell = base_cell_size << bits;
+    const Int3 corner{at.x * steps_per_base_cell, at.y * steps_per_base_cell, at.z * steps_per_base_cell};
     const auto steps_per_unit = 1.0F / static_cast<float>(units_per_cell >> bits);
     for (std::size_t i = 0; i < points.count; ++i)
-        out[i] = {at.x * steps_per_base_cell + static_cast<int>(points.x[i] * steps_per_unit),
-                  at.y * steps_per_base_cell + static_cast<int>(points.y[i] * steps_per_unit),
-                  at.z * steps_per_base_cell + static_cast<int>(points.z[i] * steps_per_unit)};
+        out[i] = {corner.x + static_cast<int>(points.x[i] * steps_per_unit), corner.y + static_cast<int>(points.y[i] * steps_per_unit),
+                  corner.z + static_cast<int>(points.z[i] * steps_per_unit)};
 }
 
 void number_vertices(Surface& s, Mesh& mesh) {
