@@ -11,8 +11,10 @@ if [ "$1" = --version ]; then echo "splashsurf 0.0.0"; exit; fi
 for start in 23:59:59.900 12:00:01.000; do
   echo "[$start][INFO] Starting classification of particles into subdomains."
   end=12:00:01.500
-  [ "$start" = 12:00:01.000 ] || end=00:00:00.150
+  last=12:00:02.000
+  [ "$start" = 12:00:01.000 ] || { end=00:00:00.150; last=$end; }
   echo "[$end][INFO] Global mesh has 4 vertices and 8 triangles."
+  echo "[$last][INFO] Writing mesh with 4 vertices and 8 cells to file."
 done
 """
 
@@ -40,6 +42,7 @@ def main():
         frame, large = report["frame_040"], report["large"]
         check(report["splashsurf"] == "0.0.0", "the version of splashsurf")
         check(abs(frame["splashsurf_seconds"] - 0.5) < 1e-6, "the warm time of splashsurf")
+        check(abs(frame["splashsurf_normals_seconds"] - 1.0) < 1e-6, "its warm time with normals")
         check(0.0 < frame["adaptive_triangles"] <= frame["uniform_triangles"] * 1.1, "triangles of frame 040")
         check(large["particles"] == 4000, "particles of the tiled frame")
         check(large["uniform_process_bytes"] > large["uniform_peak_bytes"] > 0, "memory")
