@@ -30,8 +30,8 @@ constexpr std::size_t growth = 4;
 /// Cell sizes in radii.
 constexpr double coarse = 1.0;
 constexpr double fine = 0.5;
-/// Vector instructions for one particle's share in the field at a point: distance 7, kernel 11, sum 1.
-constexpr double instructions_per_kernel = 19.0;
+/// Vector instructions for one particle's share in the field at a point: distance 7, kernel 10, sum 1.
+constexpr double instructions_per_kernel = 18.0;
 
 /// Particles within the kernel's support, on average.
 struct Neighborhood {
