@@ -36,10 +36,9 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.set_version_flag("--version", std::string(version()));
     app.add_option("--listen", server.listen, "HOST:PORT (port 0: a free one, which is logged) or unix:PATH");
 
-    const std::map<std::string, Backend> backends{
-        {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"cuda", Backend::cuda}};
-    app.add_option("--backend", server.backend.backend, "auto, cpu or cuda")
-        ->transform(CLI::CheckedTransformer(backends).description(""))
+    app.add_option_function<std::string>(
+           "--backend", [&server](const std::string& name) { server.backend.backend = backend_by_name(name); },
+           "auto, cpu or cuda")
         ->type_name("NAME")
         ->default_str("auto");
     app.add_option("--threads", server.backend.threads, "Worker threads; 0: one per processor")

@@ -1,10 +1,11 @@
-// meniscus info and meniscus sessions: what a server says about itself.
+// meniscus info and meniscus sessions: what a server, or this process, says about itself.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/surfaces.hpp"
+#include "meniscus/reconstructor.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -13,16 +14,26 @@ std::string limit(std::uint64_t value) {
     return value == 0 ? "no limit" : std::to_string(value);
 }
 
-void print_info(const std::string& server) {
+/// Those of a server and of this process alike.
+void print_backend(const std::string& version, const std::string& name, const std::string& reason, const std::string& device) {
+    std::cout << "version                " << version << '\n'
+              << "backend                " << name << " (" << reason << ")\n"
+              << "device                 " << device << '\n';
+}
+
+void print_server(const std::string& server) {
     const client::ServerInfo info = connect(server).server_info();
-    std::cout << "version                " << info.version << '\n'
-              << "backend                " << info.backend << " (" << info.backend_reason << ")\n"
-              << "device                 " << info.device << '\n'
-              << "threads                " << info.threads << '\n'
+    print_backend(info.version, info.backend, info.backend_reason, info.device);
+    std::cout << "threads                " << info.threads << '\n'
               << "sessions               " << limit(info.max_sessions) << '\n'
               << "watchers per session   " << limit(info.max_watchers_per_session) << '\n'
               << "particles per frame    " << limit(info.max_particles_per_frame) << '\n'
               << "bytes per session      " << limit(info.max_bytes_per_session) << '\n';
+}
+
+void print_this_process(Backend choice) {
+    const BackendDescription backend = describe_backend(choice);
+    print_backend(std::string(version()), backend.name, backend.reason, backend.device);
 }
 
 void print_sessions(const std::string& server) {
@@ -31,21 +42,31 @@ void print_sessions(const std::string& server) {
                   << (session.uploading ? "uploading" : "idle") << '\n';
 }
 
-void add(CLI::App& app, const char* name, const char* what, void (*print)(const std::string&)) {
-    auto server = std::make_shared<std::string>();
-    CLI::App& command = *app.add_subcommand(name, what);
-    command.add_option("--server", *server, "HOST:PORT")->required();
-    command.callback([server, print] { print(*server); });
-}
+struct InfoOptions {
+    std::string server;  ///< empty for this process
+    Backend backend = Backend::automatic;
+};
 
 }  // namespace
 
 void add_info(CLI::App& app) {
-    add(app, "info", "Describe a server: version, backend, limits", print_info);
+    auto options = std::make_shared<InfoOptions>();
+    CLI::App& command = *app.add_subcommand("info", "Describe a server, or what this process would reconstruct with");
+    auto* server = command.add_option("--server", options->server, "HOST:PORT: version, backend, limits of that server");
+    add_backend_option(command, options->backend)->excludes(server);
+    command.callback([options] {
+        if (options->server.empty())
+            print_this_process(options->backend);
+        else
+            print_server(options->server);
+    });
 }
 
 void add_sessions(CLI::App& app) {
-    add(app, "sessions", "List a server's sessions", print_sessions);
+    auto server = std::make_shared<std::string>();
+    CLI::App& command = *app.add_subcommand("sessions", "List a server's sessions");
+    command.add_option("--server", *server, "HOST:PORT")->required();
+    command.callback([server] { print_sessions(*server); });
 }
 
 }  // namespace meniscus::cli

@@ -3,18 +3,9 @@
 #include <utility>
 
 namespace meniscus::cli {
-namespace {
 
-BackendOptions backend_options(unsigned threads) {
-    BackendOptions options;
-    options.threads = threads;
-    return options;
-}
-
-}  // namespace
-
-LocalSurfaces::LocalSurfaces(const Settings& settings, unsigned threads, Handler handler)
-    : reconstructor_(settings, backend_options(threads)), handler_(std::move(handler)) {}
+LocalSurfaces::LocalSurfaces(const Settings& settings, const BackendOptions& options, Handler handler)
+    : reconstructor_(settings, options), handler_(std::move(handler)) {}
 
 void LocalSurfaces::submit(const ParticleFrame& frame, double simulation_time) {
     reconstructor_.reconstruct(frame, mesh_);

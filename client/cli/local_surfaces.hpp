@@ -8,7 +8,7 @@ namespace meniscus::cli {
 
 class LocalSurfaces : public Surfaces {
 public:
-    LocalSurfaces(const Settings& settings, unsigned threads, Handler handler);
+    LocalSurfaces(const Settings& settings, const BackendOptions& options, Handler handler);
     void submit(const ParticleFrame& frame, double simulation_time) override;
     void finish() override {}
 

@@ -31,17 +31,26 @@ const client::ReceivedFrame& Surface::encoded() const {
     return *encoded_;
 }
 
+CLI::Option* add_backend_option(CLI::App& command, Backend& backend) {
+    return command
+        .add_option_function<std::string>(
+            "--backend", [&backend](const std::string& name) { backend = backend_by_name(name); },
+            "Of this process: cpu, cuda, or auto: a GPU if one can be used")
+        ->default_str("auto");
+}
+
 void SurfacesOptions::add_to(CLI::App& command) {
     auto* here = command.add_flag("--local", local, "Reconstruct in this process (the default)");
     auto* there = command.add_option("--server", server, "HOST:PORT of a meniscusd that reconstructs")->excludes(here);
-    command.add_option("--threads", threads, "Worker threads of this process; 0: one per processor")
+    add_backend_option(command, backend.backend)->excludes(there);
+    command.add_option("--threads", backend.threads, "Worker threads of this process; 0: one per processor")
         ->excludes(there)
         ->capture_default_str();
 }
 
 std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfaces::Handler handler,
                                                 const std::string& session) const {
-    if (server.empty()) return std::make_unique<LocalSurfaces>(settings, threads, std::move(handler));
+    if (server.empty()) return std::make_unique<LocalSurfaces>(settings, backend, std::move(handler));
     return std::make_unique<ServerSurfaces>(server, session, settings, std::move(handler));
 }
 

@@ -11,6 +11,7 @@
 
 namespace CLI {
 class App;
+class Option;
 }
 
 namespace meniscus::cli {
@@ -54,11 +55,14 @@ public:
     virtual void finish() = 0;
 };
 
-/// The flags --local, --server and --threads.
+/// The flag --backend: what this process reconstructs with.
+CLI::Option* add_backend_option(CLI::App& command, Backend& backend);
+
+/// The flags --local, --server, --backend and --threads.
 struct SurfacesOptions {
     bool local = false;
-    std::string server;    ///< "HOST:PORT"; empty for this process
-    unsigned threads = 0;  ///< of this process; 0: one per processor
+    std::string server;      ///< "HOST:PORT"; empty for this process
+    BackendOptions backend;  ///< of this process
 
     void add_to(CLI::App& command);
     /// session: id to create on the server, chosen here if empty. The handler may be called from another thread, one

@@ -82,6 +82,20 @@ TEST_F(Cli, HelpOfEveryCommandSucceeds) {
         EXPECT_EQ(run_meniscus({command, "--help"}).exit_code, 0) << command;
 }
 
+TEST_F(Cli, InfoWithoutAServerDescribesThisProcess) {
+    const ProcessResult result = run_meniscus({"info", "--backend", "cpu"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.out.find("backend                cpu (asked for)\n"), std::string::npos) << result.out;
+}
+
+TEST_F(Cli, InfoNamesTheGpuOrSaysInOneLineWhyThereIsNone) {
+    const ProcessResult result = run_meniscus({"info", "--backend", "cuda"});
+    if (result.exit_code == 0)
+        EXPECT_NE(result.out.find("backend                cuda"), std::string::npos) << result.out;
+    else
+        expect_refused({"info", "--backend", "cuda"}, {"CUDA backend cannot be used"});
+}
+
 TEST_F(Cli, RefusesBadArguments) {
     expect_refused({}, {"subcommand"});
     expect_refused({"levitate"}, {"levitate"});
@@ -91,6 +105,7 @@ TEST_F(Cli, RefusesBadArguments) {
     expect_refused(reconstruct({"--cell-size", "abc"}), {"--cell-size", "abc"});
     expect_refused(reconstruct({"--domain", "0", "0", "0"}), {"--domain", "6"});
     expect_refused(reconstruct({"--repeat", "0"}), {"--repeat", "0"});
+    expect_refused(reconstruct({"--backend", "abacus"}), {"backend", "abacus", "auto", "cpu", "cuda"});
     expect_refused({"reconstruct", in_, "-o", out_}, {"--particle-radius"});
     expect_refused({"reconstruct", in_, "--particle-radius", "0.5"}, {"-o", "--stats"});
 }
@@ -98,6 +113,8 @@ TEST_F(Cli, RefusesBadArguments) {
 TEST_F(Cli, RefusesContradictions) {
     expect_refused(reconstruct({"--local", "--server", "localhost:1"}), {"--local", "--server"});
     expect_refused(reconstruct({"--threads", "2", "--server", "localhost:1"}), {"--threads", "--server"});
+    expect_refused(reconstruct({"--backend", "cpu", "--server", "localhost:1"}), {"--backend", "--server"});
+    expect_refused({"info", "--backend", "cpu", "--server", "localhost:1"}, {"--backend", "--server"});
     expect_refused(reconstruct({"--start", "1"}), {"--start"});
     expect_refused({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "1"},
                    {"--start", "--end"});

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace meniscus {
 
@@ -69,6 +70,9 @@ void validate(const Settings& settings);
 inline double world_cell_size(const Settings& s) { return s.cell_size * s.particle_radius; }
 
 enum class Backend : std::uint8_t { automatic, cpu, cuda };
+
+/// "auto", "cpu" or "cuda". Throws InvalidInput for other names.
+Backend backend_by_name(const std::string& name);
 
 struct BackendOptions {
     Backend backend = Backend::automatic;
