@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "backend_options.hpp"
 #include "benchmarks.hpp"
 #include "formats/atomic_file.hpp"
 #include "line_plot.hpp"
@@ -22,7 +23,7 @@ struct ExperimentOptions {
     std::size_t frames = 500;
     double frame_seconds = 0.005;
     unsigned repeats = 1;
-    unsigned threads = 1;
+    BackendOptions backend = one_cpu_thread;
     Settings settings;
     std::string out = "tests/benchmarks/results";
 };
@@ -64,13 +65,10 @@ constexpr auto thousand_triangles = [](const Statistics& s) { return 1e-3 * stat
 BothSeries simulate(const ExperimentOptions& options, const simulator::Scene& scene) {
     Settings settings = options.settings;
     settings.particle_radius = static_cast<double>(scene.particle_radius);
-    BackendOptions backend;
-    backend.backend = Backend::cpu;
-    backend.threads = options.threads;
     BothSeries series;
     for (std::size_t m = 0; m < modes.size(); ++m) {
         settings.mode = modes[m];
-        series[m] = std::make_unique<Series>(settings, backend);
+        series[m] = std::make_unique<Series>(settings, options.backend);
     }
 
     simulator::Simulation simulation(scene);
@@ -160,7 +158,7 @@ void run_experiment(const ExperimentOptions& options) {
         }
     nlohmann::ordered_json summary;
     summary["runs"] = "warm; median of " + std::to_string(options.repeats) + ", modes alternating";
-    summary["threads"] = options.threads;
+    add_backend(summary, options.backend);
     summary["particles"] = options.particles;
     summary["cell_size"] = options.settings.cell_size;
     summary["tolerance"] = options.settings.tolerance;
@@ -187,7 +185,7 @@ void add_experiment(CLI::App& app) {
     command.add_option("--repeats", options->repeats, "Runs of each frame and mode, of which the median counts")
         ->check(CLI::Range(1U, 1000U))
         ->capture_default_str();
-    command.add_option("--threads", options->threads, "Worker threads")->capture_default_str();
+    add_backend_options(command, options->backend);
     command.add_option("--cell-size", options->settings.cell_size, "In particle radii")->capture_default_str();
     command.add_option("--tolerance", options->settings.tolerance, "Of the curvature criterion, in cells")
         ->capture_default_str();

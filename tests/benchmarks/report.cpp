@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <sstream>
 
@@ -13,8 +14,10 @@ namespace {
 
 std::string command_line;
 
-/// The commit that the sources are at, "-dirty" if they were changed since, "unknown" outside of a checkout.
+/// The commit that the sources are at, "-dirty" if they were changed since, "unknown" outside of a checkout. Where this
+/// program runs without its sources, MENISCUS_COMMIT may tell.
 std::string commit() {
+    if (const char* told = std::getenv("MENISCUS_COMMIT")) return told;
     const std::unique_ptr<FILE, int (*)(FILE*)> git(
         popen("git -C '" MENISCUS_SOURCE_DIR "' describe --always --dirty --abbrev=12 --exclude='*' 2>/dev/null", "r"),
         &pclose);

@@ -4,7 +4,9 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 
+#include "backend_options.hpp"
 #include "benchmarks.hpp"
 #include "machine_peaks.hpp"
 #include "neighbors.hpp"
@@ -18,7 +20,7 @@ namespace {
 struct ScalingOptions {
     std::size_t max_particles = 1024 * basin_particles;
     std::size_t max_particles_fine = 256 * basin_particles;
-    unsigned threads = 1;
+    BackendOptions backend = one_cpu_thread;
     double tolerance = Settings{}.tolerance;
     RepeatLimits limits;
     std::string out = "tests/benchmarks/results";
@@ -66,7 +68,7 @@ void add_floor(Row& row, const Statistics& s, const Neighborhood& neighbors, con
 }
 
 Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<float>& positions, double cell_size, Mode mode,
-            const MachinePeaks& peaks) {
+            const std::optional<MachinePeaks>& peaks) {
     Settings settings;
     settings.particle_radius = particle_radius;
     settings.cell_size = cell_size;
@@ -75,7 +77,7 @@ Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<flo
     ParticleFrame frame;
     frame.positions = positions;
     Mesh mesh;
-    const WarmRuns runs = reconstruct_repeatedly(frame, settings, options.threads, options.limits, mesh);
+    const WarmRuns runs = reconstruct_repeatedly(frame, settings, options.backend, options.limits, mesh);
     const Statistics& s = runs.median;
     const auto particles = static_cast<double>(s.particles);
 
@@ -91,7 +93,7 @@ Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<flo
     row["seconds_per_million_particles"] = 1e6 * s.total_seconds / particles;
     row["bytes_per_particle"] = static_cast<double>(s.peak_bytes) / particles;
     row["bytes_per_triangle"] = static_cast<double>(s.peak_bytes) / static_cast<double>(s.triangles);
-    add_floor(row, s, sample_neighborhood(positions, mesh, settings), peaks);
+    if (peaks) add_floor(row, s, sample_neighborhood(positions, mesh, settings), *peaks);
     return row;
 }
 
@@ -102,9 +104,11 @@ void print(const Row& row) {
               << row["seconds_per_million_particles"].get<double>() << std::setprecision(2) << std::setw(8)
               << row["first_over_warm"].get<double>() << std::setprecision(0) << std::setw(10)
               << row["bytes_per_particle"].get<double>() << std::setw(10) << row["bytes_per_triangle"].get<double>()
-              << std::setw(8) << row["allocations"].get<std::uint64_t>() << std::setprecision(3) << std::setw(8)
-              << row["share_of_multiply_add_peak"].get<double>() << std::setw(8)
-              << row["share_of_copy_bandwidth"].get<double>() << std::defaultfloat << std::endl;
+              << std::setw(8) << row["allocations"].get<std::uint64_t>();
+    if (row.contains("share_of_multiply_add_peak"))
+        std::cout << std::setprecision(3) << std::setw(8) << row["share_of_multiply_add_peak"].get<double>() << std::setw(8)
+                  << row["share_of_copy_bandwidth"].get<double>();
+    std::cout << std::defaultfloat << std::endl;
 }
 
 /// For every scene, cell size and mode: the largest against the smallest.
@@ -137,10 +141,22 @@ void print_comparison(const Row& row) {
 }
 
 void run_scaling(const ScalingOptions& options) {
-    const MachinePeaks peaks = measure_peaks();
-    std::cout << "multiply-add peak " << 1e-9 * peaks.multiply_adds_per_second << " G/s per core, copy bandwidth "
-              << 1e-9 * peaks.copied_bytes_per_second << " GB/s\n"
-              << "water     c    mode      particles s/million   first  B/part.  B/triang.  allocs   mul-add   copy\n";
+    nlohmann::ordered_json summary;
+    summary["runs"] = "warm medians; first: a new reconstructor's first frame";
+    add_backend(summary, options.backend);
+    summary["tolerance"] = options.tolerance;
+    // The floor is the processor's.
+    std::optional<MachinePeaks> peaks;
+    if (summary["backend"] == "cpu") {
+        peaks = measure_peaks();
+        summary["multiply_adds_per_second_and_core"] = peaks->multiply_adds_per_second;
+        summary["copied_bytes_per_second"] = peaks->copied_bytes_per_second;
+        summary["instructions_per_kernel"] = instructions_per_kernel;
+        std::cout << "multiply-add peak " << 1e-9 * peaks->multiply_adds_per_second << " G/s per core, copy bandwidth "
+                  << 1e-9 * peaks->copied_bytes_per_second << " GB/s\n";
+    }
+    std::cout << "water     c    mode      particles s/million   first  B/part.  B/triang.  allocs"
+              << (peaks ? "   mul-add   copy\n" : "\n");
     Rows rows = Rows::array();
     for (std::size_t particles = basin_particles; particles <= options.max_particles; particles *= growth)
         for (const WaterKind kind : water_kinds) {
@@ -153,13 +169,6 @@ void run_scaling(const ScalingOptions& options) {
                 }
             }
         }
-    nlohmann::ordered_json summary;
-    summary["runs"] = "warm medians; first: a new reconstructor's first frame";
-    summary["threads"] = options.threads;
-    summary["tolerance"] = options.tolerance;
-    summary["multiply_adds_per_second_and_core"] = peaks.multiply_adds_per_second;
-    summary["copied_bytes_per_second"] = peaks.copied_bytes_per_second;
-    summary["instructions_per_kernel"] = instructions_per_kernel;
     const Rows comparison = compare_sizes(rows);
     std::cout << "\nper particle, largest over smallest: time, memory\n";
     for (const Row& row : comparison) print_comparison(row);
@@ -179,7 +188,7 @@ void add_scaling(CLI::App& app) {
         ->capture_default_str();
     command.add_option("--max-particles-fine", options->max_particles_fine, "Largest scene at cell size 0.5")
         ->capture_default_str();
-    command.add_option("--threads", options->threads, "Worker threads")->capture_default_str();
+    add_backend_options(command, options->backend);
     command.add_option("--tolerance", options->tolerance, "Of the curvature criterion, in cells")->capture_default_str();
     command.add_option("--repeats", options->limits.runs, "Warm runs of each case, of which the median counts")
         ->check(CLI::Range(1U, 1000U))

@@ -44,6 +44,9 @@ def main():
         lines = [len(xml.etree.ElementTree.parse(p).findall("{http://www.w3.org/2000/svg}polyline")) for p in plots]
         check(lines == [2, 2, 8, 4], f"experiment: lines in the plots are {lines}")
     check(subprocess.run([bench, "encoding", "--water", "ice"], capture_output=True).returncode == 2, "wrong input is refused")
+    for name in ("experiment", "scaling"):
+        refused = subprocess.run([bench, name, "--backend", "abacus"], capture_output=True, text=True)
+        check(refused.returncode == 2 and "abacus" in refused.stderr, f"{name}: a wrong backend is refused by its name")
 
 
 if __name__ == "__main__":

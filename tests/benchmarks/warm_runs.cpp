@@ -5,11 +5,8 @@
 
 namespace meniscus::benchmarks {
 
-WarmRuns reconstruct_repeatedly(const ParticleFrame& frame, const Settings& settings, unsigned threads,
+WarmRuns reconstruct_repeatedly(const ParticleFrame& frame, const Settings& settings, const BackendOptions& options,
                                 const RepeatLimits& limits, Mesh& mesh) {
-    BackendOptions options;
-    options.backend = Backend::cpu;
-    options.threads = threads;
     Reconstructor reconstructor(settings, options);
     WarmRuns result;
     reconstructor.reconstruct(frame, mesh);

@@ -19,7 +19,7 @@ struct WarmRuns {
 };
 
 /// Reconstructs `frame` with a new reconstructor, then warm as often as `limits` allow. `mesh` is the last run's.
-WarmRuns reconstruct_repeatedly(const ParticleFrame& frame, const Settings& settings, unsigned threads,
+WarmRuns reconstruct_repeatedly(const ParticleFrame& frame, const Settings& settings, const BackendOptions& options,
                                 const RepeatLimits& limits, Mesh& mesh);
 
 /// Of the values, at least one; the lower of two in the middle.
