@@ -51,6 +51,7 @@ void simulate(const SimulateOptions& options) {
     simulator::Simulation simulation(
         simulator::make_scene(*simulator::scene_by_name(options.scene), options.particles));
     const Settings settings = options.settings.build(static_cast<double>(simulation.scene().particle_radius));
+    std::cerr << "particle radius " << settings.particle_radius << '\n';
     for (const std::string& folder : {options.out, options.particles_out})
         if (!folder.empty()) formats::make_directory(folder);
 
