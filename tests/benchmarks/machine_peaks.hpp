@@ -1,14 +1,14 @@
-// What this machine can do at best, measured.
+// What this machine's processor can do at best, measured.
 #pragma once
 
 namespace meniscus::benchmarks {
 
 struct MachinePeaks {
-    double multiply_adds_per_second = 0.0;  ///< one core, float32, with the widest instructions that the library uses
-    double copied_bytes_per_second = 0.0;   ///< one core, memory to memory: bytes that were read and written once
+    double multiply_adds_per_second = 0.0;  ///< float32
+    double copied_bytes_per_second = 0.0;   ///< memory to memory: bytes that were read and written once
 };
 
-/// Takes about a second.
+/// Of one core, with the widest instructions that the library uses. Takes about a second.
 MachinePeaks measure_peaks();
 
 }  // namespace meniscus::benchmarks

@@ -4,10 +4,10 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <optional>
 
 #include "backend_options.hpp"
 #include "benchmarks.hpp"
+#include "device_peaks.hpp"
 #include "machine_peaks.hpp"
 #include "neighbors.hpp"
 #include "report.hpp"
@@ -58,7 +58,8 @@ Neighborhood sample_neighborhood(const std::vector<float>& positions, const Mesh
 void add_floor(Row& row, const Statistics& s, const Neighborhood& neighbors, const MachinePeaks& peaks) {
     const double kernels = static_cast<double>(s.particles) * neighbors.of_particle +
                            static_cast<double>(s.field_evaluations) * neighbors.of_vertex;
-    const double kernel_seconds = kernels * instructions_per_kernel / (peaks.multiply_adds_per_second * s.threads);
+    const unsigned cores = s.backend == "cuda" ? 1 : s.threads;  // a device's peaks are those of all of it
+    const double kernel_seconds = kernels * instructions_per_kernel / (peaks.multiply_adds_per_second * cores);
     const double copy_seconds = static_cast<double>(s.peak_bytes) / peaks.copied_bytes_per_second;
     row["particles_in_support_of_particle"] = neighbors.of_particle;
     row["particles_in_support_of_vertex"] = neighbors.of_vertex;
@@ -68,7 +69,7 @@ void add_floor(Row& row, const Statistics& s, const Neighborhood& neighbors, con
 }
 
 Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<float>& positions, double cell_size, Mode mode,
-            const std::optional<MachinePeaks>& peaks) {
+            const MachinePeaks& peaks) {
     Settings settings;
     settings.particle_radius = particle_radius;
     settings.cell_size = cell_size;
@@ -93,7 +94,7 @@ Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<flo
     row["seconds_per_million_particles"] = 1e6 * s.total_seconds / particles;
     row["bytes_per_particle"] = static_cast<double>(s.peak_bytes) / particles;
     row["bytes_per_triangle"] = static_cast<double>(s.peak_bytes) / static_cast<double>(s.triangles);
-    if (peaks) add_floor(row, s, sample_neighborhood(positions, mesh, settings), *peaks);
+    add_floor(row, s, sample_neighborhood(positions, mesh, settings), peaks);
     return row;
 }
 
@@ -104,11 +105,9 @@ void print(const Row& row) {
               << row["seconds_per_million_particles"].get<double>() << std::setprecision(2) << std::setw(8)
               << row["first_over_warm"].get<double>() << std::setprecision(0) << std::setw(10)
               << row["bytes_per_particle"].get<double>() << std::setw(10) << row["bytes_per_triangle"].get<double>()
-              << std::setw(8) << row["allocations"].get<std::uint64_t>();
-    if (row.contains("share_of_multiply_add_peak"))
-        std::cout << std::setprecision(3) << std::setw(8) << row["share_of_multiply_add_peak"].get<double>() << std::setw(8)
-                  << row["share_of_copy_bandwidth"].get<double>();
-    std::cout << std::defaultfloat << std::endl;
+              << std::setw(8) << row["allocations"].get<std::uint64_t>() << std::setprecision(3) << std::setw(8)
+              << row["share_of_multiply_add_peak"].get<double>() << std::setw(8)
+              << row["share_of_copy_bandwidth"].get<double>() << std::defaultfloat << std::endl;
 }
 
 /// For every scene, cell size and mode: the largest against the smallest.
@@ -145,18 +144,15 @@ void run_scaling(const ScalingOptions& options) {
     summary["runs"] = "warm medians; first: a new reconstructor's first frame";
     add_backend(summary, options.backend);
     summary["tolerance"] = options.tolerance;
-    // The floor is the processor's.
-    std::optional<MachinePeaks> peaks;
-    if (summary["backend"] == "cpu") {
-        peaks = measure_peaks();
-        summary["multiply_adds_per_second_and_core"] = peaks->multiply_adds_per_second;
-        summary["copied_bytes_per_second"] = peaks->copied_bytes_per_second;
-        summary["instructions_per_kernel"] = instructions_per_kernel;
-        std::cout << "multiply-add peak " << 1e-9 * peaks->multiply_adds_per_second << " G/s per core, copy bandwidth "
-                  << 1e-9 * peaks->copied_bytes_per_second << " GB/s\n";
-    }
-    std::cout << "water     c    mode      particles s/million   first  B/part.  B/triang.  allocs"
-              << (peaks ? "   mul-add   copy\n" : "\n");
+    const bool on_device = summary["backend"] == "cuda";
+    const MachinePeaks peaks = on_device ? measure_device_peaks() : measure_peaks();
+    summary["peaks_of"] = on_device ? "the device" : "one core";
+    summary["multiply_adds_per_second"] = peaks.multiply_adds_per_second;
+    summary["copied_bytes_per_second"] = peaks.copied_bytes_per_second;
+    summary["instructions_per_kernel"] = instructions_per_kernel;
+    std::cout << "multiply-add peak " << 1e-9 * peaks.multiply_adds_per_second << " G/s, copy bandwidth "
+              << 1e-9 * peaks.copied_bytes_per_second << " GB/s, of " << summary["peaks_of"].get<std::string>() << '\n'
+              << "water     c    mode      particles s/million   first  B/part.  B/triang.  allocs   mul-add   copy\n";
     Rows rows = Rows::array();
     for (std::size_t particles = basin_particles; particles <= options.max_particles; particles *= growth)
         for (const WaterKind kind : water_kinds) {
