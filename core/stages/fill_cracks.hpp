@@ -6,6 +6,7 @@
 #include "lattice/host_device.hpp"
 #include "meniscus/mesh.hpp"
 #include "stages/blocks.hpp"
+#include "stages/face_signs.hpp"
 #include "stages/place_vertices.hpp"
 #include "tables/tables.hpp"
 
@@ -21,44 +22,36 @@ struct CrackFace {
 
 /// Calls visit(face, crack case) for every subface of a fine cell that has a coarser neighbor beyond and sees both signs.
 template <class Visit>
-MENISCUS_HD void for_each_crack(const BlocksView& blocks, std::uint32_t block, const ClosedCell& cell, Visit&& visit) {
+MENISCUS_HD void for_each_crack(const BlocksView& blocks, std::uint32_t block, Visit&& visit) {
     const int level = blocks.level[block];
     if (level == 1) return;
     CrackFace face;
     face.stride = level_stride(level);
     for (face.axis = 0; face.axis < 3; ++face.axis)
         for (face.side = 0; face.side < 2; ++face.side) {
-            const int other = blocks.level_or_none(blocks.neighbor(block, axis_offset(face.axis, 2 * face.side - 1)));
-            if (other == 0 || other >= level) continue;
-            const int u = (face.axis + 1) % 3;
-            const int v = (face.axis + 2) % 3;
-            face.corner[face.axis] = face.side * base_cell_size;
-            for (face.corner[v] = 0; face.corner[v] < base_cell_size; face.corner[v] += 2 * face.stride)
-                for (face.corner[u] = 0; face.corner[u] < base_cell_size; face.corner[u] += 2 * face.stride) {
-                    int crack_case = 0;
-                    for (int i = 0; i < 9; ++i) {
-                        int point[3] = {face.corner[0], face.corner[1], face.corner[2]};
-                        point[u] += i % 3 * face.stride;
-                        point[v] += i / 3 * face.stride;
-                        crack_case |= static_cast<int>(cell.inside(blocks, point[0], point[1], point[2])) << i;
-                    }
-                    if (crack_case != 0 && crack_case != crack_case_count - 1) visit(face, crack_case);
-                }
+            const std::uint32_t other = blocks.neighbor(block, axis_offset(face.axis, 2 * face.side - 1));
+            const int other_level = blocks.level_or_none(other);
+            if (other_level == 0 || other_level >= level) continue;
+            const FaceSigns signs(blocks, face.side == 1 ? other : block, face.axis, face.stride);
+            for (BlockMask left = signs.mixed(); left != 0; left &= left - 1) {
+                const int bit = lowest_bit(left);
+                for (int axis = 0; axis < 3; ++axis) face.corner[axis] = point_coordinate(bit, axis);
+                face.corner[face.axis] = face.side * base_cell_size;
+                visit(face, signs.pattern(bit));
+            }
         }
 }
 
 MENISCUS_HD inline std::uint32_t count_crack_triangles(const BlocksView& blocks, std::uint32_t block, const CrackCase* table) {
     std::uint32_t count = 0;
-    for_each_crack(blocks, block, ClosedCell(blocks, block),
-                   [&](const CrackFace&, int crack_case) { count += table[crack_case].triangles; });
+    for_each_crack(blocks, block, [&](const CrackFace&, int crack_case) { count += table[crack_case].triangles; });
     return count;
 }
 
 /// Writes the filling of a fine cell's faces from `out` on.
 MENISCUS_HD inline void emit_crack_triangles(const BlocksView& blocks, std::uint32_t block, const CrackCase* table, Triangle* out) {
-    const ClosedCell cell(blocks, block);
-    const CellVertices vertices(blocks, cell);
-    for_each_crack(blocks, block, cell, [&](const CrackFace& face, int crack_case) {
+    const CellVertices vertices(blocks, ClosedCell(blocks, block));
+    for_each_crack(blocks, block, [&](const CrackFace& face, int crack_case) {
         const CrackCase& pattern = table[crack_case];
         for (int t = 0; t < pattern.triangles; ++t, ++out)
             for (int corner = 0; corner < 3; ++corner) {

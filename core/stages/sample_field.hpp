@@ -5,6 +5,7 @@
 
 #include "lattice/host_device.hpp"
 #include "stages/blocks.hpp"
+#include "stages/face_signs.hpp"
 #include "stages/place_vertices.hpp"
 
 namespace meniscus {
@@ -25,39 +26,38 @@ MENISCUS_HD inline BlockMask corner_points(const BlocksView& blocks, std::uint32
 }
 
 /// The unsampled middles of coarse edges that cross the surface (design: an edge point lies on a finest lattice edge).
-/// First with length 4, then, those being sampled, with length 2.
-MENISCUS_HD inline BlockMask edge_middles(const BlocksView& blocks, std::uint32_t block, int length) {
+MENISCUS_HD inline BlockMask edge_middles(const BlocksView& blocks, std::uint32_t block) {
     BlockMask wanted = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const CrossedEdges crossed(blocks, block, axis);
-        wanted |= (length == 4 ? crossed.length4 << (2 * bit_step(axis)) : crossed.length2_all() << bit_step(axis));
+        wanted |= crossed.length4 << (2 * bit_step(axis)) | crossed.length2 << bit_step(axis);
     }
     return wanted & ~blocks.sampled[block];
 }
 
-/// The signs of the points, `stride` apart, of the face at the lower side of a base cell along an axis.
-struct FaceSigns {
-    bool any_inside = false;
-    bool all_inside = true;
+/// The middles of a level-1 cell's edges.
+inline constexpr BlockMask level1_middles = BlockMask{1} << 2 * bit_step(0) | BlockMask{1} << 2 * bit_step(1) | BlockMask{1} << 2 * bit_step(2);
 
-    MENISCUS_HD FaceSigns(const BlocksView& blocks, std::uint32_t upper, int axis, int stride) {
-        const int u = (axis + 1) % 3;
-        const int v = (axis + 2) % 3;
-        const BlockMask face = stride_points(stride) & low_face(axis);
-        add(blocks.inside_or_none(upper), face);
-        if (upper == no_index) return;
-        add(blocks.inside_or_none(blocks.neighbor(upper, axis_offset(u))), face & low_face(u));
-        add(blocks.inside_or_none(blocks.neighbor(upper, axis_offset(v))), face & low_face(v));
-        add(blocks.inside_or_none(blocks.neighbor(upper, axis_offset(u) + axis_offset(v))), face & low_face(u) & low_face(v));
-    }
-    MENISCUS_HD bool mixed() const { return any_inside && !all_inside; }
+/// The unsampled middles of those halves of level-1 edges that cross the surface; needs edge_middles() sampled.
+MENISCUS_HD inline BlockMask half_edge_middles(const BlocksView& blocks, std::uint32_t block) {
+    BlockMask wanted = 0;
+    for (int axis = 0; axis < 3; ++axis) wanted |= CrossedEdges(blocks, block, axis).length2_all() << bit_step(axis);
+    return wanted & ~blocks.sampled[block];
+}
 
-private:
-    MENISCUS_HD void add(BlockMask inside, BlockMask points) {
-        any_inside |= (inside & points) != 0;
-        all_inside &= (inside & points) == points;
-    }
-};
+/// Whether a cell of this stride sees both signs on a face. upper: the stored cell whose lower face along the axis this is.
+MENISCUS_HD inline bool face_is_mixed(const BlocksView& blocks, std::uint32_t upper, int axis, int stride) {
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    const BlockMask face = stride_points(stride) & low_face(axis);
+    const BlockMask own = blocks.inside[upper] & face;
+    if (own != 0 && own != face) return true;
+    const auto differs = [&](const Int3& offset, BlockMask points) {
+        return ((blocks.inside_or_none(blocks.neighbor(upper, offset)) ^ own) & points) != 0;
+    };
+    return differs(axis_offset(u), face & low_face(u)) || differs(axis_offset(v), face & low_face(v)) ||
+           differs(axis_offset(u) + axis_offset(v), face & low_face(u) & low_face(v));
+}
 
 /// Whether a stored cell outside the band must join it: a neighbor in the band sees both signs on their common face, so that
 /// skipping the cell would leave the mesh open.
@@ -66,7 +66,7 @@ MENISCUS_HD inline bool joins_band(const BlocksView& blocks, std::uint32_t block
         for (int side = 0; side < 2; ++side) {
             const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, 2 * side - 1));
             const int level = blocks.level_or_none(other);
-            if (level != 0 && FaceSigns(blocks, side == 1 ? other : block, axis, level_stride(level)).mixed()) return true;
+            if (level != 0 && face_is_mixed(blocks, side == 1 ? other : block, axis, level_stride(level))) return true;
         }
     return false;
 }
@@ -76,30 +76,12 @@ MENISCUS_HD inline bool joins_band(const BlocksView& blocks, std::uint32_t block
 MENISCUS_HD inline bool misses_surface_on_face(const BlocksView& blocks, std::uint32_t block) {
     const int level = blocks.level[block];
     if (level == 0 || level == 3) return false;
-    const int stride = level_stride(level);
     for (int axis = 0; axis < 3; ++axis)
         for (int side = 0; side < 2; ++side) {
             const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, 2 * side - 1));
-            if (blocks.level_or_none(other) <= level) continue;
-            if (!FaceSigns(blocks, side == 1 ? other : block, axis, stride / 2).mixed()) continue;
-            const ClosedCell cell(blocks, block);
-            const int u = (axis + 1) % 3;
-            const int v = (axis + 2) % 3;
-            for (int cv = 0; cv < base_cell_size; cv += stride)
-                for (int cu = 0; cu < base_cell_size; cu += stride) {
-                    int inside = 0;
-                    int corners = 0;
-                    for (int i = 0; i < 9; ++i) {
-                        int point[3];
-                        point[axis] = side * base_cell_size;
-                        point[u] = cu + i % 3 * stride / 2;
-                        point[v] = cv + i / 3 * stride / 2;
-                        const int in = static_cast<int>(cell.inside(blocks, point[0], point[1], point[2]));
-                        inside += in;
-                        if (i % 2 == 0 && i != 4) corners += in;
-                    }
-                    if ((corners == 0 && inside != 0) || (corners == 4 && inside != 9)) return true;
-                }
+            if (blocks.level_or_none(other) > level &&
+                FaceSigns(blocks, side == 1 ? other : block, axis, level_stride(level) / 2).hiding() != 0)
+                return true;
         }
     return false;
 }

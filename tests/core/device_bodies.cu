@@ -49,7 +49,7 @@ __global__ void surface_bodies(BlocksView blocks, const std::uint32_t* counts, c
     const int level = band.may_hold_surface(4, blocks.value(b, 0), 1.0F) ? criterion(blocks, b) : UniformCriterion{}(blocks, b);
     blocks.level[b] = static_cast<std::uint8_t>(level + bends(blocks, b) + BlobRule{}.least_level(0, {1.0F, 0.9F}) + misses_surface_on_face(blocks, b));
     blocks.level[b] = static_cast<std::uint8_t>(balanced_level(blocks, b) + promoted_level(blocks, b));
-    blocks.sampled[b] = corner_points(blocks, b) | edge_middles(blocks, b, 4) | edge_middles(blocks, b, 2);
+    blocks.sampled[b] = corner_points(blocks, b) | edge_middles(blocks, b) | half_edge_middles(blocks, b);
     blocks.inside[b] = domain_points(blocks.coordinate(b), low, high);
     if (joins_band(blocks, b)) blocks.level[b] = 3;
     for (int axis = 0; axis < 3; ++axis) blocks.edges[b].axis[axis] = CrossedEdges(blocks, b, axis).finest();

@@ -132,14 +132,17 @@ void sample_field(Surface& s, FieldSource& field) {
 
 void sample_edge_middles(Surface& s, FieldSource& field) {
     const BlocksView blocks = s.view();
-    for (const int length : {4, 2}) {
-        s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
-            for (std::size_t b = begin; b < end; ++b)
-                s.wanted_points[b] = s.corner_points[b] == 0 || s.sampled[b] == ~BlockMask{0}
-                                         ? 0 : edge_middles(blocks, static_cast<std::uint32_t>(b), length);
-        });
-        sample_wanted_points(s, field);
-    }
+    s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t b = begin; b < end; ++b)
+            s.wanted_points[b] = s.corner_points[b] == 0 || s.sampled[b] == ~BlockMask{0}
+                                     ? 0 : edge_middles(blocks, static_cast<std::uint32_t>(b));
+    });
+    sample_wanted_points(s, field);
+    s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t b = begin; b < end; ++b)
+            s.wanted_points[b] = (s.wanted_points[b] & level1_middles) == 0 ? 0 : half_edge_middles(blocks, static_cast<std::uint32_t>(b));
+    });
+    sample_wanted_points(s, field);
 }
 
 }  // namespace meniscus::cpu
