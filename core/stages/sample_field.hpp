@@ -6,9 +6,17 @@
 #include "lattice/host_device.hpp"
 #include "stages/blocks.hpp"
 #include "stages/face_signs.hpp"
+#include "stages/level_sets.hpp"
 #include "stages/place_vertices.hpp"
 
 namespace meniscus {
+
+/// The blocks that hold corners of cells in the band.
+MENISCUS_HD inline std::uint64_t cells_with_corner_points(const LevelSets& levels, std::uint32_t brick, int w) {
+    std::uint64_t cells = 0;
+    for (int i = 0; i < 8; ++i) cells |= levels.at_least[1].moved(brick, w, {-(i & 1), -(i >> 1 & 1), -(i >> 2)});
+    return cells;
+}
 
 /// The points of a block that the cells around it need as corners: all cells of the band whose closed box holds the point.
 MENISCUS_HD inline BlockMask corner_points(const BlocksView& blocks, std::uint32_t block) {
@@ -69,6 +77,14 @@ MENISCUS_HD inline bool joins_band(const BlocksView& blocks, std::uint32_t block
             if (level != 0 && face_is_mixed(blocks, side == 1 ? other : block, axis, level_stride(level))) return true;
         }
     return false;
+}
+
+/// The cells of the band with a finer face neighbor.
+MENISCUS_HD inline std::uint64_t cells_beside_finer(const LevelSets& levels, std::uint32_t brick, int w) {
+    const std::uint64_t coarse = levels.band(brick, w) & ~levels.is_at_least(3, brick, w);
+    if (coarse == 0) return 0;
+    const std::uint64_t level2 = levels.is_at_least(2, brick, w);
+    return (coarse & ~level2 & levels.beside(2, brick, w)) | (coarse & level2 & levels.beside(3, brick, w));
 }
 
 /// Whether a finer neighbor sees surface on their common face where this cell's own corners show none: its part there would

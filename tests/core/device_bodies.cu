@@ -48,7 +48,6 @@ __global__ void surface_bodies(BlocksView blocks, const std::uint32_t* counts, c
     const CurvatureCriterion bends{cells, 0.15F};
     const int level = band.may_hold_surface(4, blocks.value(b, 0), 1.0F) ? criterion(blocks, b) : UniformCriterion{}(blocks, b);
     blocks.level[b] = static_cast<std::uint8_t>(level + bends(blocks, b) + BlobRule{}.least_level(0, {1.0F, 0.9F}) + misses_surface_on_face(blocks, b));
-    blocks.level[b] = static_cast<std::uint8_t>(balanced_level(blocks, b) + promoted_level(blocks, b));
     blocks.sampled[b] = corner_points(blocks, b) | edge_middles(blocks, b) | half_edge_middles(blocks, b);
     blocks.inside[b] = domain_points(blocks.coordinate(b), low, high);
     if (joins_band(blocks, b)) blocks.level[b] = 3;
@@ -58,6 +57,13 @@ __global__ void surface_bodies(BlocksView blocks, const std::uint32_t* counts, c
     blocks.slots[b] = {count_cell_triangles(blocks, b, cubes), count_crack_triangles(blocks, b, cracks)};
     emit_cell_triangles(blocks, b, cubes, triangles + blocks.slots[b].cells);
     emit_crack_triangles(blocks, b, cracks, triangles + blocks.slots[b].cracks);
+}
+
+__global__ void level_bodies(LevelSets levels, std::uint64_t* raised) {
+    const std::uint32_t brick = blockIdx.x;
+    const int w = static_cast<int>(threadIdx.x);
+    raised[brick * Brick::words + threadIdx.x] = unbalanced_cells(levels, brick, w) | cells_to_promote(levels, brick, w) |
+                                                 cells_with_corner_points(levels, brick, w) | cells_beside_finer(levels, brick, w);
 }
 
 }  // namespace meniscus

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "backends/cpu/clusters.hpp"
-#include "backends/cpu/level_sweep.hpp"
+#include "backends/cpu/raise_levels.hpp"
 #include "backends/cpu/surface.hpp"
 #include "field/lanes.hpp"
 #include "meniscus/error.hpp"
@@ -65,25 +65,44 @@ void sample_block(Surface& s, FieldSource& field, std::uint32_t block, const flo
     if (s.settings.has_domain) s.inside[block] &= domain_points(at, s.settings.domain_low, s.settings.domain_high);
 }
 
+/// The cells of a word for which condition(number) holds.
+template <class Condition>
+std::uint64_t cells_where(const Brick& brick, int w, std::uint64_t cells, const Condition& condition) {
+    std::uint64_t result = 0;
+    for_each_cell(brick, w, cells, [&](std::uint32_t block, int bit) { result |= std::uint64_t{condition(block)} << bit; });
+    return result;
+}
+
 }  // namespace
 
 bool grow_band(Surface& s) {
-    return sweep_levels(s, band_rule, [&s](const BlocksView& blocks, std::uint32_t block) -> int {
-        return blocks.level[block] == 0 && joins_band(blocks, block) ? s.wanted_level[block] : blocks.level[block];
-    });
+    const BlocksView blocks = s.view();
+    const LevelSets levels = s.level_sets();
+    const auto joining = [&](std::uint32_t brick, int w) {
+        std::uint64_t cells = take_stale(s, StaleFor::band, brick, w) & ~levels.band(brick, w);
+        if (cells != 0) cells &= levels.beside(1, brick, w);
+        return cells_where(s.grid.bricks[brick], w, cells, [&](std::uint32_t block) { return joins_band(blocks, block); });
+    };
+    return raise_levels(s, joining, [&s](std::uint32_t block) { return s.wanted_level[block]; });
 }
 
 bool raise_at_slivers(Surface& s) {
-    return sweep_levels(s, sliver_rule, [](const BlocksView& blocks, std::uint32_t block) {
-        return blocks.level[block] + static_cast<int>(misses_surface_on_face(blocks, block));
-    });
+    const BlocksView blocks = s.view();
+    const LevelSets levels = s.level_sets();
+    const auto missing = [&](std::uint32_t brick, int w) {
+        const std::uint64_t cells = take_stale(s, StaleFor::slivers, brick, w) & cells_beside_finer(levels, brick, w);
+        return cells_where(s.grid.bricks[brick], w, cells, [&](std::uint32_t block) { return misses_surface_on_face(blocks, block); });
+    };
+    return raise_levels(s, missing, [&s](std::uint32_t block) { return s.level[block] + 1; });
 }
 
 void sample_corner_points(Surface& s, FieldSource& field) {
     const BlocksView blocks = s.view();
-    s.workers.for_ranges(s.block_count(), 4096, [&](std::size_t begin, std::size_t end, unsigned) {
-        for (std::size_t b = begin; b < end; ++b)
-            if (take_stale(s, b, corner_rule)) s.wanted_points[b] = s.corner_points[b] = corner_points(blocks, static_cast<std::uint32_t>(b));
+    const LevelSets levels = s.level_sets();
+    for_each_word(s, [&](std::uint32_t brick, int w) {
+        std::uint64_t cells = take_stale(s, StaleFor::corner_points, brick, w);
+        if (cells != 0) cells &= cells_with_corner_points(levels, brick, w);
+        for_each_cell(s.grid.bricks[brick], w, cells, [&](std::uint32_t block, int) { s.wanted_points[block] = s.corner_points[block] = corner_points(blocks, block); });
     });
     sample_wanted_points(s, field);
 }

@@ -10,7 +10,6 @@ Surface::Surface(const std::shared_ptr<MemoryAccount>& account, Workers& own_wor
     : workers(own_workers), settings(own_settings), scan(account), grid(account),
       brick(make_array<std::uint32_t>(account)), place(make_array<std::uint16_t>(account)),
       level(make_array<std::uint8_t>(account)), wanted_level(make_array<std::uint8_t>(account)),
-      next_level(make_array<std::uint8_t>(account)), stale(make_array<std::uint8_t>(account)),
       sampled(make_array<BlockMask>(account)),
       inside(make_array<BlockMask>(account)), corner_points(make_array<BlockMask>(account)), wanted_points(make_array<BlockMask>(account)),
       first_sample(make_array<std::uint32_t>(account)), old_first_sample(make_array<std::uint32_t>(account)),
@@ -18,11 +17,19 @@ Surface::Surface(const std::shared_ptr<MemoryAccount>& account, Workers& own_wor
       first_vertex(make_array<std::uint32_t>(account)), slots(make_array<TriangleSlots>(account)),
       samples(make_array<float>(account)), band(make_array<std::uint32_t>(account)),
       has_cracks(make_array<std::uint8_t>(account)),
-      brick_triangles(make_array<std::array<std::uint32_t, triangle_level_count>>(account)) {}
+      brick_triangles(make_array<std::array<std::uint32_t, triangle_level_count>>(account)),
+      at_least{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account)},
+      raised(make_array<std::uint64_t>(account)),
+      stale{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account)} {}
 
 BlocksView Surface::view() {
     return {grid.view(), grid.members, brick.data(), place.data(), level.data(), sampled.data(), inside.data(),
             first_sample.data(), samples.data(), edges.data(), first_vertex.data(), slots.data()};
+}
+
+LevelSets Surface::level_sets() {
+    const BrickGridView cells = grid.view();
+    return {{{}, {cells, at_least[0].data()}, {cells, at_least[1].data()}, {cells, at_least[2].data()}}};
 }
 
 void number_members(BrickGrid& grid, Workers& workers) {
@@ -52,8 +59,6 @@ void store_blocks(Surface& s) {
     resize_for_overwrite(s.place, n);
     resize_for_overwrite(s.level, n);
     resize_for_overwrite(s.wanted_level, n);
-    resize_for_overwrite(s.next_level, n);
-    resize_for_overwrite(s.stale, n);
     resize_for_overwrite(s.sampled, n);
     resize_for_overwrite(s.corner_points, n);
     resize_for_overwrite(s.inside, n);

@@ -1,6 +1,7 @@
 // The state of the surface stages between particles and mesh, and the stages as loops over it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
@@ -11,8 +12,13 @@
 #include "field/lattice_settings.hpp"
 #include "meniscus/mesh.hpp"
 #include "stages/blocks.hpp"
+#include "stages/level_sets.hpp"
 
 namespace meniscus::cpu {
+
+/// What must look again at a cell after a level near it has changed.
+enum class StaleFor : std::uint8_t { corner_points, band, slivers };
+inline constexpr std::array all_rules{StaleFor::corner_points, StaleFor::band, StaleFor::slivers};
 
 struct Surface {
     Surface(const std::shared_ptr<MemoryAccount>& account, Workers& workers, const LatticeSettings& settings);
@@ -27,8 +33,6 @@ struct Surface {
     Array<std::uint16_t> place;
     Array<std::uint8_t> level;
     Array<std::uint8_t> wanted_level;  ///< by the split criterion
-    Array<std::uint8_t> next_level;    ///< equal to `level` between sweeps
-    Array<std::uint8_t> stale;         ///< see level_sweep.hpp
     Array<BlockMask> sampled;
     Array<BlockMask> inside;
     Array<BlockMask> corner_points;  ///< points that cells of the band need as corners; none: nothing to do in this block
@@ -42,9 +46,15 @@ struct Surface {
     Array<std::uint32_t> band;  ///< the blocks of the surface band, ascending
     Array<std::uint8_t> has_cracks;  ///< for each of them, whether any of its faces is to be filled
     Array<std::array<std::uint32_t, triangle_level_count>> brick_triangles;  ///< per brick and level
+    // Sets of base cells, see CellSetView.
+    std::array<Array<std::uint64_t>, 3> at_least;  ///< by level, from 1; follow `level`
+    Array<std::uint64_t> raised;                   ///< while levels are raised
+    std::array<Array<std::uint64_t>, 3> stale;     ///< by rule
     std::uint64_t field_evaluations = 0;
 
     BlocksView view();
+    LevelSets level_sets();
+    CellSetView stale_cells(StaleFor rule) { return {grid.view(), stale[static_cast<std::size_t>(rule)].data()}; }
     std::uint32_t block_count() const { return grid.members; }
 };
 
