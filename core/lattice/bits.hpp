@@ -20,6 +20,15 @@ MENISCUS_HD inline int popcount(std::uint64_t bits) {
 #endif
 }
 
+/// Index of the highest bit that is set; bits != 0.
+MENISCUS_HD inline int highest_bit(std::uint64_t bits) {
+#ifdef __CUDA_ARCH__
+    return 63 - __clzll(static_cast<long long>(bits));
+#else
+    return 63 - std::countl_zero(bits);
+#endif
+}
+
 /// Index of the lowest bit that is set; bits != 0.
 MENISCUS_HD inline int lowest_bit(std::uint64_t bits) {
 #ifdef __CUDA_ARCH__

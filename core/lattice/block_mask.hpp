@@ -21,6 +21,14 @@ MENISCUS_HD constexpr BlockMask low_face(int axis) {
     return axis == 0 ? 0x1111111111111111ULL : axis == 1 ? 0x000F000F000F000FULL : 0x000000000000FFFFULL;
 }
 
+/// The coordinates along an axis that any of the points have, as bits 0 to 3.
+MENISCUS_HD constexpr unsigned occupied_slabs(BlockMask points, int axis) {
+    unsigned slabs = 0;
+    for (int i = 0; i < base_cell_size; ++i)
+        slabs |= static_cast<unsigned>((points & low_face(axis) << (i * bit_step(axis))) != 0) << i;
+    return slabs;
+}
+
 /// Edge of a level's subcell in finest cells: 4, 2, 1 for levels 1, 2, 3.
 MENISCUS_HD constexpr int level_stride(int level) { return 8 >> level; }
 

@@ -21,10 +21,11 @@ public:
     void values(const Int3& base_cell, cpu::PointList& points, float* out, unsigned) override {
         for (std::size_t i = 0; i < points.count; ++i) out[i] = value(base_cell, points.x[i], points.y[i], points.z[i]);
     }
-    void block_values(const Int3& base_cell, float* out, unsigned) override {
-        for (int bit = 0; bit < 64; ++bit) {
+    void block_values(const Int3& base_cell, BlockMask points, float* out, unsigned) override {
+        for (BlockMask left = points; left != 0; left &= left - 1) {
+            const int bit = lowest_bit(left);
             const auto coordinate = [bit](int axis) { return static_cast<float>(point_coordinate(bit, axis) * units_per_cell); };
-            out[bit] = value(base_cell, coordinate(0), coordinate(1), coordinate(2));
+            *out++ = value(base_cell, coordinate(0), coordinate(1), coordinate(2));
         }
     }
     void normals(const Int3&, cpu::PointList& points, float* x, float* y, float* z, unsigned) override {

@@ -31,8 +31,8 @@ class FieldSource {
 public:
     virtual ~FieldSource() = default;
     virtual void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) = 0;
-    /// Those of all 64 points of a block.
-    virtual void block_values(const Int3& base_cell, float* values, unsigned worker) = 0;
+    /// Those of some lattice points of a block, in the order of their bits; `values` has room for 64.
+    virtual void block_values(const Int3& base_cell, BlockMask points, float* values, unsigned worker) = 0;
     /// Unit vectors against the gradient; not-a-numbers where it vanishes.
     virtual void normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) = 0;
 };

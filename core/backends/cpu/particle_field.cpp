@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "backends/cpu/block_points.hpp"
 #include "backends/cpu/clusters.hpp"
 #include "field/sums.hpp"
 #include "stages/curvature.hpp"
@@ -26,6 +27,17 @@ UnitBox box_of(const PointList& points) {
         }
         box.low[axis] = smallest_lane(low);
         box.high[axis] = largest_lane(high);
+    }
+    return box;
+}
+
+/// The smallest box around points of a block.
+UnitBox box_of(BlockMask points) {
+    UnitBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+        const unsigned slabs = occupied_slabs(points, axis);
+        box.low[axis] = static_cast<float>(lowest_bit(slabs) * units_per_cell);
+        box.high[axis] = static_cast<float>(highest_bit(slabs) * units_per_cell);
     }
     return box;
 }
@@ -266,7 +278,18 @@ void ParticleField::values(const Int3& base_cell, PointList& points, float* valu
     sum_points(near_box(base_cell, box_of(points), worker), points, values);
 }
 
-void ParticleField::block_values(const Int3& base_cell, float* values, unsigned worker) {
+void ParticleField::block_values(const Int3& base_cell, BlockMask points, float* values, unsigned worker) {
+    if (points == ~BlockMask{0}) return whole_block_values(base_cell, values, worker);
+    PointList list;
+    for (BlockMask left = points; left != 0; left &= left - 1) {
+        const int bit = lowest_bit(left);
+        list.add(block_points.coordinate[0][bit], block_points.coordinate[1][bit], block_points.coordinate[2][bit]);
+    }
+    pad(list);
+    sum_points(near_box(base_cell, box_of(points), worker), list, values);
+}
+
+void ParticleField::whole_block_values(const Int3& base_cell, float* values, unsigned worker) {
     constexpr float cell = units_per_cell;
     static constexpr float row_x[8] = {0, cell, 2 * cell, 3 * cell, 0, cell, 2 * cell, 3 * cell};
     static constexpr float row_y[8] = {0, 0, 0, 0, cell, cell, cell, cell};

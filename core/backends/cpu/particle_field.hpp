@@ -26,10 +26,11 @@ public:
     void measure_bends(Surface& surface, const Array<CellReach>& reaches, Array<CellBend>& bends);
 
     void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) override;
-    void block_values(const Int3& base_cell, float* values, unsigned worker) override;
+    void block_values(const Int3& base_cell, BlockMask points, float* values, unsigned worker) override;
     void normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) override;
 
 private:
+    void whole_block_values(const Int3& base_cell, float* values, unsigned worker);
     void divide_weights_by_density();
     /// The particles near a cluster, from the last call if it asked for the same one.
     const CandidateLists::Levels& near_cluster(const Int3& base_cell, unsigned worker);

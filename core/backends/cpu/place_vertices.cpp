@@ -6,6 +6,7 @@
 #include <iterator>
 #include <string>
 
+#include "backends/cpu/block_points.hpp"
 #include "backends/cpu/clusters.hpp"
 #include "backends/cpu/surface.hpp"
 #include "field/lanes.hpp"
@@ -34,17 +35,6 @@ private:
     const float* of_ = nullptr;
     float room_[64];
 };
-
-/// A block's points in units.
-struct BlockPoints {
-    float coordinate[3][64];
-};
-constexpr BlockPoints block_points = [] {
-    BlockPoints points{};
-    for (int axis = 0; axis < 3; ++axis)
-        for (int bit = 0; bit < 64; ++bit) points.coordinate[axis][bit] = static_cast<float>(point_coordinate(bit, axis) * units_per_cell);
-    return points;
-}();
 
 /// The vertices of one block, in the order of their numbers. Arrays have room for whole lanes.
 struct BlockVertices {

@@ -13,55 +13,47 @@
 namespace meniscus::cpu {
 namespace {
 
-/// A block's points, in the order of their bits.
-PointList list_points(BlockMask mask) {
-    PointList points;
-    for (BlockMask left = mask; left != 0; left &= left - 1) {
-        const int bit = lowest_bit(left);
-        points.add(static_cast<float>(point_coordinate(bit, 0) * units_per_cell),
-                   static_cast<float>(point_coordinate(bit, 1) * units_per_cell),
-                   static_cast<float>(point_coordinate(bit, 2) * units_per_cell));
+/// Which of a block's sampled points lie above the iso-value.
+BlockMask points_above(BlockMask sampled, const float* samples, float iso) {
+    BlockMask above = 0;
+    if (sampled == ~BlockMask{0}) {
+        for (int i = 0; i < 64; i += Lanes::count) above |= BlockMask{not_above(Lanes::load(samples + i), Lanes(iso))} << i;
+        return ~above;
     }
-    return points;
+    for (BlockMask left = sampled; left != 0; left &= left - 1) above |= BlockMask{*samples++ > iso} << lowest_bit(left);
+    return above;
 }
 
-/// The values of all points of a block. That of the base vertex is found a second time, to the same bits: cheaper than sorting
-/// it in.
-void sample_whole_block(Surface& s, FieldSource& field, std::uint32_t block, const Int3& at, unsigned worker) {
-    float* values = s.samples.data() + s.first_sample[block];
-    field.block_values(at, values, worker);
-    BlockMask outside = 0;
-    for (int i = 0; i < 64; i += Lanes::count)
-        outside |= BlockMask{not_above(Lanes::load(values + i), Lanes(s.settings.iso))} << i;
-    s.inside[block] = ~outside;
-}
-
-/// Values of the missing points of a block, then its samples with old and new ones in the order of the points.
-void sample_missing_points(Surface& s, FieldSource& field, std::uint32_t block, const Int3& at, const float* old_samples, unsigned worker) {
-    const BlockMask known = s.sampled[block];
-    const BlockMask missing = s.wanted_points[block] & ~known;
-    PointList points = list_points(missing);
-    alignas(32) float values[max_points];
-    field.values(at, points, values, worker);
-    float* out = s.samples.data() + s.first_sample[block];
-    const float* fresh = values;
-    for (BlockMask left = known | missing; left != 0; left &= left - 1) {
-        const BlockMask bit = left & (~left + 1);
-        if ((known & bit) != 0) {
-            *out++ = *old_samples++;
-        } else {
-            if (*fresh > s.settings.iso) s.inside[block] |= bit;
-            *out++ = *fresh++;
-        }
-    }
+/// The values of a block's missing points among the known ones, in the order of the points.
+void sample_missing_points(FieldSource& field, const Int3& at, BlockMask known, BlockMask missing, const float* known_samples, float* samples, unsigned worker) {
+    alignas(32) float fresh[64];
+    field.block_values(at, missing, fresh, worker);
+    float by_bit[64];
+    const float* next = fresh;
+    for (BlockMask left = missing; left != 0; left &= left - 1) by_bit[lowest_bit(left)] = *next++;
+    for (BlockMask left = known; left != 0; left &= left - 1) by_bit[lowest_bit(left)] = *known_samples++;
+    for (BlockMask left = known | missing; left != 0; left &= left - 1) *samples++ = by_bit[lowest_bit(left)];
 }
 
 void sample_block(Surface& s, FieldSource& field, std::uint32_t block, const float* old_samples, unsigned worker) {
     const Int3 at = s.view().coordinate(block);
-    const BlockMask sampled = s.wanted_points[block] | s.sampled[block];
-    if (sampled == ~BlockMask{0}) sample_whole_block(s, field, block, at, worker);
-    else sample_missing_points(s, field, block, at, old_samples, worker);
+    const BlockMask known = s.sampled[block];
+    const BlockMask missing = s.wanted_points[block] & ~known;
+    const BlockMask sampled = known | missing;
+    float* samples = s.samples.data() + s.first_sample[block];
+    const auto lanes_for = [](BlockMask points) { return (popcount(points) + Lanes::count - 1) / Lanes::count; };
+    if (sampled == ~BlockMask{0}) {
+        field.block_values(at, sampled, samples, worker);
+    } else if (lanes_for(sampled) == lanes_for(missing)) {
+        // The known points' values come out a second time, to the same bits: cheaper than sorting them in.
+        alignas(32) float values[64];
+        field.block_values(at, sampled, values, worker);
+        std::copy(values, values + popcount(sampled), samples);
+    } else {
+        sample_missing_points(field, at, known, missing, old_samples, samples, worker);
+    }
     s.sampled[block] = sampled;
+    s.inside[block] = points_above(sampled, samples, s.settings.iso);
     if (s.settings.has_domain) s.inside[block] &= domain_points(at, s.settings.domain_low, s.settings.domain_high);
 }
 
