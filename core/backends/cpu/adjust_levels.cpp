@@ -7,8 +7,9 @@ namespace meniscus::cpu {
 
 void levels_are_new(Surface& s) {
     const std::size_t words = s.grid.bricks.size() * Brick::words;
-    for (auto* set : {&s.at_least[0], &s.at_least[1], &s.at_least[2], &s.raised, &s.stale[0], &s.stale[1], &s.stale[2]})
-        resize_for_overwrite(*set, words);
+    for (auto& set : s.at_least) resize_for_overwrite(set, words);
+    for (auto& set : s.stale) resize_for_overwrite(set, words);
+    resize_for_overwrite(s.raised, words);
     const LevelSets levels = s.level_sets();
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b)
@@ -47,8 +48,8 @@ void mark_stale_around(Surface& s, std::uint32_t brick, int w, std::uint64_t cel
 void adjust_levels(Surface& s) {
     const LevelSets levels = s.level_sets();
     const auto one_more = [&](std::uint32_t block) { return s.level[block] + 1; };
-    const auto unbalanced = [&](std::uint32_t brick, int w) { return unbalanced_cells(levels, brick, w); };
-    const auto promoted = [&](std::uint32_t brick, int w) { return cells_to_promote(levels, brick, w); };
+    const auto unbalanced = [&](std::uint32_t brick, int w) { return take_stale(s, StaleFor::balance, brick, w) == 0 ? 0 : unbalanced_cells(levels, brick, w); };
+    const auto promoted = [&](std::uint32_t brick, int w) { return take_stale(s, StaleFor::promotion, brick, w) == 0 ? 0 : cells_to_promote(levels, brick, w); };
     do {
         while (raise_levels(s, unbalanced, one_more)) {}
     } while (raise_levels(s, promoted, one_more));

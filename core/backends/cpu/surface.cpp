@@ -20,7 +20,8 @@ Surface::Surface(const std::shared_ptr<MemoryAccount>& account, Workers& own_wor
       brick_triangles(make_array<std::array<std::uint32_t, triangle_level_count>>(account)),
       at_least{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account)},
       raised(make_array<std::uint64_t>(account)),
-      stale{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account)} {}
+      stale{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account),
+            make_array<std::uint64_t>(account), make_array<std::uint64_t>(account)} {}
 
 BlocksView Surface::view() {
     return {grid.view(), grid.members, brick.data(), place.data(), level.data(), sampled.data(), inside.data(),

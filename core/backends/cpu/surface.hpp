@@ -17,8 +17,8 @@
 namespace meniscus::cpu {
 
 /// What must look again at a cell after a level near it has changed.
-enum class StaleFor : std::uint8_t { corner_points, band, slivers };
-inline constexpr std::array all_rules{StaleFor::corner_points, StaleFor::band, StaleFor::slivers};
+enum class StaleFor : std::uint8_t { balance, promotion, corner_points, band, slivers };
+inline constexpr std::array all_rules{StaleFor::balance, StaleFor::promotion, StaleFor::corner_points, StaleFor::band, StaleFor::slivers};
 
 struct Surface {
     Surface(const std::shared_ptr<MemoryAccount>& account, Workers& workers, const LatticeSettings& settings);
@@ -49,7 +49,7 @@ struct Surface {
     // Sets of base cells, see CellSetView.
     std::array<Array<std::uint64_t>, 3> at_least;  ///< by level, from 1; follow `level`
     Array<std::uint64_t> raised;                   ///< while levels are raised
-    std::array<Array<std::uint64_t>, 3> stale;     ///< by rule
+    std::array<Array<std::uint64_t>, all_rules.size()> stale;     ///< by rule
     std::uint64_t field_evaluations = 0;
 
     BlocksView view();
