@@ -36,8 +36,9 @@ MENISCUS_HD inline BlockMask corner_points(const BlocksView& blocks, std::uint32
 /// The unsampled middles of coarse edges that cross the surface (design: an edge point lies on a finest lattice edge).
 MENISCUS_HD inline BlockMask edge_middles(const BlocksView& blocks, std::uint32_t block) {
     BlockMask wanted = 0;
+    const UsedEdges used(blocks, block);
     for (int axis = 0; axis < 3; ++axis) {
-        const CrossedEdges crossed(blocks, block, axis);
+        const CrossedEdges crossed(blocks, block, used, axis);
         wanted |= crossed.length4 << (2 * bit_step(axis)) | crossed.length2 << bit_step(axis);
     }
     return wanted & ~blocks.sampled[block];
@@ -49,7 +50,8 @@ inline constexpr BlockMask level1_middles = BlockMask{1} << 2 * bit_step(0) | Bl
 /// The unsampled middles of those halves of level-1 edges that cross the surface; needs edge_middles() sampled.
 MENISCUS_HD inline BlockMask half_edge_middles(const BlocksView& blocks, std::uint32_t block) {
     BlockMask wanted = 0;
-    for (int axis = 0; axis < 3; ++axis) wanted |= CrossedEdges(blocks, block, axis).length2_all() << bit_step(axis);
+    const UsedEdges used(blocks, block);
+    for (int axis = 0; axis < 3; ++axis) wanted |= CrossedEdges(blocks, block, used, axis).length2_all() << bit_step(axis);
     return wanted & ~blocks.sampled[block];
 }
 

@@ -51,7 +51,8 @@ __global__ void surface_bodies(BlocksView blocks, const std::uint32_t* counts, c
     blocks.sampled[b] = corner_points(blocks, b) | edge_middles(blocks, b) | half_edge_middles(blocks, b);
     blocks.inside[b] = domain_points(blocks.coordinate(b), low, high);
     if (joins_band(blocks, b)) blocks.level[b] = 3;
-    for (int axis = 0; axis < 3; ++axis) blocks.edges[b].axis[axis] = CrossedEdges(blocks, b, axis).finest();
+    const UsedEdges used(blocks, b);
+    for (int axis = 0; axis < 3; ++axis) blocks.edges[b].axis[axis] = CrossedEdges(blocks, b, used, axis).finest();
     const EdgeValues ends = edge_values(SampledValues{blocks, b}, SampledValues{blocks, b}, 0, 0);
     blocks.samples[b] = ends.cropped(0.6F) ? cropped_offset(true, 6) : interpolated_offset(ends.low, ends.high, 0.6F, 6);
     blocks.slots[b] = {count_cell_triangles(blocks, b, cubes), count_crack_triangles(blocks, b, cracks)};

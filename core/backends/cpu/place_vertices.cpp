@@ -149,9 +149,13 @@ void write_positions(const Int3& at, std::uint32_t bits, const PointList& points
 void number_vertices(Surface& s, Mesh& mesh) {
     const BlocksView blocks = s.view();
     s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
-        for (std::size_t b = begin; b < end; ++b)
-            for (int axis = 0; axis < 3; ++axis)
-                s.edges[b].axis[axis] = s.corner_points[b] == 0 ? 0 : CrossedEdges(blocks, static_cast<std::uint32_t>(b), axis).finest();
+        for (std::size_t b = begin; b < end; ++b) {
+            s.edges[b] = {};
+            if (s.corner_points[b] == 0) continue;
+            const auto block = static_cast<std::uint32_t>(b);
+            const UsedEdges used(blocks, block);
+            for (int axis = 0; axis < 3; ++axis) s.edges[b].axis[axis] = CrossedEdges(blocks, block, used, axis).finest();
+        }
     });
     const std::uint64_t count = s.scan.exclusive(
         s.workers, s.block_count(), [&](std::size_t b) { return static_cast<std::uint64_t>(s.edges[b].count()); },
