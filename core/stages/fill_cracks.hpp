@@ -50,7 +50,7 @@ MENISCUS_HD inline std::uint32_t count_crack_triangles(const BlocksView& blocks,
 
 /// Writes the filling of a fine cell's faces from `out` on.
 MENISCUS_HD inline void emit_crack_triangles(const BlocksView& blocks, std::uint32_t block, const CrackCase* table, Triangle* out) {
-    const CellVertices vertices(blocks, ClosedCell(blocks, block));
+    const ClosedCell cell(blocks, block);
     for_each_crack(blocks, block, [&](const CrackFace& face, int crack_case) {
         const CrackCase& pattern = table[crack_case];
         for (int t = 0; t < pattern.triangles; ++t, ++out)
@@ -64,7 +64,7 @@ MENISCUS_HD inline void emit_crack_triangles(const BlocksView& blocks, std::uint
                 // The patterns are oriented for the fine cell lying up the axis.
                 const int place = face.side == 0 ? corner : 2 - corner;
                 (*out)[static_cast<std::size_t>(place)] =
-                    vertices.on_edge(point[0], point[1], point[2], edge < 6 ? u : v, face.stride);
+                    vertex_on_edge(blocks, cell, point[0], point[1], point[2], edge < 6 ? u : v, face.stride);
             }
     });
 }

@@ -72,35 +72,23 @@ struct CrossedEdges {
     }
 };
 
-/// The vertices on the edges of a closed cell: what numbering them needs of the cell's eight blocks.
-struct CellVertices {
-    BlockMask inside[8];
-    BlockMask edges[8][3];
-    std::uint32_t first[8][3];  ///< number of a block's first vertex along each axis
+/// Number of the vertex on a block's finest edge along an axis, from a point.
+MENISCUS_HD inline std::uint32_t vertex_number(const BlocksView& blocks, std::uint32_t block, int axis, int bit) {
+    const EdgeMasks& edges = blocks.edges[block];
+    int before = popcount(edges.axis[axis] & ((BlockMask{1} << bit) - 1));
+    for (int earlier = 0; earlier < axis; ++earlier) before += popcount(edges.axis[earlier]);
+    return blocks.first_vertex[block] + static_cast<std::uint32_t>(before);
+}
 
-    MENISCUS_HD CellVertices(const BlocksView& blocks, const ClosedCell& cell) {
-        for (int i = 0; i < 8; ++i) {
-            const std::uint32_t block = cell.block[i];
-            if (block == no_index) continue;  // no edge from its points crosses the surface
-            inside[i] = blocks.inside[block];
-            std::uint32_t next = blocks.first_vertex[block];
-            for (int axis = 0; axis < 3; ++axis) {
-                edges[i][axis] = blocks.edges[block].axis[axis];
-                first[i][axis] = next;
-                next += static_cast<std::uint32_t>(popcount(edges[i][axis]));
-            }
-        }
-    }
-    /// Number of the vertex on the edge of this stride that starts at a point of the closed cell (coordinates 0 to 4) and crosses
-    /// the surface.
-    MENISCUS_HD std::uint32_t on_edge(int x, int y, int z, int axis, int stride) const {
-        const int block = x >> 2 | (y >> 2) << 1 | (z >> 2) << 2;
-        int bit = ClosedCell::bit(x, y, z);
-        for (int half = stride / 2 * bit_step(axis); half >= bit_step(axis); half /= 2)
-            if (((inside[block] >> bit ^ inside[block] >> (bit + half)) & 1) == 0) bit += half;
-        return first[block][axis] + static_cast<std::uint32_t>(popcount(edges[block][axis] & ((BlockMask{1} << bit) - 1)));
-    }
-};
+/// Number of the vertex on the edge of this stride that starts at a point of a closed cell (coordinates 0 to 4) and crosses
+/// the surface.
+MENISCUS_HD inline std::uint32_t vertex_on_edge(const BlocksView& blocks, const ClosedCell& cell, int x, int y, int z, int axis, int stride) {
+    const std::uint32_t block = cell.owner(x, y, z);
+    int bit = ClosedCell::bit(x, y, z);
+    for (int half = stride / 2 * bit_step(axis); half >= bit_step(axis); half /= 2)
+        if (((blocks.inside[block] >> bit ^ blocks.inside[block] >> (bit + half)) & 1) == 0) bit += half;
+    return vertex_number(blocks, block, axis, bit);
+}
 
 /// The field values of a block's sampled points; zero where no block is stored.
 struct SampledValues {
