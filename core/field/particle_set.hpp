@@ -52,12 +52,12 @@ struct ParticleSetView {
         const auto above = [this](float v) { return static_cast<std::int64_t>(ceilf(v + support)) - 1; };
         const Int3 low = cell_of(origin.x + below(box.low[0]), origin.y + below(box.low[1]), origin.z + below(box.low[2]));
         const Int3 high = cell_of(origin.x + above(box.high[0]), origin.y + above(box.high[1]), origin.z + above(box.high[2]));
-        cells.for_each_run(low, high, [&](std::uint32_t brick, std::uint32_t cell, std::uint32_t count) {
-            const Int3 corner = cells.bricks[brick].coordinate;
-            const std::int64_t edge = cell_units * brick_size;
-            const float shift[3] = {static_cast<float>(corner.x * edge - origin.x), static_cast<float>(corner.y * edge - origin.y),
-                                    static_cast<float>(corner.z * edge - origin.z)};
-            visit(first[cell], first[cell + count], shift);
+        const std::int64_t edge = cell_units * brick_size;
+        cells.for_each_brick(low, high, [&](const Brick& brick, const Int3& first_cell, const Int3& last_cell) {
+            const float shift[3] = {static_cast<float>(brick.coordinate.x * edge - origin.x), static_cast<float>(brick.coordinate.y * edge - origin.y),
+                                    static_cast<float>(brick.coordinate.z * edge - origin.z)};
+            brick.for_each_run(first_cell, last_cell,
+                               [&](std::uint32_t cell, std::uint32_t count) { visit(first[cell], first[cell + count], shift); });
         });
     }
 

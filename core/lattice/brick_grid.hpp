@@ -52,6 +52,18 @@ struct Brick {
     MENISCUS_HD void clear() {
         for (std::uint64_t& word : occupied) word = 0;
     }
+    /// Calls visit(first number, count) for every run of members in a row along x of the box [low, high] inside the brick, in
+    /// ascending order of their numbers.
+    template <class Visit>
+    MENISCUS_HD void for_each_run(const Int3& low, const Int3& high, Visit&& visit) const {
+        const std::uint64_t span = (std::uint64_t{2} << high.x) - (std::uint64_t{1} << low.x);
+        for (int z = low.z; z <= high.z; ++z)
+            for (int y = low.y; y <= high.y; ++y) {
+                const int row = y << 4 | z << 8;
+                const std::uint64_t members = occupied[row >> 6] >> (row & 63) & span;
+                if (members != 0) visit(number(row | low.x), static_cast<std::uint32_t>(popcount(members)));
+            }
+    }
 };
 
 /// The 27 bricks around one, itself in the middle; no_index where there is none.
@@ -65,17 +77,20 @@ struct BrickGridView {
     const BrickNeighbors* neighbors = nullptr;      ///< present only where neighbor() is used
     std::uint32_t brick_count = 0;
 
+    /// Index of the first brick whose key is not below this one. Without branches, which would be mispredicted.
+    MENISCUS_HD std::uint32_t lower_bound(std::uint64_t key) const {
+        std::uint32_t at = 0;
+        for (std::uint32_t left = brick_count; left != 0; left /= 2) {
+            const std::uint32_t half = (left + 1) / 2;
+            at += half * static_cast<std::uint32_t>(keys[at + half - 1] < key);
+        }
+        return at;
+    }
     /// Index of a brick, or no_index.
     MENISCUS_HD std::uint32_t find(const Int3& brick) const {
         const std::uint64_t key = brick_key(brick);
-        std::uint32_t low = 0;
-        std::uint32_t high = brick_count;
-        while (low < high) {
-            const std::uint32_t middle = low + (high - low) / 2;
-            if (keys[middle] < key) low = middle + 1;
-            else high = middle;
-        }
-        return low < brick_count && keys[low] == key ? low : no_index;
+        const std::uint32_t at = lower_bound(key);
+        return at < brick_count && keys[at] == key ? at : no_index;
     }
 
     /// Number of the member at an offset of -1, 0 or 1 a side from one in this brick; no_index if there is none.
@@ -111,34 +126,23 @@ struct BrickGridView {
         return {first ? number : no_index, (members & 2) != 0 ? number + static_cast<std::uint32_t>(first) : no_index};
     }
 
-    /// Calls visit(brick index, first number, count) for every run of members in a row along x of the box [low, high],
-    /// in ascending order of their numbers.
+    /// Calls visit(brick, low, high) for every brick that the box [low, high] meets, in ascending order, with the part of the box
+    /// inside it.
     template <class Visit>
-    MENISCUS_HD void for_each_run(const Int3& low, const Int3& high, Visit&& visit) const {
+    MENISCUS_HD void for_each_brick(const Int3& low, const Int3& high, Visit&& visit) const {
         const Int3 brick_low = brick_of(low);
         const Int3 brick_high = brick_of(high);
-        Int3 b;
-        for (b.z = brick_low.z; b.z <= brick_high.z; ++b.z)
-            for (b.y = brick_low.y; b.y <= brick_high.y; ++b.y)
-                for (b.x = brick_low.x; b.x <= brick_high.x; ++b.x) {
-                    const std::uint32_t found = find(b);
-                    if (found == no_index) continue;
-                    const Brick& brick = bricks[found];
-                    const int x0 = b.x == brick_low.x ? low.x & 15 : 0;
-                    const int x1 = b.x == brick_high.x ? high.x & 15 : 15;
-                    const int y0 = b.y == brick_low.y ? low.y & 15 : 0;
-                    const int y1 = b.y == brick_high.y ? high.y & 15 : 15;
-                    const int z0 = b.z == brick_low.z ? low.z & 15 : 0;
-                    const int z1 = b.z == brick_high.z ? high.z & 15 : 15;
-                    const std::uint64_t span = (std::uint64_t{2} << x1) - (std::uint64_t{1} << x0);
-                    for (int z = z0; z <= z1; ++z)
-                        for (int y = y0; y <= y1; ++y) {
-                            const int row = y << 4 | z << 8;
-                            const std::uint64_t members = brick.occupied[row >> 6] >> (row & 63) & span;
-                            if (members != 0)
-                                visit(found, brick.number(row | x0), static_cast<std::uint32_t>(popcount(members)));
-                        }
+        constexpr int end = brick_size - 1;
+        for (std::int32_t z = brick_low.z; z <= brick_high.z; ++z)
+            for (std::int32_t y = brick_low.y; y <= brick_high.y; ++y) {
+                const std::uint64_t last = brick_key({brick_high.x, y, z});
+                for (std::uint32_t i = lower_bound(brick_key({brick_low.x, y, z})); i < brick_count && keys[i] <= last; ++i) {
+                    const std::int32_t x = bricks[i].coordinate.x;
+                    visit(bricks[i],
+                          Int3{x == brick_low.x ? low.x & end : 0, y == brick_low.y ? low.y & end : 0, z == brick_low.z ? low.z & end : 0},
+                          Int3{x == brick_high.x ? high.x & end : end, y == brick_high.y ? high.y & end : end, z == brick_high.z ? high.z & end : end});
                 }
+            }
     }
 };
 

@@ -5,6 +5,7 @@
 // lattice points are stored.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "lattice/host_device.hpp"
@@ -36,9 +37,10 @@ inline constexpr std::int64_t max_cell = (std::int64_t{max_base_cell} - 128) * b
 /// Largest kernel support, in cells: keeps every difference that a kernel sees exact in float32.
 inline constexpr int max_support_cells = 256;
 
-MENISCUS_HD constexpr std::int64_t floor_div(std::int64_t a, std::int64_t b) {
-    const std::int64_t q = a / b;
-    return q - ((a % b != 0 && (a < 0) != (b < 0)) ? 1 : 0);
+/// The quotient rounded down; |a| < 2^53, b > 0. In double, which is faster than int64 and as exact: a quotient that is not whole is
+/// at least 1/b below the next whole number, and rounding moves it by less.
+MENISCUS_HD inline std::int64_t floor_div(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(floor(static_cast<double>(a) / static_cast<double>(b)));
 }
 
 /// World coordinate to units; units_per_length = 4096 / c in double.

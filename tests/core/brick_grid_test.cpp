@@ -55,8 +55,10 @@ TEST(BrickGrid, NumbersMembersFindsNeighborsAndRunsAsASortedSetDoes) {
         const Int3 a{place(random), place(random), place(random)}, b{place(random), place(random), place(random)};
         const Int3 low{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}, high{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
         std::vector<std::uint32_t> found, expected;
-        view.for_each_run(low, high, [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
-            for (std::uint32_t i = 0; i < count; ++i) found.push_back(first + i);
+        view.for_each_brick(low, high, [&](const Brick& brick, const Int3& brick_low, const Int3& brick_high) {
+            brick.for_each_run(brick_low, brick_high, [&](std::uint32_t first, std::uint32_t count) {
+                for (std::uint32_t i = 0; i < count; ++i) found.push_back(first + i);
+            });
         });
         for (const auto& [c, n] : members)
             if (c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z && c.z <= high.z) expected.push_back(n);

@@ -6,6 +6,29 @@
 
 namespace meniscus::cpu {
 
+/// The points no farther than `reach` from a box.
+class Candidates::BoxVicinity {
+public:
+    BoxVicinity(const UnitBox& box, float reach) : reach2_(reach * reach) {
+        for (int axis = 0; axis < 3; ++axis) {
+            low_[axis] = Lanes(box.low[axis]);
+            high_[axis] = Lanes(box.high[axis]);
+        }
+    }
+    /// The set of those of eight points that are.
+    unsigned near(Lanes x, Lanes y, Lanes z) const {
+        const Lanes dx = from_box(0, x);
+        const Lanes dy = from_box(1, y);
+        const Lanes dz = from_box(2, z);
+        return not_above(fused(dx, dx, fused(dy, dy, dz * dz)), reach2_);
+    }
+
+private:
+    Lanes from_box(int axis, Lanes p) const { return p - larger(smaller(p, high_[axis]), low_[axis]); }
+
+    Lanes low_[3], high_[3], reach2_;
+};
+
 Candidates::Candidates(const std::shared_ptr<MemoryAccount>& account)
     : x_(make_array<float>(account)), y_(make_array<float>(account)), z_(make_array<float>(account)), weight_(make_array<float>(account)) {}
 
@@ -14,27 +37,29 @@ void Candidates::reserve(std::size_t n) {
     for (Array<float>* a : {&x_, &y_, &z_, &weight_}) a->resize(n);
 }
 
-void Candidates::append_near(const CandidateView& from, const std::array<float, 3>& shift, const UnitBox& box) {
+void Candidates::append_near(const CandidateView& from, const std::array<float, 3>& shift, const BoxVicinity& vicinity) {
     if (count_ + from.count + Lanes::count > x_.size()) reserve(std::max(count_ + from.count + Lanes::count, 2 * x_.size()));
-    const Lanes reach2(reach_ * reach_);
-    const Lanes shift_x(shift[0]), shift_y(shift[1]), shift_z(shift[2]);
-    const auto gap2 = [&box](std::size_t axis, Lanes p) {
-        const Lanes gap = larger(larger(Lanes(box.low[axis]) - p, p - Lanes(box.high[axis])), Lanes(0.0F));
-        return gap * gap;
-    };
+    float* const to_x = x_.data();
+    float* const to_y = y_.data();
+    float* const to_z = z_.data();
+    float* const to_weight = weight_.data();
     std::size_t count = count_;
-    for (std::size_t i = 0; i < from.count; i += Lanes::count) {
-        const Lanes x = Lanes::load(from.x + i) + shift_x;
-        const Lanes y = Lanes::load(from.y + i) + shift_y;
-        const Lanes z = Lanes::load(from.z + i) + shift_z;
-        unsigned near = not_above(gap2(0, x) + gap2(1, y) + gap2(2, z), reach2);
-        if (from.count - i < Lanes::count) near &= (1U << (from.count - i)) - 1;
-        store_set(&x_[count], x, near);
-        store_set(&y_[count], y, near);
-        store_set(&z_[count], z, near);
-        store_set(&weight_[count], Lanes::load(from.weight + i), near);
+    const Lanes shift_x(shift[0]), shift_y(shift[1]), shift_z(shift[2]);
+    const auto append = [&, own = from](std::size_t i, unsigned of) {
+        const Lanes x = Lanes::load(own.x + i) + shift_x;
+        const Lanes y = Lanes::load(own.y + i) + shift_y;
+        const Lanes z = Lanes::load(own.z + i) + shift_z;
+        const unsigned near = vicinity.near(x, y, z) & of;
+        store_set(to_x + count, x, near);
+        store_set(to_y + count, y, near);
+        store_set(to_z + count, z, near);
+        store_set(to_weight + count, Lanes::load(own.weight + i), near);
         count += static_cast<std::size_t>(popcount(near));
-    }
+    };
+    const std::size_t rest = from.count % Lanes::count;
+    const std::size_t whole = from.count - rest;
+    for (std::size_t i = 0; i < whole; i += Lanes::count) append(i, 0xFF);
+    if (rest != 0) append(whole, (1U << rest) - 1);
     count_ = count;
 }
 
@@ -43,9 +68,10 @@ void Candidates::gather(const ParticleSetView& set, const Units3& origin, const 
     reach_ = set.reach();
     inverse_support_ = 1.0F / set.support;
     if (set.cells.brick_count == 0) return;
+    const BoxVicinity vicinity(box, reach_);
     set.for_each_run_near(origin, box, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
         append_near({set.x + begin, set.y + begin, set.z + begin, set.weight + begin, end - begin, inverse_support_},
-                    {shift[0], shift[1], shift[2]}, box);
+                    {shift[0], shift[1], shift[2]}, vicinity);
     });
 }
 
@@ -53,7 +79,7 @@ void Candidates::cull(const Candidates& from, const std::array<float, 3>& shift,
     count_ = 0;
     reach_ = from.reach_;
     inverse_support_ = from.inverse_support_;
-    append_near(from.view(), shift, box);
+    append_near(from.view(), shift, BoxVicinity(box, reach_));
 }
 
 CandidateLists::CandidateLists(const std::shared_ptr<MemoryAccount>& account)

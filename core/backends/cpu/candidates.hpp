@@ -27,8 +27,9 @@ public:
     void reserve(std::size_t n);
 
 private:
+    class BoxVicinity;
     /// Arrays of `from` have room for whole lanes beyond the last particle.
-    void append_near(const CandidateView& from, const std::array<float, 3>& shift, const UnitBox& box);
+    void append_near(const CandidateView& from, const std::array<float, 3>& shift, const BoxVicinity& vicinity);
 
     Array<float> x_, y_, z_, weight_;
     std::size_t count_ = 0;
