@@ -93,7 +93,7 @@ struct BrickGridView {
         return at < brick_count && keys[at] == key ? at : no_index;
     }
 
-    /// Number of the member at an offset of -1, 0 or 1 a side from one in this brick; no_index if there is none.
+    /// Number of the member at an offset from one in this brick, no farther than the bricks around; no_index if there is none.
     MENISCUS_HD std::uint32_t neighbor(std::uint32_t brick, int index, const Int3& offset) const {
         const int x = (index & 15) + offset.x;
         const int y = (index >> 4 & 15) + offset.y;

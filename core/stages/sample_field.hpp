@@ -55,28 +55,26 @@ MENISCUS_HD inline BlockMask half_edge_middles(const BlocksView& blocks, std::ui
     return wanted & ~blocks.sampled[block];
 }
 
-/// Whether a cell of this stride sees both signs on a face. upper: the stored cell whose lower face along the axis this is.
-MENISCUS_HD inline bool face_is_mixed(const BlocksView& blocks, std::uint32_t upper, int axis, int stride) {
+/// Whether a cell's points `stride` apart on its face at one side (0 below, 1 above) along an axis show both signs.
+MENISCUS_HD inline bool face_is_mixed(const BlocksView& blocks, const ClosedCell& cell, int axis, int side, int stride) {
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;
+    const int first = side << axis;
     const BlockMask face = stride_points(stride) & low_face(axis);
-    const BlockMask own = blocks.inside[upper] & face;
+    const BlockMask own = blocks.inside_or_none(cell.block[first]) & face;
     if (own != 0 && own != face) return true;
-    const auto differs = [&](const Int3& offset, BlockMask points) {
-        return ((blocks.inside_or_none(blocks.neighbor(upper, offset)) ^ own) & points) != 0;
-    };
-    return differs(axis_offset(u), face & low_face(u)) || differs(axis_offset(v), face & low_face(v)) ||
-           differs(axis_offset(u) + axis_offset(v), face & low_face(u) & low_face(v));
+    const auto differs = [&](int i, BlockMask points) { return ((blocks.inside_or_none(cell.block[first | i]) ^ own) & points) != 0; };
+    return differs(1 << u, face & low_face(u)) || differs(1 << v, face & low_face(v)) || differs(1 << u | 1 << v, face & low_face(u) & low_face(v));
 }
 
 /// Whether a stored cell outside the band must join it: a neighbor in the band sees both signs on their common face, so that
 /// skipping the cell would leave the mesh open.
 MENISCUS_HD inline bool joins_band(const BlocksView& blocks, std::uint32_t block) {
+    const ClosedCell cell(blocks, block);
     for (int axis = 0; axis < 3; ++axis)
         for (int side = 0; side < 2; ++side) {
-            const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, 2 * side - 1));
-            const int level = blocks.level_or_none(other);
-            if (level != 0 && face_is_mixed(blocks, side == 1 ? other : block, axis, level_stride(level))) return true;
+            const int level = blocks.level_or_none(side == 1 ? cell.block[1 << axis] : blocks.neighbor(block, axis_offset(axis, -1)));
+            if (level != 0 && face_is_mixed(blocks, cell, axis, side, level_stride(level))) return true;
         }
     return false;
 }

@@ -220,9 +220,7 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
         for (std::size_t b = begin; b < end; ++b) {
             const Brick& brick = s.grid.bricks[b];
             for_each_cluster(brick, [&](const Int3& corner) {
-                alignas(32) float corners[8][8], starts[3][8], mixed[8];  // [corner][cell]
                 std::uint32_t block[8];
-                int inside_corners[8] = {};
                 std::uint64_t cells = 0;
                 for (int i = 0; i < 8; ++i) {
                     const Int3 step{i & 1, i >> 1 & 1, i >> 2};
@@ -232,17 +230,31 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
                     const bool in_band = blocks.level_or_none(block[i]) != 0;
                     cells += in_band ? 1 : 0;
                     if (!in_band) block[i] = no_index;
+                }
+                if (cells == 0) return;
+                // The cells share their corners: x + 3 y + 9 z.
+                float vertices[27];
+                unsigned inside_vertices = 0;
+                for (int i = 0; i < 27; ++i) {
+                    const std::uint32_t owner = blocks.grid.neighbor(static_cast<std::uint32_t>(b), index_in_brick(corner), {i % 3, i / 3 % 3, i / 9});
+                    vertices[i] = (owner == no_index ? 0.0F : blocks.value(owner, 0)) - iso;
+                    inside_vertices |= static_cast<unsigned>(blocks.inside_or_none(owner) & 1) << i;
+                }
+                alignas(32) float corners[8][8], starts[3][8], mixed[8];  // [corner][cell]
+                int inside_corners[8];
+                for (int i = 0; i < 8; ++i) {
+                    const Int3 step{i & 1, i >> 1 & 1, i >> 2};
+                    inside_corners[i] = 0;
                     for (int k = 0; k < 8; ++k) {
-                        const std::uint32_t owner = in_band ? blocks.neighbor(block[i], {k & 1, k >> 1 & 1, k >> 2}) : no_index;
-                        corners[k][i] = (owner == no_index ? 0.0F : blocks.value(owner, 0)) - iso;
-                        inside_corners[i] += static_cast<int>(blocks.inside_or_none(owner) & 1);
+                        const int vertex = step.x + (k & 1) + 3 * (step.y + (k >> 1 & 1)) + 9 * (step.z + (k >> 2));
+                        corners[k][i] = vertices[vertex];
+                        inside_corners[i] += static_cast<int>(inside_vertices >> vertex & 1);
                     }
                     mixed[i] = inside_corners[i] != 0 && inside_corners[i] != 8 ? 1.0F : 0.0F;
                     starts[0][i] = static_cast<float>(step.x) * base_edge;
                     starts[1][i] = static_cast<float>(step.y) * base_edge;
                     starts[2][i] = static_cast<float>(step.z) * base_edge;
                 }
-                if (cells == 0) return;
                 evaluations.fetch_add(2 * cells, std::memory_order_relaxed);
                 const Int3 base{brick.coordinate.x * brick_size + corner.x, brick.coordinate.y * brick_size + corner.y,
                                 brick.coordinate.z * brick_size + corner.z};
