@@ -271,10 +271,14 @@ TEST_F(Cli, SimulatesAndWritesParticlesThatItReadsBack) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(std::filesystem::exists(path("meshes/frame_000002.ply")));
     const nlohmann::json last = nlohmann::json::parse(formats::read_file(path("s.json"))).at("frames").at(2);
-    const double radius = 0.025 * std::cbrt(16000.0 / 500.0);
+    const std::string label = "particle radius ";
+    const std::size_t at = result.err.find(label);
+    ASSERT_NE(at, std::string::npos) << result.err;
+    const std::string radius = result.err.substr(at + label.size(), result.err.find('\n', at) - at - label.size());
+    EXPECT_NEAR(std::stod(radius), 0.025 * std::cbrt(16000.0 / 500.0), 1e-6);
     const ProcessResult again =
         run_meniscus({"reconstruct", path("particles/frame_000002.vtk"), "--cell-size", "1", "--positions", "uint16",
-                      "--particle-radius", std::to_string(static_cast<float>(radius)), "--stats", path("again.json")});
+                      "--particle-radius", radius, "--stats", path("again.json")});
     ASSERT_EQ(again.exit_code, 0) << again.err;
     EXPECT_EQ(nlohmann::json::parse(formats::read_file(path("again.json"))).at("particles"), last.at("particles"));
 }
