@@ -35,6 +35,7 @@ void SettingsOptions::add_to(CLI::App& command) {
         .add_option("--bisection-steps", settings.bisection_steps,
                     "With --edge-points bisect: iterations on a finest edge")
         ->capture_default_str();
+    command.add_flag("--normals,!--no-normals", settings.normals, "Whether vertices get normals (the default)");
     command.add_option("--domain", domain, "X0 Y0 Z0 X1 Y1 Z1: crops the surface, world units")->expected(6);
 }
 

@@ -103,7 +103,7 @@ EncodedBrick encode_brick(const Mesh& mesh, std::size_t brick_number, const Codi
     }
     add_attribute(draco_mesh, draco::GeometryAttribute::POSITION, draco::DT_UINT16, positions);
     int normals = -1;
-    if (options.normal_bits != 0) {
+    if (options.normal_bits != 0 && !mesh.normals.empty()) {
         std::vector<Normal> values;
         values.reserve(index.vertices.size());
         for (const std::uint32_t v : index.vertices) values.push_back(mesh.normals[v]);

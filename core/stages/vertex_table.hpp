@@ -35,7 +35,7 @@ public:
     }
 
     /// The vertex on an edge (tables.hpp) of the subcell with this lower corner.
-    MENISCUS_HD std::uint32_t operator()(int bit, int edge) const { return number_[place(bit) + edge_place[edge]]; }
+    MENISCUS_HD std::uint32_t operator()(int bit, int edge) const { return number_[place(bit) + edge_place_.of[edge]]; }
 
 private:
     static constexpr int points_a_side = base_cell_size + 1;
@@ -56,17 +56,17 @@ private:
 
     struct EdgePlaces {
         int of[12];
-        MENISCUS_HD constexpr int operator[](int edge) const { return of[edge]; }
     };
-    static constexpr EdgePlaces edge_place = [] {
+    MENISCUS_HD static constexpr EdgePlaces edge_places() {
         EdgePlaces places{};
         for (int edge = 0; edge < 12; ++edge) {
             const int start = edge_start(edge);
             places.of[edge] = points * (edge >> 2) + (start & 1) + points_a_side * (start >> 1 & 1) + points_a_side * points_a_side * (start >> 2);
         }
         return places;
-    }();
+    }
 
+    EdgePlaces edge_place_ = edge_places();  // a member: device code has no static tables
     std::uint32_t number_[3 * points];  // places that no vertex lies on are never read
 };
 

@@ -99,6 +99,7 @@ Settings from_wire(const v1::Settings& wire) {
     if (wire.has_count_threshold()) settings.count_threshold = wire.count_threshold();
     settings.edge_points = edge_points_from_wire(wire.edge_points());
     if (wire.has_bisection_steps()) settings.bisection_steps = wire.bisection_steps();
+    if (wire.has_normals()) settings.normals = wire.normals();
     if (wire.has_domain()) settings.domain = from_wire(wire.domain(), "settings.domain");
     return settings;
 }
@@ -117,6 +118,7 @@ v1::Settings to_wire(const Settings& settings) {
     wire.set_edge_points(settings.edge_points == EdgePoints::bisect ? v1::EDGE_POINTS_BISECT
                                                                     : v1::EDGE_POINTS_INTERPOLATE);
     wire.set_bisection_steps(settings.bisection_steps);
+    wire.set_normals(settings.normals);
     if (settings.domain) *wire.mutable_domain() = to_wire(*settings.domain);
     return wire;
 }

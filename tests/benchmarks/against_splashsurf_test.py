@@ -39,13 +39,13 @@ def main():
         subprocess.run([sys.executable, script, meniscus, folder, "--splashsurf", stand_in, "--runs", "1", "--tiles", "2", "1",
                         "--out", folder], check=True)
         report = json.loads((folder / "against-splashsurf.json").read_text())
-        frame, large = report["frame_040"], report["large"]
+        speed, frame, large = report["frame_040_speed"], report["frame_040"], report["large"]
         check(report["splashsurf"] == "0.0.0", "the version of splashsurf")
-        check(abs(frame["splashsurf_seconds"] - 0.5) < 1e-6, "the warm time of splashsurf")
-        check(abs(frame["splashsurf_normals_seconds"] - 1.0) < 1e-6, "its warm time with normals")
+        check(abs(speed["splashsurf_seconds"] - 0.5) < 1e-6, "the warm time of splashsurf")
+        check(abs(speed["splashsurf_normals_seconds"] - 1.0) < 1e-6, "its warm time with normals")
         check(0.0 < frame["adaptive_triangles"] <= frame["uniform_triangles"] * 1.1, "triangles of frame 040")
         check(large["particles"] == 4000, "particles of the tiled frame")
-        check(large["uniform_process_bytes"] > large["uniform_peak_bytes"] > 0, "memory")
+        check(large["uniform_process_bytes"] > 1e6, "memory")
         check((folder / "against-splashsurf.md").read_text().count("\n") == 9, "rows of the table")
 
 

@@ -62,6 +62,20 @@ TEST(BrickCoding, KeepsNormalsWithinTwoDegreesAtEightBits) {
     EXPECT_TRUE(round_trip(mesh, {.normal_bits = 0}).normals.empty());
 }
 
+TEST(BrickCoding, SendsAMeshWithoutNormals) {
+    Settings settings = test::default_settings();
+    const auto particles = test::splash(62);
+    const Mesh with = test::reconstruct(settings, particles.frame());
+    settings.normals = false;
+    const Mesh without = test::reconstruct(settings, particles.frame());
+    EXPECT_FALSE(with.normals.empty());
+    EXPECT_TRUE(without.normals.empty());
+    EXPECT_EQ(mesh_sha256(without), mesh_sha256(with));
+    const Mesh received = round_trip(without, {.normal_bits = 8});
+    EXPECT_TRUE(received.normals.empty());
+    EXPECT_EQ(mesh_sha256(received), mesh_sha256(with));
+}
+
 TEST(BrickCoding, RefusesADamagedBrickOrDecodesSomeMesh) {
     const Mesh mesh = test::reconstruct(test::default_settings(), test::splash(63, 6).frame());
     const EncodedBrick whole = encode_brick(mesh, 0);

@@ -29,6 +29,7 @@ TEST(Sessions, KeepEverySetting) {
     chosen.count_threshold = 3;
     chosen.edge_points = EdgePoints::bisect;
     chosen.bisection_steps = 4;
+    chosen.normals = false;
     chosen.domain = Box{.min = {-1.0, -2.0, -3.0}, .max = {4.0, 5.0, 6.0}};
     const std::string id = client::new_session_id();
     running.client.create_session(id, chosen);

@@ -148,7 +148,7 @@ void write_positions(const Int3& at, std::uint32_t bits, const PointList& points
                   corner.z + static_cast<int>(points.z[i] * steps_per_unit)};
 }
 
-void number_vertices(Surface& s, Mesh& mesh) {
+void number_vertices(Surface& s, bool with_normals, Mesh& mesh) {
     const BlocksView blocks = s.view();
     s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b) {
@@ -166,13 +166,13 @@ void number_vertices(Surface& s, Mesh& mesh) {
         throw LimitExceeded("the surface has more than " + std::to_string(no_index) +
                             " vertices, more than can be numbered: use a larger cell size or fewer particles");
     resize_for_overwrite(mesh.vertices, count);
-    resize_for_overwrite(mesh.normals, count);
+    resize_for_overwrite(mesh.normals, with_normals ? count : 0);
 }
 
 }  // namespace
 
 void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& mesh) {
-    number_vertices(s, mesh);
+    number_vertices(s, user.normals, mesh);
     const BlocksView blocks = s.view();
     std::atomic<std::uint64_t> evaluations{0};
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
@@ -192,8 +192,9 @@ void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& 
                 interpolate(blocks, block, s.settings, vertices);
             }
             list_points(vertices, s.settings.offset_bits, points);
-            field.normals(at, points, nx, ny, nz, worker);
             write_positions(at, s.settings.offset_bits, points, mesh.vertices.data() + s.first_vertex[block]);
+            if (!user.normals) return;
+            field.normals(at, points, nx, ny, nz, worker);
             write_normals(blocks, block, s.settings, vertices, nx, ny, nz, mesh.normals.data() + s.first_vertex[block]);
         };
         for (std::size_t brick = begin; brick < end; ++brick) for_each_clustered_member(s.grid.bricks[brick], place_block);

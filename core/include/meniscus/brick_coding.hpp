@@ -17,7 +17,7 @@
 namespace meniscus {
 
 struct CodingOptions {
-    int normal_bits = 8;  ///< 2 to 16 per octahedral component; 0: no normals
+    int normal_bits = 8;  ///< 2 to 16 per octahedral component; 0: no normals. A mesh without normals is sent without
     int speed = 10;       ///< Draco's speed, 0 (smallest) to 10 (fastest)
 };
 

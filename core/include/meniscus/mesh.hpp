@@ -50,7 +50,7 @@ struct Mesh {
     double cell_size = 0.0;              ///< finest cell's edge c, world units
     std::uint32_t offset_bits = 0;       ///< vertices lie on multiples of c / 2^offset_bits
     Array<LatticePosition> vertices;     ///< unique
-    Array<Normal> normals;               ///< unit length, outward, one per vertex
+    Array<Normal> normals;               ///< unit length, outward, one per vertex; empty if Settings::normals is false
     Array<Triangle> triangles;           ///< indices into `vertices`
     std::array<TriangleRange, triangle_level_count> levels{};  ///< into `triangles`
     Array<MeshBrick> bricks;             ///< ordered by coordinate (z, y, x)

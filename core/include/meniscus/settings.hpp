@@ -57,6 +57,8 @@ struct Settings {
     EdgePoints edge_points = EdgePoints::interpolate;
     /// EdgePoints::bisect: iterations on a level-3 edge (one and two more on levels 2 and 1), 1 to 7.
     std::uint32_t bisection_steps = 5;
+    /// Whether vertices get normals, from the field's gradient. Without, a frame is done about a fifth sooner.
+    bool normals = true;
     /// Crops the surface, closed at the border; rounded outward to whole finest cells. None: no limit.
     std::optional<Box> domain;
 
