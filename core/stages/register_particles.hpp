@@ -79,19 +79,30 @@ MENISCUS_HD inline void mark_reached(Brick& brick, float x, float y, float z, fl
     const int z1 = last(z + reach);
     const int y0 = first(y - reach - 1.0F);
     const int y1 = last(y + reach);
+    const int x_low = first(x - (reach + 16.0F));
+    const int x_high = last(x + (reach + 16.0F));
+    if (x_low > x_high) return;
+    // Most particles lie among others: rows that those have marked are passed over, four at a time.
+    const std::uint64_t widest = ((std::uint64_t{2} << x_high) - (std::uint64_t{1} << x_low)) * 0x0001000100010001ULL;
     for (int cz = z0; cz <= z1; ++cz) {
         const float dz = gap(z, cz);
-        for (int cy = y0; cy <= y1; ++cy) {
-            const float dy = gap(y, cy);
-            const float left = reach * reach - dz * dz - dy * dy;
-            if (left < 0.0F) continue;
-            const float span = root(left) + 16.0F;
-            if (x + span < 0.0F) continue;
-            const int x0 = first(x - span);
-            const int x1 = last(x + span);
-            if (x0 > x1) continue;
-            const int row = cy << 4 | cz << 8;
-            brick.occupied[row >> 6] |= ((std::uint64_t{2} << x1) - (std::uint64_t{1} << x0)) << (row & 63);
+        for (int rows = y0 & ~3; rows <= y1; rows += 4) {
+            std::uint64_t& occupied = brick.occupied[rows >> 2 | cz << 2];
+            if ((widest & ~occupied) == 0) continue;
+            const int y_end = y1 < rows + 3 ? y1 : rows + 3;
+            for (int cy = y0 > rows ? y0 : rows; cy <= y_end; ++cy) {
+                const int row = (cy & 3) << 4;
+                if ((widest & ~occupied) >> row << 48 == 0) continue;
+                const float dy = gap(y, cy);
+                const float left = reach * reach - dz * dz - dy * dy;
+                if (left < 0.0F) continue;
+                const float span = root(left) + 16.0F;
+                if (x + span < 0.0F) continue;
+                const int x0 = first(x - span);
+                const int x1 = last(x + span);
+                if (x0 > x1) continue;
+                occupied |= ((std::uint64_t{2} << x1) - (std::uint64_t{1} << x0)) << row;
+            }
         }
     }
 }
