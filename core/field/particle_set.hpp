@@ -46,14 +46,14 @@ struct ParticleSetView {
     /// Calls visit(first particle, one past the last, shift) for runs of particles, in their order, that hold all those within
     /// reach of the box. A particle's position plus shift (x, y, z) is relative to `origin`, a multiple of 16 units.
     template <class Visit>
-    MENISCUS_HD void for_each_run_near(const Units3& origin, const UnitBox& box, Visit&& visit) const {
+    MENISCUS_HD void for_each_run_near(const Units3& origin, const UnitBox& box, BrickGuesses& guesses, Visit&& visit) const {
         // Positions are whole units: one that is a support away or farther along an axis adds exactly zero.
         const auto below = [this](float v) { return static_cast<std::int64_t>(floorf(v - support)); };
         const auto above = [this](float v) { return static_cast<std::int64_t>(ceilf(v + support)) - 1; };
         const Int3 low = cell_of(origin.x + below(box.low[0]), origin.y + below(box.low[1]), origin.z + below(box.low[2]));
         const Int3 high = cell_of(origin.x + above(box.high[0]), origin.y + above(box.high[1]), origin.z + above(box.high[2]));
         const std::int64_t edge = cell_units * brick_size;
-        cells.for_each_brick(low, high, [&](const Brick& brick, const Int3& first_cell, const Int3& last_cell) {
+        cells.for_each_brick(low, high, guesses, [&](const Brick& brick, const Int3& first_cell, const Int3& last_cell) {
             const float shift[3] = {static_cast<float>(brick.coordinate.x * edge - origin.x), static_cast<float>(brick.coordinate.y * edge - origin.y),
                                     static_cast<float>(brick.coordinate.z * edge - origin.z)};
             brick.for_each_run(first_cell, last_cell,
@@ -64,7 +64,8 @@ struct ParticleSetView {
     /// Calls visit(x, y, z) for all particles of those runs, relative to `origin`.
     template <class Visit>
     MENISCUS_HD void for_each_near(const Units3& origin, const UnitBox& box, Visit&& visit) const {
-        for_each_run_near(origin, box, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+        BrickGuesses guesses;
+        for_each_run_near(origin, box, guesses, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
             for (std::uint32_t i = begin; i < end; ++i) visit(x[i] + shift[0], y[i] + shift[1], z[i] + shift[2]);
         });
     }

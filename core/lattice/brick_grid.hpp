@@ -71,25 +71,33 @@ struct BrickNeighbors {
     std::uint32_t brick[27];
 };
 
+/// Any values will do: they cost time where wrong, and nothing else.
+struct BrickGuesses {
+    std::uint32_t row[4] = {};  ///< by the parities of a row's y and z
+};
+
 struct BrickGridView {
     const Brick* bricks = nullptr;
     const std::uint64_t* keys = nullptr;            ///< brick_key of each, ascending
     const BrickNeighbors* neighbors = nullptr;      ///< present only where neighbor() is used
     std::uint32_t brick_count = 0;
 
-    /// Index of the first brick whose key is not below this one. Without branches, which would be mispredicted.
-    MENISCUS_HD std::uint32_t lower_bound(std::uint64_t key) const {
-        std::uint32_t at = 0;
-        for (std::uint32_t left = brick_count; left != 0; left /= 2) {
-            const std::uint32_t half = (left + 1) / 2;
-            at += half * static_cast<std::uint32_t>(keys[at + half - 1] < key);
+    /// Index of the first brick whose key is not below this one. Right at once if it is `guess`.
+    MENISCUS_HD std::uint32_t lower_bound(std::uint64_t key, std::uint32_t guess) const {
+        if (guess < brick_count && keys[guess] >= key && (guess == 0 || keys[guess - 1] < key)) return guess;
+        std::uint32_t low = 0;
+        std::uint32_t high = brick_count;
+        while (low < high) {
+            const std::uint32_t middle = low + (high - low) / 2;
+            if (keys[middle] < key) low = middle + 1;
+            else high = middle;
         }
-        return at;
+        return low;
     }
     /// Index of a brick, or no_index.
     MENISCUS_HD std::uint32_t find(const Int3& brick) const {
         const std::uint64_t key = brick_key(brick);
-        const std::uint32_t at = lower_bound(key);
+        const std::uint32_t at = lower_bound(key, no_index);
         return at < brick_count && keys[at] == key ? at : no_index;
     }
 
@@ -127,16 +135,18 @@ struct BrickGridView {
     }
 
     /// Calls visit(brick, low, high) for every brick that the box [low, high] meets, in ascending order, with the part of the box
-    /// inside it.
+    /// inside it. `guesses` are where the last call found its rows of bricks; one that has not gone far finds them there again.
     template <class Visit>
-    MENISCUS_HD void for_each_brick(const Int3& low, const Int3& high, Visit&& visit) const {
+    MENISCUS_HD void for_each_brick(const Int3& low, const Int3& high, BrickGuesses& guesses, Visit&& visit) const {
         const Int3 brick_low = brick_of(low);
         const Int3 brick_high = brick_of(high);
         constexpr int end = brick_size - 1;
         for (std::int32_t z = brick_low.z; z <= brick_high.z; ++z)
             for (std::int32_t y = brick_low.y; y <= brick_high.y; ++y) {
                 const std::uint64_t last = brick_key({brick_high.x, y, z});
-                for (std::uint32_t i = lower_bound(brick_key({brick_low.x, y, z})); i < brick_count && keys[i] <= last; ++i) {
+                std::uint32_t& guess = guesses.row[(y & 1) | (z & 1) << 1];
+                guess = lower_bound(brick_key({brick_low.x, y, z}), guess);
+                for (std::uint32_t i = guess; i < brick_count && keys[i] <= last; ++i) {
                     const std::int32_t x = bricks[i].coordinate.x;
                     visit(bricks[i],
                           Int3{x == brick_low.x ? low.x & end : 0, y == brick_low.y ? low.y & end : 0, z == brick_low.z ? low.z & end : 0},

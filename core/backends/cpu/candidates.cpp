@@ -69,7 +69,7 @@ void Candidates::gather(const ParticleSetView& set, const Units3& origin, const 
     inverse_support_ = 1.0F / set.support;
     if (set.cells.brick_count == 0) return;
     const BoxVicinity vicinity(box, reach_);
-    set.for_each_run_near(origin, box, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+    set.for_each_run_near(origin, box, guesses_, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
         append_near({set.x + begin, set.y + begin, set.z + begin, set.weight + begin, end - begin, inverse_support_},
                     {shift[0], shift[1], shift[2]}, vicinity);
     });
