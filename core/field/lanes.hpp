@@ -58,6 +58,11 @@ inline void store_set(float* p, Lanes a, unsigned set) {
     const __m256i order = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(lanes_of_set[set].data()));
     _mm256_storeu_ps(p, _mm256_permutevar8x32_ps(a.v, order));
 }
+inline float smallest_lane(Lanes a) {
+    __m128 v = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
+    v = _mm_min_ps(v, _mm_movehl_ps(v, v));
+    return _mm_cvtss_f32(_mm_min_ss(v, _mm_movehdup_ps(v)));
+}
 
 #else
 
@@ -97,16 +102,14 @@ inline unsigned not_above(const Lanes& a, const Lanes& b) {
 inline void store_set(float* p, const Lanes& a, unsigned set) {
     for (std::size_t i = 0; i < Lanes::count; ++i) p[i] = a.v[lanes_of_set[set][i]];
 }
+inline float smallest_lane(const Lanes& a) {
+    float result = a.v[0];
+    for (const float x : a.v) result = x < result ? x : result;
+    return result;
+}
 
 #endif
 
-inline float smallest_lane(Lanes a) {
-    alignas(32) float v[Lanes::count];
-    a.store(v);
-    float result = v[0];
-    for (const float x : v) result = x < result ? x : result;
-    return result;
-}
 inline float largest_lane(Lanes a) { return -smallest_lane(Lanes(0.0F) - a); }
 
 #endif

@@ -65,9 +65,9 @@ void Candidates::append_near(const CandidateView& from, const std::array<float, 
 
 void Candidates::gather(const ParticleSetView& set, const Units3& origin, const UnitBox& box) {
     count_ = 0;
+    if (set.cells.brick_count == 0) return;
     reach_ = set.reach();
     inverse_support_ = 1.0F / set.support;
-    if (set.cells.brick_count == 0) return;
     const BoxVicinity vicinity(box, reach_);
     set.for_each_run_near(origin, box, guesses_, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
         append_near({set.x + begin, set.y + begin, set.z + begin, set.weight + begin, end - begin, inverse_support_},
@@ -77,6 +77,7 @@ void Candidates::gather(const ParticleSetView& set, const Units3& origin, const 
 
 void Candidates::cull(const Candidates& from, const std::array<float, 3>& shift, const UnitBox& box) {
     count_ = 0;
+    if (from.count_ == 0) return;
     reach_ = from.reach_;
     inverse_support_ = from.inverse_support_;
     append_near(from.view(), shift, BoxVicinity(box, reach_));
