@@ -117,39 +117,35 @@ void ParticleField::begin_frame(Field field) {
     for (CandidateLists& lists : lists_) lists.has_cluster = false;
 }
 
+void ParticleField::find_densities(ParticleSet& set, const Brick& brick, unsigned worker) {
+    CandidateLists::Levels& near = lists_[worker].near;
+    // The middle of the brick: float32 then holds the coordinates of all that is near it.
+    const std::int64_t half = set.cell_units * brick_size / 2;
+    const auto middle = static_cast<float>(half);
+    const Units3 origin{(2 * brick.coordinate.x + 1) * half, (2 * brick.coordinate.y + 1) * half, (2 * brick.coordinate.z + 1) * half};
+    PointList points;
+    alignas(32) float out[Lanes::count];
+    // Particles in a row of cells follow one another: they fill the lanes whatever cells they are in.
+    brick.for_each_run({0, 0, 0}, {brick_size - 1, brick_size - 1, brick_size - 1}, [&](std::uint32_t cell, std::uint32_t count) {
+        const std::uint32_t end = set.first[cell + count];
+        for (std::uint32_t begin = set.first[cell]; begin < end; begin += Lanes::count) {
+            points.count = 0;
+            for (std::uint32_t i = begin; i < end && points.count < Lanes::count; ++i) points.add(set.x[i] - middle, set.y[i] - middle, set.z[i] - middle);
+            pad(points);
+            for (std::size_t j = 0; j < particle_level_count; ++j) near[j].gather(sets_[j].view(), origin, box_of(points));
+            sum_points(near, points, out);
+            std::copy(out, out + points.count, set.densities.begin() + begin);
+        }
+    });
+}
+
 void ParticleField::divide_weights_by_density() {
     // A density is a sum of the weights that it will divide: all are computed before any is.
     for (unsigned k = 0; k < particle_level_count; ++k) {
         ParticleSet& set = sets_[k];
         resize_for_overwrite(set.densities, set.count());
-        const BrickGridView grid = set.cells.view();
-        workers_.for_ranges(grid.brick_count, 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
-            CandidateLists::Levels& near = lists_[worker].near;
-            PointList points;
-            alignas(32) float out[max_points];
-            for (std::size_t b = begin; b < end; ++b) {
-                const Brick& brick = grid.bricks[b];
-                std::uint32_t cell = brick.first;
-                for (int w = 0; w < Brick::words; ++w)
-                    for (std::uint64_t left = brick.occupied[w]; left != 0; left &= left - 1, ++cell) {
-                        const int p = 64 * w + lowest_bit(left);
-                        const std::int64_t in_brick[3] = {(p & 15) * set.cell_units, (p >> 4 & 15) * set.cell_units, (p >> 8) * set.cell_units};
-                        const std::int64_t edge = set.cell_units * brick_size;
-                        const Units3 origin{brick.coordinate.x * edge + in_brick[0], brick.coordinate.y * edge + in_brick[1],
-                                            brick.coordinate.z * edge + in_brick[2]};
-                        for (std::uint32_t i = set.first[cell]; i < set.first[cell + 1];) {
-                            const std::uint32_t first = i;
-                            points.count = 0;
-                            for (; i < set.first[cell + 1] && points.count < max_points; ++i)
-                                points.add(set.x[i] - static_cast<float>(in_brick[0]), set.y[i] - static_cast<float>(in_brick[1]),
-                                           set.z[i] - static_cast<float>(in_brick[2]));
-                            pad(points);
-                            for (std::size_t j = 0; j < particle_level_count; ++j) near[j].gather(sets_[j].view(), origin, box_of(points));
-                            sum_points(near, points, out);
-                            std::copy(out, out + points.count, set.densities.begin() + first);
-                        }
-                    }
-            }
+        workers_.for_ranges(set.cells.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+            for (std::size_t b = begin; b < end; ++b) find_densities(set, set.cells.bricks[b], worker);
         });
     }
     for (unsigned k = 0; k < particle_level_count; ++k) {

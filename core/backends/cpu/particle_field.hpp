@@ -32,6 +32,8 @@ public:
 private:
     void whole_block_values(const Int3& base_cell, float* values, unsigned worker);
     void divide_weights_by_density();
+    /// Of the set's particles in one of its bricks.
+    void find_densities(ParticleSet& set, const Brick& brick, unsigned worker);
     /// The particles near a cluster, from the last call if it asked for the same one.
     const CandidateLists::Levels& near_cluster(const Int3& base_cell, unsigned worker);
     const CandidateLists::Levels& near_box(const Int3& base_cell, const UnitBox& box, unsigned worker);
