@@ -124,13 +124,13 @@ void ParticleField::find_densities(ParticleSet& set, const Brick& brick, unsigne
     const auto middle = static_cast<float>(half);
     const Units3 origin{(2 * brick.coordinate.x + 1) * half, (2 * brick.coordinate.y + 1) * half, (2 * brick.coordinate.z + 1) * half};
     PointList points;
-    alignas(32) float out[Lanes::count];
+    alignas(32) float out[2 * Lanes::count];
     // Particles in a row of cells follow one another: they fill the lanes whatever cells they are in.
     brick.for_each_run({0, 0, 0}, {brick_size - 1, brick_size - 1, brick_size - 1}, [&](std::uint32_t cell, std::uint32_t count) {
         const std::uint32_t end = set.first[cell + count];
-        for (std::uint32_t begin = set.first[cell]; begin < end; begin += Lanes::count) {
+        for (std::uint32_t begin = set.first[cell]; begin < end; begin += 2 * Lanes::count) {
             points.count = 0;
-            for (std::uint32_t i = begin; i < end && points.count < Lanes::count; ++i) points.add(set.x[i] - middle, set.y[i] - middle, set.z[i] - middle);
+            for (std::uint32_t i = begin; i < end && points.count < 2 * Lanes::count; ++i) points.add(set.x[i] - middle, set.y[i] - middle, set.z[i] - middle);
             pad(points);
             for (std::size_t j = 0; j < particle_level_count; ++j) near[j].gather(sets_[j].view(), origin, box_of(points));
             sum_points(near, points, out);
