@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "field/lanes.hpp"
+#include "lattice/cell_set.hpp"
 #include "lattice/host_device.hpp"
 #include "meniscus/settings.hpp"
 #include "stages/blocks.hpp"
@@ -79,12 +80,28 @@ struct BandTest {
     /// field (0.85 at the threshold 0.6), infinite for the others.
     float deep_inside = 0.0F;
 
-    /// corners: inside flags of the cell's eight corners. smallest: their smallest value. bound: no field value in
-    /// the cell is above this.
-    MENISCUS_HD bool may_hold_surface(int inside_corners, float smallest, float bound) const {
-        if (inside_corners == 0) return bound > iso * 0.9999F;
-        if (inside_corners == 8) return !(smallest > deep_inside);
-        return true;
+    MENISCUS_HD bool is_deep(float value) const { return value > deep_inside; }
+    /// bound: no field value in the cell is above this.
+    MENISCUS_HD bool may_reach(float bound) const { return bound > iso * 0.9999F; }
+};
+
+/// Base vertices as sets of the cells whose lowest corner they are.
+struct BaseVertexSets {
+    CellSetView inside;
+    CellSetView deep;  ///< those inside that are deep, see BandTest
+};
+
+/// Of the 64 cells of a word.
+struct CornerSets {
+    std::uint64_t any_inside = 0;
+    std::uint64_t all_deep = ~std::uint64_t{0};
+
+    MENISCUS_HD CornerSets(const BaseVertexSets& vertices, std::uint32_t brick, int w) {
+        for (int i = 0; i < 8; ++i) {
+            const Int3 corner{i & 1, i >> 1 & 1, i >> 2};
+            any_inside |= vertices.inside.moved(brick, w, corner);
+            all_deep &= vertices.deep.moved(brick, w, corner);
+        }
     }
 };
 

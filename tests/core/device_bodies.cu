@@ -46,7 +46,7 @@ __global__ void surface_bodies(BlocksView blocks, const std::uint32_t* counts, c
     const CountCriterion criterion{counts, 1, false};
     const BandTest band{0.6F, 0.85F};
     const CurvatureCriterion bends{cells, 0.15F};
-    const int level = band.may_hold_surface(4, blocks.value(b, 0), 1.0F) ? criterion(blocks, b) : UniformCriterion{}(blocks, b);
+    const int level = band.is_deep(blocks.value(b, 0)) || band.may_reach(1.0F) ? criterion(blocks, b) : UniformCriterion{}(blocks, b);
     blocks.level[b] = static_cast<std::uint8_t>(level + bends(blocks, b) + BlobRule{}.least_level(0, {1.0F, 0.9F}) + misses_surface_on_face(blocks, b));
     blocks.sampled[b] = corner_points(blocks, b) | edge_middles(blocks, b) | half_edge_middles(blocks, b);
     blocks.inside[b] = domain_points(blocks.coordinate(b), low, high);
@@ -60,10 +60,11 @@ __global__ void surface_bodies(BlocksView blocks, const std::uint32_t* counts, c
     emit_crack_triangles(blocks, b, cracks, triangles + blocks.slots[b].cracks);
 }
 
-__global__ void level_bodies(LevelSets levels, std::uint64_t* raised) {
+__global__ void level_bodies(LevelSets levels, BaseVertexSets vertices, std::uint64_t* raised) {
     const std::uint32_t brick = blockIdx.x;
     const int w = static_cast<int>(threadIdx.x);
-    raised[brick * Brick::words + threadIdx.x] = unbalanced_cells(levels, brick, w) | cells_to_promote(levels, brick, w) |
+    const CornerSets corners(vertices, brick, w);
+    raised[brick * Brick::words + threadIdx.x] = (corners.any_inside & ~corners.all_deep) | unbalanced_cells(levels, brick, w) | cells_to_promote(levels, brick, w) |
                                                  cells_with_corner_points(levels, brick, w) | cells_beside_finer(levels, brick, w);
 }
 

@@ -1,7 +1,6 @@
 #include "stages/split_cells.hpp"
 
-#include <algorithm>
-
+#include "backends/cpu/raise_levels.hpp"
 #include "backends/cpu/split_cells.hpp"
 
 namespace meniscus::cpu {
@@ -9,18 +8,30 @@ namespace meniscus::cpu {
 void find_band(Surface& s, const Array<CellReach>& reaches) {
     const BlocksView blocks = s.view();
     const BandTest test{s.settings.iso, s.settings.deep_inside};
-    s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
-        for (std::size_t b = begin; b < end; ++b) {
-            const auto block = static_cast<std::uint32_t>(b);
-            const ClosedCell cell(blocks, block);
-            int inside_corners = 0;
-            float smallest = blocks.value(block, 0);
-            for (const std::uint32_t corner : cell.block) {
-                inside_corners += static_cast<int>(blocks.inside_or_none(corner) & 1);
-                smallest = std::min(smallest, corner == no_index ? 0.0F : blocks.value(corner, 0));
+    for (auto* set : {&s.base_inside, &s.base_deep}) resize_for_overwrite(*set, s.grid.bricks.size() * Brick::words);
+    const BaseVertexSets vertices{{s.grid.view(), s.base_inside.data()}, {s.grid.view(), s.base_deep.data()}};
+    // All words: those without a member are neighbors of others.
+    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t b = begin; b < end; ++b)
+            for (int w = 0; w < Brick::words; ++w) {
+                const auto brick = static_cast<std::uint32_t>(b);
+                std::uint64_t inside = 0;
+                std::uint64_t deep = 0;
+                for_each_cell(s.grid.bricks[b], w, s.grid.bricks[b].occupied[w], [&](std::uint32_t block, int bit) {
+                    inside |= (s.inside[block] & 1) << bit;
+                    deep |= std::uint64_t{test.is_deep(blocks.value(block, 0))} << bit;
+                });
+                vertices.inside.word(brick, w) = inside;
+                vertices.deep.word(brick, w) = inside & deep;
             }
-            s.level[b] = test.may_hold_surface(inside_corners, smallest, reaches[b].bound) ? 1 : 0;
-        }
+    });
+    for_each_word(s, [&](std::uint32_t brick, int w) {
+        const CornerSets corners(vertices, brick, w);
+        for_each_cell(s.grid.bricks[brick], w, s.grid.bricks[brick].occupied[w], [&](std::uint32_t block, int bit) {
+            const bool any_inside = (corners.any_inside >> bit & 1) != 0;
+            const bool all_deep = (corners.all_deep >> bit & 1) != 0;
+            s.level[block] = (any_inside ? !all_deep : test.may_reach(reaches[block].bound)) ? 1 : 0;
+        });
     });
 }
 

@@ -18,6 +18,7 @@ Surface::Surface(const std::shared_ptr<MemoryAccount>& account, Workers& own_wor
       samples(make_array<float>(account)), band(make_array<std::uint32_t>(account)),
       has_cracks(make_array<std::uint8_t>(account)),
       brick_triangles(make_array<std::array<std::uint32_t, triangle_level_count>>(account)),
+      base_inside(make_array<std::uint64_t>(account)), base_deep(make_array<std::uint64_t>(account)),
       at_least{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account)},
       raised(make_array<std::uint64_t>(account)),
       stale{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account),

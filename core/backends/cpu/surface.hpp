@@ -47,6 +47,7 @@ struct Surface {
     Array<std::uint8_t> has_cracks;  ///< for each of them, whether any of its faces is to be filled
     Array<std::array<std::uint32_t, triangle_level_count>> brick_triangles;  ///< per brick and level
     // Sets of base cells, see CellSetView.
+    Array<std::uint64_t> base_inside, base_deep;   ///< see BaseVertexSets
     std::array<Array<std::uint64_t>, 3> at_least;  ///< by level, from 1; follow `level`
     Array<std::uint64_t> raised;                   ///< while levels are raised
     std::array<Array<std::uint64_t>, all_rules.size()> stale;     ///< by rule
