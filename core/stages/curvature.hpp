@@ -80,10 +80,11 @@ MENISCUS_HD inline Point3<F> clamped_to_cell(const Point3<F>& p, const Point3<F>
             curvature_detail::clamped(p.z, corner.z, corner.z + edge)};
 }
 
-/// The larger principal curvature of the field's level set, absolute, per unit: the largest |eigenvalue| of the Hessian's
-/// tangential part over the length of the gradient. Large, not infinite, where the gradient vanishes.
+/// How much the surface bends near a point of a jet: both its principal curvatures, absolute, added; per unit. Those of the point's
+/// own level set are the eigenvalues of the Hessian's tangential part over the length of the gradient. Level sets are taken as
+/// parallel: the surface's radii of curvature differ from these by its distance, which tells a drop's size from outside of it.
 template <class F>
-MENISCUS_HD inline F principal_curvature(const FieldJet<F>& j) {
+MENISCUS_HD inline F total_curvature(const FieldJet<F>& j, float iso) {
     const F size = larger(root(fused(j.x, j.x, fused(j.y, j.y, j.z * j.z))), F(1e-15F));
     const F nx = j.x / size, ny = j.y / size, nz = j.z / size;
     const F hx = fused(j.xx, nx, fused(j.xy, ny, j.xz * nz));
@@ -97,14 +98,20 @@ MENISCUS_HD inline F principal_curvature(const FieldJet<F>& j) {
                             fused(ny, fused(cxy, nx, fused(cyy, ny, cyz * nz)), nz * fused(cxz, nx, fused(cyz, ny, czz * nz))));
     const F half = F(0.5F) * trace;
     const F spread = root(larger(half * half - product, F(0.0F)));
-    return (larger(half, F(0.0F) - half) + spread) / size;
+    const F climb = (F(iso) - j.value) / size;  // the surface's distance along the gradient
+    const auto curvature = [&](F eigenvalue) {
+        // Within a factor of 2: a gradient that almost vanishes tells neither distance nor radius.
+        const F gap = curvature_detail::clamped(fused(eigenvalue, climb, size), F(0.5F) * size, F(2.0F) * size);
+        return larger(eigenvalue, F(0.0F) - eigenvalue) / gap;
+    };
+    return curvature(half + spread) + curvature(half - spread);
 }
 
 /// What a search for the surface in a cell found.
 template <class F>
 struct SurfaceSearch {
-    F curvature;  ///< per unit, at the point found
-    F inside;     ///< distance of that point from the cell's nearest face, units; negative if it left the cell
+    F curvature;  ///< see total_curvature
+    F inside;     ///< distance of the point found from the cell's nearest face, units; negative if it left the cell
 };
 
 /// Looks for the surface in a cell: from the trilinear root where the corners' signs are mixed (1), from the middle where they
@@ -123,7 +130,7 @@ MENISCUS_HD inline SurfaceSearch<F> search_surface(const CellCorners<F>& corners
     const auto depth = [&](F v, F low) { return F(0.0F) - larger(low - v, v - (low + edge)); };
     const F depth_x = depth(end.x, corner.x), depth_y = depth(end.y, corner.y), depth_z = depth(end.z, corner.z);
     const F depth_xy = F(0.0F) - larger(F(0.0F) - depth_x, F(0.0F) - depth_y);
-    return {principal_curvature(jet), F(0.0F) - larger(F(0.0F) - depth_xy, F(0.0F) - depth_z)};
+    return {total_curvature(jet, iso), F(0.0F) - larger(F(0.0F) - depth_xy, F(0.0F) - depth_z)};
 }
 
 }  // namespace meniscus

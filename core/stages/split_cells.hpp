@@ -34,12 +34,13 @@ struct UniformCriterion {
 
 /// What is known of the surface in a cell of the band before it is sampled; zeros outside of the band.
 struct CellBend {
-    float curvature;  ///< times c
+    float curvature;  ///< both principal curvatures, absolute, added; times c
     int least_level;  ///< for what curvature does not tell: a surface that no corner shows
 };
 
-/// A cell of edge s departs from a surface of curvature k by k s^2 / 8, which may be at most `tolerance` cells. A cell bends
-/// at least half as much as its face neighbors, so that levels do not fall off faster than the surface calms.
+/// A face of edge s that is blended between its corners departs from a surface of principal curvatures k and m by
+/// (|k| + |m|) s^2 / 12 in the mean, which may be at most `tolerance` cells. A cell bends at least half as much as its face
+/// neighbors, so that levels do not fall off faster than the surface calms.
 struct CurvatureCriterion {
     const CellBend* cells = nullptr;  ///< per block
     float tolerance = 0.15F;          ///< in cells
@@ -51,7 +52,7 @@ struct CurvatureCriterion {
                 const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, side));
                 if (other != no_index) curvature = larger(curvature, 0.5F * cells[other].curvature);
             }
-        const int level = curvature * 2.0F <= tolerance ? 1 : curvature * 0.5F <= tolerance ? 2 : 3;
+        const int level = curvature * 4.0F <= 3.0F * tolerance ? 1 : curvature <= 3.0F * tolerance ? 2 : 3;
         // A cell that joins the band later holds surface that its corners do not show.
         const int least = blocks.level[block] == 0 ? 2 : cells[block].least_level;
         return level > least ? level : least;

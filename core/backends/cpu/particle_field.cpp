@@ -13,6 +13,8 @@ namespace meniscus::cpu {
 namespace {
 
 constexpr float base_edge = units_per_base_cell;
+/// A surface this near outside of a cell bends for the cell's neighbors, whose own search may meet a calmer part of it.
+constexpr float surface_margin = 0.5F * units_per_cell;
 
 /// The smallest box around padded points.
 UnitBox box_of(const PointList& points) {
@@ -271,7 +273,8 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
                     if (block[i] == no_index) continue;
                     const bool agree = mixed[i] == 0.0F;
                     const bool hidden = agree && inside[i] >= 0.0F;
-                    bends[block[i]].curvature = agree && !hidden ? 0.0F : curvature[i] * units_per_cell;
+                    const bool touched = inside[i] >= -surface_margin;
+                    bends[block[i]].curvature = agree && !touched ? 0.0F : curvature[i] * units_per_cell;
                     bends[block[i]].least_level = std::max(hidden ? 2 : 1, blobs.least_level(inside_corners[i], reaches[block[i]]));
                 }
             });

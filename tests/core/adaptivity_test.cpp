@@ -1,0 +1,131 @@
+// The adaptive surface against the uniform one: near everywhere, and nothing lost.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "compare/comparison.hpp"
+#include "meniscus/mesh.hpp"
+#include "stages/curvature.hpp"
+#include "support/particles.hpp"
+
+namespace meniscus {
+namespace {
+
+std::vector<compare::Point> world_positions(const Mesh& mesh) {
+    std::vector<compare::Point> positions;
+    for (const LatticePosition& p : mesh.vertices) positions.push_back(mesh.world(p));
+    return positions;
+}
+
+/// Of the adaptive surface (a) and the uniform one (b).
+compare::Comparison compare_modes(const test::Particles& particles, double tolerance) {
+    Settings settings = test::default_settings();
+    settings.tolerance = tolerance;
+    const Mesh adaptive = test::reconstruct(settings, particles.frame());
+    settings.mode = Mode::uniform;
+    const Mesh uniform = test::reconstruct(settings, particles.frame());
+    const std::vector<compare::Point> a = world_positions(adaptive), b = world_positions(uniform);
+    return compare::compare_surfaces({a, adaptive.triangles}, {b, uniform.triangles}, 20'000);
+}
+
+double cell_size() { return world_cell_size(test::default_settings()); }
+
+/// Drops too far apart to meet, anywhere between the lattice's points.
+test::Particles lone_drops(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> offset(0.0F, 4.0F);
+    test::Particles particles;
+    for (int i = 0; i < 64; ++i) {
+        const float x = static_cast<float>(i % 4 * 10) + offset(random);
+        const float y = static_cast<float>(i / 4 % 4 * 10) + offset(random);
+        const float z = static_cast<float>(i / 16 * 10) + offset(random);
+        particles.add(0.025F * x, 0.025F * y, 0.025F * z);
+    }
+    return particles;
+}
+
+/// A block of particles just far enough apart that the field between them is near the iso-value: small holes all over.
+test::Particles loose_block(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> jitter(-0.3F, 0.3F);
+    const float spacing = 2.2F * 0.025F;
+    test::Particles particles;
+    for (int i = 0; i < 1000; ++i) {
+        const float x = static_cast<float>(i % 10) + jitter(random);
+        const float y = static_cast<float>(i / 10 % 10) + jitter(random);
+        const float z = static_cast<float>(i / 100) + jitter(random);
+        particles.add(spacing * x, spacing * y, spacing * z);
+    }
+    return particles;
+}
+
+test::Particles random_cloud(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> place(0.0F, 0.4F);
+    test::Particles particles;
+    for (int i = 0; i < 200; ++i) {
+        const float x = place(random), y = place(random), z = place(random);
+        particles.add(x, y, z);
+    }
+    return particles;
+}
+
+void expect_near(const test::Particles& particles) {
+    const compare::DistanceSummary distance = compare_modes(particles, 0.15).distance();
+    EXPECT_LE(distance.rms, 0.1 * cell_size());
+    EXPECT_LE(distance.percentile_99, 0.25 * cell_size());
+}
+
+TEST(Adaptivity, LoneDropsAreNearTheUniformOnesWhereverTheyLie) {
+    for (unsigned seed = 0; seed < 4; ++seed) expect_near(lone_drops(seed));
+}
+
+TEST(Adaptivity, ACubeOfEightDropsIsNearTheUniformOneWhereverItLies) {
+    for (int shift = 0; shift < 8; ++shift) {
+        test::Particles cube;
+        for (int i = 0; i < 8; ++i) {
+            const float at = 0.0125F * static_cast<float>(shift);
+            cube.add(0.05F * static_cast<float>(i & 1) + at, 0.05F * static_cast<float>(i >> 1 & 1) + at, 0.05F * static_cast<float>(i >> 2) + at);
+        }
+        SCOPED_TRACE(shift);
+        expect_near(cube);
+    }
+}
+
+void expect_nothing_lost(const test::Particles& particles) {
+    const compare::Comparison comparison = compare_modes(particles, 0.25);
+    EXPECT_TRUE(comparison.b.missing(cell_size()).empty());
+    EXPECT_TRUE(comparison.a.defects.closed());
+}
+
+TEST(Adaptivity, NoPartOfARandomCloudIsLost) {
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        SCOPED_TRACE(seed);
+        expect_nothing_lost(random_cloud(seed));
+    }
+}
+
+TEST(Adaptivity, NoHoleOfALooseBlockIsLost) {
+    for (const unsigned seed : {1U, 20U, 79U, 215U}) {
+        SCOPED_TRACE(seed);
+        expect_nothing_lost(loose_block(seed));
+    }
+}
+
+TEST(Adaptivity, ADropsCurvatureIsToldFromOutsideOfIt) {
+    const float support = 8.0F * units_per_cell;
+    const float radius = 0.28F * support;
+    const auto jet_at = [&](float distance) {
+        FieldJet<float> jet;
+        add_jet(jet, 0.6F * distance, 0.8F * distance, 0.0F, 1.0F, 1.0F / support);
+        return jet;
+    };
+    const float iso = jet_at(radius).value;
+    for (float distance = 0.7F * radius; distance < 1.65F * radius; distance += 0.1F * radius)
+        EXPECT_NEAR(total_curvature(jet_at(distance), iso) * radius, 2.0F, 0.2F) << distance / radius;
+}
+
+}  // namespace
+}  // namespace meniscus
