@@ -11,7 +11,7 @@ void MemoryAccount::charge(std::size_t bytes) {
     const std::size_t now = bytes_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
     if (limit_ != 0 && now > limit_) {
         bytes_.fetch_sub(bytes, std::memory_order_relaxed);
-        throw LimitExceeded("the reconstruction would hold " + std::to_string(now) + " bytes, more than its limit of " +
+        throw LimitExceeded("the reconstruction would hold " + std::to_string(now) + " bytes " + place_ + ", more than its limit of " +
                             std::to_string(limit_) + ": use a larger cell size, fewer particles or a higher memory limit");
     }
     allocations_.fetch_add(1, std::memory_order_relaxed);

@@ -21,45 +21,46 @@ void Mesh::clear() {
 
 std::string_view version() { return MENISCUS_VERSION; }
 
-BackendDescription describe_backend(Backend choice) {
-    const std::string without_gpu = cuda::why_unavailable();
-    if (choice == Backend::cuda) throw InvalidInput("the CUDA backend cannot be used: " + without_gpu);
+BackendDescription describe_backend(Backend choice, int device) {
+    const std::string without_gpu = cuda::why_unavailable(device);
+    if (choice == Backend::cuda && !without_gpu.empty()) throw InvalidInput("the CUDA backend cannot be used: " + without_gpu);
+    const char* const asked_for = "asked for";
+    if (choice != Backend::cpu && without_gpu.empty())
+        return {Backend::cuda, "cuda", cuda::device_name(device), choice == Backend::cuda ? asked_for : "a usable GPU"};
     require_supported_processor();
-    return {Backend::cpu, "cpu", processor_name(), choice == Backend::cpu ? "asked for" : without_gpu};
+    return {Backend::cpu, "cpu", processor_name(), choice == Backend::cpu ? asked_for : without_gpu};
 }
 
 class Reconstructor::Impl {
 public:
     Impl(const Settings& settings, const BackendOptions& options)
-        : settings_(checked(settings)), account_(std::make_shared<MemoryAccount>(options.memory_limit)) {
-        describe_backend(options.backend);
-        threads_ = options.threads;
-        backend_ = cpu::make_reconstruction(settings_, threads_, account_);
+        : settings_(checked(settings)), options_(options), account_(std::make_shared<MemoryAccount>(options.memory_limit)),
+          device_account_(std::make_shared<MemoryAccount>(options.device_memory_limit, "on the GPU")) {
+        options_.backend = describe_backend(options.backend, options.device).backend;
+        make_backend();
     }
 
     void reconstruct(const ParticleFrame& frame, Mesh& mesh) {
         mesh.clear();
-        statistics_ = {};
-        validate(frame, settings_);
+        begin(frame);
         adopt(mesh);
-        const std::uint64_t allocations = account_->allocations();
-        const auto start = std::chrono::steady_clock::now();
         try {
-            backend_->reconstruct(frame, mesh, statistics_);
+            measure(frame, [&] { backend_->reconstruct(frame, mesh, statistics_); });
         } catch (...) {
-            // The arrays may have grown up to the limit: give them back, so that a smaller frame finds room.
             mesh = {};
-            backend_ = cpu::make_reconstruction(settings_, threads_, account_);
             throw;
         }
-        statistics_.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        statistics_.particles = frame.count();
         statistics_.vertices = mesh.vertices.size();
-        statistics_.triangles = mesh.triangles.size();
-        for (std::size_t level = 0; level < triangle_level_count; ++level)
-            statistics_.triangles_by_level[level] = mesh.levels[level].count;
-        statistics_.peak_bytes = account_->peak_bytes();
-        statistics_.allocations = account_->allocations() - allocations;
+        count(mesh.triangles.size(), mesh.levels);
+    }
+
+    DeviceMesh reconstruct_on_device(const ParticleFrame& frame) {
+        begin(frame);
+        DeviceMesh mesh;
+        measure(frame, [&] { mesh = backend_->reconstruct_on_device(frame, statistics_); });
+        statistics_.vertices = mesh.vertex_count;
+        count(mesh.triangle_count, mesh.levels);
+        return mesh;
     }
 
     const Statistics& statistics() const { return statistics_; }
@@ -69,6 +70,43 @@ private:
     static const Settings& checked(const Settings& settings) {
         validate(settings);
         return settings;
+    }
+
+    void make_backend() {
+        backend_ = options_.backend == Backend::cuda ? cuda::make_reconstruction(settings_, options_.device, account_, device_account_)
+                                                     : cpu::make_reconstruction(settings_, options_.threads, account_);
+    }
+
+    void begin(const ParticleFrame& frame) {
+        statistics_ = {};
+        validate(frame, settings_);
+        if (!backend_) make_backend();
+    }
+
+    /// Times a call to the backend, and counts memory.
+    template <class Call>
+    void measure(const ParticleFrame& frame, const Call& call) {
+        const auto allocations = [&] { return account_->allocations() + device_account_->allocations(); };
+        const std::uint64_t before = allocations();
+        const auto start = std::chrono::steady_clock::now();
+        try {
+            call();
+        } catch (...) {
+            // The arrays may have grown up to the limit, or a device may have failed: the next frame begins afresh.
+            backend_.reset();
+            throw;
+        }
+        statistics_.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        statistics_.particles = frame.count();
+        statistics_.peak_bytes = account_->peak_bytes();
+        statistics_.device_bytes = device_account_->bytes();
+        statistics_.device_peak_bytes = device_account_->peak_bytes();
+        statistics_.allocations = allocations() - before;
+    }
+
+    void count(std::size_t triangles, const std::array<TriangleRange, triangle_level_count>& levels) {
+        statistics_.triangles = triangles;
+        for (std::size_t level = 0; level < triangle_level_count; ++level) statistics_.triangles_by_level[level] = levels[level].count;
     }
 
     /// A mesh that is new here is charged to this reconstructor's account from now on.
@@ -84,9 +122,10 @@ private:
     }
 
     Settings settings_;
+    BackendOptions options_;
     std::shared_ptr<MemoryAccount> account_;
-    unsigned threads_ = 0;
-    std::unique_ptr<BackendReconstruction> backend_;
+    std::shared_ptr<MemoryAccount> device_account_;
+    std::unique_ptr<BackendReconstruction> backend_;  ///< none after a failure
     Statistics statistics_;
 };
 
@@ -97,6 +136,7 @@ Reconstructor::Reconstructor(Reconstructor&&) noexcept = default;
 Reconstructor& Reconstructor::operator=(Reconstructor&&) noexcept = default;
 
 void Reconstructor::reconstruct(const ParticleFrame& frame, Mesh& mesh) { impl_->reconstruct(frame, mesh); }
+DeviceMesh Reconstructor::reconstruct_on_device(const ParticleFrame& frame) { return impl_->reconstruct_on_device(frame); }
 const Statistics& Reconstructor::statistics() const { return impl_->statistics(); }
 const Settings& Reconstructor::settings() const { return impl_->settings(); }
 

@@ -1,10 +1,12 @@
-// What the reconstructor asks of a backend. The CPU's stands beside it; a GPU's will.
+// What the reconstructor asks of a backend: the CPU's and CUDA's stand beside it.
 #pragma once
 
 #include <array>
 #include <chrono>
 #include <memory>
 
+#include "meniscus/device_mesh.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
@@ -17,6 +19,10 @@ public:
     virtual ~BackendReconstruction() = default;
     /// The frame is valid. Fills the mesh and every figure of the statistics but memory and total time.
     virtual void reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) = 0;
+    /// The same, but the mesh stays where it is until the next call.
+    virtual DeviceMesh reconstruct_on_device(const ParticleFrame&, Statistics&) {
+        throw InvalidInput("the CPU backend has no mesh on a GPU: use reconstruct(), or Backend::cuda");
+    }
 };
 
 /// Charges the time until the next call, or its own end, to a stage.
@@ -53,5 +59,11 @@ namespace cpu {
 std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, unsigned threads,
                                                            const std::shared_ptr<MemoryAccount>& account);
 }  // namespace cpu
+
+namespace cuda {
+/// device_account: of the memory on the GPU. Throws DeviceError if the device does not answer.
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, int device, const std::shared_ptr<MemoryAccount>& account,
+                                                           const std::shared_ptr<MemoryAccount>& device_account);
+}  // namespace cuda
 
 }  // namespace meniscus

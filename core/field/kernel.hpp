@@ -2,6 +2,8 @@
 // W(q) / W0 = max(1 - q, 0)^3 - 4 max(1/2 - q, 0)^3, q = distance / h, W0 = 16 / (pi h^3).
 #pragma once
 
+#include <cmath>
+
 #include "field/lanes.hpp"
 #include "lattice/host_device.hpp"
 
@@ -22,6 +24,12 @@ MENISCUS_HD inline F cubic_spline_slope(F q) {
     const F a = larger(F(1.0F) - q, F(0.0F));
     const F b = larger(F(0.5F) - q, F(0.0F));
     return fused(F(12.0F) * b, b, F(-3.0F) * (a * a));
+}
+
+/// 1 / h, not rounded below, so that the kernel is exactly zero from a distance of h on.
+inline float inverse_support(float support) {
+    const float inverse = 1.0F / support;
+    return fused(inverse, support, -1.0F) < 0.0F ? std::nextafter(inverse, 1.0F) : inverse;
 }
 
 template <class F>

@@ -59,6 +59,15 @@ MENISCUS_HD inline void sum_gradients(const CandidateView& c, F x, F y, F z, F& 
         add_gradient(gx, gy, gz, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]), c.weight[j] * c.inverse_support, c.inverse_support);
 }
 
+/// A gradient becomes the unit vector against it; not-a-numbers where it vanishes.
+template <class F>
+MENISCUS_HD inline void turn_outward(F& x, F& y, F& z) {
+    const F size = F(0.0F) - root(fused(x, x, fused(y, y, z * z)));
+    x = x / size;
+    y = y / size;
+    z = z / size;
+}
+
 /// Adds to the field's jets.
 template <class F>
 MENISCUS_HD inline void sum_jets(const CandidateView& c, F x, F y, F z, FieldJet<F>& jet) {

@@ -38,6 +38,19 @@ MENISCUS_HD inline int lowest_bit(std::uint64_t bits) {
 #endif
 }
 
+/// Index of the n-th bit that is set, n from 0; there are more than n.
+MENISCUS_HD inline int nth_bit(std::uint64_t bits, int n) {
+    int place = 0;
+    for (int width = 32; width > 0; width /= 2) {
+        const int low = popcount(bits & ((std::uint64_t{1} << width) - 1));
+        if (n < low) continue;
+        n -= low;
+        bits >>= width;
+        place += width;
+    }
+    return place;
+}
+
 /// Bit `place` of each of eight words, the first word's lowest.
 MENISCUS_HD inline int bits_across(const std::uint64_t (&words)[8], int place) {
 #if defined(__AVX2__) && !defined(__CUDACC__)

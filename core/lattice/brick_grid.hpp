@@ -27,6 +27,13 @@ MENISCUS_HD constexpr std::uint64_t brick_key(const Int3& b) {
     return static_cast<std::uint64_t>((b.z + bias) << 40 | (b.y + bias) << 20 | (b.x + bias));
 }
 
+MENISCUS_HD inline Int3 brick_coordinate(std::uint64_t brick_key) {
+    constexpr std::uint64_t mask = (1U << 20) - 1;
+    constexpr std::int32_t bias = 1 << 19;
+    return {static_cast<std::int32_t>(brick_key & mask) - bias, static_cast<std::int32_t>(brick_key >> 20 & mask) - bias,
+            static_cast<std::int32_t>(brick_key >> 40) - bias};
+}
+
 struct Brick {
     static constexpr int words = brick_volume / 64;
     Int3 coordinate;

@@ -64,6 +64,7 @@ MENISCUS_HD constexpr Int3 axis_offset(int axis, int distance = 1) {
 struct ClosedCell {
     std::uint32_t block[8];
 
+    ClosedCell() = default;
     MENISCUS_HD ClosedCell(const BlocksView& blocks, std::uint32_t own) {
         for (int row = 0; row < 4; ++row) {
             const auto pair = blocks.grid.neighbor_pair(blocks.brick[own], blocks.place[own], {0, row & 1, row >> 1});

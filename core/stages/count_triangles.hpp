@@ -16,10 +16,12 @@ struct SubcellCorners {
 
     MENISCUS_HD SubcellCorners(const BlocksView& blocks, const ClosedCell& cell, int stride) {
         for (int i = 0; i < 8; ++i) corner[i] = blocks.inside_or_none(cell.block[i]);
-        // Blocks become corners axis by axis: what lies one block further is moved to one stride further.
-        for (int axis = 0; axis < 3; ++axis)
-            for (int i = 0; i < 8; ++i)
-                if ((i >> axis & 1) != 0) corner[i] = shifted(corner[i ^ (1 << axis)], corner[i], axis, stride);
+        move_to_corners(stride);
+    }
+    /// inside: the signs of the closed cell's eight blocks.
+    MENISCUS_HD SubcellCorners(const BlockMask (&inside)[8], int stride) {
+        for (int i = 0; i < 8; ++i) corner[i] = inside[i];
+        move_to_corners(stride);
     }
     /// Subcells that see both signs.
     MENISCUS_HD BlockMask mixed(int stride) const {
@@ -32,6 +34,14 @@ struct SubcellCorners {
         return any & ~all & stride_points(stride);
     }
     MENISCUS_HD int cube_case(int bit) const { return bits_across(corner, bit); }
+
+private:
+    /// Blocks become corners axis by axis: what lies one block further is moved to one stride further.
+    MENISCUS_HD void move_to_corners(int stride) {
+        for (int axis = 0; axis < 3; ++axis)
+            for (int i = 0; i < 8; ++i)
+                if ((i >> axis & 1) != 0) corner[i] = shifted(corner[i ^ (1 << axis)], corner[i], axis, stride);
+    }
 };
 
 /// Calls visit(bit of the subcell's lower corner, cube case) for every subcell of a cell that the surface passes.

@@ -13,10 +13,10 @@
 namespace meniscus {
 
 /// The vertices of a cell with subcells of this stride, found edge by edge.
-template <int stride>
 struct SubcellVertices {
     const BlocksView& blocks;
     const ClosedCell& cell;
+    int stride;
 
     /// The vertex on an edge (tables.hpp) of the subcell with this lower corner.
     MENISCUS_HD std::uint32_t operator()(int bit, int edge) const {
@@ -42,8 +42,8 @@ MENISCUS_HD inline void emit_subcell_triangles(const BlocksView& blocks, const C
 MENISCUS_HD inline void emit_cell_triangles(const BlocksView& blocks, std::uint32_t block, const CubeCase* table, Triangle* out) {
     const ClosedCell cell(blocks, block);
     switch (blocks.level[block]) {
-        case 1: return emit_subcell_triangles(blocks, cell, 4, SubcellVertices<4>{blocks, cell}, table, out);
-        case 2: return emit_subcell_triangles(blocks, cell, 2, SubcellVertices<2>{blocks, cell}, table, out);
+        case 1: return emit_subcell_triangles(blocks, cell, 4, SubcellVertices{blocks, cell, 4}, table, out);
+        case 2: return emit_subcell_triangles(blocks, cell, 2, SubcellVertices{blocks, cell, 2}, table, out);
         default: return emit_subcell_triangles(blocks, cell, 1, VertexTable(blocks, cell), table, out);
     }
 }

@@ -8,6 +8,7 @@
 
 #include "field/lanes.hpp"
 #include "lattice/host_device.hpp"
+#include "meniscus/mesh.hpp"
 #include "stages/blocks.hpp"
 
 namespace meniscus {
@@ -118,6 +119,14 @@ MENISCUS_HD inline F interpolated_offset(F low, F high, float iso, int bits) {
     const F half_steps = truncated(t * F(static_cast<float>(2 << bits))) + F(1.0F);
     const F nearest = truncated(half_steps * F(0.5F));
     return larger(smaller(nearest, F(static_cast<float>((1 << bits) - 1))), F(1.0F));
+}
+
+/// The field's normal, or along the edge where the domain's border or a vanishing gradient leaves none.
+MENISCUS_HD inline Normal outward_normal(const Normal& of_field, bool cropped, int axis, bool low_inside) {
+    const float sum = of_field[0] + of_field[1] + of_field[2];
+    if (sum - sum == 0.0F && !cropped) return of_field;  // finite
+    const float along = low_inside ? 1.0F : -1.0F;
+    return {axis == 0 ? along : 0.0F, axis == 1 ? along : 0.0F, axis == 2 ? along : 0.0F};
 }
 
 /// A cropped edge has its vertex next to the border.

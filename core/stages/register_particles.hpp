@@ -1,6 +1,7 @@
 // Step 1: particles are snapped to the lattice, sorted, and registered in the base cells that they lie in and reach.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "field/lanes.hpp"
@@ -8,8 +9,41 @@
 #include "lattice/brick_grid.hpp"
 #include "lattice/coordinates.hpp"
 #include "lattice/host_device.hpp"
+#include "meniscus/particle_frame.hpp"
 
 namespace meniscus {
+
+/// The positions of a frame, in one of the two encodings of ParticleFrame.
+struct PositionsView {
+    const float* positions = nullptr;
+    const std::uint16_t* quantized = nullptr;
+    double low[3] = {}, high[3] = {};  ///< of the quantization box
+    double units_per_length = 0.0;
+
+    MENISCUS_HD Units3 snapped(std::size_t i) const {
+        std::int64_t p[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double x = quantized != nullptr
+                                 ? low[axis] + static_cast<double>(quantized[3 * i + axis]) * (high[axis] - low[axis]) / 65535.0
+                                 : static_cast<double>(positions[3 * i + axis]);
+            p[axis] = snap(x, units_per_length);
+        }
+        return {p[0], p[1], p[2]};
+    }
+};
+
+/// Of a valid frame.
+inline PositionsView positions_view(const ParticleFrame& frame, double units_per_length) {
+    PositionsView view;
+    if (frame.is_quantized()) view.quantized = frame.quantized.data();
+    else view.positions = frame.positions.data();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        view.low[axis] = frame.quantization_box.min[axis];
+        view.high[axis] = frame.quantization_box.max[axis];
+    }
+    view.units_per_length = units_per_length;
+    return view;
+}
 
 /// Where a particle stands in the one order in which the field is summed: by brick of support cells, by support cell, by
 /// position. Two particles with the same key are the same.
@@ -44,6 +78,33 @@ MENISCUS_HD inline Int3 key_brick(std::uint64_t cell_key) {
 }
 MENISCUS_HD inline int key_index(std::uint64_t cell_key) { return static_cast<int>(cell_key & 0xFFF); }
 
+/// A support cell's corner, in units.
+MENISCUS_HD inline Units3 cell_corner(std::uint64_t cell_key, std::int64_t cell_units) {
+    const Int3 brick = key_brick(cell_key);
+    const int index = key_index(cell_key);
+    return {(brick.x * brick_size + (index & 15)) * cell_units, (brick.y * brick_size + (index >> 4 & 15)) * cell_units,
+            (brick.z * brick_size + (index >> 8)) * cell_units};
+}
+
+/// The bricks of base cells that particles in a support cell may reach: all from `low` to `high`.
+struct ReachedBricks {
+    Int3 low, high;
+    MENISCUS_HD bool operator==(const ReachedBricks& o) const { return low == o.low && high == o.high; }
+    MENISCUS_HD std::uint32_t count() const {
+        return static_cast<std::uint32_t>(high.x - low.x + 1) * static_cast<std::uint32_t>(high.y - low.y + 1) *
+               static_cast<std::uint32_t>(high.z - low.z + 1);
+    }
+};
+
+MENISCUS_HD inline ReachedBricks reached_bricks(std::uint64_t cell_key, std::int64_t cell_units, float support) {
+    constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
+    const std::int64_t reach = static_cast<std::int64_t>(support) + 32;
+    const Units3 corner = cell_corner(cell_key, cell_units);
+    const auto low = [&](std::int64_t p) { return static_cast<std::int32_t>(floor_div(p - reach, edge)); };
+    const auto high = [&](std::int64_t p) { return static_cast<std::int32_t>(floor_div(p + cell_units + reach, edge)); };
+    return {{low(corner.x), low(corner.y), low(corner.z)}, {high(corner.x), high(corner.y), high(corner.z)}};
+}
+
 /// A key's position, in units from the corner of its support cell's brick.
 MENISCUS_HD inline void key_position(const ParticleKey& key, std::int64_t cell_units, float& x, float& y, float& z) {
     constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
@@ -56,9 +117,17 @@ MENISCUS_HD inline void key_position(const ParticleKey& key, std::int64_t cell_u
     z = coordinate(index >> 8, key.place >> (2 * place_axis_bits));
 }
 
+/// Marks in a brick that one thread alone works on.
+struct BrickMarks {
+    Brick& brick;
+    MENISCUS_HD std::uint64_t word(int w) const { return brick.occupied[w]; }
+    MENISCUS_HD void add(int w, std::uint64_t cells) const { brick.occupied[w] |= cells; }
+};
+
 /// Marks the base cells of a brick whose closed box lies within a particle's support. Position and support in units, relative to
-/// the brick's corner; rounded outward by some units.
-MENISCUS_HD inline void mark_reached(Brick& brick, float x, float y, float z, float support) {
+/// the brick's corner; rounded outward by some units. marks: word(w) reads a word of Brick::occupied, add(w, cells) adds to it.
+template <class Marks>
+MENISCUS_HD inline void mark_reached(const Marks& marks, float x, float y, float z, float support) {
     constexpr float edge = units_per_base_cell;
     const float reach = support + 16.0F;
     const auto first = [&](float p) {
@@ -87,8 +156,10 @@ MENISCUS_HD inline void mark_reached(Brick& brick, float x, float y, float z, fl
     for (int cz = z0; cz <= z1; ++cz) {
         const float dz = gap(z, cz);
         for (int rows = y0 & ~3; rows <= y1; rows += 4) {
-            std::uint64_t& occupied = brick.occupied[rows >> 2 | cz << 2];
+            const int w = rows >> 2 | cz << 2;
+            const std::uint64_t occupied = marks.word(w);
             if ((widest & ~occupied) == 0) continue;
+            std::uint64_t reached = 0;
             const int y_end = y1 < rows + 3 ? y1 : rows + 3;
             for (int cy = y0 > rows ? y0 : rows; cy <= y_end; ++cy) {
                 const int row = (cy & 3) << 4;
@@ -101,27 +172,31 @@ MENISCUS_HD inline void mark_reached(Brick& brick, float x, float y, float z, fl
                 const int x0 = first(x - span);
                 const int x1 = last(x + span);
                 if (x0 > x1) continue;
-                occupied |= ((std::uint64_t{2} << x1) - (std::uint64_t{1} << x0)) << row;
+                reached |= ((std::uint64_t{2} << x1) - (std::uint64_t{1} << x0)) << row;
             }
+            marks.add(w, reached);
         }
     }
 }
 
-/// Unmarks the base cells of a brick whose closed box does not touch the closed domain [low, high], in cells.
-MENISCUS_HD inline void clear_beyond_domain(Brick& brick, const Int3& low, const Int3& high) {
+/// The base cells, as bits, of a row of a brick (y + 16 z) whose closed box touches the closed domain [low, high], in cells.
+MENISCUS_HD inline std::uint64_t row_in_domain(const Int3& brick, int row, const Int3& low, const Int3& high) {
     const auto beyond = [](std::int32_t cell, std::int32_t first, std::int32_t last) {
         return cell * base_cell_size > last || (cell + 1) * base_cell_size < first;
     };
-    const Int3 corner{brick.coordinate.x * brick_size, brick.coordinate.y * brick_size, brick.coordinate.z * brick_size};
-    for (int z = 0; z < brick_size; ++z)
-        for (int y = 0; y < brick_size; ++y) {
-            std::uint64_t keep = 0;
-            if (!beyond(corner.z + z, low.z, high.z) && !beyond(corner.y + y, low.y, high.y))
-                for (int x = 0; x < brick_size; ++x)
-                    if (!beyond(corner.x + x, low.x, high.x)) keep |= std::uint64_t{1} << x;
-            const int row = y << 4 | z << 8;
-            brick.occupied[row >> 6] &= ~(std::uint64_t{0xFFFF} << (row & 63)) | keep << (row & 63);
-        }
+    const Int3 first{brick.x * brick_size, brick.y * brick_size + (row & 15), brick.z * brick_size + (row >> 4)};
+    std::uint64_t cells = 0;
+    if (!beyond(first.z, low.z, high.z) && !beyond(first.y, low.y, high.y))
+        for (int x = 0; x < brick_size; ++x)
+            if (!beyond(first.x + x, low.x, high.x)) cells |= std::uint64_t{1} << x;
+    return cells;
+}
+
+/// The same for a word of Brick::occupied: four rows.
+MENISCUS_HD inline std::uint64_t word_in_domain(const Int3& brick, int word, const Int3& low, const Int3& high) {
+    std::uint64_t cells = 0;
+    for (int i = 0; i < 4; ++i) cells |= row_in_domain(brick, 4 * word + i, low, high) << (brick_size * i);
+    return cells;
 }
 
 }  // namespace meniscus

@@ -8,6 +8,7 @@
 #include "lattice/host_device.hpp"
 #include "meniscus/settings.hpp"
 #include "stages/blocks.hpp"
+#include "stages/curvature.hpp"
 
 namespace meniscus {
 
@@ -75,6 +76,19 @@ struct BlobRule {
     }
 };
 
+MENISCUS_HD inline bool is_mixed(int inside_corners) { return inside_corners != 0 && inside_corners != 8; }
+
+/// A surface this near outside of a cell bends for the cell's neighbors, whose own search may meet a calmer part of it.
+inline constexpr float surface_margin = 0.5F * units_per_cell;
+
+/// What the search for a cell's surface and its particles (BlobRule) say of it.
+MENISCUS_HD inline CellBend cell_bend(const SurfaceSearch<float>& search, int inside_corners, int blob_level) {
+    const bool agree = !is_mixed(inside_corners);
+    const bool hidden = agree && search.inside >= 0.0F;
+    const bool touched = search.inside >= -surface_margin;
+    return {agree && !touched ? 0.0F : search.curvature * units_per_cell, hidden && blob_level < 2 ? 2 : blob_level};
+}
+
 struct BandTest {
     float iso = 0.0F;
     /// Corner values above this mean that nothing of the surface is inside the cell; found by experiment for the color
@@ -103,6 +117,10 @@ struct CornerSets {
             any_inside |= vertices.inside.moved(brick, w, corner);
             all_deep &= vertices.deep.moved(brick, w, corner);
         }
+    }
+    /// bound: no field value in the cell is above this.
+    MENISCUS_HD bool may_hold_surface(int bit, const BandTest& test, float bound) const {
+        return (any_inside >> bit & 1) != 0 ? (all_deep >> bit & 1) == 0 : test.may_reach(bound);
     }
 };
 

@@ -67,7 +67,7 @@ void Candidates::gather(const ParticleSetView& set, const Units3& origin, const 
     count_ = 0;
     if (set.cells.brick_count == 0) return;
     reach_ = set.reach();
-    inverse_support_ = 1.0F / set.support;
+    inverse_support_ = inverse_support(set.support);
     const BoxVicinity vicinity(box, reach_);
     set.for_each_run_near(origin, box, guesses_, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
         append_near({set.x + begin, set.y + begin, set.z + begin, set.weight + begin, end - begin, inverse_support_},

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "backends/cpu/arrays.hpp"
+#include "backends/arrays.hpp"
 #include "field/lattice_settings.hpp"
 #include "field/particle_set.hpp"
 #include "field/sums.hpp"

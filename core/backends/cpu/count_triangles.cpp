@@ -1,10 +1,9 @@
 #include "stages/count_triangles.hpp"
 
 #include <algorithm>
-#include <string>
 
 #include "backends/cpu/surface.hpp"
-#include "meniscus/error.hpp"
+#include "backends/numbering.hpp"
 #include "stages/fill_cracks.hpp"
 
 namespace meniscus::cpu {
@@ -48,9 +47,7 @@ void order_by_level_and_brick(Surface& s, Mesh& mesh) {
             triangles[level] = static_cast<std::uint32_t>(total);
             total += own;
         }
-        if (total >= no_index)
-            throw LimitExceeded("the surface has more than " + std::to_string(no_index) +
-                                " triangles, more than can be numbered: use a larger cell size or fewer particles");
+        require_numbers(total, "the surface has", "triangles");
         mesh.levels[level].count = static_cast<std::uint32_t>(total) - mesh.levels[level].first;
     }
     s.workers.for_ranges(bricks, 4, [&](std::size_t begin, std::size_t end, unsigned) {

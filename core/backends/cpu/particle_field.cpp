@@ -13,8 +13,6 @@ namespace meniscus::cpu {
 namespace {
 
 constexpr float base_edge = units_per_base_cell;
-/// A surface this near outside of a cell bends for the cell's neighbors, whose own search may meet a calmer part of it.
-constexpr float surface_margin = 0.5F * units_per_cell;
 
 /// The smallest box around padded points.
 UnitBox box_of(const PointList& points) {
@@ -248,7 +246,7 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
                         corners[k][i] = vertices[vertex];
                         inside_corners[i] += static_cast<int>(inside_vertices >> vertex & 1);
                     }
-                    mixed[i] = inside_corners[i] != 0 && inside_corners[i] != 8 ? 1.0F : 0.0F;
+                    mixed[i] = is_mixed(inside_corners[i]) ? 1.0F : 0.0F;
                     starts[0][i] = static_cast<float>(step.x) * base_edge;
                     starts[1][i] = static_cast<float>(step.y) * base_edge;
                     starts[2][i] = static_cast<float>(step.z) * base_edge;
@@ -271,11 +269,7 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
                 search.inside.store(inside);
                 for (int i = 0; i < 8; ++i) {
                     if (block[i] == no_index) continue;
-                    const bool agree = mixed[i] == 0.0F;
-                    const bool hidden = agree && inside[i] >= 0.0F;
-                    const bool touched = inside[i] >= -surface_margin;
-                    bends[block[i]].curvature = agree && !touched ? 0.0F : curvature[i] * units_per_cell;
-                    bends[block[i]].least_level = std::max(hidden ? 2 : 1, blobs.least_level(inside_corners[i], reaches[block[i]]));
+                    bends[block[i]] = cell_bend({curvature[i], inside[i]}, inside_corners[i], blobs.least_level(inside_corners[i], reaches[block[i]]));
                 }
             });
         }
@@ -321,10 +315,10 @@ void ParticleField::normals(const Int3& base_cell, PointList& points, float* x, 
         const Lanes px = Lanes::load(points.x + i), py = Lanes::load(points.y + i), pz = Lanes::load(points.z + i);
         Lanes gx(0.0F), gy(0.0F), gz(0.0F);
         for (const Candidates& c : near) sum_gradients(c.view(), px, py, pz, gx, gy, gz);
-        const Lanes size = Lanes(0.0F) - root(fused(gx, gx, fused(gy, gy, gz * gz)));
-        (gx / size).store(x + i);
-        (gy / size).store(y + i);
-        (gz / size).store(z + i);
+        turn_outward(gx, gy, gz);
+        gx.store(x + i);
+        gy.store(y + i);
+        gz.store(z + i);
     }
 }
 

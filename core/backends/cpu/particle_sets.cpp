@@ -4,33 +4,6 @@
 #include <cmath>
 
 namespace meniscus::cpu {
-namespace {
-
-Units3 snapped(const ParticleFrame& frame, std::size_t i, double units_per_length) {
-    std::int64_t p[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        double x;
-        if (frame.is_quantized()) {
-            const double low = frame.quantization_box.min[axis];
-            const double high = frame.quantization_box.max[axis];
-            x = low + static_cast<double>(frame.quantized[3 * i + axis]) * (high - low) / 65535.0;
-        } else {
-            x = static_cast<double>(frame.positions[3 * i + axis]);
-        }
-        p[axis] = snap(x, units_per_length);
-    }
-    return {p[0], p[1], p[2]};
-}
-
-Int3 key_coordinate(std::uint64_t key) {
-    constexpr std::uint64_t mask = (1U << 20) - 1;
-    constexpr std::int32_t bias = 1 << 19;
-    return {static_cast<std::int32_t>(key & mask) - bias, static_cast<std::int32_t>(key >> 20 & mask) - bias,
-            static_cast<std::int32_t>(key >> 40) - bias};
-}
-
-}  // namespace
-
 ParticleSet::ParticleSet(const std::shared_ptr<MemoryAccount>& account)
     : cells(account), keys(make_array<ParticleKey>(account)), first(make_array<std::uint32_t>(account)),
       cell_keys(make_array<std::uint64_t>(account)), x(make_array<float>(account)),
@@ -56,9 +29,8 @@ void ParticleSets::assign(const ParticleFrame& frame) {
 
 void ParticleSets::sort(const ParticleFrame& frame, unsigned level) {
     ParticleSet& set = sets_[level];
-    const auto write = [&](std::size_t i, std::size_t at) {
-        set.keys[at] = particle_key(snapped(frame, i, settings_.units_per_length), set.cell_units);
-    };
+    const PositionsView positions = positions_view(frame, settings_.units_per_length);
+    const auto write = [&](std::size_t i, std::size_t at) { set.keys[at] = particle_key(positions.snapped(i), set.cell_units); };
     if (frame.levels.empty()) {
         resize_for_overwrite(set.keys, level == 0 ? frame.count() : 0);
         workers_.for_ranges(set.keys.size(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
@@ -124,20 +96,12 @@ void ParticleSets::mark_reached_cells(BrickGrid& grid) {
     constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
     reached_bricks_.clear();
     for (const ParticleSet& set : sets_) {
-        const std::int64_t reach = static_cast<std::int64_t>(set.support) + 32;
-        Int3 last_low, last_high;
+        ReachedBricks last;
         for (std::size_t i = 0; i < set.cell_keys.size(); ++i) {
-            const Int3 b = key_brick(set.cell_keys[i]);
-            const int p = key_index(set.cell_keys[i]);
-            const std::int64_t corner[3] = {(b.x * brick_size + (p & 15)) * set.cell_units, (b.y * brick_size + (p >> 4 & 15)) * set.cell_units,
-                                            (b.z * brick_size + (p >> 8)) * set.cell_units};
-            const auto low_of = [&](int axis) { return static_cast<std::int32_t>(floor_div(corner[axis] - reach, edge)); };
-            const auto high_of = [&](int axis) { return static_cast<std::int32_t>(floor_div(corner[axis] + set.cell_units + reach, edge)); };
-            const Int3 low{low_of(0), low_of(1), low_of(2)};
-            const Int3 high{high_of(0), high_of(1), high_of(2)};
-            if (i > 0 && low == last_low && high == last_high) continue;
-            last_low = low;
-            last_high = high;
+            const ReachedBricks reached = reached_bricks(set.cell_keys[i], set.cell_units, set.support);
+            if (i > 0 && reached == last) continue;
+            last = reached;
+            const auto& [low, high] = reached;
             Int3 c;
             for (c.z = low.z; c.z <= high.z; ++c.z)
                 for (c.y = low.y; c.y <= high.y; ++c.y)
@@ -153,14 +117,16 @@ void ParticleSets::mark_reached_cells(BrickGrid& grid) {
         for (std::size_t i = begin; i < end; ++i) {
             Brick& brick = grid.bricks[i];
             grid.keys[i] = reached_bricks_[i];
-            brick.coordinate = key_coordinate(reached_bricks_[i]);
+            brick.coordinate = brick_coordinate(reached_bricks_[i]);
             brick.clear();
             const Units3 origin{brick.coordinate.x * edge, brick.coordinate.y * edge, brick.coordinate.z * edge};
             const auto size = static_cast<float>(edge);
             for (const ParticleSet& set : sets_)
                 set.view().for_each_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
-                                         [&](float x, float y, float z) { mark_reached(brick, x, y, z, set.support); });
-            if (settings_.has_domain) clear_beyond_domain(brick, settings_.domain_low, settings_.domain_high);
+                                         [&](float x, float y, float z) { mark_reached(BrickMarks{brick}, x, y, z, set.support); });
+            if (!settings_.has_domain) continue;
+            for (int w = 0; w < Brick::words; ++w)
+                brick.occupied[w] &= word_in_domain(brick.coordinate, w, settings_.domain_low, settings_.domain_high);
         }
     });
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "backends/cpu/arrays.hpp"
+#include "backends/arrays.hpp"
 #include "backends/cpu/scan.hpp"
 #include "backends/cpu/workers.hpp"
 #include "field/lattice_settings.hpp"

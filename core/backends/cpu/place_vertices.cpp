@@ -4,13 +4,12 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
-#include <string>
 
 #include "backends/cpu/block_points.hpp"
 #include "backends/cpu/clusters.hpp"
 #include "backends/cpu/surface.hpp"
+#include "backends/numbering.hpp"
 #include "field/lanes.hpp"
-#include "meniscus/error.hpp"
 
 namespace meniscus::cpu {
 namespace {
@@ -132,9 +131,7 @@ void write_normals(const BlocksView& blocks, std::uint32_t block, const LatticeS
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i) {
             const bool is_cropped = settings.has_domain && EdgeValues{vertices.low[i], vertices.high[i]}.cropped(settings.iso);
-            if (std::isfinite(x[i] + y[i] + z[i]) && !is_cropped) continue;
-            out[i] = {0.0F, 0.0F, 0.0F};
-            out[i][axis] = is_low_inside(blocks, block, vertices, i) ? 1.0F : -1.0F;
+            out[i] = outward_normal(out[i], is_cropped, static_cast<int>(axis), is_low_inside(blocks, block, vertices, i));
         }
 }
 
@@ -162,9 +159,7 @@ void number_vertices(Surface& s, bool with_normals, Mesh& mesh) {
     const std::uint64_t count = s.scan.exclusive(
         s.workers, s.block_count(), [&](std::size_t b) { return static_cast<std::uint64_t>(s.edges[b].count()); },
         [&](std::size_t b, std::uint64_t before) { s.first_vertex[b] = static_cast<std::uint32_t>(before); });
-    if (count >= no_index)
-        throw LimitExceeded("the surface has more than " + std::to_string(no_index) +
-                            " vertices, more than can be numbered: use a larger cell size or fewer particles");
+    require_numbers(count, "the surface has", "vertices");
     resize_for_overwrite(mesh.vertices, count);
     resize_for_overwrite(mesh.normals, with_normals ? count : 0);
 }

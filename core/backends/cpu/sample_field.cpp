@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <string>
 
 #include "backends/cpu/clusters.hpp"
 #include "backends/cpu/raise_levels.hpp"
 #include "backends/cpu/surface.hpp"
+#include "backends/numbering.hpp"
 #include "field/lanes.hpp"
-#include "meniscus/error.hpp"
 
 namespace meniscus::cpu {
 namespace {
@@ -112,9 +111,7 @@ void sample_wanted_points(Surface& s, FieldSource& field) {
         s.old_first_sample[b] = s.first_sample[b];
         if (room(b) != 0) s.first_sample[b] = static_cast<std::uint32_t>(used + before);
     });
-    if (used + added >= no_index)
-        throw LimitExceeded("the surface needs more than " + std::to_string(no_index) +
-                            " field samples, more than can be numbered: use a larger cell size or fewer particles");
+    require_numbers(used + added, "the surface needs", "field samples");
     if (added == 0) return;
     if (s.samples.capacity() < used + added) s.samples.reserve(used + added + (used + added) / 4);
     s.samples.resize(used + added);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "backends/cpu/arrays.hpp"
+#include "backends/arrays.hpp"
 #include "backends/cpu/workers.hpp"
 
 namespace meniscus::cpu {

@@ -28,9 +28,7 @@ void find_band(Surface& s, const Array<CellReach>& reaches) {
     for_each_word(s, [&](std::uint32_t brick, int w) {
         const CornerSets corners(vertices, brick, w);
         for_each_cell(s.grid.bricks[brick], w, s.grid.bricks[brick].occupied[w], [&](std::uint32_t block, int bit) {
-            const bool any_inside = (corners.any_inside >> bit & 1) != 0;
-            const bool all_deep = (corners.all_deep >> bit & 1) != 0;
-            s.level[block] = (any_inside ? !all_deep : test.may_reach(reaches[block].bound)) ? 1 : 0;
+            s.level[block] = corners.may_hold_surface(bit, test, reaches[block].bound) ? 1 : 0;
         });
     });
 }

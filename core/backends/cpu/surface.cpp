@@ -1,8 +1,7 @@
 #include "backends/cpu/surface.hpp"
+#include "backends/numbering.hpp"
 
-#include <string>
 
-#include "meniscus/error.hpp"
 
 namespace meniscus::cpu {
 
@@ -39,9 +38,7 @@ void number_members(BrickGrid& grid, Workers& workers) {
     for (Brick& b : grid.bricks) {
         b.first = static_cast<std::uint32_t>(total);
         total += b.count();
-        if (total >= no_index)
-            throw LimitExceeded("the frame reaches more than " + std::to_string(no_index) +
-                                " base cells, more than can be numbered: use a larger cell size or fewer particles");
+        require_numbers(total, "the frame reaches", "base cells");
     }
     grid.members = static_cast<std::uint32_t>(total);
     resize_for_overwrite(grid.neighbors, grid.bricks.size());

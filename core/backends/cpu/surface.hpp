@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "backends/cpu/arrays.hpp"
+#include "backends/arrays.hpp"
 #include "backends/cpu/field_source.hpp"
 #include "backends/cpu/scan.hpp"
 #include "backends/cpu/workers.hpp"

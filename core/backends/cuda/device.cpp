@@ -1,17 +1,68 @@
 #include "backends/cuda/device.hpp"
 
-#include <cuda_runtime_api.h>
+#include "backends/cuda/errors.hpp"
 
 namespace meniscus::cuda {
+namespace {
 
-std::string why_unavailable() {
+/// Number of devices; 0 and the reason if there is none.
+int device_count(std::string& reason) {
     int count = 0;
     const cudaError_t status = cudaGetDeviceCount(&count);
     // Without a driver the call fails and leaves its error behind.
     cudaGetLastError();
-    if (status != cudaSuccess) return std::string("no usable GPU (") + cudaGetErrorString(status) + ")";
-    if (count == 0) return "no GPU";
-    return "this version reconstructs on the CPU only";
+    if (status != cudaSuccess) {
+        reason = std::string("no usable GPU (") + cudaGetErrorString(status) + ")";
+        return 0;
+    }
+    if (count == 0) reason = "no GPU";
+    return count;
+}
+
+int attribute(cudaDeviceAttr which, int device) {
+    int value = 0;
+    check(cudaDeviceGetAttribute(&value, which, device), "cudaDeviceGetAttribute");
+    return value;
+}
+
+int capability(int device) {
+    return 10 * attribute(cudaDevAttrComputeCapabilityMajor, device) + attribute(cudaDevAttrComputeCapabilityMinor, device);
+}
+
+}  // namespace
+
+std::vector<Device> devices() {
+    std::vector<Device> result;
+    std::string reason;
+    const int count = device_count(reason);
+    for (int i = 0; i < count; ++i) {
+        if (!why_unavailable(i).empty()) continue;
+        const CurrentDevice current(i);
+        Device device{i, device_name(i), capability(i), 0, 0};
+        check(cudaMemGetInfo(&device.free_bytes, &device.total_bytes), "cudaMemGetInfo");
+        result.push_back(device);
+    }
+    return result;
+}
+
+std::string why_unavailable(int device) {
+    std::string reason;
+    const int count = device_count(reason);
+    if (count == 0) return reason;
+    if (device < 0 || device >= count) return "no GPU " + std::to_string(device) + ", there are " + std::to_string(count);
+    const int found = capability(device);
+    if (found < oldest_capability)
+        return device_name(device) + " has compute capability " + std::to_string(found / 10) + "." + std::to_string(found % 10) + ", must be " +
+               std::to_string(oldest_capability / 10) + "." + std::to_string(oldest_capability % 10) + " or newer";
+    if (attribute(cudaDevAttrMemoryPoolsSupported, device) == 0) return device_name(device) + " has no memory pools";
+    if (attribute(cudaDevAttrCooperativeLaunch, device) == 0) return device_name(device) + " has no cooperative launches";
+    return {};
+}
+
+std::string device_name(int device) {
+    cudaDeviceProp properties{};
+    check(cudaGetDeviceProperties(&properties, device), "cudaGetDeviceProperties");
+    return properties.name;
 }
 
 }  // namespace meniscus::cuda

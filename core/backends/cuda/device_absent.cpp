@@ -1,7 +1,18 @@
+#include "backends/backend.hpp"
 #include "backends/cuda/device.hpp"
+#include "meniscus/error.hpp"
 
 namespace meniscus::cuda {
 
-std::string why_unavailable() { return "this build has no CUDA backend"; }
+std::vector<Device> devices() { return {}; }
+
+std::string why_unavailable(int) { return "this build has no CUDA backend"; }
+
+std::string device_name(int) { return "no GPU"; }
+
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings&, int device, const std::shared_ptr<MemoryAccount>&,
+                                                           const std::shared_ptr<MemoryAccount>&) {
+    throw InvalidInput("the CUDA backend cannot be used: " + why_unavailable(device));
+}
 
 }  // namespace meniscus::cuda

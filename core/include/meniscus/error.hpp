@@ -1,4 +1,4 @@
-// The two ways in which a request can be refused. Everything else that is thrown is a defect.
+// The two ways in which a request can be refused, and a GPU that fails. Everything else that is thrown is a defect.
 #pragma once
 
 #include <stdexcept>
@@ -16,6 +16,18 @@ public:
 class LimitExceeded : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
+};
+
+/// A call to CUDA failed. What was computed on that device is lost; a reconstructor that met this may be destroyed, and its
+/// next frame tries the device afresh.
+class DeviceError : public std::runtime_error {
+public:
+    DeviceError(const std::string& call, const std::string& reason, int device)
+        : std::runtime_error("CUDA device " + std::to_string(device) + ": " + call + " failed: " + reason), device_(device) {}
+    int device() const noexcept { return device_; }
+
+private:
+    int device_;
 };
 
 }  // namespace meniscus

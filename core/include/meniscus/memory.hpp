@@ -16,8 +16,8 @@ namespace meniscus {
 /// Thread-safe.
 class MemoryAccount {
 public:
-    /// limit: bytes, 0 for none.
-    explicit MemoryAccount(std::size_t limit = 0) : limit_(limit) {}
+    /// limit: bytes, 0 for none. place: where, in words, for the refusal.
+    explicit MemoryAccount(std::size_t limit = 0, const char* place = "in memory") : limit_(limit), place_(place) {}
 
     /// Throws LimitExceeded, without charging, if the account would pass its limit.
     void charge(std::size_t bytes);
@@ -30,6 +30,7 @@ public:
 
 private:
     std::size_t limit_;
+    const char* place_;
     std::atomic<std::size_t> bytes_{0};
     std::atomic<std::size_t> peak_{0};
     std::atomic<std::uint64_t> allocations_{0};

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "meniscus/brick_coding.hpp"
+#include "meniscus/device_mesh.hpp"
+#include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_hash.hpp"

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "meniscus/device_mesh.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
@@ -22,8 +23,11 @@ public:
 
     /// Replaces `mesh`, reusing its memory. Its memory is charged to this reconstructor's account from the first call on.
     /// Throws InvalidInput (non-finite or too distant positions, lengths that do not match, levels above 3) or
-    /// LimitExceeded (memory); the mesh is then empty and the reconstructor remains usable.
+    /// LimitExceeded (memory); the mesh is then empty and the reconstructor remains usable. On a GPU also DeviceError.
     void reconstruct(const ParticleFrame& frame, Mesh& mesh);
+
+    /// The same, but the mesh stays on the GPU. Throws InvalidInput on the CPU backend.
+    DeviceMesh reconstruct_on_device(const ParticleFrame& frame);
 
     /// Of the last frame.
     const Statistics& statistics() const;
@@ -45,7 +49,8 @@ struct BackendDescription {
     std::string device;  ///< processor or GPU, in words
     std::string reason;  ///< why this one
 };
-BackendDescription describe_backend(Backend choice);
+/// device: the GPU asked for.
+BackendDescription describe_backend(Backend choice, int device = 0);
 
 /// This library's version, "major.minor.patch".
 std::string_view version();

@@ -31,6 +31,8 @@ struct Statistics {
     double total_seconds = 0.0;                                            ///< reconstruction alone
     std::uint64_t peak_bytes = 0;                                          ///< the reconstructor's arrays and the mesh
     std::uint64_t allocations = 0;                                         ///< made for this frame; 0 once warm
+    std::uint64_t device_bytes = 0;                                        ///< held on the GPU; CUDA's own not counted
+    std::uint64_t device_peak_bytes = 0;
     std::string backend;                                                   ///< "cpu" or "cuda"
     unsigned threads = 0;
 };

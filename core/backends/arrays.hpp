@@ -1,4 +1,4 @@
-// Sizing the backend's arrays: they grow with some room to spare and never shrink, so that a warm frame allocates nothing.
+// Sizing the backends' arrays: they grow with some room to spare and never shrink, so that a warm frame allocates nothing.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 #include "meniscus/memory.hpp"
 
-namespace meniscus::cpu {
+namespace meniscus {
 
 /// Makes an array of n elements whose values do not matter.
 template <class T>
@@ -24,4 +24,4 @@ Array<T> make_array(const std::shared_ptr<MemoryAccount>& account) {
     return Array<T>(AccountAllocator<T>(account));
 }
 
-}  // namespace meniscus::cpu
+}  // namespace meniscus

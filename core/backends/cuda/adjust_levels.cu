@@ -1,0 +1,18 @@
+#include "stages/adjust_levels.hpp"
+
+#include "backends/cuda/raise_levels.hpp"
+#include "backends/cuda/steps.hpp"
+
+namespace meniscus::cuda {
+namespace {
+
+__global__ void __launch_bounds__(block_threads) balance_and_promote(const __grid_constant__ Frame f) {
+    Sweeps sweeps(f);
+    sweeps.adjust_levels();
+}
+
+}  // namespace
+
+void adjust_levels(const Frame& frame, const Launcher& launch) { launch.cooperative(balance_and_promote, frame); }
+
+}  // namespace meniscus::cuda

@@ -1,0 +1,203 @@
+// The way of a frame through the CUDA backend: the paper's steps in their order, on one stream.
+//
+// All arrays lie in one piece of device memory, laid out for capacities (frame.hpp) that grow when a frame needs more; then the frame runs
+// once more. Counts stay on the device: kernels loop over as many elements as they find there, from launches sized by capacities. Sweeps that
+// end when nothing changes end on the device (raise_levels.hpp). So the host waits once a frame, for the counts. Once a frame has
+// passed without growth, its chain of kernels is captured as a graph, which later frames replay until something grows.
+//
+//   Upload       pinned memory -> upload, FrameInput                        (outside of the graph: its size is the frame's)
+//   register     make_keys, sort, mark_starts, scan, store_particles, count_support_cells;
+//                list_reached_bricks, sort, mark_first_keys, scan, store_bricks, mark_reached_cells, scan, number_members,
+//                find_neighbors, store_blocks; measure_densities, divide_weights or count_particles
+//   sample       sample_base
+//   split        collect_base_vertices, find_band, measure_bends, choose_levels, collect_level_sets
+//   adjust       balance_and_promote                                        (cooperative)
+//   sample       list_corner_points, sample_list, settle_band               (cooperative); list_edge_middles, ...
+//   count        list_band, count_cells, count_cracks, scan
+//   place        count_vertices, scan, size_mesh, describe_bricks, place_listed
+//   emit, fill   emit_cells, fill_listed
+//   Counts       -> pinned memory; the host waits
+//   Download     the mesh -> pinned memory -> the caller's arrays           (reconstruct() only)
+#include <array>
+#include <optional>
+
+#include "backends/arrays.hpp"
+#include "backends/backend.hpp"
+#include "backends/cuda/device_memory.hpp"
+#include "backends/cuda/download.hpp"
+#include "backends/cuda/graph.hpp"
+#include "backends/cuda/steps.hpp"
+#include "backends/cuda/upload.hpp"
+#include "backends/numbering.hpp"
+#include "field/kernel.hpp"
+
+namespace meniscus::cuda {
+namespace {
+
+class Reconstruction final : public BackendReconstruction {
+public:
+    Reconstruction(const Settings& user, int device, const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account)
+        : user_(user), device_(device), memory_(device, stream_.get(), device_account), upload_(account), download_(account), host_counts_(account),
+          bricks_(make_array<MeshBrick>(account)), frame_(LatticeSettings(user)) {
+        frame_.bisects = user.edge_points == EdgePoints::bisect;
+        frame_.bisection_steps = user.bisection_steps;
+        for (unsigned k = 0; k < particle_level_count; ++k) {
+            const float support = frame_.settings.support[k];
+            frame_.cell_units[k] = support_cell_units(static_cast<std::int64_t>(std::ceil(support)));
+            frame_.inverse_support[k] = inverse_support(support);
+        }
+        int processors = 0;
+        check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "cudaDeviceGetAttribute");
+        launcher_ = {stream_.get(), 8 * static_cast<unsigned>(processors)};
+        host_counts_.reserve(sizeof(Counts));
+    }
+
+    void reconstruct(const ParticleFrame& particles, Mesh& mesh, Statistics& statistics) override {
+        const DeviceMesh on_device = reconstruct_on_device(particles, statistics);
+        const CurrentDevice current(device_);
+        download_.forget();
+        download_.fetch(frame_.mesh_bricks, counts().needed[static_cast<int>(Resource::bricks)], bricks_, stream_.get());
+        download_.fetch(on_device.vertices, on_device.vertex_count, mesh.vertices, stream_.get());
+        download_.fetch(on_device.normals, on_device.vertex_count, mesh.normals, stream_.get());
+        download_.fetch(on_device.triangles, on_device.triangle_count, mesh.triangles, stream_.get());
+        download_.finish();
+        mesh.levels = on_device.levels;
+        mesh.bricks.clear();
+        for (const MeshBrick& brick : bricks_)
+            if (brick.triangle_count() != 0) mesh.bricks.push_back(brick);
+    }
+
+    DeviceMesh reconstruct_on_device(const ParticleFrame& particles, Statistics& statistics) override {
+        const CurrentDevice current(device_);
+        run(particles);
+        tell(statistics);
+        DeviceMesh mesh;
+        mesh.vertices = frame_.vertices;
+        mesh.normals = frame_.normals;
+        mesh.triangles = frame_.triangles;
+        mesh.vertex_count = static_cast<std::uint32_t>(counts().needed[static_cast<int>(Resource::vertices)]);
+        mesh.triangle_count = static_cast<std::uint32_t>(counts().needed[static_cast<int>(Resource::triangles)]);
+        for (std::size_t level = 0; level < triangle_level_count; ++level)
+            mesh.levels[level] = {counts().first_triangle[level], static_cast<std::uint32_t>(counts().triangles[level])};
+        mesh.cell_size = frame_.settings.cell_size;
+        mesh.offset_bits = frame_.settings.offset_bits;
+        mesh.device = device_;
+        mesh.stream = stream_.get();
+        return mesh;
+    }
+
+private:
+    /// The ends of the stages, in the order in which they run.
+    static constexpr std::array<Stage, 9> order{Stage::register_particles, Stage::sample_field, Stage::split_cells,
+                                                Stage::adjust_levels,      Stage::sample_field, Stage::count_triangles,
+                                                Stage::place_vertices,     Stage::emit_triangles, Stage::fill_cracks};
+
+    /// Of the last run; complete after a synchronization.
+    const Counts& counts() const { return *reinterpret_cast<const Counts*>(host_counts_.get()); }
+
+    void run(const ParticleFrame& particles) {
+        const bool has_levels = !particles.levels.empty();
+        if (has_levels != has_levels_) graph_.drop();
+        has_levels_ = has_levels;
+        bool grown = make_room(particles.count(), {});
+        for (;;) {
+            start_.record(stream_.get());
+            upload_.start(particles, frame_, stream_.get());
+            if (!grown && settled_ && !graph_.is_captured()) graph_.capture(stream_.get(), [&] { enqueue(true); });
+            if (graph_.is_captured()) graph_.launch(stream_.get());
+            else enqueue(false);
+            stream_.synchronize();
+            if (counts().overflow == 0) break;
+            require_room_for_numbers();
+            grown = make_room(particles.count(), counts().needed);
+            if (!grown) throw DeviceError("reconstruction", "the counts contradict each other", device_);
+        }
+        settled_ = !grown;
+    }
+
+    using Needed = decltype(Counts::needed);
+
+    bool make_room(std::uint64_t particles, const Needed& needed) {
+        if (!frame_.capacity.grow_to(particles, needed)) return false;
+        graph_.drop();
+        const Capacities& room = frame_.capacity;
+        const std::uint64_t sums = std::max({room.particles, room[Resource::reached_bricks], room[Resource::bricks], room[Resource::blocks]}) + 1;
+        frame_.scratch_bytes = scratch_bytes(room.particles, room[Resource::reached_bricks], sums);
+        memory_.assign(frame_.lay_out(nullptr));
+        frame_.lay_out(memory_.get());
+        check(cudaMemcpyAsync(const_cast<CubeCase*>(frame_.cube_table), cube_table.data(), sizeof(CubeTable), cudaMemcpyHostToDevice, stream_.get()), "cudaMemcpyAsync");
+        check(cudaMemcpyAsync(const_cast<CrackCase*>(frame_.crack_table), crack_table.data(), sizeof(CrackTable), cudaMemcpyHostToDevice, stream_.get()), "cudaMemcpyAsync");
+        return true;
+    }
+
+    void require_room_for_numbers() const {
+        const auto needed = [&](Resource r) { return counts().needed[static_cast<int>(r)]; };
+        require_numbers(needed(Resource::blocks), "the frame reaches", "base cells");
+        require_numbers(needed(Resource::samples), "the surface needs", "field samples");
+        require_numbers(needed(Resource::triangles), "the surface has", "triangles");
+        require_numbers(needed(Resource::vertices), "the surface has", "vertices");
+    }
+
+    /// The kernels of a frame whose particles are on their way. captured: into a graph.
+    void enqueue(bool captured) {
+        const cudaStream_t stream = stream_.get();
+        std::size_t step = 0;
+        const auto end_stage = [&] { ends_[step++].record(stream, captured); };
+        Frame frame = frame_;
+        check(cudaMemsetAsync(frame.counts, 0, sizeof(Counts), stream), "cudaMemsetAsync");
+        register_particles(frame, user_, launcher_);
+        end_stage();
+        sample_base_vertices(frame, launcher_);
+        end_stage();
+        split_cells(frame, user_, has_levels_, launcher_);
+        end_stage();
+        if (user_.mode == Mode::adaptive) adjust_levels(frame, launcher_);
+        end_stage();
+        sample_field(frame, launcher_);
+        if (user_.mode == Mode::adaptive) sample_edge_middles(frame, launcher_);
+        end_stage();
+        count_triangles(frame, launcher_);
+        end_stage();
+        place_vertices(frame, launcher_);
+        end_stage();
+        emit_triangles(frame, launcher_);
+        end_stage();
+        fill_cracks(frame, launcher_);
+        end_stage();
+        check(cudaMemcpyAsync(host_counts_.get(), frame.counts, sizeof(Counts), cudaMemcpyDeviceToHost, stream), "cudaMemcpyAsync");
+    }
+
+    void tell(Statistics& statistics) const {
+        statistics.field_evaluations = counts().field_evaluations;
+        for (std::size_t level = 0; level < 3; ++level) statistics.base_cells_by_level[level] = counts().band_cells[level];
+        for (std::size_t i = 0; i < order.size(); ++i)
+            statistics.stage_seconds[static_cast<std::size_t>(order[i])] += ends_[i].seconds_since(i == 0 ? start_ : ends_[i - 1]);
+        statistics.backend = "cuda";
+    }
+
+    Settings user_;
+    int device_;
+    Stream stream_;
+    DeviceMemory memory_;
+    Upload upload_;
+    Download download_;
+    PinnedMemory host_counts_;
+    Array<MeshBrick> bricks_;
+    Frame frame_;
+    Launcher launcher_;
+    Event start_;
+    std::array<Event, order.size()> ends_;
+    Graph graph_;
+    bool settled_ = false;     ///< whether the last frame needed no more room
+    bool has_levels_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, int device, const std::shared_ptr<MemoryAccount>& account,
+                                                           const std::shared_ptr<MemoryAccount>& device_account) {
+    const CurrentDevice current(device);
+    return std::make_unique<Reconstruction>(settings, device, account, device_account);
+}
+
+}  // namespace meniscus::cuda

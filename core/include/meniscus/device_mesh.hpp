@@ -1,0 +1,27 @@
+// A mesh that stays on the GPU, for a renderer in the same process.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "meniscus/mesh.hpp"
+
+namespace meniscus {
+
+/// The members are those of Mesh, in device memory that the reconstructor owns. Complete when it is handed out, on every
+/// stream; valid until the reconstructor's next call or end. Whoever still reads it on another stream by then must make
+/// `stream` wait for that (cudaStreamWaitEvent).
+struct DeviceMesh {
+    const LatticePosition* vertices = nullptr;  ///< device pointer
+    const Normal* normals = nullptr;            ///< device pointer, one per vertex
+    const Triangle* triangles = nullptr;        ///< device pointer
+    std::uint32_t vertex_count = 0;
+    std::uint32_t triangle_count = 0;
+    std::array<TriangleRange, triangle_level_count> levels{};  ///< into `triangles`
+    double cell_size = 0.0;                     ///< a vertex lies at position * cell_size / 2^offset_bits
+    std::uint32_t offset_bits = 0;
+    int device = 0;                             ///< index of the GPU
+    void* stream = nullptr;                     ///< the reconstructor's cudaStream_t
+};
+
+}  // namespace meniscus
