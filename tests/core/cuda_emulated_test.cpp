@@ -1,0 +1,120 @@
+// The CUDA backend's kernels, run by a device in software, give the CPU's mesh to the bit. (What only a GPU can show: cuda_test.cpp.)
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "backends/backend.hpp"
+#include "meniscus/meniscus.hpp"
+#include "support/particles.hpp"
+
+namespace meniscus {
+namespace {
+
+template <class T>
+bool same_bytes(const Array<T>& a, const Array<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+class EmulatedDevice {
+public:
+    explicit EmulatedDevice(const Settings& settings, std::size_t limit = 0)
+        : settings_(settings), device_account_(std::make_shared<MemoryAccount>(limit, "on the GPU")),
+          backend_(cuda::make_reconstruction(settings, 0, std::make_shared<MemoryAccount>(), device_account_)) {}
+
+    void expect_the_cpus_mesh(const ParticleFrame& frame) {
+        const Mesh expected = test::reconstruct(settings_, frame);
+        mesh_.cell_size = expected.cell_size;
+        mesh_.offset_bits = expected.offset_bits;
+        statistics_ = {};
+        backend_->reconstruct(frame, mesh_, statistics_);
+        EXPECT_EQ(mesh_sha256(mesh_), mesh_sha256(expected));
+        EXPECT_TRUE(same_bytes(mesh_.vertices, expected.vertices));
+        EXPECT_TRUE(same_bytes(mesh_.normals, expected.normals));
+        EXPECT_TRUE(same_bytes(mesh_.triangles, expected.triangles));
+        EXPECT_TRUE(same_bytes(mesh_.bricks, expected.bricks));
+        for (std::size_t l = 0; l < triangle_level_count; ++l) EXPECT_EQ(mesh_.levels[l].first, expected.levels[l].first);
+        Reconstructor cpu(settings_, {Backend::cpu, 1, 0});
+        Mesh again;
+        cpu.reconstruct(frame, again);
+        EXPECT_EQ(statistics_.field_evaluations, cpu.statistics().field_evaluations);
+        EXPECT_EQ(statistics_.base_cells_by_level, cpu.statistics().base_cells_by_level);
+    }
+
+    const MemoryAccount& device_account() const { return *device_account_; }
+
+private:
+    Settings settings_;
+    std::shared_ptr<MemoryAccount> device_account_;
+    std::unique_ptr<BackendReconstruction> backend_;
+    Mesh mesh_;
+    Statistics statistics_;
+};
+
+TEST(CudaEmulated, GivesTheCpusMeshForASplash) {
+    const test::Particles particles = test::splash(3, 8);
+    for (const Field field : {Field::color, Field::density})
+        for (const Mode mode : {Mode::adaptive, Mode::uniform})
+            for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
+                SCOPED_TRACE(testing::Message() << "field " << int(field) << " mode " << int(mode) << " edge points " << int(edge_points));
+                Settings settings = test::default_settings();
+                settings.field = field;
+                settings.mode = mode;
+                settings.edge_points = edge_points;
+                EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
+            }
+}
+
+TEST(CudaEmulated, GivesTheCpusMeshForAdversarialParticles) {
+    const Settings settings = test::default_settings();
+    EmulatedDevice device(settings);
+    for (const test::NamedParticles& named : test::adversarial(0.025F)) {
+        SCOPED_TRACE(named.name);
+        device.expect_the_cpus_mesh(named.particles.frame());
+    }
+}
+
+TEST(CudaEmulated, GivesTheCpusMeshForOtherSettings) {
+    const test::Particles particles = test::splash(4, 6);
+    for (const double cell_size : {0.3, 1.0, 1.37})
+        for (const double smoothing_length : {1.1, 2.0}) {
+            SCOPED_TRACE(testing::Message() << cell_size << " " << smoothing_length);
+            Settings settings = test::default_settings();
+            settings.cell_size = cell_size;
+            settings.smoothing_length = smoothing_length;
+            EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
+            settings.criterion = Criterion::count;
+            EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
+        }
+}
+
+TEST(CudaEmulated, GivesTheCpusMeshForParticleLevelsDomainsAndQuantizedPositions) {
+    test::Particles particles = test::splash(5, 8);
+    Settings settings = test::default_settings();
+    settings.domain = Box{{0.05, 0.02, 0.03}, {0.31, 0.17, 0.33}};
+    EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
+
+    std::vector<std::uint16_t> quantized;
+    for (std::size_t i = 0; i < particles.positions.size(); ++i) quantized.push_back(static_cast<std::uint16_t>(i * 7919 % 65536));
+    ParticleFrame frame;
+    frame.quantized = quantized;
+    frame.quantization_box = {{-0.1, 0.2, -0.3}, {0.4, 0.6, 0.5}};
+    settings.domain.reset();
+    EmulatedDevice(settings).expect_the_cpus_mesh(frame);
+
+    for (std::size_t i = 0; i < particles.count(); ++i) particles.levels.push_back(i % 7 == 0 ? 2 : i % 3 == 0 ? 1 : 0);
+    EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
+    settings.criterion = Criterion::count;
+    EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
+}
+
+TEST(CudaEmulated, FramesThatGrowAndShrinkAreReplayedFromAGraph) {
+    EmulatedDevice device(test::default_settings());
+    for (const int side : {6, 6, 6, 10, 4, 4, 10, 10}) device.expect_the_cpus_mesh(test::splash(6, side).frame());
+    const std::uint64_t allocations = device.device_account().allocations();
+    device.expect_the_cpus_mesh(test::splash(6, 10).frame());
+    EXPECT_EQ(device.device_account().allocations(), allocations);
+    device.expect_the_cpus_mesh(ParticleFrame{});
+}
+
+}  // namespace
+}  // namespace meniscus

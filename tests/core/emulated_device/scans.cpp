@@ -1,0 +1,40 @@
+// In place of CUB.
+#include "backends/cuda/scans.hpp"
+
+#include <algorithm>
+
+namespace meniscus::cuda {
+namespace {
+
+template <class T>
+void sum(T* values, std::size_t n) {
+    emulated_device::submit([=] {
+        T total{};
+        for (std::size_t i = 0; i < n; ++i) {
+            const T own = values[i];
+            values[i] = total;
+            total = total + own;
+        }
+    });
+}
+
+template <class Key>
+Key* sorted(Key* keys, Key* room, std::size_t n) {
+    // In the other array, as CUB may have it too.
+    emulated_device::submit([=] {
+        std::copy(keys, keys + n, room);
+        std::sort(room, room + n);
+    });
+    return room;
+}
+
+}  // namespace
+
+std::size_t scratch_bytes(std::size_t, std::size_t, std::size_t) { return 256; }
+void exclusive_sum(const Scratch&, std::uint32_t* values, std::size_t n, cudaStream_t) { sum(values, n); }
+void exclusive_sum(const Scratch&, std::uint64_t* values, std::size_t n, cudaStream_t) { sum(values, n); }
+void exclusive_sum(const Scratch&, LevelCounts* values, std::size_t n, cudaStream_t) { sum(values, n); }
+SortKey* sort(const Scratch&, SortKey* keys, SortKey* room, std::size_t n, cudaStream_t) { return sorted(keys, room, n); }
+std::uint64_t* sort(const Scratch&, std::uint64_t* keys, std::uint64_t* room, std::size_t n, cudaStream_t) { return sorted(keys, room, n); }
+
+}  // namespace meniscus::cuda
