@@ -120,9 +120,10 @@ TEST(Validation, RefusesAQuantizationBoxThatIsNotOne) {
 }
 
 TEST(Validation, TheCudaBackendSaysWhyItCannotBeUsed) {
-    EXPECT_NE(refusal([] { Reconstructor reconstructor(test::default_settings(), {Backend::cuda, 1, 0}); }).find("CUDA backend cannot be used: "),
+    const int no_device = 1000;
+    EXPECT_NE(refusal([&] { Reconstructor reconstructor(test::default_settings(), {Backend::cuda, 1, 0, no_device}); }).find("CUDA backend cannot be used: "),
               std::string::npos);
-    const BackendDescription description = describe_backend(Backend::automatic);
+    const BackendDescription description = describe_backend(Backend::automatic, no_device);
     EXPECT_EQ(description.name, "cpu");
     EXPECT_FALSE(description.reason.empty());
 }

@@ -1,0 +1,50 @@
+// The arithmetic of the CUDA backend's capacities, which needs no GPU.
+#include <gtest/gtest.h>
+
+#include "backends/cuda/capacities.hpp"
+
+namespace meniscus::cuda {
+namespace {
+
+using Needed = unsigned long long[resource_count];
+
+TEST(CudaCapacities, BeginWithRoomForSomethingOfEverything) {
+    Capacities capacities;
+    EXPECT_TRUE(capacities.grow_to(0, Needed{}));
+    EXPECT_GT(capacities.particles, 0U);
+    for (const std::uint64_t capacity : capacities.of) EXPECT_GT(capacity, 0U);
+}
+
+TEST(CudaCapacities, WhatFitsDoesNotGrow) {
+    Capacities capacities;
+    const Needed needed{1000, 2000, 3000, 4000, 5000, 6000, 7000};
+    EXPECT_TRUE(capacities.grow_to(100000, needed));
+    const Capacities before = capacities;
+    EXPECT_FALSE(capacities.grow_to(100000, needed));
+    EXPECT_FALSE(capacities.grow_to(110000, needed)) << "an eighth to spare";
+    EXPECT_EQ(capacities.of, before.of);
+}
+
+TEST(CudaCapacities, OnlyWhatIsTooSmallGrowsAndNothingShrinks) {
+    Capacities capacities;
+    capacities.grow_to(1000, Needed{1000, 1000, 1000, 1000, 1000, 1000, 1000});
+    const Capacities before = capacities;
+    Needed more{};
+    more[static_cast<std::size_t>(Resource::samples)] = 1'000'000;
+    EXPECT_TRUE(capacities.grow_to(10, more));
+    EXPECT_EQ(capacities[Resource::samples], 1'125'000U);
+    EXPECT_EQ(capacities.particles, before.particles);
+    EXPECT_EQ(capacities[Resource::blocks], before[Resource::blocks]);
+    EXPECT_EQ(capacities[Resource::triangles], before[Resource::triangles]);
+}
+
+TEST(CudaCapacities, CountsBeyond32BitsAreKept) {
+    Capacities capacities;
+    Needed needed{};
+    needed[static_cast<std::size_t>(Resource::triangles)] = 10'000'000'000ULL;
+    EXPECT_TRUE(capacities.grow_to(0, needed));
+    EXPECT_EQ(capacities[Resource::triangles], 11'250'000'000ULL);
+}
+
+}  // namespace
+}  // namespace meniscus::cuda

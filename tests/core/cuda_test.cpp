@@ -1,0 +1,181 @@
+// The CUDA backend on a GPU: the CPU's mesh to the bit, memory limits, memory that does not grow. Skipped, saying why, where there is none.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <optional>
+
+#include "meniscus/meniscus.hpp"
+#include "support/particles.hpp"
+
+namespace meniscus {
+namespace {
+
+template <class T>
+bool same_bytes(const Array<T>& a, const Array<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+/// Why there is no GPU; empty if there is one.
+std::string reason_without_gpu() {
+    const BackendDescription description = describe_backend(Backend::automatic);
+    return description.backend == Backend::cuda ? std::string() : description.reason;
+}
+
+class NeedsGpu : public testing::Test {
+protected:
+    void SetUp() override {
+        if (const std::string reason = reason_without_gpu(); !reason.empty()) GTEST_SKIP() << reason;
+    }
+
+    /// One frame after the other through one reconstructor.
+    static void expect_the_cpus_mesh(const Settings& settings, const std::vector<ParticleFrame>& frames) {
+        Reconstructor gpu(settings, {Backend::cuda, 0, 0});
+        Mesh mesh;
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            SCOPED_TRACE(testing::Message() << "frame " << i);
+            const Mesh expected = test::reconstruct(settings, frames[i]);
+            gpu.reconstruct(frames[i], mesh);
+            EXPECT_EQ(mesh_sha256(mesh), mesh_sha256(expected));
+            EXPECT_TRUE(same_bytes(mesh.vertices, expected.vertices));
+            EXPECT_TRUE(same_bytes(mesh.normals, expected.normals));
+            EXPECT_TRUE(same_bytes(mesh.triangles, expected.triangles));
+            EXPECT_TRUE(same_bytes(mesh.bricks, expected.bricks));
+        }
+    }
+};
+
+/// Small enough for compute-sanitizer.
+class CudaSmall : public NeedsGpu {};
+class Cuda : public NeedsGpu {};
+
+TEST_F(CudaSmall, GivesTheCpusMeshForEveryModeCriterionFieldAndEdgePoint) {
+    const test::Particles particles = test::splash(3, 6);
+    for (const Field field : {Field::color, Field::density})
+        for (const Mode mode : {Mode::adaptive, Mode::uniform})
+            for (const Criterion criterion : {Criterion::curvature, Criterion::count})
+                for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
+                    SCOPED_TRACE(testing::Message() << "field " << int(field) << " mode " << int(mode) << " criterion " << int(criterion)
+                                                    << " edge points " << int(edge_points));
+                    Settings settings = test::default_settings();
+                    settings.field = field;
+                    settings.mode = mode;
+                    settings.criterion = criterion;
+                    settings.edge_points = edge_points;
+                    // Grown, run launch by launch, captured, replayed.
+                    expect_the_cpus_mesh(settings, std::vector<ParticleFrame>(4, particles.frame()));
+                }
+}
+
+TEST_F(CudaSmall, GivesTheCpusMeshForParticleLevelsQuantizedPositionsAndDomains) {
+    test::Particles particles = test::splash(4, 6);
+    const test::Particles uniform = particles;
+    for (std::size_t i = 0; i < particles.count(); ++i) particles.levels.push_back(i % 7 == 0 ? 2 : i % 3 == 0 ? 1 : 0);
+    std::vector<std::uint16_t> quantized;
+    for (std::size_t i = 0; i < particles.positions.size(); ++i) quantized.push_back(static_cast<std::uint16_t>(i * 7919 % 65536));
+    ParticleFrame frame;
+    frame.quantized = quantized;
+    frame.quantization_box = {{-0.1, 0.2, -0.3}, {0.4, 0.6, 0.5}};
+    Settings settings = test::default_settings();
+    expect_the_cpus_mesh(settings, {particles.frame(), frame, uniform.frame(), ParticleFrame{}, particles.frame()});
+    settings.domain = Box{{0.05, 0.02, 0.03}, {0.21, 0.17, 0.23}};
+    expect_the_cpus_mesh(settings, {particles.frame(), frame});
+}
+
+TEST_F(CudaSmall, GivesTheCpusMeshForAdversarialParticles) {
+    const std::vector<test::NamedParticles> all = test::adversarial(0.025F);
+    std::vector<ParticleFrame> frames;
+    for (const test::NamedParticles& named : all) frames.push_back(named.particles.frame());
+    expect_the_cpus_mesh(test::default_settings(), frames);
+}
+
+TEST_F(Cuda, GivesTheCpusMeshForLargerSplashesAndOtherCells) {
+    for (const double cell_size : {0.3, 0.5, 1.0, 1.37}) {
+        SCOPED_TRACE(cell_size);
+        Settings settings = test::default_settings();
+        settings.cell_size = cell_size;
+        const test::Particles first = test::splash(5, 24);
+        const test::Particles second = test::splash(6, 30);
+        expect_the_cpus_mesh(settings, {first.frame(), second.frame(), first.frame(), second.frame(), second.frame()});
+    }
+}
+
+TEST_F(Cuda, SeveralReconstructorsShareADevice) {
+    const Settings settings = test::default_settings();
+    std::vector<Reconstructor> all;
+    for (int i = 0; i < 4; ++i) all.emplace_back(settings, BackendOptions{Backend::cuda, 0, 0});
+    for (unsigned round = 0; round < 3; ++round)
+        for (unsigned i = 0; i < 4; ++i) {
+            const test::Particles particles = test::splash(10 + i, 8 + 2 * static_cast<int>(i));
+            Mesh mesh;
+            all[i].reconstruct(particles.frame(), mesh);
+            EXPECT_EQ(mesh_sha256(mesh), mesh_sha256(test::reconstruct(settings, particles.frame())));
+        }
+}
+
+TEST_F(Cuda, AFramePastTheDeviceMemoryLimitIsRefusedWithNumbersAndTheNextOneWorks) {
+    const Settings settings = test::default_settings();
+    const test::Particles small = test::splash(42, 6);
+    const test::Particles large = test::splash(42, 40);
+    Mesh mesh;
+    Reconstructor unlimited(settings, {Backend::cuda, 0, 0});
+    unlimited.reconstruct(small.frame(), mesh);
+    const std::string expected = mesh_sha256(mesh);
+    const std::size_t limit = 2 * unlimited.statistics().device_peak_bytes;
+    Reconstructor limited(settings, {Backend::cuda, 0, 0, 0, limit});
+    try {
+        limited.reconstruct(large.frame(), mesh);
+        FAIL() << "a frame beyond the limit was accepted";
+    } catch (const LimitExceeded& e) {
+        EXPECT_NE(std::string(e.what()).find(std::to_string(limit)), std::string::npos) << e.what();
+    }
+    EXPECT_TRUE(mesh.triangles.empty());
+    limited.reconstruct(small.frame(), mesh);
+    EXPECT_EQ(mesh_sha256(mesh), expected);
+    EXPECT_LE(limited.statistics().device_peak_bytes, limit);
+}
+
+TEST_F(Cuda, TheMeshOnTheDeviceIsTheOneThatIsDownloaded) {
+    const test::Particles particles = test::splash(7);
+    Reconstructor gpu(test::default_settings(), {Backend::cuda, 0, 0});
+    Mesh mesh;
+    gpu.reconstruct(particles.frame(), mesh);
+    const DeviceMesh on_device = gpu.reconstruct_on_device(particles.frame());
+    EXPECT_EQ(on_device.vertex_count, mesh.vertices.size());
+    EXPECT_EQ(on_device.triangle_count, mesh.triangles.size());
+    EXPECT_EQ(on_device.offset_bits, mesh.offset_bits);
+    EXPECT_NE(on_device.triangles, nullptr);
+    EXPECT_EQ(gpu.statistics().triangles, mesh.triangles.size());
+}
+
+TEST_F(Cuda, EveryStageOfAWarmFrameIsTimedAndNothingIsAllocated) {
+    const test::Particles particles = test::splash(8, 20);
+    Reconstructor gpu(test::default_settings(), {Backend::cuda, 0, 0});
+    Mesh mesh;
+    for (int i = 0; i < 4; ++i) gpu.reconstruct(particles.frame(), mesh);
+    EXPECT_EQ(gpu.statistics().allocations, 0U);
+    EXPECT_GT(gpu.statistics().device_bytes, 0U);
+    for (std::size_t stage = 0; stage < stage_count; ++stage) EXPECT_GT(gpu.statistics().stage_seconds[stage], 0.0) << stage_names[stage];
+}
+
+TEST_F(Cuda, ThousandFramesDoNotGrowDeviceMemory) {
+    std::vector<test::Particles> splashes;
+    for (unsigned seed = 0; seed < 4; ++seed) splashes.push_back(test::splash(seed, 16));
+    Reconstructor gpu(test::default_settings(), {Backend::cuda, 0, 0});
+    Mesh mesh;
+    std::optional<std::size_t> free_bytes;
+    for (unsigned frame = 0; frame < 1000; ++frame) {
+        gpu.reconstruct(splashes[frame % splashes.size()].frame(), mesh);
+        if (frame < 100) continue;
+        ASSERT_EQ(gpu.statistics().allocations, 0U) << frame;
+        if (!free_bytes) free_bytes = cuda::devices().at(0).free_bytes;
+    }
+    EXPECT_GE(cuda::devices().at(0).free_bytes, *free_bytes);
+}
+
+TEST(CudaWithoutGpu, TheCpuBackendHasNoMeshOnADeviceAndSaysSo) {
+    Reconstructor cpu(test::default_settings(), {Backend::cpu, 1, 0});
+    EXPECT_THROW(static_cast<void>(cpu.reconstruct_on_device(test::splash(1, 4).frame())), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meniscus
