@@ -45,8 +45,8 @@ struct ParticleSetView {
 
     /// Calls visit(first particle, one past the last, shift) for runs of particles, in their order, that hold all those within
     /// reach of the box. A particle's position plus shift (x, y, z) is relative to `origin`, a multiple of 16 units.
-    template <class Visit>
-    MENISCUS_HD void for_each_run_near(const Units3& origin, const UnitBox& box, BrickGuesses& guesses, Visit&& visit) const {
+    template <class Guesses, class Visit>
+    MENISCUS_HD void for_each_run_near(const Units3& origin, const UnitBox& box, Guesses& guesses, Visit&& visit) const {
         // Positions are whole units: one that is a support away or farther along an axis adds exactly zero.
         const auto below = [this](float v) { return static_cast<std::int64_t>(floorf(v - support)); };
         const auto above = [this](float v) { return static_cast<std::int64_t>(ceilf(v + support)) - 1; };

@@ -81,6 +81,13 @@ struct BrickNeighbors {
 /// Any values will do: they cost time where wrong, and nothing else.
 struct BrickGuesses {
     std::uint32_t row[4] = {};  ///< by the parities of a row's y and z
+    MENISCUS_HD std::uint32_t& of_row(int y, int z) { return row[(y & 1) | (z & 1) << 1]; }
+};
+
+/// Where remembering costs more than searching: a GPU's thread would keep them in memory.
+struct NoBrickGuesses {
+    std::uint32_t none = no_index;
+    MENISCUS_HD std::uint32_t& of_row(int, int) { return none = no_index; }
 };
 
 struct BrickGridView {
@@ -143,15 +150,15 @@ struct BrickGridView {
 
     /// Calls visit(brick, low, high) for every brick that the box [low, high] meets, in ascending order, with the part of the box
     /// inside it. `guesses` are where the last call found its rows of bricks; one that has not gone far finds them there again.
-    template <class Visit>
-    MENISCUS_HD void for_each_brick(const Int3& low, const Int3& high, BrickGuesses& guesses, Visit&& visit) const {
+    template <class Guesses, class Visit>
+    MENISCUS_HD void for_each_brick(const Int3& low, const Int3& high, Guesses& guesses, Visit&& visit) const {
         const Int3 brick_low = brick_of(low);
         const Int3 brick_high = brick_of(high);
         constexpr int end = brick_size - 1;
         for (std::int32_t z = brick_low.z; z <= brick_high.z; ++z)
             for (std::int32_t y = brick_low.y; y <= brick_high.y; ++y) {
                 const std::uint64_t last = brick_key({brick_high.x, y, z});
-                std::uint32_t& guess = guesses.row[(y & 1) | (z & 1) << 1];
+                std::uint32_t& guess = guesses.of_row(y, z);
                 guess = lower_bound(brick_key({brick_low.x, y, z}), guess);
                 for (std::uint32_t i = guess; i < brick_count && keys[i] <= last; ++i) {
                     const std::int32_t x = bricks[i].coordinate.x;

@@ -107,6 +107,12 @@ TEST(CudaEmulated, GivesTheCpusMeshForParticleLevelsDomainsAndQuantizedPositions
     EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
 }
 
+TEST(CudaEmulated, GivesTheCpusMeshWithoutNormals) {
+    Settings settings = test::default_settings();
+    settings.normals = false;
+    EmulatedDevice(settings).expect_the_cpus_mesh(test::splash(7, 6).frame());
+}
+
 TEST(CudaEmulated, FramesThatGrowAndShrinkAreReplayedFromAGraph) {
     EmulatedDevice device(test::default_settings());
     for (const int side : {6, 6, 6, 10, 4, 4, 10, 10}) device.expect_the_cpus_mesh(test::splash(6, side).frame());

@@ -61,6 +61,7 @@ struct Frame {
     LatticeSettings settings;
     bool bisects = false;
     std::uint32_t bisection_steps = 0;
+    bool has_normals = true;
     std::int64_t cell_units[particle_level_count] = {};
     float inverse_support[particle_level_count] = {};
 
@@ -179,7 +180,7 @@ struct Frame {
         take(cracked, blocks);
         take(samples, capacity[Resource::samples]);
         take(vertices, capacity[Resource::vertices]);
-        take(normals, capacity[Resource::vertices]);
+        take(normals, has_normals ? capacity[Resource::vertices] : 0);
         take(triangles, capacity[Resource::triangles]);
     }
 

@@ -126,16 +126,18 @@ __global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_co
             } else {
                 go_to(cropped ? cropped_offset(low_inside, bits) : interpolated_offset(ends.low, ends.high, iso, bits));
             }
+            const std::uint32_t number = blocks.first_vertex[block] + static_cast<std::uint32_t>(i);
+            if (i < count) {
+                const int steps = base_cell_size << bits;
+                const float steps_per_unit = 1.0F / units_per_step;
+                f.vertices[number] = {at.x * steps + static_cast<int>(x * steps_per_unit), at.y * steps + static_cast<int>(y * steps_per_unit),
+                                      at.z * steps + static_cast<int>(z * steps_per_unit)};
+            }
+            if (!f.has_normals) continue;
             float gx = 0.0F, gy = 0.0F, gz = 0.0F;
             for_each_staged_candidate(f, origin, box, staging[warp_in_block()], [&](const OneCandidate& c) { sum_gradients(c.view(), x, y, z, gx, gy, gz); });
             turn_outward(gx, gy, gz);
-            if (i >= count) continue;
-            const std::uint32_t number = blocks.first_vertex[block] + static_cast<std::uint32_t>(i);
-            const int steps = base_cell_size << bits;
-            const float steps_per_unit = 1.0F / units_per_step;
-            f.vertices[number] = {at.x * steps + static_cast<int>(x * steps_per_unit), at.y * steps + static_cast<int>(y * steps_per_unit),
-                                  at.z * steps + static_cast<int>(z * steps_per_unit)};
-            f.normals[number] = outward_normal({gx, gy, gz}, cropped, v.axis, low_inside);
+            if (i < count) f.normals[number] = outward_normal({gx, gy, gz}, cropped, v.axis, low_inside);
         }
     });
     if (bisects && lane_index() == 0 && evaluations != 0) atomicAdd(&f.counts->field_evaluations, evaluations);

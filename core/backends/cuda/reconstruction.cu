@@ -41,6 +41,7 @@ public:
           bricks_(make_array<MeshBrick>(account)), frame_(LatticeSettings(user)) {
         frame_.bisects = user.edge_points == EdgePoints::bisect;
         frame_.bisection_steps = user.bisection_steps;
+        frame_.has_normals = user.normals;
         for (unsigned k = 0; k < particle_level_count; ++k) {
             const float support = frame_.settings.support[k];
             frame_.cell_units[k] = support_cell_units(static_cast<std::int64_t>(std::ceil(support)));
@@ -58,7 +59,7 @@ public:
         download_.forget();
         download_.fetch(frame_.mesh_bricks, counts().needed[static_cast<int>(Resource::bricks)], bricks_, stream_.get());
         download_.fetch(on_device.vertices, on_device.vertex_count, mesh.vertices, stream_.get());
-        download_.fetch(on_device.normals, on_device.vertex_count, mesh.normals, stream_.get());
+        download_.fetch(on_device.normals, user_.normals ? on_device.vertex_count : 0, mesh.normals, stream_.get());
         download_.fetch(on_device.triangles, on_device.triangle_count, mesh.triangles, stream_.get());
         download_.finish();
         mesh.levels = on_device.levels;
@@ -73,7 +74,7 @@ public:
         tell(statistics);
         DeviceMesh mesh;
         mesh.vertices = frame_.vertices;
-        mesh.normals = frame_.normals;
+        mesh.normals = user_.normals ? frame_.normals : nullptr;
         mesh.triangles = frame_.triangles;
         mesh.vertex_count = static_cast<std::uint32_t>(counts().needed[static_cast<int>(Resource::vertices)]);
         mesh.triangle_count = static_cast<std::uint32_t>(counts().needed[static_cast<int>(Resource::triangles)]);

@@ -191,7 +191,8 @@ __global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __g
         for (unsigned k = 0; k < particle_level_count; ++k) {
             const ParticleSetView set = f.set(k);
             if (set.cells.brick_count == 0) continue;
-            set.for_each_run_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+            NoBrickGuesses guesses;
+            set.for_each_run_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, guesses, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
                 if (run++ % block_warps != warp_in_block()) return;
                 for (std::uint32_t i = begin + lane_index(); i < end; i += warp_threads) {
                     const float4 p = f.particles[i];

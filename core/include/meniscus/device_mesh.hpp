@@ -13,7 +13,7 @@ namespace meniscus {
 /// `stream` wait for that (cudaStreamWaitEvent).
 struct DeviceMesh {
     const LatticePosition* vertices = nullptr;  ///< device pointer
-    const Normal* normals = nullptr;            ///< device pointer, one per vertex
+    const Normal* normals = nullptr;            ///< device pointer, one per vertex; null if Settings::normals is false
     const Triangle* triangles = nullptr;        ///< device pointer
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
