@@ -23,9 +23,9 @@ struct Launcher {
         const std::uint64_t blocks = std::clamp<std::uint64_t>((elements + a_block - 1) / a_block, 1, most_blocks);
         launch(static_cast<unsigned>(blocks), false, kernel, arguments...);
     }
-    /// With so many blocks that all of them run at once, so that a kernel can wait for its whole grid.
+    /// For up to `elements` elements, with no more blocks than run at once, so that a kernel can wait for its whole grid.
     template <class... Parameters, class... Arguments>
-    void cooperative(void (*kernel)(Parameters...), const Arguments&... arguments) const {
+    void cooperative(std::uint64_t elements, void (*kernel)(Parameters...), const Arguments&... arguments) const {
         int a_processor = 0;
         int processors = 0;
         int device = 0;
@@ -33,7 +33,8 @@ struct Launcher {
         check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "cudaDeviceGetAttribute");
         check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&a_processor, kernel, static_cast<int>(block_threads), 0),
               "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
-        launch(static_cast<unsigned>(processors * a_processor), true, kernel, arguments...);
+        const std::uint64_t blocks = std::clamp<std::uint64_t>((elements + block_threads - 1) / block_threads, 1, static_cast<std::uint64_t>(processors * a_processor));
+        launch(static_cast<unsigned>(blocks), true, kernel, arguments...);
     }
 
 private:
@@ -41,13 +42,13 @@ private:
     void launch(unsigned blocks, bool together, void (*kernel)(Parameters...), const Arguments&... arguments) const {
         cudaLaunchAttribute attribute{};
         attribute.id = cudaLaunchAttributeCooperative;
-        attribute.val.cooperative = together ? 1 : 0;
+        attribute.val.cooperative = 1;
         cudaLaunchConfig_t configuration{};
         configuration.gridDim = dim3(blocks);
         configuration.blockDim = dim3(block_threads);
         configuration.stream = stream;
         configuration.attrs = &attribute;
-        configuration.numAttrs = 1;
+        configuration.numAttrs = together ? 1 : 0;
         check(cudaLaunchKernelEx(&configuration, kernel, arguments...), "cudaLaunchKernelEx");
     }
 };

@@ -176,7 +176,7 @@ struct SharedMarks {
 };
 
 /// A block of threads for every brick: its warps share the runs of particles near it.
-__global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __grid_constant__ Frame f) {
     __shared__ unsigned halves[2 * Brick::words];
     const SharedMarks marks{halves};
     const std::uint32_t bricks = f.count(Resource::bricks);

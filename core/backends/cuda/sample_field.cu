@@ -192,7 +192,7 @@ void sample_field(const Frame& frame, const Launcher& launch) {
     const std::uint64_t blocks = frame.capacity[Resource::blocks];
     launch(blocks, block_threads, list_corner_points, frame);
     launch(blocks, block_warps, sample_list, frame, List::corner_points);
-    launch.cooperative(settle_band, frame);
+    launch.cooperative(frame.capacity[Resource::blocks], settle_band, frame);
 }
 
 void sample_edge_middles(const Frame& frame, const Launcher& launch) {

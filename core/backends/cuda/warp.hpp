@@ -12,7 +12,10 @@ inline constexpr unsigned all_lanes = 0xFFFFFFFFU;
 __device__ inline unsigned lane_index() { return threadIdx.x % warp_threads; }
 __device__ inline unsigned warp_in_block() { return threadIdx.x / warp_threads; }
 
-/// One step of a loop of the whole grid: all lanes of a warp take every step together, for neighboring elements, some of them beyond the last.
+/// The first lane's value: a count that another warp may be changing must not part the lanes.
+__device__ inline std::uint32_t same_in_all_lanes(std::uint32_t value) { return __shfl_sync(all_lanes, value, 0); }
+
+/// A loop of the whole grid over all elements, neighboring ones in neighboring lanes.
 struct GridLoop {
     std::uint64_t step = static_cast<std::uint64_t>(gridDim.x) * block_threads;
     std::uint64_t first = static_cast<std::uint64_t>(blockIdx.x) * block_threads + threadIdx.x;  ///< this thread's
@@ -24,7 +27,8 @@ struct GridLoop {
     }
     /// Calls visit(i, whether i < n), the same number of times in all lanes of a warp.
     template <class Visit>
-    __device__ void each_together(std::uint64_t n, const Visit& visit) const {
+    __device__ void each_together(std::uint32_t n, const Visit& visit) const {
+        n = same_in_all_lanes(n);
         for (std::uint64_t i = first; i - lane_index() < n; i += step) visit(static_cast<std::uint32_t>(i), i < n);
     }
 };
@@ -32,6 +36,7 @@ struct GridLoop {
 /// Calls visit(i) for the elements below n, each by all lanes of one warp of the grid.
 template <class Visit>
 __device__ void each_by_warp(std::uint32_t n, const Visit& visit) {
+    n = same_in_all_lanes(n);
     const std::uint64_t warps = static_cast<std::uint64_t>(gridDim.x) * block_warps;
     for (std::uint64_t i = static_cast<std::uint64_t>(blockIdx.x) * block_warps + warp_in_block(); i < n; i += warps)
         visit(static_cast<std::uint32_t>(i));
