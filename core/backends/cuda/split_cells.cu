@@ -34,10 +34,10 @@ __global__ void __launch_bounds__(block_threads) collect_base_vertices(const __g
         const std::uint32_t all_inside = __ballot_sync(all_lanes, inside ? 1 : 0);
         const std::uint32_t all_deep = __ballot_sync(all_lanes, deep ? 1 : 0);
         if (lane_index() != 0) return;
-        const std::uint64_t kept = bit == 0 ? 0 : f.base_inside[word];
-        const std::uint64_t kept_deep = bit == 0 ? 0 : f.base_deep[word];
-        f.base_inside[word] = kept | static_cast<std::uint64_t>(all_inside) << bit;
-        f.base_deep[word] = kept_deep | static_cast<std::uint64_t>(all_deep) << bit;
+        // The lower half of a word comes first in memory.
+        const std::uint64_t half = 2 * std::uint64_t{word} + (bit != 0 ? 1 : 0);
+        reinterpret_cast<std::uint32_t*>(f.base_inside)[half] = all_inside;
+        reinterpret_cast<std::uint32_t*>(f.base_deep)[half] = all_deep;
     });
 }
 
