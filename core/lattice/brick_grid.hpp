@@ -41,6 +41,8 @@ struct Brick {
     std::uint64_t occupied[words];    ///< word w: the rows y = 4 (w % 4) ... + 3 of the slice z = w / 4
     std::uint16_t rank[words];        ///< members in the words before
 
+    /// Its lowest place.
+    MENISCUS_HD Int3 corner() const { return {coordinate.x * brick_size, coordinate.y * brick_size, coordinate.z * brick_size}; }
     MENISCUS_HD bool holds(int index) const { return (occupied[index >> 6] >> (index & 63) & 1) != 0; }
     /// Number of the member at `index`, or of the next one after it.
     MENISCUS_HD std::uint32_t number(int index) const {

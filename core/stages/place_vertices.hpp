@@ -10,38 +10,22 @@
 #include "lattice/host_device.hpp"
 #include "meniscus/mesh.hpp"
 #include "stages/blocks.hpp"
+#include "stages/levels_around.hpp"
 
 namespace meniscus {
 
-/// Which edges of a block the cells of the band around them use, by those cells' levels.
-class UsedEdges {
-public:
-    MENISCUS_HD UsedEdges(const BlocksView& blocks, std::uint32_t block) : own_(blocks.level[block]) {
-        // A cell of level 3 uses all of its block's finest edges, among them those that longer edges come down to.
-        if (own_ == 3) return;
-        for (int axis = 0; axis < 3; ++axis) {
-            below_[axis] = blocks.level_or_none(blocks.neighbor(block, axis_offset(axis, -1)));
-            across_[axis] = blocks.level_or_none(blocks.neighbor(block, axis_offset(first_across(axis), -1) + axis_offset(second_across(axis), -1)));
-        }
-    }
-    /// Lower ends of the edges along an axis that cells of this level use.
-    MENISCUS_HD BlockMask along(int axis, int level) const {
-        const BlockMask points = stride_points(level_stride(level));
-        if (own_ == 3) return level == 3 ? points : 0;
-        const int u = first_across(axis);
-        const int v = second_across(axis);
-        return (own_ == level ? points : 0) | (below_[u] == level ? points & low_face(u) : 0) | (below_[v] == level ? points & low_face(v) : 0) |
-               (across_[axis] == level ? points & low_face(u) & low_face(v) : 0);
-    }
-
-private:
-    MENISCUS_HD static constexpr int first_across(int axis) { return axis == 0 ? 1 : 0; }
-    MENISCUS_HD static constexpr int second_across(int axis) { return axis == 2 ? 1 : 2; }
-
-    int own_;
-    int below_[3];   ///< levels of the cells one down each axis; 0 outside the band
-    int across_[3];  ///< and of those one down both axes other than this
-};
+/// Lower ends of a block's edges along an axis that cells of the band of this level use. A cell of level 3 uses all of its block's
+/// finest edges, among them those that longer edges come down to.
+MENISCUS_HD inline BlockMask used_edges(const LevelsAround& around, int axis, int level) {
+    const BlockMask points = stride_points(level_stride(level));
+    if (around.own_is_finest()) return level == 3 ? points : 0;
+    const int cells = around.at_least[level] & ~around.at_least[level + 1];
+    const int u = axis == 0 ? 1 : 0;
+    const int v = axis == 2 ? 1 : 2;
+    const auto of_cell = [cells](int down, BlockMask edges) { return (cells >> down & 1) != 0 ? edges : 0; };
+    return of_cell(0, points) | of_cell(1 << u, points & low_face(u)) | of_cell(1 << v, points & low_face(v)) |
+           of_cell(1 << u | 1 << v, points & low_face(u) & low_face(v));
+}
 
 /// The edges of a block along one axis that a cell of the band uses and that cross the surface, by their length in finest
 /// cells, as masks of their lower ends.
@@ -50,15 +34,15 @@ struct CrossedEdges {
     BlockMask change1 = 0, change2 = 0;  ///< points whose sign differs one and two points further
     int axis = 0;
 
-    MENISCUS_HD CrossedEdges(const BlocksView& blocks, std::uint32_t block, const UsedEdges& used, int along) : axis(along) {
+    MENISCUS_HD CrossedEdges(const BlocksView& blocks, std::uint32_t block, const LevelsAround& around, int along) : axis(along) {
         const BlockMask own = blocks.inside[block];
         const BlockMask next = blocks.inside_or_none(blocks.neighbor(block, axis_offset(axis)));
         if (own == next && (own == 0 || own == ~BlockMask{0})) return;
         change1 = own ^ shifted(own, next, axis, 1);
         change2 = own ^ shifted(own, next, axis, 2);
-        length4 = used.along(axis, 1) & (own ^ next);
-        length2 = used.along(axis, 2) & change2;
-        length1 = used.along(axis, 3) & change1;
+        length4 = used_edges(around, axis, 1) & (own ^ next);
+        length2 = used_edges(around, axis, 2) & change2;
+        length1 = used_edges(around, axis, 3) & change1;
     }
     /// Edges of length 2 and the halves of longer ones; needs the middles of those sampled.
     MENISCUS_HD BlockMask length2_all() const {

@@ -7,52 +7,49 @@
 #include "stages/blocks.hpp"
 #include "stages/face_signs.hpp"
 #include "stages/level_sets.hpp"
+#include "stages/levels_around.hpp"
 #include "stages/place_vertices.hpp"
 
 namespace meniscus {
 
-/// The blocks that hold corners of cells in the band.
-MENISCUS_HD inline std::uint64_t cells_with_corner_points(const LevelSets& levels, std::uint32_t brick, int w) {
-    std::uint64_t cells = 0;
-    for (int i = 0; i < 8; ++i) cells |= levels.at_least[1].moved(brick, w, {-(i & 1), -(i >> 1 & 1), -(i >> 2)});
-    return cells;
-}
-
 /// The points of a block that the cells around it need as corners: all cells of the band whose closed box holds the point.
-MENISCUS_HD inline BlockMask corner_points(const BlocksView& blocks, std::uint32_t block) {
-    if (blocks.level[block] == 3) return ~BlockMask{0};
-    BlockMask wanted = 0;
-    for (int i = 0; i < 8; ++i) {
-        const int level = blocks.level_or_none(blocks.neighbor(block, {-(i & 1), -(i >> 1 & 1), -(i >> 2)}));
-        if (level == 0) continue;
-        BlockMask shared = stride_points(level_stride(level));
+MENISCUS_HD inline BlockMask corner_points(const LevelsAround& around) {
+    if (around.own_is_finest()) return ~BlockMask{0};
+    BlockMask wanted = around.at_least[1] != 0 ? stride_points(level_stride(1)) : 0;
+    for (std::uint64_t left = static_cast<unsigned>(around.at_least[2]); left != 0; left &= left - 1) {
+        const int i = lowest_bit(left);
+        BlockMask shared = stride_points(level_stride((around.at_least[3] >> i & 1) != 0 ? 3 : 2));
         for (int axis = 0; axis < 3; ++axis)
-            if (i >> axis & 1) shared &= low_face(axis);
+            if ((i >> axis & 1) != 0) shared &= low_face(axis);
         wanted |= shared;
     }
     return wanted;
 }
 
 /// The unsampled middles of coarse edges that cross the surface (design: an edge point lies on a finest lattice edge).
-MENISCUS_HD inline BlockMask edge_middles(const BlocksView& blocks, std::uint32_t block) {
+MENISCUS_HD inline BlockMask edge_middles(const BlocksView& blocks, std::uint32_t block, const LevelsAround& around) {
     BlockMask wanted = 0;
-    const UsedEdges used(blocks, block);
     for (int axis = 0; axis < 3; ++axis) {
-        const CrossedEdges crossed(blocks, block, used, axis);
+        const CrossedEdges crossed(blocks, block, around, axis);
         wanted |= crossed.length4 << (2 * bit_step(axis)) | crossed.length2 << bit_step(axis);
     }
     return wanted & ~blocks.sampled[block];
 }
 
-/// The middles of a level-1 cell's edges.
-inline constexpr BlockMask level1_middles = BlockMask{1} << 2 * bit_step(0) | BlockMask{1} << 2 * bit_step(1) | BlockMask{1} << 2 * bit_step(2);
+/// The middle of the level-1 edge that starts at a block along an axis.
+MENISCUS_HD constexpr BlockMask level1_middle(int axis) { return BlockMask{1} << 2 * bit_step(axis); }
+inline constexpr BlockMask level1_middles = level1_middle(0) | level1_middle(1) | level1_middle(2);
 
-/// The unsampled middles of those halves of level-1 edges that cross the surface; needs edge_middles() sampled.
-MENISCUS_HD inline BlockMask half_edge_middles(const BlocksView& blocks, std::uint32_t block) {
+/// Once the middles of crossing level-1 edges are sampled: the middles of those halves that cross the surface.
+/// inside: a block's points inside the fluid. middles: of its crossing edges.
+MENISCUS_HD inline BlockMask half_edge_middles(BlockMask inside, BlockMask middles) {
     BlockMask wanted = 0;
-    const UsedEdges used(blocks, block);
-    for (int axis = 0; axis < 3; ++axis) wanted |= CrossedEdges(blocks, block, used, axis).length2_all() << bit_step(axis);
-    return wanted & ~blocks.sampled[block];
+    for (int axis = 0; axis < 3; ++axis) {
+        if ((middles & level1_middle(axis)) == 0) continue;
+        const bool lower = ((inside ^ inside >> 2 * bit_step(axis)) & 1) != 0;
+        wanted |= BlockMask{1} << (lower ? 1 : 3) * bit_step(axis);
+    }
+    return wanted;
 }
 
 /// Whether a cell's points `stride` apart on its face at one side (0 below, 1 above) along an axis show both signs.

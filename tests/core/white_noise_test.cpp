@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <random>
 
+#include "backends/cpu/clusters.hpp"
 #include "backends/cpu/surface.hpp"
 #include "meniscus/mesh.hpp"
 #include "support/mesh_check.hpp"
@@ -21,12 +23,14 @@ public:
     void values(const Int3& base_cell, cpu::PointList& points, float* out, unsigned) override {
         for (std::size_t i = 0; i < points.count; ++i) out[i] = value(base_cell, points.x[i], points.y[i], points.z[i]);
     }
-    void block_values(const Int3& base_cell, BlockMask points, float* out, unsigned) override {
-        for (BlockMask left = points; left != 0; left &= left - 1) {
-            const int bit = lowest_bit(left);
-            const auto coordinate = [bit](int axis) { return static_cast<float>(point_coordinate(bit, axis) * units_per_cell); };
-            *out++ = value(base_cell, coordinate(0), coordinate(1), coordinate(2));
-        }
+    void cluster_values(const Int3& lowest_base_cell, const cpu::ClusterPoints& points, cpu::ClusterValues& out, unsigned) override {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            for (BlockMask left = points[i]; left != 0; left &= left - 1) {
+                const int bit = lowest_bit(left);
+                const auto coordinate = [bit](int axis) { return static_cast<float>(point_coordinate(bit, axis) * units_per_cell); };
+                out[i][static_cast<std::size_t>(bit)] =
+                    value(lowest_base_cell + cpu::cluster_step(static_cast<int>(i)), coordinate(0), coordinate(1), coordinate(2));
+            }
     }
     void normals(const Int3&, cpu::PointList& points, float* x, float* y, float* z, unsigned) override {
         for (std::size_t i = 0; i < points.count; ++i) x[i] = y[i] = z[i] = std::nanf("");
@@ -95,7 +99,8 @@ Mesh mesh_of_noise(std::uint64_t seed, const World& world) {
         surface.wanted_level[b] = static_cast<std::uint8_t>(world.uniform ? 3 : level(random));
         surface.wanted_points[b] = 1;
     }
-    cpu::sample_wanted_points(surface, field);
+    surface.chosen.assign(std::begin(brick.occupied), std::end(brick.occupied));
+    cpu::sample_wanted_points(surface, field, cpu::Wanted::corners);
     // As in the pipeline, a cell may start outside the band only if its corners agree.
     std::bernoulli_distribution starts(world.band_share);
     const BlocksView blocks = surface.view();

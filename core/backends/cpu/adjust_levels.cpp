@@ -9,7 +9,6 @@ void levels_are_new(Surface& s) {
     const std::size_t words = s.grid.bricks.size() * Brick::words;
     for (auto& set : s.at_least) resize_for_overwrite(set, words);
     for (auto& set : s.stale) resize_for_overwrite(set, words);
-    resize_for_overwrite(s.raised, words);
     const LevelSets levels = s.level_sets();
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b)

@@ -9,28 +9,31 @@
 
 namespace meniscus::cpu {
 
-/// Calls visit(lowest base cell of the cluster inside the brick) for every cluster of a brick that holds a member.
+/// The eight base cells of a cluster from its lowest.
+inline constexpr Int3 cluster_step(int i) { return {i & 1, i >> 1 & 1, i >> 2}; }
+
+/// Calls visit(lowest base cell of the cluster inside the brick) for every cluster of a brick that holds one of some cells.
+/// cells: bits as those of Brick::occupied.
 template <class Visit>
-void for_each_cluster(const Brick& brick, const Visit& visit) {
+void for_each_cluster(const std::uint64_t* cells, const Visit& visit) {
     for (int z = 0; z < brick_size; z += 2)
         for (int y = 0; y < brick_size; y += 2) {
             const auto row = [&](int dy, int dz) {
                 const int index = (y + dy) << 4 | (z + dz) << 8;
-                return brick.occupied[index >> 6] >> (index & 63) & 0xFFFF;
+                return cells[index >> 6] >> (index & 63) & 0xFFFF;
             };
-            const std::uint64_t members = row(0, 0) | row(1, 0) | row(0, 1) | row(1, 1);
-            for (std::uint64_t pairs = (members | members >> 1) & 0x5555; pairs != 0; pairs &= pairs - 1)
-                visit(Int3{lowest_bit(pairs), y, z});
+            const std::uint64_t any = row(0, 0) | row(1, 0) | row(0, 1) | row(1, 1);
+            for (std::uint64_t pairs = (any | any >> 1) & 0x5555; pairs != 0; pairs &= pairs - 1) visit(Int3{lowest_bit(pairs), y, z});
         }
 }
 
-/// Calls visit(member's number) for every member of a brick, cluster by cluster.
+/// Calls visit(number) for some members of a brick, cluster by cluster.
 template <class Visit>
-void for_each_clustered_member(const Brick& brick, const Visit& visit) {
-    for_each_cluster(brick, [&](const Int3& corner) {
+void for_each_clustered_member(const Brick& brick, const std::uint64_t* cells, const Visit& visit) {
+    for_each_cluster(cells, [&](const Int3& corner) {
         for (int i = 0; i < 8; ++i) {
-            const int index = index_in_brick(corner + Int3{i & 1, i >> 1 & 1, i >> 2});
-            if (brick.holds(index)) visit(brick.number(index));
+            const int index = index_in_brick(corner + cluster_step(i));
+            if ((cells[index >> 6] >> (index & 63) & 1) != 0) visit(brick.number(index));
         }
     });
 }

@@ -51,6 +51,21 @@ void pad(PointList& points) {
     }
 }
 
+/// Adds points of a block that lies so many blocks from the list's.
+void list_block_points(BlockMask points, const Int3& block, PointList& list) {
+    const float x = static_cast<float>(block.x) * base_edge, y = static_cast<float>(block.y) * base_edge, z = static_cast<float>(block.z) * base_edge;
+    for (BlockMask left = points; left != 0; left &= left - 1) {
+        const int bit = lowest_bit(left);
+        list.add(x + block_points.coordinate[0][bit], y + block_points.coordinate[1][bit], z + block_points.coordinate[2][bit]);
+    }
+}
+
+/// Spreads values in the order of some points to the places of their bits; returns where the values end.
+const float* spread(BlockMask points, const float* values, float* by_bit) {
+    for (BlockMask left = points; left != 0; left &= left - 1) by_bit[lowest_bit(left)] = *values++;
+    return values;
+}
+
 /// Values at G registers of points from the i-th on.
 template <int G>
 void sum_group(const CandidateLists::Levels& near, const PointList& points, std::size_t i, float* out) {
@@ -174,9 +189,8 @@ void ParticleField::sample_base_vertices(Surface& s, Array<CellReach>& reaches) 
         alignas(32) float value[8], bound[8], closest[8];
         for (std::size_t b = begin; b < end; ++b) {
             const Brick& brick = s.grid.bricks[b];
-            for_each_cluster(brick, [&](const Int3& corner) {
-                const Int3 base{brick.coordinate.x * brick_size + corner.x, brick.coordinate.y * brick_size + corner.y,
-                                brick.coordinate.z * brick_size + corner.z};
+            for_each_cluster(brick.occupied, [&](const Int3& corner) {
+                const Int3 base = brick.corner() + corner;
                 Lanes sum[1] = {Lanes(0.0F)};
                 Lanes most(0.0F), nearest(0.0F);
                 for (const Candidates& c : near_cluster(base, worker)) {
@@ -215,7 +229,7 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         for (std::size_t b = begin; b < end; ++b) {
             const Brick& brick = s.grid.bricks[b];
-            for_each_cluster(brick, [&](const Int3& corner) {
+            for_each_cluster(brick.occupied, [&](const Int3& corner) {
                 std::uint32_t block[8];
                 std::uint64_t cells = 0;
                 for (int i = 0; i < 8; ++i) {
@@ -252,8 +266,7 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
                     starts[2][i] = static_cast<float>(step.z) * base_edge;
                 }
                 evaluations.fetch_add(2 * cells, std::memory_order_relaxed);
-                const Int3 base{brick.coordinate.x * brick_size + corner.x, brick.coordinate.y * brick_size + corner.y,
-                                brick.coordinate.z * brick_size + corner.z};
+                const Int3 base = brick.corner() + corner;
                 const CandidateLists::Levels& near = near_cluster(base, worker);
                 const auto jet_at = [&](const Point3<Lanes>& p) {
                     FieldJet<Lanes> jet;
@@ -283,15 +296,39 @@ void ParticleField::values(const Int3& base_cell, PointList& points, float* valu
     sum_points(near_box(base_cell, box_of(points), worker), points, values);
 }
 
-void ParticleField::block_values(const Int3& base_cell, BlockMask points, float* values, unsigned worker) {
-    if (points == ~BlockMask{0}) return whole_block_values(base_cell, values, worker);
-    PointList list;
-    for (BlockMask left = points; left != 0; left &= left - 1) {
-        const int bit = lowest_bit(left);
-        list.add(block_points.coordinate[0][bit], block_points.coordinate[1][bit], block_points.coordinate[2][bit]);
+void ParticleField::cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values, unsigned worker) {
+    // A block with few points would fill a register badly, and its own list of particles would cost more than it saves.
+    constexpr int few = Lanes::count;
+    // With so many, the grid's regularity saves more than the points left out.
+    constexpr int most = 48;
+    PointList pool;
+    for (int i = 0; i < 8; ++i) {
+        const BlockMask own = points[static_cast<std::size_t>(i)];
+        const int count = popcount(own);
+        if (count <= few) {
+            list_block_points(own, cluster_step(i), pool);
+        } else {
+            float* const out = values[static_cast<std::size_t>(i)].data();
+            if (count > most) whole_block_values(lowest_base_cell + cluster_step(i), out, worker);
+            else block_values(lowest_base_cell + cluster_step(i), own, out, worker);
+        }
     }
+    if (pool.count == 0) return;
+    pad(pool);
+    alignas(32) float sums[max_points];
+    sum_points(near_box(lowest_base_cell, box_of(pool), worker), pool, sums);
+    const float* next = sums;
+    for (std::size_t i = 0; i < 8; ++i)
+        if (popcount(points[i]) <= few) next = spread(points[i], next, values[i].data());
+}
+
+void ParticleField::block_values(const Int3& base_cell, BlockMask points, float* values, unsigned worker) {
+    PointList list;
+    list_block_points(points, {0, 0, 0}, list);
     pad(list);
-    sum_points(near_box(base_cell, box_of(points), worker), list, values);
+    alignas(32) float sums[max_points];
+    sum_points(near_box(base_cell, box_of(points), worker), list, sums);
+    spread(points, sums, values);
 }
 
 void ParticleField::whole_block_values(const Int3& base_cell, float* values, unsigned worker) {

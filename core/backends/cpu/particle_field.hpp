@@ -26,11 +26,12 @@ public:
     void measure_bends(Surface& surface, const Array<CellReach>& reaches, Array<CellBend>& bends);
 
     void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) override;
-    void block_values(const Int3& base_cell, BlockMask points, float* values, unsigned worker) override;
+    void cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values, unsigned worker) override;
     void normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) override;
 
 private:
     void whole_block_values(const Int3& base_cell, float* values, unsigned worker);
+    void block_values(const Int3& base_cell, BlockMask points, float* values, unsigned worker);
     void divide_weights_by_density();
     /// Of the set's particles in one of its bricks.
     void find_densities(ParticleSet& set, const Brick& brick, unsigned worker);

@@ -8,6 +8,7 @@
 #include "backends/cpu/block_points.hpp"
 #include "backends/cpu/clusters.hpp"
 #include "backends/cpu/surface.hpp"
+#include "backends/cpu/words.hpp"
 #include "backends/numbering.hpp"
 #include "field/lanes.hpp"
 
@@ -145,20 +146,38 @@ void write_positions(const Int3& at, std::uint32_t bits, const PointList& points
                   corner.z + static_cast<int>(points.z[i] * steps_per_unit)};
 }
 
+/// Chooses the blocks with vertices.
 void number_vertices(Surface& s, bool with_normals, Mesh& mesh) {
     const BlocksView blocks = s.view();
-    s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
-        for (std::size_t b = begin; b < end; ++b) {
-            s.edges[b] = {};
-            if (s.corner_points[b] == 0) continue;
-            const auto block = static_cast<std::uint32_t>(b);
-            const UsedEdges used(blocks, block);
-            for (int axis = 0; axis < 3; ++axis) s.edges[b].axis[axis] = CrossedEdges(blocks, block, used, axis).finest();
-        }
+    const LevelSets levels = s.level_sets();
+    const CellSetView chosen = s.chosen_cells();
+    resize_for_overwrite(s.brick_counts, s.grid.bricks.size());
+    for_each_brick(s, [&](std::uint32_t brick) {
+        std::uint64_t in_brick = 0;
+        for_each_word(s.grid.bricks[brick], [&](int w) {
+            const LevelSetsAround around(levels, brick, w);
+            std::uint64_t with_vertices = 0;
+            for_each_cell(s.grid.bricks[brick], w, around.with_corner_points() & s.grid.bricks[brick].occupied[w], [&](std::uint32_t block, int bit) {
+                const LevelsAround here = around(bit);
+                for (int axis = 0; axis < 3; ++axis) s.edges[block].axis[axis] = CrossedEdges(blocks, block, here, axis).finest();
+                const int count = s.edges[block].count();
+                in_brick += static_cast<std::uint64_t>(count);
+                with_vertices |= std::uint64_t{count != 0} << bit;
+            });
+            chosen.word(brick, w) = with_vertices;
+        });
+        s.brick_counts[brick] = in_brick;
     });
-    const std::uint64_t count = s.scan.exclusive(
-        s.workers, s.block_count(), [&](std::size_t b) { return static_cast<std::uint64_t>(s.edges[b].count()); },
-        [&](std::size_t b, std::uint64_t before) { s.first_vertex[b] = static_cast<std::uint32_t>(before); });
+    const std::uint64_t count = counts_to_starts(s.brick_counts);
+    for_each_brick(s, [&](std::uint32_t brick) {
+        std::uint64_t next = s.brick_counts[brick];
+        for_each_word(s.grid.bricks[brick], [&](int w) {
+            for_each_cell(s.grid.bricks[brick], w, chosen.word(brick, w), [&](std::uint32_t block, int) {
+                s.first_vertex[block] = static_cast<std::uint32_t>(next);
+                next += static_cast<std::uint64_t>(s.edges[block].count());
+            });
+        });
+    });
     require_numbers(count, "the surface has", "vertices");
     resize_for_overwrite(mesh.vertices, count);
     resize_for_overwrite(mesh.normals, with_normals ? count : 0);
@@ -177,7 +196,6 @@ void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& 
         alignas(32) float ny[max_points];
         alignas(32) float nz[max_points];
         const auto place_block = [&](std::uint32_t block) {
-            if (s.edges[block].count() == 0) return;
             find_vertices(blocks, block, vertices);
             const Int3 at = blocks.coordinate(block);
             if (user.edge_points == EdgePoints::bisect) {
@@ -192,7 +210,8 @@ void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& 
             field.normals(at, points, nx, ny, nz, worker);
             write_normals(blocks, block, s.settings, vertices, nx, ny, nz, mesh.normals.data() + s.first_vertex[block]);
         };
-        for (std::size_t brick = begin; brick < end; ++brick) for_each_clustered_member(s.grid.bricks[brick], place_block);
+        for (std::size_t brick = begin; brick < end; ++brick)
+            for_each_clustered_member(s.grid.bricks[brick], &s.chosen_cells().word(static_cast<std::uint32_t>(brick), 0), place_block);
     });
     s.field_evaluations += evaluations.load(std::memory_order_relaxed);
 }

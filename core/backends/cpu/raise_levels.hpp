@@ -6,27 +6,9 @@
 #include <utility>
 
 #include "backends/cpu/surface.hpp"
+#include "backends/cpu/words.hpp"
 
 namespace meniscus::cpu {
-
-/// Calls visit(number, bit) for the cells of a word.
-template <class Visit>
-void for_each_cell(const Brick& brick, int w, std::uint64_t cells, const Visit& visit) {
-    for (std::uint64_t left = cells; left != 0; left &= left - 1) {
-        const int bit = lowest_bit(left);
-        visit(brick.number(64 * w + bit), bit);
-    }
-}
-
-/// Calls visit(brick's number, w) for every word of every brick that has a member.
-template <class Visit>
-void for_each_word(Surface& s, const Visit& visit) {
-    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
-        for (std::size_t b = begin; b < end; ++b)
-            for (int w = 0; w < Brick::words; ++w)
-                if (s.grid.bricks[b].occupied[w] != 0) visit(static_cast<std::uint32_t>(b), w);
-    });
-}
 
 /// Adds the cells of a word and the 26 around each of them to the stale cells of all rules.
 void mark_stale_around(Surface& s, std::uint32_t brick, int w, std::uint64_t cells);
@@ -40,7 +22,7 @@ inline std::uint64_t take_stale(Surface& s, StaleFor rule, std::uint32_t brick, 
 /// were any.
 template <class Raised, class NewLevel>
 bool raise_levels(Surface& s, const Raised& raised, const NewLevel& new_level) {
-    const CellSetView changes{s.grid.view(), s.raised.data()};
+    const CellSetView changes = s.chosen_cells();
     std::atomic<bool> changed{false};
     for_each_word(s, [&](std::uint32_t brick, int w) {
         changes.word(brick, w) = raised(brick, w);

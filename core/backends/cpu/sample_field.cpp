@@ -1,6 +1,7 @@
 #include "stages/sample_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 
 #include "backends/cpu/clusters.hpp"
@@ -12,48 +13,84 @@
 namespace meniscus::cpu {
 namespace {
 
-/// Which of a block's sampled points lie above the iso-value.
-BlockMask points_above(BlockMask sampled, const float* samples, float iso) {
+/// Enters new values of a block's missing points, given by bit; its samples move to new room.
+void enter_samples(Surface& s, std::uint32_t block, const Int3& at, BlockMask missing, std::array<float, 64>& values, std::uint32_t room) {
+    const float* known = s.samples.data() + s.first_sample[block];
+    for (BlockMask left = s.sampled[block]; left != 0; left &= left - 1) values[static_cast<std::size_t>(lowest_bit(left))] = *known++;
+    const BlockMask sampled = s.sampled[block] | missing;
+    float* out = s.samples.data() + room;
     BlockMask above = 0;
     if (sampled == ~BlockMask{0}) {
-        for (int i = 0; i < 64; i += Lanes::count) above |= BlockMask{not_above(Lanes::load(samples + i), Lanes(iso))} << i;
-        return ~above;
-    }
-    for (BlockMask left = sampled; left != 0; left &= left - 1) above |= BlockMask{*samples++ > iso} << lowest_bit(left);
-    return above;
-}
-
-/// The values of a block's missing points among the known ones, in the order of the points.
-void sample_missing_points(FieldSource& field, const Int3& at, BlockMask known, BlockMask missing, const float* known_samples, float* samples, unsigned worker) {
-    alignas(32) float fresh[64];
-    field.block_values(at, missing, fresh, worker);
-    float by_bit[64];
-    const float* next = fresh;
-    for (BlockMask left = missing; left != 0; left &= left - 1) by_bit[lowest_bit(left)] = *next++;
-    for (BlockMask left = known; left != 0; left &= left - 1) by_bit[lowest_bit(left)] = *known_samples++;
-    for (BlockMask left = known | missing; left != 0; left &= left - 1) *samples++ = by_bit[lowest_bit(left)];
-}
-
-void sample_block(Surface& s, FieldSource& field, std::uint32_t block, const float* old_samples, unsigned worker) {
-    const Int3 at = s.view().coordinate(block);
-    const BlockMask known = s.sampled[block];
-    const BlockMask missing = s.wanted_points[block] & ~known;
-    const BlockMask sampled = known | missing;
-    float* samples = s.samples.data() + s.first_sample[block];
-    const auto lanes_for = [](BlockMask points) { return (popcount(points) + Lanes::count - 1) / Lanes::count; };
-    if (sampled == ~BlockMask{0}) {
-        field.block_values(at, sampled, samples, worker);
-    } else if (lanes_for(sampled) == lanes_for(missing)) {
-        // The known points' values come out a second time, to the same bits: cheaper than sorting them in.
-        alignas(32) float values[64];
-        field.block_values(at, sampled, values, worker);
-        std::copy(values, values + popcount(sampled), samples);
+        std::copy(values.begin(), values.end(), out);
+        for (int i = 0; i < 64; i += Lanes::count) above |= BlockMask{not_above(Lanes::load(out + i), Lanes(s.settings.iso))} << i;
+        above = ~above;
     } else {
-        sample_missing_points(field, at, known, missing, old_samples, samples, worker);
+        for (BlockMask left = sampled; left != 0; left &= left - 1) {
+            const int bit = lowest_bit(left);
+            const float value = values[static_cast<std::size_t>(bit)];
+            *out++ = value;
+            above |= BlockMask{value > s.settings.iso} << bit;
+        }
     }
+    if (s.settings.has_domain) above &= domain_points(at, s.settings.domain_low, s.settings.domain_high);
+    s.first_sample[block] = room;
     s.sampled[block] = sampled;
-    s.inside[block] = points_above(sampled, samples, s.settings.iso);
-    if (s.settings.has_domain) s.inside[block] &= domain_points(at, s.settings.domain_low, s.settings.domain_high);
+    s.inside[block] = above;
+}
+
+BlockMask missing_points(const Surface& s, std::uint32_t block) { return s.wanted_points[block] & ~s.sampled[block]; }
+
+/// Of a level-1 edge's middle follows that of one of its halves.
+BlockMask followed_points(Wanted wanted, BlockMask missing) { return wanted == Wanted::middles ? missing & level1_middles : 0; }
+
+/// Samples the chosen blocks of a cluster, whose samples move to `room` one after the other; returns how many points were new.
+std::uint64_t sample_cluster(Surface& s, FieldSource& field, Wanted wanted, const Brick& brick, const Int3& corner, const std::uint64_t* chosen,
+                             std::uint64_t& room, unsigned worker) {
+    const Int3 lowest = brick.corner() + corner;
+    std::uint32_t block[8];
+    ClusterPoints missing{};
+    ClusterPoints followed{};
+    for (std::size_t i = 0; i < 8; ++i) {
+        const int place = index_in_brick(corner + cluster_step(static_cast<int>(i)));
+        if ((chosen[place >> 6] >> (place & 63) & 1) == 0) continue;
+        block[i] = brick.number(place);
+        missing[i] = missing_points(s, block[i]);
+        followed[i] = followed_points(wanted, missing[i]);
+    }
+    ClusterValues values;
+    std::uint64_t evaluations = 0;
+    const auto sample = [&](const ClusterPoints& points, const auto& room_of) {
+        field.cluster_values(lowest, points, values, worker);
+        for (std::size_t i = 0; i < 8; ++i) {
+            if (points[i] == 0) continue;
+            evaluations += static_cast<std::uint64_t>(popcount(points[i]));
+            enter_samples(s, block[i], lowest + cluster_step(static_cast<int>(i)), points[i], values[i], room_of(i));
+        }
+    };
+    sample(missing, [&](std::size_t i) {
+        const auto first = static_cast<std::uint32_t>(room);
+        room += static_cast<std::uint64_t>(popcount(s.sampled[block[i]] | missing[i]) + popcount(followed[i]));
+        return first;
+    });
+    bool any = false;
+    for (std::size_t i = 0; i < 8; ++i)
+        if (followed[i] != 0) {
+            followed[i] = half_edge_middles(s.inside[block[i]], followed[i]);
+            any = true;
+        }
+    if (any) sample(followed, [&](std::size_t i) { return s.first_sample[block[i]]; });
+    return evaluations;
+}
+
+/// Chooses of some cells of a word those with missing points by wanted(block, bit), and notes these.
+template <class WantedPoints>
+void choose_blocks(Surface& s, std::uint32_t brick, int w, std::uint64_t cells, const WantedPoints& wanted) {
+    std::uint64_t chosen = 0;
+    for_each_cell(s.grid.bricks[brick], w, cells, [&](std::uint32_t block, int bit) {
+        s.wanted_points[block] = wanted(block, bit);
+        chosen |= std::uint64_t{missing_points(s, block) != 0} << bit;
+    });
+    s.chosen_cells().word(brick, w) = chosen;
 }
 
 /// The cells of a word for which condition(number) holds.
@@ -65,6 +102,40 @@ std::uint64_t cells_where(const Brick& brick, int w, std::uint64_t cells, const 
 }
 
 }  // namespace
+
+void sample_wanted_points(Surface& s, FieldSource& field, Wanted wanted) {
+    const CellSetView chosen = s.chosen_cells();
+    resize_for_overwrite(s.brick_counts, s.grid.bricks.size());
+    for_each_brick(s, [&](std::uint32_t b) {
+        std::uint64_t room = 0;
+        const Brick& brick = s.grid.bricks[b];
+        for_each_word(brick, [&](int w) {
+            for_each_cell(brick, w, chosen.word(b, w), [&](std::uint32_t block, int) {
+                const BlockMask missing = missing_points(s, block);
+                room += static_cast<std::uint64_t>(popcount(s.sampled[block] | missing) + popcount(followed_points(wanted, missing)));
+            });
+        });
+        s.brick_counts[b] = room;
+    });
+    // A block that gains points moves to new room at the end of the samples; its old room stays unused until the next frame.
+    const std::uint64_t added = counts_to_starts(s.brick_counts);
+    const std::size_t used = s.samples.size();
+    require_numbers(used + added, "the surface needs", "field samples");
+    if (added == 0) return;
+    if (s.samples.capacity() < used + added) s.samples.reserve(used + added + (used + added) / 4);
+    s.samples.resize(used + added);
+    std::atomic<std::uint64_t> evaluations{0};
+    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+        std::uint64_t here = 0;
+        for (std::size_t b = begin; b < end; ++b) {
+            const std::uint64_t* const cells = &chosen.word(static_cast<std::uint32_t>(b), 0);
+            std::uint64_t room = used + s.brick_counts[b];
+            for_each_cluster(cells, [&](const Int3& corner) { here += sample_cluster(s, field, wanted, s.grid.bricks[b], corner, cells, room, worker); });
+        }
+        evaluations.fetch_add(here, std::memory_order_relaxed);
+    });
+    s.field_evaluations += evaluations.load(std::memory_order_relaxed);
+}
 
 bool grow_band(Surface& s) {
     const BlocksView blocks = s.view();
@@ -88,44 +159,15 @@ bool raise_at_slivers(Surface& s) {
 }
 
 void sample_corner_points(Surface& s, FieldSource& field) {
-    const BlocksView blocks = s.view();
     const LevelSets levels = s.level_sets();
     for_each_word(s, [&](std::uint32_t brick, int w) {
-        std::uint64_t cells = take_stale(s, StaleFor::corner_points, brick, w);
-        if (cells != 0) cells &= cells_with_corner_points(levels, brick, w);
-        for_each_cell(s.grid.bricks[brick], w, cells, [&](std::uint32_t block, int) { s.wanted_points[block] = s.corner_points[block] = corner_points(blocks, block); });
+        s.chosen_cells().word(brick, w) = 0;
+        const std::uint64_t stale = take_stale(s, StaleFor::corner_points, brick, w);
+        if (stale == 0) return;
+        const LevelSetsAround around(levels, brick, w);
+        choose_blocks(s, brick, w, stale & around.with_corner_points(), [&](std::uint32_t, int bit) { return corner_points(around(bit)); });
     });
-    sample_wanted_points(s, field);
-}
-
-void sample_wanted_points(Surface& s, FieldSource& field) {
-    // A block that gains points moves to new room at the end of the samples; its old room stays unused until the next frame.
-    const auto room = [&](std::size_t b) -> std::uint64_t {
-        const BlockMask known = s.sampled[b];
-        return (s.wanted_points[b] & ~known) == 0 ? 0 : static_cast<std::uint64_t>(popcount(s.wanted_points[b] | known));
-    };
-    std::atomic<std::uint64_t> evaluations{0};
-    const std::size_t n = s.block_count();
-    const std::size_t used = s.samples.size();
-    const std::uint64_t added = s.scan.exclusive(s.workers, n, room, [&](std::size_t b, std::uint64_t before) {
-        s.old_first_sample[b] = s.first_sample[b];
-        if (room(b) != 0) s.first_sample[b] = static_cast<std::uint32_t>(used + before);
-    });
-    require_numbers(used + added, "the surface needs", "field samples");
-    if (added == 0) return;
-    if (s.samples.capacity() < used + added) s.samples.reserve(used + added + (used + added) / 4);
-    s.samples.resize(used + added);
-    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
-        std::uint64_t here = 0;
-        for (std::size_t brick = begin; brick < end; ++brick)
-            for_each_clustered_member(s.grid.bricks[brick], [&](std::uint32_t b) {
-                if (room(b) == 0) return;
-                here += static_cast<std::uint64_t>(popcount(s.wanted_points[b] & ~s.sampled[b]));
-                sample_block(s, field, b, s.samples.data() + s.old_first_sample[b], worker);
-            });
-        evaluations.fetch_add(here, std::memory_order_relaxed);
-    });
-    s.field_evaluations += evaluations.load(std::memory_order_relaxed);
+    sample_wanted_points(s, field, Wanted::corners);
 }
 
 void sample_field(Surface& s, FieldSource& field) {
@@ -140,17 +182,14 @@ void sample_field(Surface& s, FieldSource& field) {
 
 void sample_edge_middles(Surface& s, FieldSource& field) {
     const BlocksView blocks = s.view();
-    s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
-        for (std::size_t b = begin; b < end; ++b)
-            s.wanted_points[b] = s.corner_points[b] == 0 || s.sampled[b] == ~BlockMask{0}
-                                     ? 0 : edge_middles(blocks, static_cast<std::uint32_t>(b));
+    const LevelSets levels = s.level_sets();
+    for_each_word(s, [&](std::uint32_t brick, int w) {
+        const LevelSetsAround around(levels, brick, w);
+        choose_blocks(s, brick, w, around.with_corner_points() & s.grid.bricks[brick].occupied[w], [&](std::uint32_t block, int bit) {
+            return s.sampled[block] == ~BlockMask{0} ? 0 : edge_middles(blocks, block, around(bit));
+        });
     });
-    sample_wanted_points(s, field);
-    s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
-        for (std::size_t b = begin; b < end; ++b)
-            s.wanted_points[b] = (s.wanted_points[b] & level1_middles) == 0 ? 0 : half_edge_middles(blocks, static_cast<std::uint32_t>(b));
-    });
-    sample_wanted_points(s, field);
+    sample_wanted_points(s, field, Wanted::middles);
 }
 
 }  // namespace meniscus::cpu

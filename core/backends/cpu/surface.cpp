@@ -10,16 +10,16 @@ Surface::Surface(const std::shared_ptr<MemoryAccount>& account, Workers& own_wor
       brick(make_array<std::uint32_t>(account)), place(make_array<std::uint16_t>(account)),
       level(make_array<std::uint8_t>(account)), wanted_level(make_array<std::uint8_t>(account)),
       sampled(make_array<BlockMask>(account)),
-      inside(make_array<BlockMask>(account)), corner_points(make_array<BlockMask>(account)), wanted_points(make_array<BlockMask>(account)),
-      first_sample(make_array<std::uint32_t>(account)), old_first_sample(make_array<std::uint32_t>(account)),
+      inside(make_array<BlockMask>(account)), wanted_points(make_array<BlockMask>(account)),
+      first_sample(make_array<std::uint32_t>(account)),
       edges(make_array<EdgeMasks>(account)),
       first_vertex(make_array<std::uint32_t>(account)), slots(make_array<TriangleSlots>(account)),
       samples(make_array<float>(account)), band(make_array<std::uint32_t>(account)),
       has_cracks(make_array<std::uint8_t>(account)),
-      brick_triangles(make_array<std::array<std::uint32_t, triangle_level_count>>(account)),
+      brick_triangles(make_array<std::array<std::uint32_t, triangle_level_count>>(account)), brick_counts(make_array<std::uint64_t>(account)),
       base_inside(make_array<std::uint64_t>(account)), base_deep(make_array<std::uint64_t>(account)),
       at_least{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account)},
-      raised(make_array<std::uint64_t>(account)),
+      chosen(make_array<std::uint64_t>(account)),
       stale{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account),
             make_array<std::uint64_t>(account), make_array<std::uint64_t>(account)} {}
 
@@ -59,14 +59,13 @@ void store_blocks(Surface& s) {
     resize_for_overwrite(s.level, n);
     resize_for_overwrite(s.wanted_level, n);
     resize_for_overwrite(s.sampled, n);
-    resize_for_overwrite(s.corner_points, n);
     resize_for_overwrite(s.inside, n);
     resize_for_overwrite(s.wanted_points, n);
     resize_for_overwrite(s.first_sample, n);
-    resize_for_overwrite(s.old_first_sample, n);
     resize_for_overwrite(s.edges, n);
     resize_for_overwrite(s.first_vertex, n);
     resize_for_overwrite(s.slots, n);
+    s.chosen.assign(s.grid.bricks.size() * Brick::words, 0);  // words without a member are never written
     s.samples.clear();
     s.field_evaluations = 0;
     s.workers.for_ranges(s.grid.bricks.size(), 4, [&](std::size_t begin, std::size_t end, unsigned) {
@@ -81,8 +80,6 @@ void store_blocks(Surface& s) {
                     s.sampled[block] = 0;
                     s.inside[block] = 0;
                     s.first_sample[block] = 0;
-                    s.wanted_points[block] = 0;
-                    s.corner_points[block] = 0;
                 }
         }
     });

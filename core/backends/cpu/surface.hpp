@@ -35,10 +35,8 @@ struct Surface {
     Array<std::uint8_t> wanted_level;  ///< by the split criterion
     Array<BlockMask> sampled;
     Array<BlockMask> inside;
-    Array<BlockMask> corner_points;  ///< points that cells of the band need as corners; none: nothing to do in this block
-    Array<BlockMask> wanted_points;
+    Array<BlockMask> wanted_points;  ///< of chosen blocks
     Array<std::uint32_t> first_sample;
-    Array<std::uint32_t> old_first_sample;  ///< while a block's samples move
     Array<EdgeMasks> edges;
     Array<std::uint32_t> first_vertex;
     Array<TriangleSlots> slots;
@@ -46,16 +44,18 @@ struct Surface {
     Array<std::uint32_t> band;  ///< the blocks of the surface band, ascending
     Array<std::uint8_t> has_cracks;  ///< for each of them, whether any of its faces is to be filled
     Array<std::array<std::uint32_t, triangle_level_count>> brick_triangles;  ///< per brick and level
+    Array<std::uint64_t> brick_counts;  ///< while a brick's samples or vertices are counted and numbered
     // Sets of base cells, see CellSetView.
     Array<std::uint64_t> base_inside, base_deep;   ///< see BaseVertexSets
     std::array<Array<std::uint64_t>, 3> at_least;  ///< by level, from 1; follow `level`
-    Array<std::uint64_t> raised;                   ///< while levels are raised
+    Array<std::uint64_t> chosen;                   ///< by a pass, for the next one
     std::array<Array<std::uint64_t>, all_rules.size()> stale;     ///< by rule
     std::uint64_t field_evaluations = 0;
 
     BlocksView view();
     LevelSets level_sets();
     CellSetView stale_cells(StaleFor rule) { return {grid.view(), stale[static_cast<std::size_t>(rule)].data()}; }
+    CellSetView chosen_cells() { return {grid.view(), chosen.data()}; }
     std::uint32_t block_count() const { return grid.members; }
 };
 
@@ -71,8 +71,10 @@ void levels_are_new(Surface& surface);
 /// Step 3. Balance and promotion among the cells of the band, until nothing changes.
 void adjust_levels(Surface& surface);
 
-/// Gives values to all of a block's wanted points that have none; signs follow.
-void sample_wanted_points(Surface& surface, FieldSource& field);
+/// Whether the points to sample are cells' corners or the middles of crossing edges; those of level-1 edges bring one half's middle.
+enum class Wanted : std::uint8_t { corners, middles };
+/// Gives values to all wanted points of the chosen blocks that have none; signs follow.
+void sample_wanted_points(Surface& surface, FieldSource& field, Wanted wanted);
 /// Step 4. Samples what the cells of the band need; cells that the samples draw into the band are adjusted and sampled in turn.
 void sample_field(Surface& surface, FieldSource& field);
 /// One pass of that: samples the corner points of the cells whose surroundings have changed.

@@ -15,8 +15,8 @@ __global__ void __launch_bounds__(block_threads) count_vertices(const __grid_con
         if (exists) {
             EdgeMasks edges{};
             if (f.corner_points[b] != 0) {
-                const UsedEdges used(blocks, b);
-                for (int axis = 0; axis < 3; ++axis) edges.axis[axis] = CrossedEdges(blocks, b, used, axis).finest();
+                const LevelsAround around(blocks, b);
+                for (int axis = 0; axis < 3; ++axis) edges.axis[axis] = CrossedEdges(blocks, b, around, axis).finest();
             }
             f.edges[b] = edges;
             count = static_cast<std::uint32_t>(edges.count());

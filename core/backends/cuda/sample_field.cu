@@ -140,18 +140,18 @@ __device__ void sample_listed(const Frame& f, List list, BlockSampling (&shared)
 }
 
 __global__ void __launch_bounds__(block_threads) list_corner_points(const __grid_constant__ Frame f) {
-    list_wanted_points(f, List::corner_points, [&](const BlocksView& blocks, std::uint32_t b) { return f.corner_points[b] = corner_points(blocks, b); });
+    list_wanted_points(f, List::corner_points, [&](const BlocksView& blocks, std::uint32_t b) { return f.corner_points[b] = corner_points(LevelsAround(blocks, b)); });
 }
 
 __global__ void __launch_bounds__(block_threads) list_edge_middles(const __grid_constant__ Frame f) {
     list_wanted_points(f, List::edge_middles, [&](const BlocksView& blocks, std::uint32_t b) {
-        return f.corner_points[b] == 0 || blocks.sampled[b] == ~BlockMask{0} ? 0 : edge_middles(blocks, b);
+        return f.corner_points[b] == 0 || blocks.sampled[b] == ~BlockMask{0} ? 0 : edge_middles(blocks, b, LevelsAround(blocks, b));
     });
 }
 
 __global__ void __launch_bounds__(block_threads) list_half_edge_middles(const __grid_constant__ Frame f) {
     list_wanted_points(f, List::half_edge_middles, [&](const BlocksView& blocks, std::uint32_t b) {
-        return (f.wanted_points[b] & level1_middles) == 0 ? 0 : half_edge_middles(blocks, b);
+        return half_edge_middles(blocks.inside[b], f.wanted_points[b] & level1_middles);
     });
 }
 
@@ -174,7 +174,7 @@ __global__ void __launch_bounds__(block_threads, 2) settle_band(const __grid_con
         sweeps.adjust_levels();
         if (sweeps.is_first_thread()) f.counts->listed[static_cast<int>(List::later_round)] = 0;
         sweeps.wait();
-        list_wanted_points(f, List::later_round, [&](const BlocksView& blocks, std::uint32_t b) { return f.corner_points[b] = corner_points(blocks, b); });
+        list_wanted_points(f, List::later_round, [&](const BlocksView& blocks, std::uint32_t b) { return f.corner_points[b] = corner_points(LevelsAround(blocks, b)); });
         sweeps.wait();
         sample_listed(f, List::later_round, shared);
         sweeps.wait();
