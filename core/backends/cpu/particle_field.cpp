@@ -31,6 +31,12 @@ UnitBox box_of(const PointList& points) {
     return box;
 }
 
+/// The smallest box around eight points.
+UnitBox box_of(const Point3<Lanes>& points) {
+    return {{smallest_lane(points.x), smallest_lane(points.y), smallest_lane(points.z)},
+            {largest_lane(points.x), largest_lane(points.y), largest_lane(points.z)}};
+}
+
 /// The smallest box around points of a block.
 UnitBox box_of(BlockMask points) {
     UnitBox box;
@@ -232,13 +238,13 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
             for_each_cluster(brick.occupied, [&](const Int3& corner) {
                 std::uint32_t block[8];
                 std::uint64_t cells = 0;
+                int first = 0;
                 for (int i = 0; i < 8; ++i) {
-                    const Int3 step{i & 1, i >> 1 & 1, i >> 2};
-                    const int place = index_in_brick(corner + step);
+                    const int place = index_in_brick(corner + cluster_step(i));
                     block[i] = brick.holds(place) ? brick.number(place) : no_index;
                     if (block[i] != no_index) bends[block[i]] = {0.0F, 1};
                     const bool in_band = blocks.level_or_none(block[i]) != 0;
-                    cells += in_band ? 1 : 0;
+                    if (in_band && cells++ == 0) first = i;
                     if (!in_band) block[i] = no_index;
                 }
                 if (cells == 0) return;
@@ -253,7 +259,8 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
                 alignas(32) float corners[8][8], starts[3][8], mixed[8];  // [corner][cell]
                 int inside_corners[8];
                 for (int i = 0; i < 8; ++i) {
-                    const Int3 step{i & 1, i >> 1 & 1, i >> 2};
+                    // Lanes of cells outside the band repeat another's, so that the box around their points stays small.
+                    const Int3 step = cluster_step(block[i] != no_index ? i : first);
                     inside_corners[i] = 0;
                     for (int k = 0; k < 8; ++k) {
                         const int vertex = step.x + (k & 1) + 3 * (step.y + (k >> 1 & 1)) + 9 * (step.z + (k >> 2));
@@ -267,10 +274,9 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
                 }
                 evaluations.fetch_add(2 * cells, std::memory_order_relaxed);
                 const Int3 base = brick.corner() + corner;
-                const CandidateLists::Levels& near = near_cluster(base, worker);
                 const auto jet_at = [&](const Point3<Lanes>& p) {
                     FieldJet<Lanes> jet;
-                    for (const Candidates& c : near) sum_jets(c.view(), p.x, p.y, p.z, jet);
+                    for (const Candidates& c : near_box(base, box_of(p), worker)) sum_jets(c.view(), p.x, p.y, p.z, jet);
                     return jet;
                 };
                 CellCorners<Lanes> values;
