@@ -43,8 +43,8 @@ MENISCUS_HD inline void emit_cell_triangles(const BlocksView& blocks, std::uint3
     const ClosedCell cell(blocks, block);
     switch (blocks.level[block]) {
         case 1: return emit_subcell_triangles(blocks, cell, 4, SubcellVertices{blocks, cell, 4}, table, out);
-        case 2: return emit_subcell_triangles(blocks, cell, 2, SubcellVertices{blocks, cell, 2}, table, out);
-        default: return emit_subcell_triangles(blocks, cell, 1, VertexTable(blocks, cell), table, out);
+        case 2: return emit_subcell_triangles(blocks, cell, 2, VertexTable<2>(blocks, cell), table, out);
+        default: return emit_subcell_triangles(blocks, cell, 1, VertexTable<1>(blocks, cell), table, out);
     }
 }
 

@@ -1,4 +1,4 @@
-// The vertices of a level-3 cell, listed once, so that a triangle's corner is one look-up.
+// The vertices of a cell of level 2 or 3, listed once, so that a triangle's corner is one look-up.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,13 @@
 
 namespace meniscus {
 
-/// Numbers of the vertices on all finest edges of a closed cell that cross the surface. The place of an edge is that of its
-/// lower end, x + 5 y + 25 z, plus 125 times its axis.
+/// Numbers of the vertices on all edges of this stride, 1 or 2, of a closed cell that cross the surface. The place of an edge is
+/// that of its lower end, x + 5 y + 25 z, plus 125 times its axis. A crossed edge of stride 2 has one vertex, on either half.
+template <int stride>
 class VertexTable {
 public:
     MENISCUS_HD VertexTable(const BlocksView& blocks, const ClosedCell& cell) {
+        static_assert(stride == 1 || stride == 2, "a longer edge may have several vertices");
         for (int i = 0; i < 8; ++i) {
             const std::uint32_t block = cell.block[i];
             if (block == no_index) continue;  // no edge from its points crosses the surface
@@ -28,7 +30,7 @@ public:
             for (int axis = 0; axis < 3; ++axis) {
                 const BlockMask all = edges.axis[axis];
                 // Edges that leave the closed cell are no cell's of ours.
-                if ((i >> axis & 1) == 0) list(all, shared, first, number_ + points * axis + corner);
+                if ((i >> axis & 1) == 0) list(all, shared, stride == 2 ? bit_step(axis) : 0, first, number_ + points * axis + corner);
                 first += static_cast<std::uint32_t>(popcount(all));
             }
         }
@@ -43,14 +45,15 @@ private:
 
     MENISCUS_HD static constexpr int place(int bit) { return bit + (bit >> 2 & 3) + 9 * (bit >> 4); }
 
-    MENISCUS_HD static void list(BlockMask all, BlockMask shared, std::uint32_t first, std::uint32_t* out) {
+    /// second_half: the bit by which a point on an edge's second half differs from its lower end.
+    MENISCUS_HD static void list(BlockMask all, BlockMask shared, int second_half, std::uint32_t first, std::uint32_t* out) {
         if (shared == ~BlockMask{0}) {
-            for (BlockMask left = all; left != 0; left &= left - 1) out[place(lowest_bit(left))] = first++;
+            for (BlockMask left = all; left != 0; left &= left - 1) out[place(lowest_bit(left) & ~second_half)] = first++;
             return;
         }
         for (BlockMask left = all & shared; left != 0; left &= left - 1) {
             const BlockMask before = (left & (~left + 1)) - 1;
-            out[place(lowest_bit(left))] = first + static_cast<std::uint32_t>(popcount(all & before));
+            out[place(lowest_bit(left) & ~second_half)] = first + static_cast<std::uint32_t>(popcount(all & before));
         }
     }
 
@@ -61,7 +64,8 @@ private:
         EdgePlaces places{};
         for (int edge = 0; edge < 12; ++edge) {
             const int start = edge_start(edge);
-            places.of[edge] = points * (edge >> 2) + (start & 1) + points_a_side * (start >> 1 & 1) + points_a_side * points_a_side * (start >> 2);
+            places.of[edge] = points * (edge >> 2) +
+                              stride * ((start & 1) + points_a_side * (start >> 1 & 1) + points_a_side * points_a_side * (start >> 2));
         }
         return places;
     }
