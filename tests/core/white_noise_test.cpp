@@ -5,6 +5,7 @@
 #include <iterator>
 #include <memory>
 #include <random>
+#include <vector>
 
 #include "backends/cpu/clusters.hpp"
 #include "backends/cpu/surface.hpp"
@@ -95,8 +96,9 @@ Mesh mesh_of_noise(std::uint64_t seed, const World& world) {
     cpu::number_members(surface.grid, workers);
     cpu::store_blocks(surface);
     std::uniform_int_distribution<int> level(1, 3);
+    std::vector<std::uint8_t> wanted_level(surface.block_count());
     for (std::uint32_t b = 0; b < surface.block_count(); ++b) {
-        surface.wanted_level[b] = static_cast<std::uint8_t>(world.uniform ? 3 : level(random));
+        wanted_level[b] = static_cast<std::uint8_t>(world.uniform ? 3 : level(random));
         surface.wanted_points[b] = 1;
     }
     surface.chosen.assign(std::begin(brick.occupied), std::end(brick.occupied));
@@ -109,21 +111,22 @@ Mesh mesh_of_noise(std::uint64_t seed, const World& world) {
         int inside = 0;
         for (const std::uint32_t corner : cell.block) inside += static_cast<int>(blocks.inside_or_none(corner) & 1);
         const bool agree = inside == 0 || inside == 8;
-        surface.level[b] = !agree || starts(random) ? surface.wanted_level[b] : std::uint8_t{0};
+        surface.level[b] = !agree || starts(random) ? wanted_level[b] : std::uint8_t{0};
     }
     Mesh mesh;
     mesh.cell_size = settings.cell_size;
     mesh.offset_bits = settings.offset_bits;
     cpu::levels_are_new(surface);
     if (!world.uniform) cpu::adjust_levels(surface);
+    const auto joining_level = [&](std::uint32_t block) { return wanted_level[block]; };
     if (world.raise_at_slivers) {
-        cpu::sample_field(surface, field);
+        cpu::sample_field(surface, field, joining_level);
     } else {
         // Keeps the faces whose cracks only the fine side sees: the patterns must close them too.
         do {
             cpu::adjust_levels(surface);
             cpu::sample_corner_points(surface, field);
-        } while (cpu::grow_band(surface));
+        } while (cpu::grow_band(surface, joining_level));
     }
     cpu::sample_edge_middles(surface, field);
     cpu::count_triangles(surface, mesh);

@@ -26,11 +26,12 @@ public:
         clock.enter(Stage::split_cells);
         find_band(surface_, reaches_);
         if (measures_bends()) field_.measure_bends(surface_, reaches_, bends_);
-        split_cells(surface_, criterion(frame));
+        const SplitCriterion split_criterion = criterion(frame);
+        split_cells(surface_, split_criterion);
         clock.enter(Stage::adjust_levels);
         if (user_.mode == Mode::adaptive) adjust_levels(surface_);
         clock.enter(Stage::sample_field);
-        sample_field(surface_, field_);
+        sample_field(surface_, field_, [&](std::uint32_t block) { return wanted_level(split_criterion, surface_.view(), block); });
         if (user_.mode == Mode::adaptive) sample_edge_middles(surface_, field_);
         clock.enter(Stage::count_triangles);
         count_triangles(surface_, mesh);

@@ -137,7 +137,7 @@ void sample_wanted_points(Surface& s, FieldSource& field, Wanted wanted) {
     s.field_evaluations += evaluations.load(std::memory_order_relaxed);
 }
 
-bool grow_band(Surface& s) {
+bool grow_band(Surface& s, const JoiningLevel& joining_level) {
     const BlocksView blocks = s.view();
     const LevelSets levels = s.level_sets();
     const auto joining = [&](std::uint32_t brick, int w) {
@@ -145,7 +145,7 @@ bool grow_band(Surface& s) {
         if (cells != 0) cells &= levels.beside(1, brick, w);
         return cells_where(s.grid.bricks[brick], w, cells, [&](std::uint32_t block) { return joins_band(blocks, block); });
     };
-    return raise_levels(s, joining, [&s](std::uint32_t block) { return s.wanted_level[block]; });
+    return raise_levels(s, joining, joining_level);
 }
 
 bool raise_at_slivers(Surface& s) {
@@ -170,10 +170,10 @@ void sample_corner_points(Surface& s, FieldSource& field) {
     sample_wanted_points(s, field, Wanted::corners);
 }
 
-void sample_field(Surface& s, FieldSource& field) {
+void sample_field(Surface& s, FieldSource& field, const JoiningLevel& joining_level) {
     for (;;) {
         sample_corner_points(s, field);
-        const bool grown = grow_band(s);
+        const bool grown = grow_band(s, joining_level);
         const bool raised = raise_at_slivers(s);
         if (!grown && !raised) return;
         adjust_levels(s);

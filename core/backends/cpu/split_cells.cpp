@@ -33,15 +33,17 @@ void find_band(Surface& s, const Array<CellReach>& reaches) {
     });
 }
 
+int wanted_level(const SplitCriterion& criterion, const BlocksView& blocks, std::uint32_t block) {
+    return std::visit([&](const auto& level_of) { return level_of(blocks, block); }, criterion);
+}
+
 void split_cells(Surface& s, const SplitCriterion& criterion) {
     const BlocksView blocks = s.view();
     std::visit(
         [&](const auto& level_of) {
             s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
-                for (std::size_t b = begin; b < end; ++b) {
-                    s.wanted_level[b] = static_cast<std::uint8_t>(level_of(blocks, static_cast<std::uint32_t>(b)));
-                    if (s.level[b] != 0) s.level[b] = s.wanted_level[b];
-                }
+                for (std::size_t b = begin; b < end; ++b)
+                    if (s.level[b] != 0) s.level[b] = static_cast<std::uint8_t>(level_of(blocks, static_cast<std::uint32_t>(b)));
             });
         },
         criterion);

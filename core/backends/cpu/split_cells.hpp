@@ -14,7 +14,9 @@ using SplitCriterion = std::variant<UniformCriterion, CountCriterion, CurvatureC
 /// Puts the stored cells that may hold surface into the band, at level 1. Base vertices must be sampled.
 void find_band(Surface& surface, const Array<CellReach>& reaches);
 
-/// Gives every stored cell the level that the criterion asks for.
+/// The level that the criterion asks for in one cell.
+int wanted_level(const SplitCriterion& criterion, const BlocksView& blocks, std::uint32_t block);
+/// Gives every cell of the band the level that the criterion asks for.
 void split_cells(Surface& surface, const SplitCriterion& criterion);
 
 }  // namespace meniscus::cpu

@@ -8,7 +8,7 @@ namespace meniscus::cpu {
 Surface::Surface(const std::shared_ptr<MemoryAccount>& account, Workers& own_workers, const LatticeSettings& own_settings)
     : workers(own_workers), settings(own_settings), scan(account), grid(account),
       brick(make_array<std::uint32_t>(account)), place(make_array<std::uint16_t>(account)),
-      level(make_array<std::uint8_t>(account)), wanted_level(make_array<std::uint8_t>(account)),
+      level(make_array<std::uint8_t>(account)),
       sampled(make_array<BlockMask>(account)),
       inside(make_array<BlockMask>(account)), wanted_points(make_array<BlockMask>(account)),
       first_sample(make_array<std::uint32_t>(account)),
@@ -57,7 +57,6 @@ void store_blocks(Surface& s) {
     resize_for_overwrite(s.brick, n);
     resize_for_overwrite(s.place, n);
     resize_for_overwrite(s.level, n);
-    resize_for_overwrite(s.wanted_level, n);
     resize_for_overwrite(s.sampled, n);
     resize_for_overwrite(s.inside, n);
     resize_for_overwrite(s.wanted_points, n);

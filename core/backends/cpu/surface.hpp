@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "backends/arrays.hpp"
@@ -32,7 +33,6 @@ struct Surface {
     Array<std::uint32_t> brick;
     Array<std::uint16_t> place;
     Array<std::uint8_t> level;
-    Array<std::uint8_t> wanted_level;  ///< by the split criterion
     Array<BlockMask> sampled;
     Array<BlockMask> inside;
     Array<BlockMask> wanted_points;  ///< of chosen blocks
@@ -75,12 +75,14 @@ void adjust_levels(Surface& surface);
 enum class Wanted : std::uint8_t { corners, middles };
 /// Gives values to all wanted points of the chosen blocks that have none; signs follow.
 void sample_wanted_points(Surface& surface, FieldSource& field, Wanted wanted);
+/// The level of a cell that joins the band.
+using JoiningLevel = std::function<int(std::uint32_t block)>;
 /// Step 4. Samples what the cells of the band need; cells that the samples draw into the band are adjusted and sampled in turn.
-void sample_field(Surface& surface, FieldSource& field);
+void sample_field(Surface& surface, FieldSource& field, const JoiningLevel& joining_level);
 /// One pass of that: samples the corner points of the cells whose surroundings have changed.
 void sample_corner_points(Surface& surface, FieldSource& field);
 /// Takes the cells into the band that a neighbor's samples show to hold surface; returns whether there were any.
-bool grow_band(Surface& surface);
+bool grow_band(Surface& surface, const JoiningLevel& joining_level);
 /// Raises the cells by one level that would cut off a finer neighbor's surface in a sliver; returns whether there were any.
 bool raise_at_slivers(Surface& surface);
 /// Samples the middles of coarse edges that cross the surface.
