@@ -37,7 +37,7 @@ namespace {
 class Reconstruction final : public BackendReconstruction {
 public:
     Reconstruction(const Settings& user, int device, const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account)
-        : user_(user), device_(device), memory_(device, stream_.get(), device_account), upload_(account), download_(account), host_counts_(account),
+        : user_(user), device_(device), upload_(account), download_(account), host_counts_(account), memory_(device, stream_.get(), device_account),
           bricks_(make_array<MeshBrick>(account)), frame_(LatticeSettings(user)) {
         frame_.bisects = user.edge_points == EdgePoints::bisect;
         frame_.bisection_steps = user.bisection_steps;
@@ -178,11 +178,12 @@ private:
 
     Settings user_;
     int device_;
-    Stream stream_;
-    DeviceMemory memory_;
+    // A frame that failed may have left copies under way: pinned memory outlives the stream, whose end waits for them.
     Upload upload_;
     Download download_;
     PinnedMemory host_counts_;
+    Stream stream_;
+    DeviceMemory memory_;
     Array<MeshBrick> bricks_;
     Frame frame_;
     Launcher launcher_;
