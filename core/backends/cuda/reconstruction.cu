@@ -53,6 +53,14 @@ public:
         host_counts_.reserve(sizeof(Counts));
     }
 
+    ~Reconstruction() override {
+        try {
+            at_end_.emplace(device_);
+        } catch (...) {
+            // The device is lost: there is nothing to free on it.
+        }
+    }
+
     void reconstruct(const ParticleFrame& particles, Mesh& mesh, Statistics& statistics) override {
         const DeviceMesh on_device = reconstruct_on_device(particles, statistics);
         const CurrentDevice current(device_);
@@ -178,6 +186,7 @@ private:
 
     Settings user_;
     int device_;
+    std::optional<CurrentDevice> at_end_;  ///< while the members below end, in whatever thread
     // A frame that failed may have left copies under way: pinned memory outlives the stream, whose end waits for them.
     Upload upload_;
     Download download_;
