@@ -30,6 +30,8 @@ public:
     /// account would pass its limit.
     void assign(std::size_t bytes) {
         release();
+        // Else the old piece would still be there, uncounted, beside the new one.
+        check(cudaStreamSynchronize(stream_), "cudaStreamSynchronize");
         account_->charge(bytes);
         const cudaError_t status = cudaMallocFromPoolAsync(&memory_, bytes, pool_, stream_);
         if (status != cudaSuccess) {
