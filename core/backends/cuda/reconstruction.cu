@@ -141,6 +141,7 @@ private:
 
     void require_room_for_numbers() const {
         const auto needed = [&](Resource r) { return counts().needed[static_cast<int>(r)]; };
+        require_numbers(needed(Resource::reached_bricks), "the particles reach", "bricks, repetitions counted");
         require_numbers(needed(Resource::blocks), "the frame reaches", "base cells");
         require_numbers(needed(Resource::samples), "the surface needs", "field samples");
         require_numbers(needed(Resource::triangles), "the surface has", "triangles");

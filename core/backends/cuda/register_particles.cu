@@ -141,26 +141,32 @@ __global__ void __launch_bounds__(block_threads) list_reached_bricks(const __gri
 
 constexpr std::uint64_t no_brick = ~std::uint64_t{0};
 
+/// The sorted keys that may name a brick.
+__device__ std::uint64_t reached_key_count(const Frame& f) {
+    const std::uint64_t listed = f.counts->needed[static_cast<int>(Resource::reached_bricks)];
+    return listed < f.capacity[Resource::reached_bricks] ? listed : f.capacity[Resource::reached_bricks];
+}
+
 __device__ bool is_first_of_key(const Frame& f, std::uint32_t i) {
     return f.reached_keys[i] != no_brick && (i == 0 || f.reached_keys[i] != f.reached_keys[i - 1]);
 }
 
 __global__ void __launch_bounds__(block_threads) mark_first_keys(const __grid_constant__ Frame f) {
-    GridLoop{}.each(f.capacity[Resource::reached_bricks], [&](std::uint32_t i) { f.first_of_key[i] = is_first_of_key(f, i) ? 1 : 0; });
+    GridLoop{}.each(reached_key_count(f), [&](std::uint32_t i) { f.first_of_key[i] = is_first_of_key(f, i) ? 1 : 0; });
 }
 
 __global__ void __launch_bounds__(block_threads) store_bricks(const __grid_constant__ Frame f) {
-    const std::uint64_t keys = f.capacity[Resource::reached_bricks];
+    const std::uint64_t keys = reached_key_count(f);
     GridLoop{}.each(keys, [&](std::uint32_t i) {
         const std::uint32_t brick = f.first_of_key[i];
         if (is_first_of_key(f, i) && brick < f.capacity[Resource::bricks]) {
             f.brick_keys[brick] = f.reached_keys[i];
             f.bricks[brick].coordinate = brick_coordinate(f.reached_keys[i]);
         }
-        if (i != keys - 1) return;
-        f.need(Resource::bricks, f.first_of_key[keys]);
-        f.need(Resource::reached_bricks, f.counts->needed[static_cast<int>(Resource::reached_bricks)]);
     });
+    if (blockIdx.x != 0 || threadIdx.x != 0) return;
+    f.need(Resource::bricks, f.first_of_key[keys]);
+    f.need(Resource::reached_bricks, f.counts->needed[static_cast<int>(Resource::reached_bricks)]);
 }
 
 /// Marks in shared memory, by many threads at once, in halves of words, which atomic operations are made for.
