@@ -1,6 +1,9 @@
 #include "backends/cuda/device.hpp"
 
+#include <stdexcept>
+
 #include "backends/cuda/errors.hpp"
+#include "meniscus/error.hpp"
 
 namespace meniscus::cuda {
 namespace {
@@ -37,15 +40,19 @@ std::vector<Device> devices() {
     const int count = device_count(reason);
     for (int i = 0; i < count; ++i) {
         if (!why_unavailable(i).empty()) continue;
-        const CurrentDevice current(i);
-        Device device{i, device_name(i), capability(i), 0, 0};
-        check(cudaMemGetInfo(&device.free_bytes, &device.total_bytes), "cudaMemGetInfo");
-        result.push_back(device);
+        try {
+            const CurrentDevice current(i);
+            Device device{i, device_name(i), capability(i), 0, 0};
+            check(cudaMemGetInfo(&device.free_bytes, &device.total_bytes), "cudaMemGetInfo");
+            result.push_back(device);
+        } catch (const std::runtime_error&) {
+            // It has failed, or has no memory left to start CUDA in: the others may do.
+        }
     }
     return result;
 }
 
-std::string why_unavailable(int device) {
+std::string why_unavailable(int device) try {
     std::string reason;
     const int count = device_count(reason);
     if (count == 0) return reason;
@@ -57,6 +64,8 @@ std::string why_unavailable(int device) {
     if (attribute(cudaDevAttrMemoryPoolsSupported, device) == 0) return device_name(device) + " has no memory pools";
     if (attribute(cudaDevAttrCooperativeLaunch, device) == 0) return device_name(device) + " has no cooperative launches";
     return {};
+} catch (const DeviceError& error) {
+    return error.what();
 }
 
 std::string device_name(int device) {
