@@ -41,6 +41,13 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
            "auto, cpu or cuda")
         ->type_name("NAME")
         ->default_str("auto");
+    app.add_option("--devices", server.devices,
+                   "GPUs to use, as 0,1: each session on the one with the most free memory. Default: all that can be used")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("LIST")
+        ->default_str("");
     app.add_option("--threads", server.backend.threads, "Worker threads; 0: one per processor")
         ->check(CLI::Range(0U, 1024U));
     app.add_option("--max-sessions", server.limits.sessions, "Sessions at a time; 0: no limit");
@@ -48,6 +55,10 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.add_option("--max-particles", server.limits.particles_per_frame, "Particles of one frame; 0: no limit");
     app.add_option("--memory-limit", server.limits.bytes_per_session,
                    "Memory of one session's reconstruction, as 4G or 500M; 0: no limit. Default: half of the machine's")
+        ->transform(CLI::AsSizeValue(false))
+        ->type_name("BYTES");
+    app.add_option("--device-memory-limit", server.limits.device_bytes_per_session,
+                   "Memory of one session's reconstruction on its GPU; 0: no limit")
         ->transform(CLI::AsSizeValue(false))
         ->type_name("BYTES");
     app.add_option("--shutdown-grace", grace_seconds,

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <thread>
 
+#include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::server {
@@ -43,6 +44,24 @@ void require_unused_unix_socket(const std::string& listen) {
     if (in_use) throw InvalidInput(fmt::format("cannot listen on {}: the address is in use", listen));
 }
 
+/// Throws InvalidInput if the backend or a device cannot be used.
+BackendDescription describe(const ServerOptions& options) {
+    const Backend choice = options.backend.backend;
+    if (choice == Backend::cpu) {
+        if (!options.devices.empty()) throw InvalidInput("--devices needs --backend cuda or auto: the CPU was asked for");
+        return describe_backend(choice);
+    }
+    for (const int device : options.devices) describe_backend(Backend::cuda, device);
+    const std::vector<cuda::Device> usable = cuda::devices(options.devices);
+    return describe_backend(choice, usable.empty() ? 0 : usable.front().index);
+}
+
+/// Where there was no GPU at the start, none is looked for again.
+BackendOptions for_sessions(BackendOptions backend, const BackendDescription& found) {
+    if (found.backend == Backend::cpu) backend.backend = Backend::cpu;
+    return backend;
+}
+
 std::string with_port(const std::string& listen, int port) {
     if (listen.starts_with("unix:")) return listen;
     return fmt::format("{}:{}", listen.substr(0, listen.rfind(':')), port);
@@ -52,8 +71,9 @@ std::string with_port(const std::string& listen, int port) {
 
 Server::Server(const ServerOptions& options)
     : options_(options),
-      backend_(describe_backend(options.backend.backend)),
-      registry_(options.limits, options.backend, threads_or_processors(options.backend.threads)),
+      backend_(describe(options)),
+      registry_(options.limits, for_sessions(options.backend, backend_), threads_or_processors(options.backend.threads),
+                options.devices),
       server_service_(backend_, threads_or_processors(options.backend.threads), options.limits),
       session_service_(registry_),
       surface_service_(registry_, calls_) {

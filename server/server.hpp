@@ -6,6 +6,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "meniscus/reconstructor.hpp"
 #include "rpc/services.hpp"
@@ -16,7 +17,8 @@ namespace meniscus::server {
 
 struct ServerOptions {
     std::string listen = "127.0.0.1:50051";  ///< "HOST:PORT", port 0 for a free one, or "unix:PATH"
-    BackendOptions backend;                  ///< memory_limit is not used: limits has it
+    BackendOptions backend;                  ///< backend and threads; limits and devices have the rest
+    std::vector<int> devices;                ///< the GPUs to use; empty: all that can reconstruct
     Limits limits;
     /// How long shutdown() waits for clients to take what they are owed.
     std::chrono::milliseconds shutdown_grace = std::chrono::seconds(10);

@@ -28,7 +28,8 @@ void print_server(const std::string& server) {
               << "sessions               " << limit(info.max_sessions) << '\n'
               << "watchers per session   " << limit(info.max_watchers_per_session) << '\n'
               << "particles per frame    " << limit(info.max_particles_per_frame) << '\n'
-              << "bytes per session      " << limit(info.max_bytes_per_session) << '\n';
+              << "bytes per session      " << limit(info.max_bytes_per_session) << '\n'
+              << "GPU bytes per session  " << limit(info.max_device_bytes_per_session) << '\n';
 }
 
 void print_this_process(Backend choice) {

@@ -30,6 +30,8 @@ nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::s
     out["total_seconds"] = s.total_seconds;
     out["first_seconds"] = runs.front().total_seconds;
     out["peak_bytes"] = s.peak_bytes;
+    out["device_bytes"] = s.device_bytes;
+    out["device_peak_bytes"] = s.device_peak_bytes;
     out["backend"] = s.backend;
     out["threads"] = s.threads;
     out["mesh_sha256"] = mesh_sha256;

@@ -33,6 +33,8 @@ void to_wire(const Statistics& statistics, v1::FrameStatistics& wire) {
 
     wire.set_total_seconds(statistics.total_seconds);
     wire.set_peak_bytes(statistics.peak_bytes);
+    wire.set_device_bytes(statistics.device_bytes);
+    wire.set_device_peak_bytes(statistics.device_peak_bytes);
     wire.set_allocations(statistics.allocations);
     wire.set_backend(statistics.backend);
     wire.set_threads(statistics.threads);
@@ -58,6 +60,8 @@ Statistics from_wire(const v1::FrameStatistics& wire) {
 
     statistics.total_seconds = wire.total_seconds();
     statistics.peak_bytes = wire.peak_bytes();
+    statistics.device_bytes = wire.device_bytes();
+    statistics.device_peak_bytes = wire.device_peak_bytes();
     statistics.allocations = wire.allocations();
     statistics.backend = wire.backend();
     statistics.threads = wire.threads();

@@ -16,6 +16,7 @@ v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, uns
     wire.set_watchers_per_session(limits.watchers_per_session);
     wire.set_particles_per_frame(limits.particles_per_frame);
     wire.set_bytes_per_session(limits.bytes_per_session);
+    wire.set_device_bytes_per_session(limits.device_bytes_per_session);
     wire.set_chunk_bytes(chunk_bytes);
     return response;
 }

@@ -37,6 +37,8 @@ grpc::Status to_status(const std::exception_ptr& error) {
         return {grpc::StatusCode::RESOURCE_EXHAUSTED, e.what()};
     } catch (const Refusal& e) {
         return {code_of(e.kind()), e.what()};
+    } catch (const DeviceError& e) {
+        return {grpc::StatusCode::INTERNAL, e.what()};
     } catch (const std::bad_alloc&) {
         return {grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory"};
     } catch (const std::exception& e) {

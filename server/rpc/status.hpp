@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// None: OK. What is not a refusal is a defect: INTERNAL, and logged.
+/// None: OK. A GPU that failed is INTERNAL, and so is what is not a refusal: a defect, which is logged.
 grpc::Status to_status(const std::exception_ptr& error);
 
 }  // namespace meniscus::server

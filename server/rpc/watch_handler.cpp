@@ -87,8 +87,8 @@ private:
             auto next = slot_->take();
             if (auto* frame = std::get_if<std::shared_ptr<const EncodedFrame>>(&next))
                 frame_ = std::move(*frame);
-            else if (std::holds_alternative<LatestFrame::End>(next))
-                finish(grpc::Status::OK);
+            else if (const auto* end = std::get_if<LatestFrame::End>(&next))
+                finish(to_status(end->error));
         }
         if (!frame_) return;
         outgoing_ = to_bytes(frame_->messages[sent_++]);

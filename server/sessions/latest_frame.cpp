@@ -15,11 +15,13 @@ void LatestFrame::put(std::shared_ptr<const EncodedFrame> frame) {
     if (wake) wake_();
 }
 
-void LatestFrame::finish() {
+void LatestFrame::finish(std::exception_ptr error) {
     bool wake = false;
     {
         const std::lock_guard lock(mutex_);
+        if (finished_) return;
         finished_ = true;
+        error_ = std::move(error);
         wake = std::exchange(consumer_waits_, false);
     }
     if (wake) wake_();
@@ -28,7 +30,7 @@ void LatestFrame::finish() {
 LatestFrame::Next LatestFrame::take() {
     const std::lock_guard lock(mutex_);
     if (frame_) return std::exchange(frame_, nullptr);
-    if (finished_) return End{};
+    if (finished_) return End{error_};
     consumer_waits_ = true;
     return Nothing{};
 }

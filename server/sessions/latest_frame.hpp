@@ -1,6 +1,7 @@
 // What a watcher will be sent next: one slot, replaced by newer state.
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -14,7 +15,9 @@ namespace meniscus::server {
 class LatestFrame {
 public:
     struct Nothing {};  ///< for now: `wake` will be called
-    struct End {};
+    struct End {
+        std::exception_ptr error;  ///< none: all went well
+    };
     using Next = std::variant<Nothing, std::shared_ptr<const EncodedFrame>, End>;
 
     /// wake: called once, by a producing thread, after take() has found nothing and there is something again.
@@ -22,8 +25,8 @@ public:
 
     /// Replaces a frame that has not been taken.
     void put(std::shared_ptr<const EncodedFrame> frame);
-    /// Nothing follows the frame that waits now.
-    void finish();
+    /// Nothing follows the frame that waits now; the first call counts.
+    void finish(std::exception_ptr error);
 
     Next take();
 
@@ -31,6 +34,7 @@ private:
     const std::function<void()> wake_;
     std::mutex mutex_;
     std::shared_ptr<const EncodedFrame> frame_;
+    std::exception_ptr error_;
     bool finished_ = false;
     bool consumer_waits_ = false;
 };

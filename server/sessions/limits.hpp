@@ -15,6 +15,8 @@ struct Limits {
     std::uint64_t particles_per_frame = 0;
     /// For the reconstruction of one session, and as much again for its frames on their way in.
     std::size_t bytes_per_session = 0;
+    /// For the reconstruction of one session on its GPU.
+    std::size_t device_bytes_per_session = 0;
 };
 
 }  // namespace meniscus::server

@@ -11,22 +11,13 @@
 
 namespace meniscus::server {
 
-namespace {
-
-BackendOptions with_memory_limit(BackendOptions backend, const Limits& limits) {
-    backend.memory_limit = limits.bytes_per_session;
-    return backend;
-}
-
-}  // namespace
-
-Session::Session(std::string id, const Settings& settings, const Limits& limits, const BackendOptions& backend,
+Session::Session(std::string id, const Settings& settings, const Limits& limits, Reconstruct reconstruct,
                  std::shared_ptr<WorkerPool> workers)
     : id_(std::move(id)),
       settings_(settings),
       limits_(limits),
       workers_(std::move(workers)),
-      reconstructor_(settings, with_memory_limit(backend, limits)),
+      reconstruct_(std::move(reconstruct)),
       inputs_([&] {
           const auto account = std::make_shared<MemoryAccount>(limits.bytes_per_session);
           return std::array<InputFrame, 2>{InputFrame(account), InputFrame(account)};
@@ -118,23 +109,32 @@ void Session::drain() {
 }
 
 void Session::close() {
-    std::vector<std::shared_ptr<Upload>> uploads;
-    std::vector<Watch> watches;
+    const Attached attached = detach();
+    const auto error = std::make_exception_ptr(
+        Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id_)));
+    for (const auto& upload : attached.uploads) upload->output.abort(error);
+    for (const Watch& watch : attached.watches) watch.slot->finish(nullptr);
+}
+
+Session::Attached Session::detach() {
+    Attached attached;
     {
         const std::lock_guard lock(mutex_);
-        if (std::exchange(closed_, true)) return;
+        if (std::exchange(closed_, true)) return attached;
         upload_.reset();
-        uploads.swap(unanswered_);
-        watches = watches_;
+        attached.uploads.swap(unanswered_);
+        attached.watches = watches_;
     }
     free_inputs_.close();
     received_.close();
     free_frames_.close();
     tasks_.close();
-    const auto error = std::make_exception_ptr(
-        Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id_)));
-    for (const auto& upload : uploads) upload->output.abort(error);
-    for (const Watch& watch : watches) watch.slot->finish();
+    return attached;
+}
+
+bool Session::ended() const {
+    const std::lock_guard lock(mutex_);
+    return closed_;
 }
 
 void Session::join() {
@@ -158,6 +158,10 @@ void Session::reconstruct_frames() {
         if (!frame) return;
         try {
             reconstruct(input, **frame);
+        } catch (const DeviceError& error) {
+            spdlog::error("session {} ends with frame {}: {}", id_, input.index, error.what());
+            tasks_.put(EndSession{std::current_exception()});
+            return;
         } catch (...) {
             failed = received->upload;
             free_frames_.put(*frame);
@@ -172,7 +176,7 @@ void Session::reconstruct_frames() {
 
 void Session::reconstruct(const InputFrame& input, ReconstructedFrame& frame) {
     try {
-        reconstructor_.reconstruct(input.view(), frame.mesh);
+        frame.statistics = reconstruct_(input.view(), frame.mesh);
     } catch (const InvalidInput& error) {
         throw InvalidInput(fmt::format("frame {}: {}", input.index, error.what()));
     } catch (const LimitExceeded& error) {
@@ -181,7 +185,6 @@ void Session::reconstruct(const InputFrame& input, ReconstructedFrame& frame) {
     frame.index = input.index;
     frame.simulation_time = input.simulation_time;
     frame.received_at = input.received_at;
-    frame.statistics = reconstructor_.statistics();
     const std::lock_guard lock(mutex_);
     ++state_.frames;
     state_.last_frame_index = input.index;
@@ -225,7 +228,13 @@ void Session::perform(EndUpload& task) {
     }
     // Only now: who hears of the end may open the next stream.
     if (task.upload) task.upload->output.finish(task.error);
-    for (const Watch& watch : done) watch.slot->finish();
+    for (const Watch& watch : done) watch.slot->finish(nullptr);
+}
+
+void Session::perform(EndSession& task) {
+    const Attached attached = detach();
+    for (const auto& upload : attached.uploads) upload->output.finish(task.error);
+    for (const Watch& watch : attached.watches) watch.slot->finish(task.error);
 }
 
 void Session::perform(EncodeForWatchers&) {

@@ -13,7 +13,10 @@
 #include <variant>
 #include <vector>
 
-#include "meniscus/reconstructor.hpp"
+#include "meniscus/mesh.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/settings.hpp"
+#include "meniscus/statistics.hpp"
 #include "sessions/channel.hpp"
 #include "sessions/frame_encoder.hpp"
 #include "sessions/input_frame.hpp"
@@ -32,6 +35,9 @@ struct SessionState {
     std::optional<std::uint64_t> last_frame_index;
 };
 
+/// Replaces the mesh by the frame's surface; throws what Reconstructor::reconstruct throws.
+using Reconstruct = std::function<Statistics(const ParticleFrame& frame, Mesh& mesh)>;
+
 /// A pipeline of three steps that overlap: a frame is received (by its stream, into one of two input slots) while the
 /// one before is reconstructed (first thread, into one of two meshes) and the one before that is encoded (second
 /// thread). A step waits for the next one only through these slots, which is also all the memory that frames take.
@@ -39,8 +45,7 @@ struct SessionState {
 /// join() must have returned before the last reference goes, unless no other thread has one.
 class Session {
 public:
-    /// Throws InvalidInput for settings out of range.
-    Session(std::string id, const Settings& settings, const Limits& limits, const BackendOptions& backend,
+    Session(std::string id, const Settings& settings, const Limits& limits, Reconstruct reconstruct,
             std::shared_ptr<WorkerPool> workers);
     ~Session();
     Session(const Session&) = delete;
@@ -72,7 +77,9 @@ public:
     void drain();
     /// Drops what is in flight, and ends the upload and the watchers. Returns at once.
     void close();
-    /// After close(): waits until the session's threads have ended. Once, and not from one of them.
+    /// Whether the session was closed, or a GPU that failed has ended it.
+    bool ended() const;
+    /// After its end: waits until the session's threads have ended. Once, and not from one of them.
     void join();
 
 private:
@@ -89,13 +96,23 @@ private:
         std::shared_ptr<Upload> upload;  ///< none: only looks whether the session drains
         std::exception_ptr error;
     };
+    struct EndSession {
+        std::exception_ptr error;
+    };
     struct EncodeForWatchers {};
-    using Task = std::variant<Encode, EndUpload, EncodeForWatchers>;
+    using Task = std::variant<Encode, EndUpload, EndSession, EncodeForWatchers>;
 
     struct Watch {
         int normal_bits = 0;
         std::shared_ptr<LatestFrame> slot;
     };
+
+    struct Attached {
+        std::vector<std::shared_ptr<Upload>> uploads;
+        std::vector<Watch> watches;
+    };
+    /// Ends the threads' work. Returns whom to tell: nobody from the second call on.
+    Attached detach();
 
     void reconstruct_frames();
     void reconstruct(const InputFrame& input, ReconstructedFrame& frame);
@@ -103,6 +120,7 @@ private:
     void encode_frames();
     void perform(Encode& task);
     void perform(EndUpload& task);
+    void perform(EndSession& task);
     void perform(EncodeForWatchers& task);
     void publish(int normal_bits, const std::shared_ptr<const EncodedFrame>& frame);
     /// Encodes the newest mesh for the watchers whose wishes nobody shared.
@@ -113,7 +131,7 @@ private:
     const Settings settings_;
     const Limits limits_;
     const std::shared_ptr<WorkerPool> workers_;
-    Reconstructor reconstructor_;
+    const Reconstruct reconstruct_;
 
     std::array<InputFrame, 2> inputs_;
     std::array<ReconstructedFrame, 2> frames_;

@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "meniscus/settings.hpp"
 #include "sessions/channel.hpp"
 #include "sessions/limits.hpp"
 #include "sessions/session.hpp"
@@ -17,18 +18,19 @@ namespace meniscus::server {
 
 class SessionRegistry {
 public:
-    /// encoding_threads: at least 1.
-    SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads);
+    /// encoding_threads: at least 1. devices: the GPUs that sessions may use; all if none is named.
+    SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
+                    std::vector<int> devices = {});
     ~SessionRegistry();
     SessionRegistry(const SessionRegistry&) = delete;
     SessionRegistry& operator=(const SessionRegistry&) = delete;
 
-    /// Joins the session that exists with equal settings. Throws InvalidInput (settings), LimitExceeded, Refusal.
+    /// Joins the session that exists with equal settings. Throws InvalidInput (settings), LimitExceeded, Refusal, DeviceError.
     std::shared_ptr<Session> create(const std::string& id, const Settings& settings);
     /// Throws Refusal if there is none.
-    std::shared_ptr<Session> find(const std::string& id) const;
+    std::shared_ptr<Session> find(const std::string& id);
     /// Ordered by id.
-    std::vector<std::shared_ptr<Session>> list() const;
+    std::vector<std::shared_ptr<Session>> list();
     /// Ends the session, its stream and its watchers; its threads end in the background. Throws Refusal if there is none.
     void remove(const std::string& id);
 
@@ -38,11 +40,17 @@ public:
     const Limits& limits() const noexcept { return limits_; }
 
 private:
+    /// Forgets the sessions that ended by themselves. With the lock held.
+    void remove_ended();
+    /// Where the next session reconstructs.
+    BackendOptions place_session() const;
+
     const Limits limits_;
     const BackendOptions backend_;
+    const std::vector<int> devices_;
     const std::shared_ptr<WorkerPool> workers_;
 
-    mutable std::mutex mutex_;
+    std::mutex mutex_;
     std::map<std::string, std::shared_ptr<Session>> sessions_;
     bool draining_ = false;
 

@@ -172,7 +172,7 @@ TEST(LatestFrame, WakesAWaitingConsumerOnce) {
 TEST(LatestFrame, GivesTheLastFrameBeforeTheEnd) {
     LatestFrame latest([] {});
     latest.put(frame(3));
-    latest.finish();
+    latest.finish(nullptr);
     latest.put(frame(4));
     EXPECT_EQ(std::get<std::shared_ptr<const EncodedFrame>>(latest.take())->frame_index, 3U);
     EXPECT_TRUE(std::holds_alternative<LatestFrame::End>(latest.take()));

@@ -149,6 +149,11 @@ TEST(Meniscusd, RefusesWrongFlagsInOneLine) {
                                                       {"--threads", "many"},
                                                       {"--backend", "abacus"},
                                                       {"--memory-limit", "4X"},
+                                                      {"--device-memory-limit", "4X"},
+                                                      {"--devices", "0,two"},
+                                                      {"--devices", "-1"},
+                                                      {"--devices", "1000"},
+                                                      {"--backend", "cpu", "--devices", "0"},
                                                       {"--max-sessions", "-1"},
                                                       {"--log-level", "loud"},
                                                       {"--listen"}};
@@ -172,10 +177,12 @@ TEST(Meniscusd, RefusesAnAddressInUseInOneLine) {
 }
 
 TEST(Meniscusd, TakesLimitsWithUnits) {
-    Process process(on_free_port({"--memory-limit", "4G", "--max-sessions", "5", "--max-watchers", "6", "--max-particles", "7"}));
+    Process process(on_free_port({"--memory-limit", "4G", "--device-memory-limit", "2G", "--max-sessions", "5",
+                                  "--max-watchers", "6", "--max-particles", "7"}));
     client::Client client(process.address());
     const client::ServerInfo info = client.server_info();
     EXPECT_EQ(info.max_bytes_per_session, std::uint64_t{4} << 30U);
+    EXPECT_EQ(info.max_device_bytes_per_session, std::uint64_t{2} << 30U);
     EXPECT_EQ(info.max_sessions, 5U);
     EXPECT_EQ(info.max_watchers_per_session, 6U);
     EXPECT_EQ(info.max_particles_per_frame, 7U);

@@ -107,7 +107,11 @@ TEST(Sessions, HaveIdsThatDiffer) {
 
 TEST(ServerInfo, NamesBackendAndLimits) {
     ServerOptions options = test_options();
-    options.limits = {.sessions = 3, .watchers_per_session = 4, .particles_per_frame = 5, .bytes_per_session = 6};
+    options.limits = {.sessions = 3,
+                      .watchers_per_session = 4,
+                      .particles_per_frame = 5,
+                      .bytes_per_session = 6,
+                      .device_bytes_per_session = 7};
     RunningServer running(options);
     const client::ServerInfo info = running.client.server_info();
     EXPECT_EQ(info.version, version());
@@ -119,6 +123,7 @@ TEST(ServerInfo, NamesBackendAndLimits) {
     EXPECT_EQ(info.max_watchers_per_session, 4U);
     EXPECT_EQ(info.max_particles_per_frame, 5U);
     EXPECT_EQ(info.max_bytes_per_session, 6U);
+    EXPECT_EQ(info.max_device_bytes_per_session, 7U);
 }
 
 }  // namespace

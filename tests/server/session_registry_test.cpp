@@ -14,7 +14,7 @@ constexpr const char* second_id = "00000000-0000-4000-8000-000000000002";
 constexpr const char* third_id = "00000000-0000-4000-8000-000000000003";
 
 struct Registry : testing::Test {
-    SessionRegistry registry{Limits{.sessions = 2}, BackendOptions{.threads = 1}, 1};
+    SessionRegistry registry{Limits{.sessions = 2}, BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
 };
 
 TEST_F(Registry, JoinsASessionWithEqualSettings) {
@@ -55,6 +55,15 @@ TEST_F(Registry, KnowsNoSessionThatWasRemoved) {
     registry.remove(first_id);
     EXPECT_THROW(registry.find(first_id), Refusal);
     EXPECT_THROW(registry.remove(first_id), Refusal);
+}
+
+TEST_F(Registry, ForgetsASessionThatEndedByItself) {
+    const auto ended = registry.create(first_id, test::settings());
+    registry.create(second_id, test::settings());
+    ended->close();
+    EXPECT_THROW(registry.find(first_id), Refusal);
+    EXPECT_EQ(registry.list().size(), 1U);
+    EXPECT_NE(registry.create(first_id, test::settings()), ended);
 }
 
 TEST_F(Registry, TakesNoSessionsWhileItDrains) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "meniscus/error.hpp"
+#include "meniscus/reconstructor.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/refusal.hpp"
 #include "test_frames.hpp"
@@ -88,7 +89,10 @@ struct Spectator {
         for (;;) {
             auto next = slot->take();
             if (auto* frame = std::get_if<std::shared_ptr<const EncodedFrame>>(&next)) return *frame;
-            if (std::holds_alternative<LatestFrame::End>(next)) return nullptr;
+            if (const auto* end = std::get_if<LatestFrame::End>(&next)) {
+                error = end->error;
+                return nullptr;
+            }
             awake.acquire();
         }
     }
@@ -96,12 +100,21 @@ struct Spectator {
     Session& session;
     std::counting_semaphore<> awake{0};
     std::shared_ptr<LatestFrame> slot;
+    std::exception_ptr error;
 };
+
+Reconstruct reconstruct_on_the_cpu() {
+    return [reconstructor = std::make_shared<Reconstructor>(test::settings(), BackendOptions{.threads = 2})](
+               const ParticleFrame& frame, Mesh& mesh) {
+        reconstructor->reconstruct(frame, mesh);
+        return reconstructor->statistics();
+    };
+}
 
 struct SessionPipeline : testing::Test {
     Limits limits{.watchers_per_session = 3};
     std::shared_ptr<WorkerPool> workers = std::make_shared<WorkerPool>(2);
-    Session session{id, test::settings(), limits, {.threads = 2}, workers};
+    Session session{id, test::settings(), limits, reconstruct_on_the_cpu(), workers};
     const test::Particles particles = test::wave(6, 0.0);
 };
 
@@ -239,6 +252,25 @@ TEST_F(SessionPipeline, EndsWatchersAtOnceWhenDrainedWithoutAnUpload) {
     Spectator watcher(session);
     session.drain();
     EXPECT_EQ(watcher.receive(), nullptr);
+}
+
+TEST(SessionOnADevice, AnswersWhatCameBeforeTheDeviceFailedThenEndsItsUploadsAndWatchersWithTheReason) {
+    const auto fails_second = [cpu = reconstruct_on_the_cpu(), frames = 0](const ParticleFrame& frame, Mesh& mesh) mutable {
+        if (++frames == 2) throw DeviceError("cudaStreamSynchronize", "unspecified launch failure", 1);
+        return cpu(frame, mesh);
+    };
+    Session session(id, test::settings(), {}, fails_second, std::make_shared<WorkerPool>(1));
+    const auto particles = test::wave(6, 0.0);
+    Spectator watcher(session);
+    Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});
+    simulator.send(0, particles);
+    simulator.send(1, particles);
+    EXPECT_EQ(simulator.receive_all(), (std::vector<std::uint64_t>{0}));
+    EXPECT_THROW(std::rethrow_exception(simulator.error), DeviceError);
+    while (watcher.receive()) {
+    }
+    EXPECT_THROW(std::rethrow_exception(watcher.error), DeviceError);
+    EXPECT_TRUE(session.ended());
 }
 
 }  // namespace

@@ -64,6 +64,7 @@ ServerInfo Client::server_info() {
     info.max_watchers_per_session = response.limits().watchers_per_session();
     info.max_particles_per_frame = response.limits().particles_per_frame();
     info.max_bytes_per_session = response.limits().bytes_per_session();
+    info.max_device_bytes_per_session = response.limits().device_bytes_per_session();
     return info;
 }
 

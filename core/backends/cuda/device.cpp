@@ -1,5 +1,6 @@
 #include "backends/cuda/device.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "backends/cuda/errors.hpp"
@@ -32,21 +33,25 @@ int capability(int device) {
     return 10 * attribute(cudaDevAttrComputeCapabilityMajor, device) + attribute(cudaDevAttrComputeCapabilityMinor, device);
 }
 
+Device describe(int index) {
+    const CurrentDevice current(index);
+    Device device{index, device_name(index), capability(index), 0, 0};
+    check(cudaMemGetInfo(&device.free_bytes, &device.total_bytes), "cudaMemGetInfo");
+    return device;
+}
+
 }  // namespace
 
-std::vector<Device> devices() {
+std::vector<Device> devices(std::span<const int> among) {
     std::vector<Device> result;
     std::string reason;
     const int count = device_count(reason);
     for (int i = 0; i < count; ++i) {
-        if (!why_unavailable(i).empty()) continue;
+        if (!among.empty() && std::ranges::find(among, i) == among.end()) continue;
         try {
-            const CurrentDevice current(i);
-            Device device{i, device_name(i), capability(i), 0, 0};
-            check(cudaMemGetInfo(&device.free_bytes, &device.total_bytes), "cudaMemGetInfo");
-            result.push_back(device);
+            if (why_unavailable(i).empty()) result.push_back(describe(i));
         } catch (const std::runtime_error&) {
-            // It has failed, or has no memory left to start CUDA in: the others may do.
+            // Failed earlier in this process, or has no memory left to start on: the others may still do.
         }
     }
     return result;
@@ -56,7 +61,7 @@ std::string why_unavailable(int device) try {
     std::string reason;
     const int count = device_count(reason);
     if (count == 0) return reason;
-    if (device < 0 || device >= count) return "no GPU " + std::to_string(device) + ", there are " + std::to_string(count);
+    if (device < 0 || device >= count) return "no GPU " + std::to_string(device) + ": there are 0 to " + std::to_string(count - 1);
     const int found = capability(device);
     if (found < oldest_capability)
         return device_name(device) + " has compute capability " + std::to_string(found / 10) + "." + std::to_string(found % 10) + ", must be " +

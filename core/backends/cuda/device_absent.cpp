@@ -4,7 +4,7 @@
 
 namespace meniscus::cuda {
 
-std::vector<Device> devices() { return {}; }
+std::vector<Device> devices(std::span<const int>) { return {}; }
 
 std::string why_unavailable(int) { return "this build has no CUDA backend"; }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct Device {
     std::size_t total_bytes = 0;
 };
 
-/// The devices that can reconstruct; none without a driver or in a build without CUDA.
-std::vector<Device> devices();
+/// The devices that can reconstruct and answer now, of those named (all if none is); none without a driver or in a build without
+/// CUDA.
+std::vector<Device> devices(std::span<const int> among = {});
 
 }  // namespace meniscus::cuda

@@ -37,6 +37,7 @@ struct ServerInfo {
     std::uint32_t max_watchers_per_session = 0;
     std::uint64_t max_particles_per_frame = 0;
     std::uint64_t max_bytes_per_session = 0;
+    std::uint64_t max_device_bytes_per_session = 0;
 };
 
 struct SessionInfo {
