@@ -15,6 +15,12 @@ struct CellSetView {
 
     MENISCUS_HD std::uint64_t& word(std::uint32_t brick, int w) const { return words[static_cast<std::size_t>(brick) * Brick::words + static_cast<std::size_t>(w)]; }
 
+    /// place: index_in_brick.
+    MENISCUS_HD void put(std::uint32_t brick, int place, bool member) const {
+        std::uint64_t& cells = word(brick, place >> 6);
+        cells = (cells & ~(std::uint64_t{1} << (place & 63))) | std::uint64_t{member} << (place & 63);
+    }
+
     /// For the 64 cells of a word, whether the cells at an offset of -1, 0 or 1 a side from them are in the set.
     MENISCUS_HD std::uint64_t moved(std::uint32_t brick, int w, const Int3& offset) const {
         const std::uint64_t own = moved_in_slice(brick, w, 0, offset.y, offset.z);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "backends/cpu/surface.hpp"
+#include "backends/cpu/words.hpp"
 #include "backends/numbering.hpp"
 #include "stages/fill_cracks.hpp"
 
@@ -11,14 +12,28 @@ namespace {
 
 constexpr std::size_t crack_level = static_cast<std::size_t>(TriangleLevel::crack);
 
-void list_band(Surface& s) {
-    const auto in_band = [&](std::size_t b) -> std::uint64_t { return s.level[b] != 0 ? 1 : 0; };
-    // Sized for all blocks, so that one pass writes it.
-    resize_for_overwrite(s.band, s.block_count());
-    const std::uint64_t count = s.scan.exclusive(s.workers, s.block_count(), in_band, [&](std::size_t b, std::uint64_t at) {
-        if (s.level[b] != 0) s.band[at] = static_cast<std::uint32_t>(b);
+/// Leaves in brick_counts how many come before each brick's.
+void list_mixed_cells(Surface& s) {
+    const LevelSets levels = s.level_sets();
+    const SignSets signs = s.sign_sets();
+    const CellSetView mixed = s.chosen_cells();
+    resize_for_overwrite(s.brick_counts, s.grid.bricks.size());
+    for_each_brick(s, [&](std::uint32_t brick) {
+        std::uint64_t count = 0;
+        for_each_word(s.grid.bricks[brick], [&](int w) {
+            const std::uint64_t band = levels.band(brick, w);
+            mixed.word(brick, w) = band == 0 ? 0 : band & signs.cells_seeing_both(brick, w);
+            count += static_cast<std::uint64_t>(popcount(mixed.word(brick, w)));
+        });
+        s.brick_counts[brick] = count;
     });
-    s.band.resize(count);
+    resize_for_overwrite(s.mixed_cells, counts_to_starts(s.brick_counts));
+    for_each_brick(s, [&](std::uint32_t brick) {
+        std::uint64_t at = s.brick_counts[brick];
+        for_each_word(s.grid.bricks[brick], [&](int w) {
+            for_each_cell(s.grid.bricks[brick], w, mixed.word(brick, w), [&](std::uint32_t block, int) { s.mixed_cells[at++] = block; });
+        });
+    });
 }
 
 /// The mesh's order: by level, by brick within a level, by base cell within a brick.
@@ -26,9 +41,8 @@ void order_by_level_and_brick(Surface& s, Mesh& mesh) {
     const std::size_t bricks = s.grid.bricks.size();
     resize_for_overwrite(s.brick_triangles, bricks);
     const auto each_block = [&](std::size_t brick, const auto& visit) {
-        const std::uint32_t end = brick + 1 < bricks ? s.grid.bricks[brick + 1].first : s.block_count();
-        for (std::uint32_t block = s.grid.bricks[brick].first; block < end; ++block)
-            if (s.level[block] != 0) visit(s.slots[block], s.level[block] - 1U);
+        const std::uint64_t end = brick + 1 < bricks ? s.brick_counts[brick + 1] : s.mixed_cells.size();
+        for (std::uint64_t i = s.brick_counts[brick]; i < end; ++i) visit(s.slots[s.mixed_cells[i]], s.level[s.mixed_cells[i]] - 1U);
     };
     s.workers.for_ranges(bricks, 4, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b) {
@@ -78,14 +92,21 @@ void order_by_level_and_brick(Surface& s, Mesh& mesh) {
 
 }  // namespace
 
+std::array<std::uint64_t, 3> count_band_cells(Surface& s) {
+    std::array<std::uint64_t, 3> of_at_least{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (const std::uint64_t cells : s.at_least[i]) of_at_least[i] += static_cast<std::uint64_t>(popcount(cells));
+    return {of_at_least[0] - of_at_least[1], of_at_least[1] - of_at_least[2], of_at_least[2]};
+}
+
 void count_triangles(Surface& s, Mesh& mesh) {
-    list_band(s);
-    resize_for_overwrite(s.has_cracks, s.band.size());
-    const bool one_level = std::all_of(s.band.begin(), s.band.end(), [&](std::uint32_t b) { return s.level[b] == s.level[s.band[0]]; });
+    list_mixed_cells(s);
+    resize_for_overwrite(s.has_cracks, s.mixed_cells.size());
+    const bool one_level = std::all_of(s.mixed_cells.begin(), s.mixed_cells.end(), [&](std::uint32_t b) { return s.level[b] == s.level[s.mixed_cells[0]]; });
     const BlocksView blocks = s.view();
-    s.workers.for_ranges(s.band.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
+    s.workers.for_ranges(s.mixed_cells.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t block = s.band[i];
+            const std::uint32_t block = s.mixed_cells[i];
             s.slots[block] = {count_cell_triangles(blocks, block, cube_table.data()),
                               one_level ? 0 : count_crack_triangles(blocks, block, crack_table.data())};
             s.has_cracks[i] = s.slots[block].cracks != 0 ? 1 : 0;

@@ -150,14 +150,18 @@ void write_positions(const Int3& at, std::uint32_t bits, const PointList& points
 void number_vertices(Surface& s, bool with_normals, Mesh& mesh) {
     const BlocksView blocks = s.view();
     const LevelSets levels = s.level_sets();
+    const SignSets signs = s.sign_sets();
     const CellSetView chosen = s.chosen_cells();
     resize_for_overwrite(s.brick_counts, s.grid.bricks.size());
     for_each_brick(s, [&](std::uint32_t brick) {
         std::uint64_t in_brick = 0;
         for_each_word(s.grid.bricks[brick], [&](int w) {
             const LevelSetsAround around(levels, brick, w);
+            const std::uint64_t all = around.with_corner_points() & s.grid.bricks[brick].occupied[w];
+            const std::uint64_t crossed = all == 0 ? 0 : all & signs.blocks_seeing_both(brick, w);
+            for_each_cell(s.grid.bricks[brick], w, all & ~crossed, [&](std::uint32_t block, int) { s.edges[block] = {}; });
             std::uint64_t with_vertices = 0;
-            for_each_cell(s.grid.bricks[brick], w, around.with_corner_points() & s.grid.bricks[brick].occupied[w], [&](std::uint32_t block, int bit) {
+            for_each_cell(s.grid.bricks[brick], w, crossed, [&](std::uint32_t block, int bit) {
                 const LevelsAround here = around(bit);
                 for (int axis = 0; axis < 3; ++axis) s.edges[block].axis[axis] = CrossedEdges(blocks, block, here, axis).finest();
                 const int count = s.edges[block].count();

@@ -43,7 +43,7 @@ public:
         fill_cracks(surface_, mesh);
 
         statistics.field_evaluations = surface_.field_evaluations;
-        for (const std::uint32_t block : surface_.band) ++statistics.base_cells_by_level[surface_.level[block] - 1U];
+        statistics.base_cells_by_level = count_band_cells(surface_);
         statistics.backend = "cpu";
         statistics.threads = workers_.count();
     }

@@ -14,7 +14,7 @@ namespace meniscus::cpu {
 namespace {
 
 /// Enters new values of a block's missing points, given by bit; its samples move to new room.
-void enter_samples(Surface& s, std::uint32_t block, const Int3& at, BlockMask missing, std::array<float, 64>& values, std::uint32_t room) {
+void enter_samples(Surface& s, std::uint32_t block, BlockMask missing, std::array<float, 64>& values, std::uint32_t room) {
     const float* known = s.samples.data() + s.first_sample[block];
     for (BlockMask left = s.sampled[block]; left != 0; left &= left - 1) values[static_cast<std::size_t>(lowest_bit(left))] = *known++;
     const BlockMask sampled = s.sampled[block] | missing;
@@ -32,10 +32,12 @@ void enter_samples(Surface& s, std::uint32_t block, const Int3& at, BlockMask mi
             above |= BlockMask{value > s.settings.iso} << bit;
         }
     }
-    if (s.settings.has_domain) above &= domain_points(at, s.settings.domain_low, s.settings.domain_high);
+    if (s.settings.has_domain) above &= domain_points(s.view().coordinate(block), s.settings.domain_low, s.settings.domain_high);
     s.first_sample[block] = room;
     s.sampled[block] = sampled;
     s.inside[block] = above;
+    s.sign_sets().any_inside.put(s.brick[block], s.place[block], above != 0);
+    s.sign_sets().all_inside.put(s.brick[block], s.place[block], above == sampled);
 }
 
 BlockMask missing_points(const Surface& s, std::uint32_t block) { return s.wanted_points[block] & ~s.sampled[block]; }
@@ -64,7 +66,7 @@ std::uint64_t sample_cluster(Surface& s, FieldSource& field, Wanted wanted, cons
         for (std::size_t i = 0; i < 8; ++i) {
             if (points[i] == 0) continue;
             evaluations += static_cast<std::uint64_t>(popcount(points[i]));
-            enter_samples(s, block[i], lowest + cluster_step(static_cast<int>(i)), points[i], values[i], room_of(i));
+            enter_samples(s, block[i], points[i], values[i], room_of(i));
         }
     };
     sample(missing, [&](std::size_t i) {
@@ -140,9 +142,10 @@ void sample_wanted_points(Surface& s, FieldSource& field, Wanted wanted) {
 bool grow_band(Surface& s, const JoiningLevel& joining_level) {
     const BlocksView blocks = s.view();
     const LevelSets levels = s.level_sets();
+    const SignSets signs = s.sign_sets();
     const auto joining = [&](std::uint32_t brick, int w) {
         std::uint64_t cells = take_stale(s, StaleFor::band, brick, w) & ~levels.band(brick, w);
-        if (cells != 0) cells &= levels.beside(1, brick, w);
+        if (cells != 0) cells &= levels.beside(1, brick, w) & signs.cells_seeing_both(brick, w);
         return cells_where(s.grid.bricks[brick], w, cells, [&](std::uint32_t block) { return joins_band(blocks, block); });
     };
     return raise_levels(s, joining, joining_level);
@@ -151,8 +154,11 @@ bool grow_band(Surface& s, const JoiningLevel& joining_level) {
 bool raise_at_slivers(Surface& s) {
     const BlocksView blocks = s.view();
     const LevelSets levels = s.level_sets();
+    const SignSets signs = s.sign_sets();
     const auto missing = [&](std::uint32_t brick, int w) {
-        const std::uint64_t cells = take_stale(s, StaleFor::slivers, brick, w) & cells_beside_finer(levels, brick, w);
+        std::uint64_t cells = take_stale(s, StaleFor::slivers, brick, w);
+        if (cells != 0) cells &= cells_beside_finer(levels, brick, w);
+        if (cells != 0) cells &= signs.cells_seeing_both(brick, w);
         return cells_where(s.grid.bricks[brick], w, cells, [&](std::uint32_t block) { return misses_surface_on_face(blocks, block); });
     };
     return raise_levels(s, missing, [&s](std::uint32_t block) { return s.level[block] + 1; });
@@ -183,9 +189,10 @@ void sample_field(Surface& s, FieldSource& field, const JoiningLevel& joining_le
 void sample_edge_middles(Surface& s, FieldSource& field) {
     const BlocksView blocks = s.view();
     const LevelSets levels = s.level_sets();
+    const SignSets signs = s.sign_sets();
     for_each_word(s, [&](std::uint32_t brick, int w) {
         const LevelSetsAround around(levels, brick, w);
-        choose_blocks(s, brick, w, around.with_corner_points() & s.grid.bricks[brick].occupied[w], [&](std::uint32_t block, int bit) {
+        choose_blocks(s, brick, w, around.with_corner_points() & signs.blocks_seeing_both(brick, w) & s.grid.bricks[brick].occupied[w], [&](std::uint32_t block, int bit) {
             return s.sampled[block] == ~BlockMask{0} ? 0 : edge_middles(blocks, block, around(bit));
         });
     });

@@ -8,8 +8,8 @@ namespace meniscus::cpu {
 void find_band(Surface& s, const Array<CellReach>& reaches) {
     const BlocksView blocks = s.view();
     const BandTest test{s.settings.iso, s.settings.deep_inside};
-    for (auto* set : {&s.base_inside, &s.base_deep}) resize_for_overwrite(*set, s.grid.bricks.size() * Brick::words);
-    const BaseVertexSets vertices{{s.grid.view(), s.base_inside.data()}, {s.grid.view(), s.base_deep.data()}};
+    resize_for_overwrite(s.base_deep, s.grid.bricks.size() * Brick::words);
+    const BaseVertexSets vertices{s.sign_sets().any_inside, {s.grid.view(), s.base_deep.data()}};
     // All words: those without a member are neighbors of others.
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b)
@@ -21,7 +21,7 @@ void find_band(Surface& s, const Array<CellReach>& reaches) {
                     inside |= (s.inside[block] & 1) << bit;
                     deep |= std::uint64_t{test.is_deep(blocks.value(block, 0))} << bit;
                 });
-                vertices.inside.word(brick, w) = inside;
+                s.sign_sets().any_inside.word(brick, w) = s.sign_sets().all_inside.word(brick, w) = inside;
                 vertices.deep.word(brick, w) = inside & deep;
             }
     });

@@ -14,10 +14,10 @@ Surface::Surface(const std::shared_ptr<MemoryAccount>& account, Workers& own_wor
       first_sample(make_array<std::uint32_t>(account)),
       edges(make_array<EdgeMasks>(account)),
       first_vertex(make_array<std::uint32_t>(account)), slots(make_array<TriangleSlots>(account)),
-      samples(make_array<float>(account)), band(make_array<std::uint32_t>(account)),
+      samples(make_array<float>(account)), mixed_cells(make_array<std::uint32_t>(account)),
       has_cracks(make_array<std::uint8_t>(account)),
       brick_triangles(make_array<std::array<std::uint32_t, triangle_level_count>>(account)), brick_counts(make_array<std::uint64_t>(account)),
-      base_inside(make_array<std::uint64_t>(account)), base_deep(make_array<std::uint64_t>(account)),
+      any_inside(make_array<std::uint64_t>(account)), all_inside(make_array<std::uint64_t>(account)), base_deep(make_array<std::uint64_t>(account)),
       at_least{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account)},
       chosen(make_array<std::uint64_t>(account)),
       stale{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account),
@@ -64,7 +64,8 @@ void store_blocks(Surface& s) {
     resize_for_overwrite(s.edges, n);
     resize_for_overwrite(s.first_vertex, n);
     resize_for_overwrite(s.slots, n);
-    s.chosen.assign(s.grid.bricks.size() * Brick::words, 0);  // words without a member are never written
+    // Passes do not write the words without a member.
+    for (auto* set : {&s.any_inside, &s.all_inside, &s.chosen}) set->assign(s.grid.bricks.size() * Brick::words, 0);
     s.samples.clear();
     s.field_evaluations = 0;
     s.workers.for_ranges(s.grid.bricks.size(), 4, [&](std::size_t begin, std::size_t end, unsigned) {

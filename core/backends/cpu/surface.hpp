@@ -14,6 +14,7 @@
 #include "meniscus/mesh.hpp"
 #include "stages/blocks.hpp"
 #include "stages/level_sets.hpp"
+#include "stages/sign_sets.hpp"
 
 namespace meniscus::cpu {
 
@@ -41,12 +42,13 @@ struct Surface {
     Array<std::uint32_t> first_vertex;
     Array<TriangleSlots> slots;
     Array<float> samples;
-    Array<std::uint32_t> band;  ///< the blocks of the surface band, ascending
+    Array<std::uint32_t> mixed_cells;  ///< the cells of the surface band that see both signs, ascending
     Array<std::uint8_t> has_cracks;  ///< for each of them, whether any of its faces is to be filled
     Array<std::array<std::uint32_t, triangle_level_count>> brick_triangles;  ///< per brick and level
     Array<std::uint64_t> brick_counts;  ///< while a brick's samples or vertices are counted and numbered
     // Sets of base cells, see CellSetView.
-    Array<std::uint64_t> base_inside, base_deep;   ///< see BaseVertexSets
+    Array<std::uint64_t> any_inside, all_inside;   ///< see SignSets
+    Array<std::uint64_t> base_deep;                ///< see BaseVertexSets
     std::array<Array<std::uint64_t>, 3> at_least;  ///< by level, from 1; follow `level`
     Array<std::uint64_t> chosen;                   ///< by a pass, for the next one
     std::array<Array<std::uint64_t>, all_rules.size()> stale;     ///< by rule
@@ -55,6 +57,7 @@ struct Surface {
     BlocksView view();
     LevelSets level_sets();
     CellSetView stale_cells(StaleFor rule) { return {grid.view(), stale[static_cast<std::size_t>(rule)].data()}; }
+    SignSets sign_sets() { return {{grid.view(), any_inside.data()}, {grid.view(), all_inside.data()}}; }
     CellSetView chosen_cells() { return {grid.view(), chosen.data()}; }
     std::uint32_t block_count() const { return grid.members; }
 };
@@ -88,8 +91,10 @@ bool raise_at_slivers(Surface& surface);
 /// Samples the middles of coarse edges that cross the surface.
 void sample_edge_middles(Surface& surface, FieldSource& field);
 
-/// Step 5. Counts, and gives every cell its place in the mesh.
+/// Step 5. Lists the mixed cells, counts, and gives each its place in the mesh.
 void count_triangles(Surface& surface, Mesh& mesh);
+/// By level.
+std::array<std::uint64_t, 3> count_band_cells(Surface& surface);
 /// Step 6.
 void place_vertices(Surface& surface, FieldSource& field, const Settings& user, Mesh& mesh);
 /// Step 7.
