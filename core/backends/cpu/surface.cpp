@@ -6,7 +6,7 @@
 namespace meniscus::cpu {
 
 Surface::Surface(const std::shared_ptr<MemoryAccount>& account, Workers& own_workers, const LatticeSettings& own_settings)
-    : workers(own_workers), settings(own_settings), scan(account), grid(account),
+    : workers(own_workers), settings(own_settings), grid(account),
       brick(make_array<std::uint32_t>(account)), place(make_array<std::uint16_t>(account)),
       level(make_array<std::uint8_t>(account)),
       sampled(make_array<BlockMask>(account)),

@@ -8,7 +8,6 @@
 
 #include "backends/arrays.hpp"
 #include "backends/cpu/field_source.hpp"
-#include "backends/cpu/scan.hpp"
 #include "backends/cpu/workers.hpp"
 #include "field/lattice_settings.hpp"
 #include "meniscus/mesh.hpp"
@@ -27,7 +26,6 @@ struct Surface {
 
     Workers& workers;
     const LatticeSettings& settings;
-    Scan scan;
 
     BrickGrid grid;  ///< the stored base cells (blocks)
     // One element per block; BlocksView explains them.
