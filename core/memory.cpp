@@ -1,5 +1,7 @@
 #include "meniscus/memory.hpp"
 
+#include <sys/mman.h>
+
 #include <cstdlib>
 #include <string>
 
@@ -22,8 +24,13 @@ void MemoryAccount::charge(std::size_t bytes) {
 void MemoryAccount::release(std::size_t bytes) noexcept { bytes_.fetch_sub(bytes, std::memory_order_relaxed); }
 
 void* allocate_aligned(std::size_t bytes) noexcept {
-    constexpr std::size_t line = 64;
-    return std::aligned_alloc(line, (bytes + line - 1) / line * line);
+    constexpr std::size_t line = 64, page = std::size_t{2} << 20;
+    const std::size_t alignment = bytes < 2 * page ? line : page;
+    void* const memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+    // Large arrays are read in the order of blocks, which jumps: huge pages spare them the misses in the page tables. Advice
+    // only: where the kernel has none, nothing is lost. Whole pages alone, since the tail's may never be touched.
+    if (memory != nullptr && alignment == page) madvise(memory, bytes / page * page, MADV_HUGEPAGE);
+    return memory;
 }
 
 void free_aligned(void* memory) noexcept { std::free(memory); }
