@@ -1,6 +1,7 @@
 #include "meniscus/reconstructor.hpp"
 
 #include <chrono>
+#include <string>
 #include <thread>
 
 #include "backends/backend.hpp"
@@ -54,6 +55,22 @@ public:
         count(mesh.triangles.size(), mesh.levels);
     }
 
+    void emit_capped(int max_level, Mesh& mesh) {
+        if (max_level < 1 || max_level > 3)
+            throw InvalidInput("a level cap of " + std::to_string(max_level) + "; levels are 1 to 3");
+        if (!has_surface_) throw InvalidInput("there is no surface to emit again: reconstruct a frame first");
+        mesh.clear();
+        adopt(mesh);
+        try {
+            backend_->emit_capped(max_level, mesh);
+        } catch (...) {
+            mesh = {};
+            has_surface_ = false;
+            backend_.reset();
+            throw;
+        }
+    }
+
     DeviceMesh reconstruct_on_device(const ParticleFrame& frame) {
         begin(frame);
         DeviceMesh mesh;
@@ -79,6 +96,7 @@ private:
 
     void begin(const ParticleFrame& frame) {
         statistics_ = {};
+        has_surface_ = false;
         validate(frame, settings_);
         if (!backend_) make_backend();
     }
@@ -96,6 +114,7 @@ private:
             backend_.reset();
             throw;
         }
+        has_surface_ = true;
         statistics_.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         statistics_.particles = frame.count();
         statistics_.peak_bytes = account_->peak_bytes();
@@ -126,6 +145,7 @@ private:
     std::shared_ptr<MemoryAccount> account_;
     std::shared_ptr<MemoryAccount> device_account_;
     std::unique_ptr<BackendReconstruction> backend_;  ///< none after a failure
+    bool has_surface_ = false;                        ///< of the last frame, in the backend
     Statistics statistics_;
 };
 
@@ -136,6 +156,7 @@ Reconstructor::Reconstructor(Reconstructor&&) noexcept = default;
 Reconstructor& Reconstructor::operator=(Reconstructor&&) noexcept = default;
 
 void Reconstructor::reconstruct(const ParticleFrame& frame, Mesh& mesh) { impl_->reconstruct(frame, mesh); }
+void Reconstructor::emit_capped(int max_level, Mesh& mesh) { impl_->emit_capped(max_level, mesh); }
 DeviceMesh Reconstructor::reconstruct_on_device(const ParticleFrame& frame) { return impl_->reconstruct_on_device(frame); }
 const Statistics& Reconstructor::statistics() const { return impl_->statistics(); }
 const Settings& Reconstructor::settings() const { return impl_->settings(); }

@@ -19,7 +19,9 @@ public:
     virtual ~BackendReconstruction() = default;
     /// The frame is valid. Fills the mesh and every figure of the statistics but memory and total time.
     virtual void reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) = 0;
-    /// The same, but the mesh stays where it is until the next call.
+    /// The surface of the last frame once more, with no cell finer than max_level (1 to 3).
+    virtual void emit_capped(int max_level, Mesh& mesh) = 0;
+    /// As reconstruct(), but the mesh stays where it is until the next call.
     virtual DeviceMesh reconstruct_on_device(const ParticleFrame&, Statistics&) {
         throw InvalidInput("the CPU backend has no mesh on a GPU: use reconstruct(), or Backend::cuda");
     }

@@ -27,22 +27,32 @@ public:
         mesh_.offset_bits = expected.offset_bits;
         statistics_ = {};
         backend_->reconstruct(frame, mesh_, statistics_);
+        expect_equal(expected);
+        Reconstructor cpu(settings_, {Backend::cpu, 1, 0});
+        Mesh again;
+        cpu.reconstruct(frame, again);
+        EXPECT_EQ(statistics_.field_evaluations, cpu.statistics().field_evaluations);
+        EXPECT_EQ(statistics_.base_cells_by_level, cpu.statistics().base_cells_by_level);
+        for (const int max_level : {1, 3, 2}) {
+            SCOPED_TRACE(testing::Message() << "levels up to " << max_level);
+            cpu.emit_capped(max_level, again);
+            backend_->emit_capped(max_level, mesh_);
+            expect_equal(again);
+        }
+    }
+
+    const MemoryAccount& device_account() const { return *device_account_; }
+
+private:
+    void expect_equal(const Mesh& expected) const {
         EXPECT_EQ(mesh_sha256(mesh_), mesh_sha256(expected));
         EXPECT_TRUE(same_bytes(mesh_.vertices, expected.vertices));
         EXPECT_TRUE(same_bytes(mesh_.normals, expected.normals));
         EXPECT_TRUE(same_bytes(mesh_.triangles, expected.triangles));
         EXPECT_TRUE(same_bytes(mesh_.bricks, expected.bricks));
         for (std::size_t l = 0; l < triangle_level_count; ++l) EXPECT_EQ(mesh_.levels[l].first, expected.levels[l].first);
-        Reconstructor cpu(settings_, {Backend::cpu, 1, 0});
-        Mesh again;
-        cpu.reconstruct(frame, again);
-        EXPECT_EQ(statistics_.field_evaluations, cpu.statistics().field_evaluations);
-        EXPECT_EQ(statistics_.base_cells_by_level, cpu.statistics().base_cells_by_level);
     }
 
-    const MemoryAccount& device_account() const { return *device_account_; }
-
-private:
     Settings settings_;
     std::shared_ptr<MemoryAccount> device_account_;
     std::unique_ptr<BackendReconstruction> backend_;

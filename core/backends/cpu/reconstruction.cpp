@@ -15,7 +15,7 @@ public:
         : user_(user), settings_(user), workers_(threads), surface_(account, workers_, settings_),
           particles_(account, workers_, settings_), field_(account, workers_, particles_),
           counts_(make_array<std::uint32_t>(account)), reaches_(make_array<CellReach>(account)),
-          bends_(make_array<CellBend>(account)) {}
+          bends_(make_array<CellBend>(account)), levels_(make_array<std::uint8_t>(account)) {}
 
     void reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) override {
         StageClock clock(statistics);
@@ -33,6 +33,27 @@ public:
         clock.enter(Stage::sample_field);
         sample_field(surface_, field_, [&](std::uint32_t block) { return wanted_level(split_criterion, surface_.view(), block); });
         if (user_.mode == Mode::adaptive) sample_edge_middles(surface_, field_);
+        emit(mesh, clock);
+        capped_ = false;
+
+        statistics.field_evaluations = surface_.field_evaluations;
+        statistics.base_cells_by_level = count_band_cells(surface_);
+        statistics.backend = "cpu";
+        statistics.threads = workers_.count();
+    }
+
+    void emit_capped(int max_level, Mesh& mesh) override {
+        if (!capped_) levels_.assign(surface_.level.begin(), surface_.level.end());
+        capped_ = true;
+        cap_levels(surface_, levels_, max_level);
+        Statistics not_told;
+        StageClock clock(not_told);
+        emit(mesh, clock);
+    }
+
+private:
+    /// From levels and samples to the mesh.
+    void emit(Mesh& mesh, StageClock& clock) {
         clock.enter(Stage::count_triangles);
         count_triangles(surface_, mesh);
         clock.enter(Stage::place_vertices);
@@ -41,14 +62,8 @@ public:
         emit_triangles(surface_, mesh);
         clock.enter(Stage::fill_cracks);
         fill_cracks(surface_, mesh);
-
-        statistics.field_evaluations = surface_.field_evaluations;
-        statistics.base_cells_by_level = count_band_cells(surface_);
-        statistics.backend = "cpu";
-        statistics.threads = workers_.count();
     }
 
-private:
     void register_particles(const ParticleFrame& frame) {
         particles_.assign(frame);
         particles_.mark_reached_cells(surface_.grid);
@@ -77,6 +92,8 @@ private:
     Array<std::uint32_t> counts_;
     Array<CellReach> reaches_;
     Array<CellBend> bends_;
+    Array<std::uint8_t> levels_;  ///< of the last frame, once a mesh of it was emitted with capped ones
+    bool capped_ = false;
 };
 
 }  // namespace

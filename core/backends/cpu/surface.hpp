@@ -89,6 +89,10 @@ bool raise_at_slivers(Surface& surface);
 /// Samples the middles of coarse edges that cross the surface.
 void sample_edge_middles(Surface& surface, FieldSource& field);
 
+/// Once all is sampled: gives every cell its level of `levels`, or max_level where that is coarser. What coarser cells need is sampled
+/// already, since it is part of what finer ones needed.
+void cap_levels(Surface& surface, const Array<std::uint8_t>& levels, int max_level);
+
 /// Step 5. Lists the mixed cells, counts, and gives each its place in the mesh.
 void count_triangles(Surface& surface, Mesh& mesh);
 /// By level.

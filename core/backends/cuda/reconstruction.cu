@@ -62,24 +62,31 @@ public:
     }
 
     void reconstruct(const ParticleFrame& particles, Mesh& mesh, Statistics& statistics) override {
-        const DeviceMesh on_device = reconstruct_on_device(particles, statistics);
-        const CurrentDevice current(device_);
-        download_.forget();
-        download_.fetch(frame_.mesh_bricks, counts().needed[static_cast<int>(Resource::bricks)], bricks_, stream_.get());
-        download_.fetch(on_device.vertices, on_device.vertex_count, mesh.vertices, stream_.get());
-        download_.fetch(on_device.normals, user_.normals ? on_device.vertex_count : 0, mesh.normals, stream_.get());
-        download_.fetch(on_device.triangles, on_device.triangle_count, mesh.triangles, stream_.get());
-        download_.finish();
-        mesh.levels = on_device.levels;
-        mesh.bricks.clear();
-        for (const MeshBrick& brick : bricks_)
-            if (brick.triangle_count() != 0) mesh.bricks.push_back(brick);
+        download(reconstruct_on_device(particles, statistics), mesh);
+    }
+
+    void emit_capped(int max_level, Mesh& mesh) override {
+        {
+            const CurrentDevice current(device_);
+            cap_levels(frame_, max_level, !capped_, launcher_);
+            capped_ = true;
+            emit(frame_, [] {});
+            stream_.synchronize();
+        }
+        if (counts().overflow != 0) throw DeviceError("emission with capped levels", "the coarser mesh needs more room than the finer one", device_);
+        download(mesh_on_device(), mesh);
     }
 
     DeviceMesh reconstruct_on_device(const ParticleFrame& particles, Statistics& statistics) override {
         const CurrentDevice current(device_);
         run(particles);
         tell(statistics);
+        capped_ = false;
+        return mesh_on_device();
+    }
+
+private:
+    DeviceMesh mesh_on_device() const {
         DeviceMesh mesh;
         mesh.vertices = frame_.vertices;
         mesh.normals = user_.normals ? frame_.normals : nullptr;
@@ -95,7 +102,20 @@ public:
         return mesh;
     }
 
-private:
+    void download(const DeviceMesh& on_device, Mesh& mesh) {
+        const CurrentDevice current(device_);
+        download_.forget();
+        download_.fetch(frame_.mesh_bricks, counts().needed[static_cast<int>(Resource::bricks)], bricks_, stream_.get());
+        download_.fetch(on_device.vertices, on_device.vertex_count, mesh.vertices, stream_.get());
+        download_.fetch(on_device.normals, user_.normals ? on_device.vertex_count : 0, mesh.normals, stream_.get());
+        download_.fetch(on_device.triangles, on_device.triangle_count, mesh.triangles, stream_.get());
+        download_.finish();
+        mesh.levels = on_device.levels;
+        mesh.bricks.clear();
+        for (const MeshBrick& brick : bricks_)
+            if (brick.triangle_count() != 0) mesh.bricks.push_back(brick);
+    }
+
     /// The ends of the stages, in the order in which they run.
     static constexpr std::array<Stage, 9> order{Stage::register_particles, Stage::sample_field, Stage::split_cells,
                                                 Stage::adjust_levels,      Stage::sample_field, Stage::count_triangles,
@@ -166,6 +186,12 @@ private:
         sample_field(frame, launcher_);
         if (user_.mode == Mode::adaptive) sample_edge_middles(frame, launcher_);
         end_stage();
+        emit(frame, end_stage);
+    }
+
+    /// From levels and samples to the mesh, and the counts to the host.
+    template <class EndStage>
+    void emit(const Frame& frame, const EndStage& end_stage) {
         count_triangles(frame, launcher_);
         end_stage();
         place_vertices(frame, launcher_);
@@ -174,7 +200,7 @@ private:
         end_stage();
         fill_cracks(frame, launcher_);
         end_stage();
-        check(cudaMemcpyAsync(host_counts_.get(), frame.counts, sizeof(Counts), cudaMemcpyDeviceToHost, stream), "cudaMemcpyAsync");
+        check(cudaMemcpyAsync(host_counts_.get(), frame.counts, sizeof(Counts), cudaMemcpyDeviceToHost, stream_.get()), "cudaMemcpyAsync");
     }
 
     void tell(Statistics& statistics) const {
@@ -202,6 +228,7 @@ private:
     Graph graph_;
     bool settled_ = false;     ///< whether the last frame needed no more room
     bool has_levels_ = false;
+    bool capped_ = false;      ///< whether a mesh of the last frame was emitted with capped levels
 };
 
 }  // namespace

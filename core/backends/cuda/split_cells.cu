@@ -101,7 +101,7 @@ __global__ void __launch_bounds__(block_threads) choose_levels(const __grid_cons
 }
 
 /// One thread for every word of a brick.
-__global__ void __launch_bounds__(block_threads) collect_level_sets(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) list_level_sets(const __grid_constant__ Frame f) {
     const LevelSets levels = f.level_sets();
     GridLoop{}.each(std::uint64_t{Brick::words} * f.count(Resource::bricks), [&](std::uint32_t i) {
         const Brick& brick = f.bricks[i / Brick::words];
@@ -140,7 +140,11 @@ void split_cells(const Frame& frame, const Settings& user, bool has_particle_lev
     } else {
         launch(blocks, block_threads, choose_levels<UniformCriterion>, frame, UniformCriterion{});
     }
-    launch(words, block_threads, collect_level_sets, frame);
+    collect_level_sets(frame, launch);
+}
+
+void collect_level_sets(const Frame& frame, const Launcher& launch) {
+    launch(Brick::words * frame.capacity[Resource::bricks], block_threads, list_level_sets, frame);
 }
 
 }  // namespace meniscus::cuda

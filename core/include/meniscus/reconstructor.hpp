@@ -29,6 +29,11 @@ public:
     /// The same, but the mesh stays on the GPU. Throws InvalidInput on the CPU backend.
     DeviceMesh reconstruct_on_device(const ParticleFrame& frame);
 
+    /// Emits the last frame's surface once more with no cell finer than max_level (1 to 3): coarser, with fewer triangles, and closed as
+    /// ever. Cheap, since nothing is sampled: only the steps from count_triangles on run. Leaves the statistics as they are.
+    /// Throws InvalidInput for another max_level, or if the last call did not end with a surface; else as reconstruct() does.
+    void emit_capped(int max_level, Mesh& mesh);
+
     /// Of the last frame.
     const Statistics& statistics() const;
     const Settings& settings() const;
