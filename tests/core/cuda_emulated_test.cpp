@@ -41,6 +41,8 @@ public:
         }
     }
 
+    void expect_crowded(const ParticleFrame& frame) { EXPECT_THROW(backend_->reconstruct(frame, mesh_, statistics_), LimitExceeded); }
+
     const MemoryAccount& device_account() const { return *device_account_; }
 
 private:
@@ -121,6 +123,14 @@ TEST(CudaEmulated, GivesTheCpusMeshWithoutNormals) {
     Settings settings = test::default_settings();
     settings.normals = false;
     EmulatedDevice(settings).expect_the_cpus_mesh(test::splash(7, 6).frame());
+}
+
+TEST(CudaEmulated, RefusesParticlesThatCrowd) {
+    EmulatedDevice device(test::default_settings());
+    test::Particles crowd;
+    for (int i = 0; i < 20'000; ++i) crowd.add(1e-7F * static_cast<float>(i), 0.0F, 0.0F);
+    device.expect_crowded(crowd.frame());
+    device.expect_the_cpus_mesh(test::splash(8, 5).frame());
 }
 
 TEST(CudaEmulated, FramesThatGrowAndShrinkAreReplayedFromAGraph) {

@@ -119,6 +119,30 @@ TEST(Validation, RefusesAQuantizationBoxThatIsNotOne) {
     EXPECT_FALSE(mesh.triangles.empty());
 }
 
+TEST(Validation, RefusesParticlesThatCrowdBeforeTheirFieldIsSummed) {
+    // As with all particles in one place, or positions in meters and a radius in millimeters: minutes for this one, hours for more.
+    test::Particles crowd;
+    for (int i = 0; i < 200'000; ++i) crowd.add(1e-7F * static_cast<float>(i), 0.0F, 0.0F);
+    const test::Particles good = test::splash(1, 6);
+    Reconstructor reconstructor(test::default_settings(), {Backend::cpu, 1, 0});
+    Mesh mesh;
+    try {
+        reconstructor.reconstruct(crowd.frame(), mesh);
+        ADD_FAILURE() << "not refused";
+    } catch (const LimitExceeded& error) {
+        EXPECT_NE(std::string(error.what()).find("200000 others in the mean"), std::string::npos) << error.what();
+    }
+    reconstructor.reconstruct(good.frame(), mesh);
+    EXPECT_FALSE(mesh.triangles.empty());
+    // Few enough may lie in one place.
+    crowd.positions.resize(3 * std::size_t{4096});
+    EXPECT_NO_THROW(reconstructor.reconstruct(crowd.frame(), mesh));
+    // Cells larger than the support hold more particles, which is no crowd.
+    Settings coarse = test::default_settings();
+    coarse.cell_size = 6.0;
+    EXPECT_NO_THROW(test::reconstruct(coarse, test::splash(1, 40).frame()));
+}
+
 TEST(Validation, TheCudaBackendSaysWhyItCannotBeUsed) {
     const int no_device = 1000;
     EXPECT_NE(refusal([&] { Reconstructor reconstructor(test::default_settings(), {Backend::cuda, 1, 0, no_device}); }).find("CUDA backend cannot be used: "),

@@ -25,6 +25,13 @@ void ParticleSets::assign(const ParticleFrame& frame) {
         sort(frame, k);
         build_cells(sets_[k]);
     }
+    std::uint64_t crowd = 0;
+    for (const ParticleSet& set : sets_)
+        for (std::uint32_t cell = 0; cell < set.cells.members; ++cell) {
+            const std::uint64_t particles = set.first[cell + 1] - set.first[cell];
+            crowd += particles * particles;
+        }
+    require_uncrowded(crowd, frame.count(), settings_);
 }
 
 void ParticleSets::sort(const ParticleFrame& frame, unsigned level) {

@@ -38,7 +38,7 @@ class ParticleSets {
 public:
     ParticleSets(const std::shared_ptr<MemoryAccount>& account, Workers& workers, const LatticeSettings& settings);
 
-    /// Sorts a valid frame's particles. Weights are those of the density field.
+    /// Sorts a valid frame's particles. Weights are those of the density field. Throws LimitExceeded where they crowd.
     void assign(const ParticleFrame& frame);
     /// Fills `grid` with the base cells that a particle's support reaches; numbers stay to be given.
     void mark_reached_cells(BrickGrid& grid);

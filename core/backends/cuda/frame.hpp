@@ -49,6 +49,7 @@ struct Counts {
     Counter triangles[triangle_level_count];
     std::uint32_t first_triangle[triangle_level_count];
     std::uint32_t band_cells[3];  ///< by level
+    Counter crowd;                ///< see is_crowded()
     std::uint32_t particle_cells;
     std::uint32_t first_particle_brick[particle_level_count + 1];
     std::uint32_t listed[list_count];

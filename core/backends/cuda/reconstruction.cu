@@ -137,6 +137,7 @@ private:
             else enqueue(false);
             stream_.synchronize();
             if (counts().overflow == 0) break;
+            require_uncrowded(counts().crowd, particles.count(), frame_.settings);
             require_room_for_numbers();
             grown = make_room(particles.count(), counts().needed);
             if (!grown) throw DeviceError("reconstruction", "the counts contradict each other", device_);

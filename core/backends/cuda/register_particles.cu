@@ -95,6 +95,20 @@ __global__ void __launch_bounds__(block_threads) count_support_cells(const __gri
     GridLoop{}.each(f.count(Resource::particle_bricks), [&](std::uint32_t b) { f.particle_bricks[b].count(); });
 }
 
+__global__ void __launch_bounds__(block_threads) measure_crowd(const __grid_constant__ Frame f) {
+    Counter crowd = 0;
+    GridLoop{}.each_together(f.counts->particle_cells, [&](std::uint32_t cell, bool exists) {
+        const Counter particles = exists ? f.first_particle[cell + 1] - f.first_particle[cell] : 0;
+        crowd += particles * particles;
+    });
+    add_of_lanes(&f.counts->crowd, crowd);
+}
+
+/// One thread: a crowded frame ends here, before it takes long.
+__global__ void stop_if_crowded(const __grid_constant__ Frame f) {
+    if (blockIdx.x == 0 && threadIdx.x == 0 && is_crowded(f.counts->crowd, f.input->particles, f.settings)) f.counts->overflow = 1;
+}
+
 /// The value of the density field at a particle is the sum of the weights that it will divide: all are computed before any is.
 __global__ void __launch_bounds__(block_threads, 3) measure_densities(const __grid_constant__ Frame f) {
     GridLoop{}.each(particle_count(f), [&](std::uint32_t i) {
@@ -281,6 +295,8 @@ void sort_particles(Frame& f, const Launcher& launch) {
     check(cudaMemsetAsync(f.particle_bricks, 0, f.capacity[Resource::particle_bricks] * sizeof(Brick), launch.stream), "cudaMemsetAsync");
     launch(n, block_threads, store_particles, f);
     launch(f.capacity[Resource::particle_bricks], block_threads, count_support_cells, f);
+    launch(n, block_threads, measure_crowd, f);
+    launch(1, block_threads, stop_if_crowded, f);
 }
 
 void store_reached_cells(Frame& f, const Launcher& launch) {
