@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <optional>
+#include <thread>
 
 #include "meniscus/meniscus.hpp"
 #include "support/particles.hpp"
@@ -110,6 +111,45 @@ TEST_F(Cuda, SeveralReconstructorsShareADevice) {
             all[i].reconstruct(particles.frame(), mesh);
             EXPECT_EQ(mesh_sha256(mesh), mesh_sha256(test::reconstruct(settings, particles.frame())));
         }
+}
+
+TEST_F(Cuda, ReconstructorsInSeveralThreadsShareADevice) {
+    const Settings settings = test::default_settings();
+    std::vector<test::Particles> splashes;
+    std::vector<std::string> expected;
+    for (unsigned i = 0; i < 4; ++i) {
+        splashes.push_back(test::splash(20 + i, 8 + 4 * static_cast<int>(i)));
+        expected.push_back(mesh_sha256(test::reconstruct(settings, splashes[i].frame())));
+    }
+    std::vector<std::string> hashes(4 * splashes.size());
+    std::vector<std::thread> threads;
+    for (std::size_t first = 0; first < splashes.size(); ++first)
+        threads.emplace_back([&, first] {
+            Reconstructor gpu(settings, {Backend::cuda, 0, 0});
+            Mesh mesh;
+            // Their frames grow, are captured and replayed while others do the same.
+            for (std::size_t round = 0; round < 40; ++round) {
+                const std::size_t i = (first + round / 10) % splashes.size();
+                gpu.reconstruct(splashes[i].frame(), mesh);
+                if (round % 10 == 9) hashes[4 * first + round / 10] = mesh_sha256(mesh);
+            }
+        });
+    for (std::thread& thread : threads) thread.join();
+    for (std::size_t i = 0; i < hashes.size(); ++i) EXPECT_EQ(hashes[i], expected[(i / 4 + i % 4) % 4]) << i;
+}
+
+TEST_F(Cuda, AFrameThatFailsWhileItIsDownloadedIsRefusedAndTheNextOneWorks) {
+    const Settings settings = test::default_settings();
+    const test::Particles small = test::splash(42, 6);
+    const test::Particles large = test::splash(42, 40);
+    Mesh mesh;
+    Reconstructor unlimited(settings, {Backend::cuda, 0, 0});
+    unlimited.reconstruct(large.frame(), mesh);
+    const std::size_t limit = unlimited.statistics().peak_bytes - mesh.triangles.size() * sizeof(Triangle) / 2;
+    Reconstructor limited(settings, {Backend::cuda, 0, limit});
+    EXPECT_THROW(limited.reconstruct(large.frame(), mesh), LimitExceeded);
+    limited.reconstruct(small.frame(), mesh);
+    EXPECT_EQ(mesh_sha256(mesh), mesh_sha256(test::reconstruct(settings, small.frame())));
 }
 
 TEST_F(Cuda, AFramePastTheDeviceMemoryLimitIsRefusedWithNumbersAndTheNextOneWorks) {
