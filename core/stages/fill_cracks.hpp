@@ -35,8 +35,7 @@ MENISCUS_HD void for_each_crack(const BlocksView& blocks, std::uint32_t block, V
             const FaceSigns signs(blocks, face.side == 1 ? other : block, face.axis, face.stride);
             for (BlockMask left = signs.mixed(); left != 0; left &= left - 1) {
                 const int bit = lowest_bit(left);
-                for (int axis = 0; axis < 3; ++axis) face.corner[axis] = point_coordinate(bit, axis);
-                face.corner[face.axis] = face.side * base_cell_size;
+                for (int axis = 0; axis < 3; ++axis) face.corner[axis] = axis == face.axis ? face.side * base_cell_size : point_coordinate(bit, axis);
                 visit(face, signs.pattern(bit));
             }
         }
@@ -48,9 +47,8 @@ MENISCUS_HD inline std::uint32_t count_crack_triangles(const BlocksView& blocks,
     return count;
 }
 
-/// Writes the filling of a fine cell's faces from `out` on.
-MENISCUS_HD inline void emit_crack_triangles(const BlocksView& blocks, std::uint32_t block, const CrackCase* table, Triangle* out) {
-    const ClosedCell cell(blocks, block);
+/// Writes the filling of a fine cell's faces from `out` on. cell: the block's.
+MENISCUS_HD inline void emit_crack_triangles(const BlocksView& blocks, std::uint32_t block, const ClosedCell& cell, const CrackCase* table, Triangle* out) {
     for_each_crack(blocks, block, [&](const CrackFace& face, int crack_case) {
         const CrackCase& pattern = table[crack_case];
         for (int t = 0; t < pattern.triangles; ++t, ++out)
@@ -58,13 +56,14 @@ MENISCUS_HD inline void emit_crack_triangles(const BlocksView& blocks, std::uint
                 const int edge = pattern.edges[static_cast<std::size_t>(3 * t + corner)];
                 const int u = (face.axis + 1) % 3;
                 const int v = (face.axis + 2) % 3;
-                int point[3] = {face.corner[0], face.corner[1], face.corner[2]};
-                point[u] += (edge < 6 ? edge % 2 : (edge - 6) % 3) * face.stride;
-                point[v] += (edge < 6 ? edge / 2 : (edge - 6) / 3) * face.stride;
+                const int along_u = (edge < 6 ? edge % 2 : (edge - 6) % 3) * face.stride;
+                const int along_v = (edge < 6 ? edge / 2 : (edge - 6) / 3) * face.stride;
+                // Asked for by constants alone: a GPU would keep an array that is not in its slow local memory.
+                const auto point = [&](int axis) { return face.corner[axis] + (axis == u ? along_u : axis == v ? along_v : 0); };
                 // The patterns are oriented for the fine cell lying up the axis.
                 const int place = face.side == 0 ? corner : 2 - corner;
                 (*out)[static_cast<std::size_t>(place)] =
-                    vertex_on_edge(blocks, cell, point[0], point[1], point[2], edge < 6 ? u : v, face.stride);
+                    vertex_on_edge(blocks, cell, point(0), point(1), point(2), edge < 6 ? u : v, face.stride);
             }
     });
 }

@@ -18,7 +18,7 @@ struct LevelsAround {
     MENISCUS_HD LevelsAround(const BlocksView& blocks, std::uint32_t block) {
         for (int i = 0; i < 8; ++i) {
             const int highest = blocks.level_or_none(blocks.neighbor(block, offset(i)));
-            for (int level = 1; level <= highest; ++level) at_least[level] |= 1 << i;
+            for (int level = 1; level <= 3; ++level) at_least[level] |= (level <= highest ? 1 : 0) << i;
         }
     }
     MENISCUS_HD bool own_is_finest() const { return (at_least[3] & 1) != 0; }

@@ -6,12 +6,16 @@
 namespace meniscus::cuda {
 namespace {
 
-__global__ void __launch_bounds__(block_threads) fill_listed(const __grid_constant__ Frame f) {
+/// One thread for every cell, which keeps its closed cell in shared memory: it is indexed by what the tables say.
+__global__ void __launch_bounds__(block_threads, 3) fill_listed(const __grid_constant__ Frame f) {
+    __shared__ ClosedCell cells[block_threads];
+    ClosedCell& cell = cells[threadIdx.x];
     const BlocksView blocks = f.blocks();
     constexpr int crack = static_cast<int>(TriangleLevel::crack);
     GridLoop{}.each(f.listed(List::cracks), [&](std::uint32_t i) {
         const std::uint32_t block = f.cracked[i];
-        emit_crack_triangles(blocks, block, f.crack_table, f.triangles + f.counts->first_triangle[crack] + f.triangles_before[block].of[crack]);
+        cell = ClosedCell(blocks, block);
+        emit_crack_triangles(blocks, block, cell, f.crack_table, f.triangles + f.counts->first_triangle[crack] + f.triangles_before[block].of[crack]);
     });
 }
 

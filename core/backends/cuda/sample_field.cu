@@ -143,7 +143,7 @@ __global__ void __launch_bounds__(block_threads) list_corner_points(const __grid
     list_wanted_points(f, List::corner_points, [&](const BlocksView& blocks, std::uint32_t b) { return f.corner_points[b] = corner_points(LevelsAround(blocks, b)); });
 }
 
-__global__ void __launch_bounds__(block_threads) list_edge_middles(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads, 4) list_edge_middles(const __grid_constant__ Frame f) {
     list_wanted_points(f, List::edge_middles, [&](const BlocksView& blocks, std::uint32_t b) {
         return f.corner_points[b] == 0 || blocks.sampled[b] == ~BlockMask{0} ? 0 : edge_middles(blocks, b, LevelsAround(blocks, b));
     });
