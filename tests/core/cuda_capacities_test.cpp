@@ -43,7 +43,25 @@ TEST(CudaCapacities, CountsBeyond32BitsAreKept) {
     Needed needed{};
     needed[static_cast<std::size_t>(Resource::triangles)] = 10'000'000'000ULL;
     EXPECT_TRUE(capacities.grow_to(0, needed));
-    EXPECT_EQ(capacities[Resource::triangles], 11'250'000'000ULL);
+    EXPECT_EQ(capacities[Resource::triangles], 10'000'000'000ULL);
+}
+
+TEST(CudaCapacities, RoomToSpareEndsWhereNumbersDo) {
+    Capacities capacities;
+    Needed needed{};
+    for (std::size_t r = 0; r < resource_count; ++r) needed[r] = too_many(static_cast<Resource>(r)) - 1;
+    EXPECT_TRUE(capacities.grow_to(0xFFFFFFF0ULL, needed));
+    EXPECT_LT(capacities.particles, std::uint64_t{1} << 32);
+    for (const std::uint64_t capacity : capacities.of) EXPECT_LT(capacity, std::uint64_t{1} << 32);
+    EXPECT_LT(Brick::words * capacities[Resource::bricks], std::uint64_t{1} << 32) << "words are numbered too";
+}
+
+TEST(CudaCapacities, EveryBlockGetsRoomForASampleAtOnce) {
+    Capacities capacities;
+    Needed needed{};
+    needed[static_cast<std::size_t>(Resource::blocks)] = 100'000;
+    EXPECT_TRUE(capacities.grow_to(0, needed));
+    EXPECT_GE(capacities[Resource::samples], 100'000U);
 }
 
 }  // namespace

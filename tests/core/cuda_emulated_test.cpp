@@ -41,7 +41,7 @@ public:
         }
     }
 
-    void expect_crowded(const ParticleFrame& frame) { EXPECT_THROW(backend_->reconstruct(frame, mesh_, statistics_), LimitExceeded); }
+    void expect_a_refusal(const ParticleFrame& frame) { EXPECT_THROW(backend_->reconstruct(frame, mesh_, statistics_), LimitExceeded); }
 
     const MemoryAccount& device_account() const { return *device_account_; }
 
@@ -129,7 +129,7 @@ TEST(CudaEmulated, RefusesParticlesThatCrowd) {
     EmulatedDevice device(test::default_settings());
     test::Particles crowd;
     for (int i = 0; i < 20'000; ++i) crowd.add(1e-7F * static_cast<float>(i), 0.0F, 0.0F);
-    device.expect_crowded(crowd.frame());
+    device.expect_a_refusal(crowd.frame());
     device.expect_the_cpus_mesh(test::splash(8, 5).frame());
 }
 
@@ -140,6 +140,25 @@ TEST(CudaEmulated, FramesThatGrowAndShrinkAreReplayedFromAGraph) {
     device.expect_the_cpus_mesh(test::splash(6, 10).frame());
     EXPECT_EQ(device.device_account().allocations(), allocations);
     device.expect_the_cpus_mesh(ParticleFrame{});
+}
+
+TEST(CudaEmulated, TheFirstFrameFindsItsRoomInFewRuns) {
+    Settings settings = test::default_settings();
+    settings.cell_size = 1.0;
+    EmulatedDevice device(settings);
+    device.expect_the_cpus_mesh(test::splash(6, 20).frame());
+    EXPECT_LE(device.device_account().allocations(), 5U) << "for particles, blocks, samples, more samples, the mesh";
+}
+
+TEST(CudaEmulated, AFrameBeyondTheMemoryLimitIsRefusedBeforeItIsAllocated) {
+    EmulatedDevice unlimited(test::default_settings());
+    unlimited.expect_the_cpus_mesh(test::splash(6, 6).frame());
+    const std::size_t limit = unlimited.device_account().peak_bytes();
+    EmulatedDevice limited(test::default_settings(), limit);
+    limited.expect_the_cpus_mesh(test::splash(6, 6).frame());
+    limited.expect_a_refusal(test::splash(6, 16).frame());
+    EXPECT_LE(limited.device_account().peak_bytes(), limit);
+    EXPECT_EQ(limited.device_account().bytes(), 0U) << "the room of the frame before is given back first";
 }
 
 }  // namespace

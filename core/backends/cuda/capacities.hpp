@@ -1,10 +1,12 @@
 // How much room the arrays of a frame have, and how that grows.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "lattice/brick_grid.hpp"
 #include "lattice/host_device.hpp"
 
 namespace meniscus::cuda {
@@ -12,6 +14,9 @@ namespace meniscus::cuda {
 /// What a frame may need more of than there is room for. How much is known on the device alone, in this order.
 enum class Resource : std::uint8_t { particle_bricks, reached_bricks, bricks, blocks, samples, vertices, triangles };
 inline constexpr std::size_t resource_count = 7;
+
+/// Elements are numbered with 32 bits, and so are the words of all bricks: a frame that needs as many or more is refused.
+MENISCUS_HD constexpr std::uint64_t too_many(Resource r) { return r == Resource::bricks ? no_index / Brick::words : no_index; }
 
 struct Capacities {
     std::uint64_t particles = 0;
@@ -21,16 +26,26 @@ struct Capacities {
 
     /// Grows to what is needed and an eighth more; returns whether there was too little.
     bool grow_to(std::uint64_t needed_particles, const unsigned long long (&needed)[resource_count]) {
-        bool grown = grow(particles, needed_particles);
-        for (std::size_t r = 0; r < resource_count; ++r) grown |= grow(of[r], needed[r]);
+        bool grown = grow(particles, needed_particles, no_index);
+        for (std::size_t i = 0; i < resource_count; ++i) {
+            const auto r = static_cast<Resource>(i);
+            grown |= grow(of[i], std::max<std::uint64_t>(needed[i], expected(r, needed_particles, needed)), too_many(r));
+        }
         return grown;
     }
 
 private:
-    static bool grow(std::uint64_t& capacity, std::uint64_t needed) {
+    /// What a frame will need that has not come so far as to tell: every time it finds too little room costs a run.
+    static std::uint64_t expected(Resource r, std::uint64_t particles, const unsigned long long (&needed)[resource_count]) {
+        if (r == Resource::reached_bricks) return particles / 8;  // most frames fewer; 20 bytes each
+        if (r == Resource::samples) return needed[static_cast<std::size_t>(Resource::blocks)];  // each has one at least
+        return 0;
+    }
+    /// The eighth more ends where numbers do.
+    static bool grow(std::uint64_t& capacity, std::uint64_t needed, std::uint64_t most) {
         constexpr std::uint64_t least = 256;  // also of what is not needed at all, so that no array is empty
         if (capacity >= least && needed <= capacity) return false;
-        capacity = needed + needed / 8 > least ? needed + needed / 8 : least;
+        capacity = std::max({least, needed, std::min(needed + needed / 8, most)});
         return true;
     }
 };

@@ -207,7 +207,7 @@ struct Frame {
     /// Tells how many are needed; called by one thread.
     __device__ void need(Resource r, std::uint64_t number) const {
         counts->needed[static_cast<int>(r)] = number;
-        if (number > capacity[r] || number >= no_index) counts->overflow = 1;
+        if (number > capacity[r] || number >= too_many(r)) counts->overflow = 1;
     }
 
     /// The particles of a level, but for their coordinates, which are in `particles`.

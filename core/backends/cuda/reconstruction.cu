@@ -18,6 +18,11 @@
 //   emit, fill   emit_cells, fill_listed
 //   Counts       -> pinned memory; the host waits
 //   Download     the mesh -> pinned memory -> the caller's arrays           (reconstruct() only)
+//
+// What overlaps: pieces of the upload with copying into pinned memory, pieces of the download with copying out of it, and whole frames of
+// different sessions, each on a stream of its own. What does not: a session's download and its next frame's kernels. These write the
+// arrays that it reads; it would take a second set of them, and callers who ask for a frame's mesh when the next one is under way.
+// A first frame runs some times: each run ends where an array is too small, and what comes after it is only known to the next.
 #include <array>
 #include <optional>
 
@@ -163,6 +168,7 @@ private:
     void require_room_for_numbers() const {
         const auto needed = [&](Resource r) { return counts().needed[static_cast<int>(r)]; };
         require_numbers(needed(Resource::reached_bricks), "the particles reach", "bricks, repetitions counted");
+        require_numbers(needed(Resource::bricks), "the particles reach", "bricks", too_many(Resource::bricks));
         require_numbers(needed(Resource::blocks), "the frame reaches", "base cells");
         require_numbers(needed(Resource::samples), "the surface needs", "field samples");
         require_numbers(needed(Resource::triangles), "the surface has", "triangles");
