@@ -1,4 +1,5 @@
 // The CUDA backend on a GPU: the CPU's mesh to the bit, memory limits, memory that does not grow. Skipped, saying why, where there is none.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -210,6 +211,11 @@ TEST_F(Cuda, ThousandFramesDoNotGrowDeviceMemory) {
         if (!free_bytes) free_bytes = cuda::devices().at(0).free_bytes;
     }
     EXPECT_GE(cuda::devices().at(0).free_bytes, *free_bytes);
+}
+
+TEST(CudaWithoutGpu, AMissingDriverIsSaidPlainly) {
+    const bool has_driver = dlopen("libcuda.so.1", RTLD_LAZY) != nullptr;
+    EXPECT_EQ(describe_backend(Backend::automatic).reason == "no NVIDIA driver found", !has_driver) << describe_backend(Backend::automatic).reason;
 }
 
 TEST(CudaWithoutGpu, TheCpuBackendHasNoMeshOnADeviceAndSaysSo) {

@@ -9,18 +9,25 @@
 namespace meniscus::cuda {
 namespace {
 
+std::string version(int number) { return std::to_string(number / 1000) + "." + std::to_string(number % 1000 / 10); }
+
+/// A missing driver and an old one are the same error to CUDA.
+std::string why_no_driver() {
+    int found = 0;
+    if (cudaDriverGetVersion(&found) != cudaSuccess || found == 0) return "no NVIDIA driver found";
+    return "the NVIDIA driver is for CUDA " + version(found) + ", must be for " + version(CUDART_VERSION) + " or newer";
+}
+
 /// Number of devices; 0 and the reason if there is none.
 int device_count(std::string& reason) {
     int count = 0;
     const cudaError_t status = cudaGetDeviceCount(&count);
     // Without a driver the call fails and leaves its error behind.
     cudaGetLastError();
-    if (status != cudaSuccess) {
-        reason = std::string("no usable GPU (") + cudaGetErrorString(status) + ")";
-        return 0;
-    }
-    if (count == 0) reason = "no GPU";
-    return count;
+    if (status == cudaErrorInsufficientDriver) reason = why_no_driver();
+    else if (status != cudaSuccess && status != cudaErrorNoDevice) reason = std::string("no usable GPU (") + cudaGetErrorString(status) + ")";
+    else if (count == 0) reason = "no GPU found";
+    return status == cudaSuccess ? count : 0;
 }
 
 int attribute(cudaDeviceAttr which, int device) {
