@@ -10,5 +10,6 @@ namespace meniscus::benchmarks {
 void add_experiment(CLI::App& app);
 void add_scaling(CLI::App& app);
 void add_encoding(CLI::App& app);
+void add_goals(CLI::App& app);
 
 }  // namespace meniscus::benchmarks

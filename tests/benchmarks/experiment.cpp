@@ -59,7 +59,7 @@ struct Series {
 
 using BothSeries = std::array<std::unique_ptr<Series>, modes.size()>;
 
-constexpr auto milliseconds = [](const Statistics& s) { return 1e3 * s.total_seconds; };
+constexpr auto milliseconds = [](const Statistics& s) { return 1e3 * reconstruction_seconds(s); };
 constexpr auto thousand_triangles = [](const Statistics& s) { return 1e-3 * static_cast<double>(s.triangles); };
 
 BothSeries simulate(const ExperimentOptions& options, const simulator::Scene& scene) {

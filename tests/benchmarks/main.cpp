@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
     meniscus::benchmarks::add_experiment(app);
     meniscus::benchmarks::add_scaling(app);
     meniscus::benchmarks::add_encoding(app);
+    meniscus::benchmarks::add_goals(app);
     try {
         meniscus::benchmarks::remember_command(argc, argv);
         app.parse(argc, argv);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <numeric>
 #include <sstream>
 
 #include "formats/atomic_file.hpp"
@@ -58,8 +59,15 @@ void remember_command(int argc, const char* const* argv) {
     }
 }
 
+double reconstruction_seconds(const Statistics& s) {
+    return s.backend == "cuda" ? std::accumulate(s.stage_seconds.begin(), s.stage_seconds.end(), 0.0) : s.total_seconds;
+}
+
+std::uint64_t reconstruction_bytes(const Statistics& s) { return s.backend == "cuda" ? s.device_peak_bytes : s.peak_bytes; }
+
 void add_statistics(Row& row, const Statistics& s) {
     row["total_seconds"] = s.total_seconds;
+    row["reconstruction_seconds"] = reconstruction_seconds(s);
     for (std::size_t i = 0; i < stage_count; ++i) row[std::string(stage_names[i]) + "_seconds"] = s.stage_seconds[i];
     row["triangles"] = s.triangles;
     row["level1_triangles"] = s.triangles_by_level[0];
@@ -69,6 +77,7 @@ void add_statistics(Row& row, const Statistics& s) {
     row["vertices"] = s.vertices;
     row["field_evaluations"] = s.field_evaluations;
     row["peak_bytes"] = s.peak_bytes;
+    row["device_peak_bytes"] = s.device_peak_bytes;
     row["allocations"] = s.allocations;
 }
 

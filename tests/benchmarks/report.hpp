@@ -17,6 +17,11 @@ using Rows = nlohmann::ordered_json;
 /// Kept for the reports, with only the last part of absolute paths: the rest says nothing elsewhere.
 void remember_command(int argc, const char* const* argv);
 
+/// What a reconstruction takes, in seconds: on a GPU between CUDA's events, from the upload on, without the mesh's way to the host.
+double reconstruction_seconds(const Statistics& statistics);
+/// The bytes that it takes place in: of the GPU, or of the host with the mesh.
+std::uint64_t reconstruction_bytes(const Statistics& statistics);
+
 /// Adds one reconstruction's figures: times in seconds, sizes in bytes.
 void add_statistics(Row& row, const Statistics& statistics);
 

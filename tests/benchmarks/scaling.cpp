@@ -60,12 +60,12 @@ void add_floor(Row& row, const Statistics& s, const Neighborhood& neighbors, con
                            static_cast<double>(s.field_evaluations) * neighbors.of_vertex;
     const unsigned cores = s.backend == "cuda" ? 1 : s.threads;  // a device's peaks are those of all of it
     const double kernel_seconds = kernels * instructions_per_kernel / (peaks.multiply_adds_per_second * cores);
-    const double copy_seconds = static_cast<double>(s.peak_bytes) / peaks.copied_bytes_per_second;
+    const double copy_seconds = static_cast<double>(reconstruction_bytes(s)) / peaks.copied_bytes_per_second;
     row["particles_in_support_of_particle"] = neighbors.of_particle;
     row["particles_in_support_of_vertex"] = neighbors.of_vertex;
     row["kernel_evaluations"] = kernels;
-    row["share_of_multiply_add_peak"] = kernel_seconds / s.total_seconds;
-    row["share_of_copy_bandwidth"] = copy_seconds / s.total_seconds;
+    row["share_of_multiply_add_peak"] = kernel_seconds / reconstruction_seconds(s);
+    row["share_of_copy_bandwidth"] = copy_seconds / reconstruction_seconds(s);
 }
 
 Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<float>& positions, double cell_size, Mode mode,
@@ -91,9 +91,9 @@ Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<flo
     row["first_seconds"] = runs.first.total_seconds;
     row["first_over_warm"] = runs.first.total_seconds / s.total_seconds;
     add_statistics(row, s);
-    row["seconds_per_million_particles"] = 1e6 * s.total_seconds / particles;
-    row["bytes_per_particle"] = static_cast<double>(s.peak_bytes) / particles;
-    row["bytes_per_triangle"] = static_cast<double>(s.peak_bytes) / static_cast<double>(s.triangles);
+    row["seconds_per_million_particles"] = 1e6 * reconstruction_seconds(s) / particles;
+    row["bytes_per_particle"] = static_cast<double>(reconstruction_bytes(s)) / particles;
+    row["bytes_per_triangle"] = static_cast<double>(reconstruction_bytes(s)) / static_cast<double>(s.triangles);
     add_floor(row, s, sample_neighborhood(positions, mesh, settings), peaks);
     return row;
 }

@@ -25,6 +25,28 @@ def read_rows(folder, name):
         return list(csv.DictReader(file))
 
 
+def check_goals(bench):
+    """Nothing is measured without results of a GPU; with some, each figure is that of its row."""
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+
+        def goals():
+            subprocess.run([bench, "goals", "--out", folder], check=True, capture_output=True)
+            return json.loads((folder / "goals.json").read_text())
+
+        check([(g["measured"], g["holds"]) for g in goals()] == [(None, None)] * 6, "goals: something is measured without results")
+        cases = (("splashing", "adaptive"), ("splashing", "uniform"), ("calm", "adaptive"), ("calm", "uniform"))
+        scaling = [{"water": water, "mode": mode, "cell_size": 1.0, "particles": 64 * 16000, "reconstruction_seconds": 0.001 * (5 + 20 * i),
+                    "device_peak_bytes": 100 * (i + 1)} for i, (water, mode) in enumerate(cases)]
+        experiment = [{"mode": "adaptive", "reconstruction_seconds": s} for s in (0.0007, 0.0001, 0.0004)]
+        for backend in ("cpu", "cuda"):
+            for name, rows in (("scaling", scaling), ("experiment", experiment)):
+                (folder / f"{name}.json").write_text(json.dumps({"backend": backend, "rows": rows}))
+            found = [(g["measured"] and round(g["measured"], 3), g["holds"]) for g in goals()]
+            expected = [(5.0, True), (25.0, False), (0.4, True), (1.444, False), (0.75, False), (None, None)]
+            check(found == (expected if backend == "cuda" else [(None, None)] * 6), f"goals: {backend} gives {found}")
+
+
 def main():
     bench = sys.argv[1]
     with tempfile.TemporaryDirectory() as temporary:
@@ -43,6 +65,7 @@ def main():
         check(len(plots) == 4, f"experiment: {len(plots)} plots, should be 4")
         lines = [len(xml.etree.ElementTree.parse(p).findall("{http://www.w3.org/2000/svg}polyline")) for p in plots]
         check(lines == [2, 2, 8, 4], f"experiment: lines in the plots are {lines}")
+    check_goals(bench)
     check(subprocess.run([bench, "encoding", "--water", "ice"], capture_output=True).returncode == 2, "wrong input is refused")
     for name in ("experiment", "scaling"):
         refused = subprocess.run([bench, name, "--backend", "abacus"], capture_output=True, text=True)

@@ -61,6 +61,11 @@ name=$1
 while [ $# -gt 0 ]; do [ "$1" != --out ] || out=$2; shift; done
 [ "${FAKE_BROKEN_BENCHMARK:-}" != "$name" ] || { echo 'out of "memory"' >&2; exit 1; }
 mkdir -p "$out"
+if [ "$name" = goals ]; then
+  [ -e "$out/scaling.json" ] && measured=7.5 || measured=null
+  echo "[{\"goal\": \"8 ms\", \"measured\": $measured}]" >"$out/goals.json"
+  exit 0
+fi
 echo "{\"commit\": \"$MENISCUS_COMMIT\", \"rows\": [1, 2]}" >"$out/$name.json"
 """
 
@@ -131,6 +136,14 @@ class GpuCheck(unittest.TestCase):
     def test_embeds_the_benchmarks(self):
         _, _, results = self.run_script("benchmark")
         self.assertEqual(results["benchmarks"], dict.fromkeys(("experiment", "scaling"), {"commit": "0123456789ab", "rows": [1, 2]}))
+
+    def test_has_a_row_for_every_goal_measured_or_not(self):
+        for arguments, fakes, measured in ((["tests"], {}, None), (["benchmark"], {}, 7.5), ([], {"refusal": "none", "no_gpu": 1}, None)):
+            _, _, results = self.run_script(*arguments, **fakes)
+            self.assertEqual(results["goals"], [{"goal": "8 ms", "measured": measured}], arguments)
+
+    def test_goals_that_cannot_be_judged_are_a_failure(self):
+        self.assert_fails("goals", "tests", broken_benchmark="goals")
 
     def test_without_a_gpu_has_its_own_exit_code(self):
         code, output, results = self.run_script(refusal='no "driver"', no_gpu=1)
