@@ -1,4 +1,5 @@
 // meniscusd.
+#include <google/protobuf/stubs/logging.h>
 #include <grpc/support/log.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -43,6 +44,8 @@ int run(const meniscus::server::CommandLine& command_line) {
     spdlog::set_level(command_line.log_level);
     spdlog::flush_on(spdlog::level::debug);
     gpr_set_log_function(log_grpc);
+    // What protobuf would print of messages that do not parse is their senders' to choose.
+    google::protobuf::SetLogHandler(nullptr);
 
     meniscus::server::Server server(command_line.server);
     const meniscus::BackendDescription& backend = server.backend();

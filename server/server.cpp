@@ -21,6 +21,11 @@ namespace {
 /// For clients to confirm that the connection ends.
 constexpr auto goodbye_time = std::chrono::milliseconds(500);
 
+/// The part of the grace period that is kept for canceling the calls of clients that never read, hundreds of them.
+std::chrono::milliseconds canceling_time(std::chrono::milliseconds grace) {
+    return std::min(goodbye_time, grace / 4);
+}
+
 unsigned threads_or_processors(unsigned threads) {
     return threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
 }
@@ -99,7 +104,7 @@ Server::~Server() {
 
 void Server::shutdown() {
     if (!grpc_) return;
-    const auto deadline = std::chrono::system_clock::now() + options_.shutdown_grace;
+    const auto deadline = std::chrono::system_clock::now() + options_.shutdown_grace - canceling_time(options_.shutdown_grace);
     registry_.drain();
     // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection once
     // the client has confirmed the goodbye, or loses what the client has not read. Idle clients confirm late or never.

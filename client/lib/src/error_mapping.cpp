@@ -26,6 +26,36 @@ std::string code_name(grpc::StatusCode code) {
     }
 }
 
+/// As gRPC writes it. InvalidInput and LimitExceeded stand for the two that are not here.
+std::string status_name(grpc::StatusCode code) {
+    switch (code) {
+        case grpc::StatusCode::CANCELLED:
+            return "CANCELLED";
+        case grpc::StatusCode::DEADLINE_EXCEEDED:
+            return "DEADLINE_EXCEEDED";
+        case grpc::StatusCode::NOT_FOUND:
+            return "NOT_FOUND";
+        case grpc::StatusCode::ALREADY_EXISTS:
+            return "ALREADY_EXISTS";
+        case grpc::StatusCode::PERMISSION_DENIED:
+            return "PERMISSION_DENIED";
+        case grpc::StatusCode::UNAUTHENTICATED:
+            return "UNAUTHENTICATED";
+        case grpc::StatusCode::FAILED_PRECONDITION:
+            return "FAILED_PRECONDITION";
+        case grpc::StatusCode::ABORTED:
+            return "ABORTED";
+        case grpc::StatusCode::UNIMPLEMENTED:
+            return "UNIMPLEMENTED";
+        case grpc::StatusCode::INTERNAL:
+            return "INTERNAL";
+        case grpc::StatusCode::UNAVAILABLE:
+            return "UNAVAILABLE";
+        default:
+            return "UNKNOWN";
+    }
+}
+
 }  // namespace
 
 std::exception_ptr to_exception(const grpc::Status& status, const std::string& address) {
@@ -37,10 +67,12 @@ std::exception_ptr to_exception(const grpc::Status& status, const std::string& a
             return std::make_exception_ptr(LimitExceeded(message));
         case grpc::StatusCode::UNAVAILABLE:
             return std::make_exception_ptr(ServerError("the server at " + address + " is not available (" + message +
-                                                       "): restart meniscusd or check the address"));
+                                                       "): restart meniscusd or check the address",
+                                                   status_name(status.error_code())));
         default:
             return std::make_exception_ptr(ServerError("the server at " + address + ": " + message + " (" +
-                                                       code_name(status.error_code()) + ")"));
+                                                       code_name(status.error_code()) + ")",
+                                                   status_name(status.error_code())));
     }
 }
 

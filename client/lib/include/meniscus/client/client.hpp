@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meniscus/brick_coding.hpp"
@@ -24,7 +25,13 @@ namespace meniscus::client {
 /// LimitExceeded, as in process.)
 class ServerError : public std::runtime_error {
 public:
-    using std::runtime_error::runtime_error;
+    /// status: gRPC's, such as "UNAVAILABLE"; empty for what this library has found wrong.
+    explicit ServerError(const std::string& message, std::string status = {})
+        : std::runtime_error(message), status_(std::move(status)) {}
+    const std::string& status() const noexcept { return status_; }
+
+private:
+    std::string status_;
 };
 
 struct ServerInfo {

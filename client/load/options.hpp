@@ -1,0 +1,47 @@
+// The command line of meniscus-load.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/settings_options.hpp"
+
+namespace meniscus::load {
+
+struct LoadOptions {
+    std::string server = "127.0.0.1:50051";  ///< "HOST:PORT" or "unix:PATH"
+    unsigned simulators = 1;                 ///< each with a session of its own
+
+    // Watchers, of each simulator.
+    unsigned watchers = 1;      ///< that read as fast as they can
+    unsigned slow = 0;          ///< that take slow_seconds over each frame
+    double slow_seconds = 0.5;
+    unsigned stalled = 0;       ///< that stop reading
+    unsigned vanishing = 0;     ///< that break their connection after vanish_after frames, and come again
+    std::uint64_t vanish_after = 10;
+
+    double rate = 10.0;     ///< frames per second of each simulator
+    double seconds = 10.0;  ///< how long they send
+    double warm_up = 1.0;   ///< seconds at the beginning that are not measured
+    bool meshes = true;     ///< whether simulators want their meshes back
+
+    std::size_t particles = 16000;   ///< of a frame of moving water
+    std::vector<std::string> files;  ///< sent in place of moving water, one after the other and over again
+    double particle_radius = 0.025;  ///< world units
+    cli::SettingsOptions settings;
+
+    std::string json;  ///< a file for the figures; "-" for standard output; empty for none
+};
+
+/// How the program ends before it has begun.
+struct EarlyExit {
+    std::string text;
+    int code = 0;
+};
+
+std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, LoadOptions& options);
+
+}  // namespace meniscus::load

@@ -1,0 +1,80 @@
+#include "frame_receiver.hpp"
+#include "meniscus/v1/surface_service.pb.h"
+#include "support.hpp"
+
+namespace meniscus::fuzz {
+
+namespace {
+
+template <class Response>
+void receive(Bytes bytes) {
+    client::FrameReceiver receiver(true);
+    Front front(bytes);
+    may_refuse([&] {
+        while (!front.empty()) {
+            const Bytes message = front.piece(front.number(2));
+            Response response;
+            if (!response.ParseFromArray(message.data(), static_cast<int>(message.size()))) return;
+            const auto frame = receiver.take(response);
+            if (!frame) continue;
+            may_refuse([&] { (void)frame->mesh(); });
+        }
+        receiver.end_of_stream();
+    });
+}
+
+/// One frame with all of its bricks, the first in two parts.
+template <class Response>
+std::string whole_frame() {
+    const Mesh mesh = sample_mesh();
+    std::vector<Response> responses;
+    v1::MeshBegin& begin = *responses.emplace_back().mutable_mesh_begin();
+    begin.set_frame_index(3);
+    begin.set_cell_size(mesh.cell_size);
+    begin.set_offset_bits(mesh.offset_bits);
+    begin.set_brick_cells(brick_cells);
+    begin.set_brick_count(static_cast<std::uint32_t>(mesh.bricks.size()));
+    begin.set_triangle_count(mesh.triangles.size());
+    for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
+        const EncodedBrick encoded = encode_brick(mesh, i);
+        const std::string draco(reinterpret_cast<const char*>(encoded.draco.data()), encoded.draco.size());
+        const std::size_t parts = i == 0 ? 2 : 1;
+        for (std::size_t part = 0; part < parts; ++part) {
+            v1::MeshBrick& brick = *responses.emplace_back().mutable_mesh_brick();
+            brick.set_x(encoded.coordinate[0]);
+            brick.set_y(encoded.coordinate[1]);
+            brick.set_z(encoded.coordinate[2]);
+            brick.set_vertex_count(encoded.vertices);
+            brick.set_triangle_count(encoded.triangles);
+            if (part == 0) brick.set_cell_levels(encoded.cell_levels.data(), encoded.cell_levels.size());
+            const std::size_t cut = part * draco.size() / parts;
+            brick.set_draco(draco.substr(cut, (part + 1) * draco.size() / parts - cut));
+            brick.set_part_index(static_cast<std::uint32_t>(part));
+            brick.set_part_count(static_cast<std::uint32_t>(parts));
+        }
+    }
+    v1::FrameStatistics& statistics = *responses.emplace_back().mutable_frame_statistics();
+    statistics.set_frame_index(3);
+    statistics.set_triangles(mesh.triangles.size());
+    return join(responses);
+}
+
+}  // namespace
+
+void stream_responses(Bytes bytes) {
+    receive<v1::StreamResponse>(bytes);
+}
+
+Seeds stream_response_seeds() {
+    return {whole_frame<v1::StreamResponse>()};
+}
+
+void watch_responses(Bytes bytes) {
+    receive<v1::WatchResponse>(bytes);
+}
+
+Seeds watch_response_seeds() {
+    return {whole_frame<v1::WatchResponse>()};
+}
+
+}  // namespace meniscus::fuzz

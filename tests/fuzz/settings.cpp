@@ -1,0 +1,27 @@
+#include "conversion/settings_conversion.hpp"
+#include "support.hpp"
+
+namespace meniscus::fuzz {
+
+void settings(Bytes bytes) {
+    v1::Settings wire;
+    if (!wire.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return;
+    may_refuse([&] {
+        const Settings settings = conversion::from_wire(wire);
+        validate(settings);
+        require(conversion::from_wire(conversion::to_wire(settings)) == settings, "settings survive the wire");
+    });
+}
+
+Seeds settings_seeds() {
+    Settings plain;
+    plain.particle_radius = 0.1;
+    Settings full = plain;
+    full.field = Field::density;
+    full.criterion = Criterion::count;
+    full.edge_points = EdgePoints::bisect;
+    full.domain = Box{{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}};
+    return {conversion::to_wire(plain).SerializeAsString(), conversion::to_wire(full).SerializeAsString()};
+}
+
+}  // namespace meniscus::fuzz

@@ -1,0 +1,83 @@
+#include <limits>
+
+#include "meniscus/v1/surface_service.pb.h"
+#include "sessions/frame_assembler.hpp"
+#include "sessions/input_frame.hpp"
+#include "support.hpp"
+
+namespace meniscus::fuzz {
+
+namespace {
+
+/// As one after the other comes in. Throws what a stream ends with.
+void receive(const v1::StreamRequest& request, server::FrameAssembler& assembler, server::InputFrame& input) {
+    switch (request.message_case()) {
+        case v1::StreamRequest::kFrameBegin:
+            assembler.begin(request.frame_begin(), input);
+            require(input.bytes.size() <= std::size_t{1} << 20, "a frame is as large as the limit at most");
+            break;
+        case v1::StreamRequest::kFrameChunk:
+            assembler.append(request.frame_chunk(), input);
+            break;
+        case v1::StreamRequest::kFrameEnd: {
+            assembler.end(input);
+            const ParticleFrame view = input.view();
+            require(view.count() == input.particle_count, "a frame that has ended holds the particles announced");
+            require(view.positions.size_bytes() + view.quantized.size_bytes() + view.levels.size_bytes() == input.bytes.size(),
+                    "positions and levels are all of a frame's bytes");
+            break;
+        }
+        default:
+            throw InvalidInput("not a message of a frame");
+    }
+}
+
+v1::StreamRequest begin(std::uint64_t index, bool quantized, bool levels) {
+    v1::StreamRequest request;
+    v1::FrameBegin& message = *request.mutable_frame_begin();
+    message.set_frame_index(index);
+    message.set_simulation_time(0.5);
+    message.set_particle_count(2);
+    message.set_has_levels(levels);
+    if (quantized) {
+        message.set_encoding(v1::POSITION_ENCODING_UINT16);
+        message.mutable_quantization_box()->mutable_min()->set_x(-1.0);
+        message.mutable_quantization_box()->mutable_max()->set_x(1.0);
+    }
+    return request;
+}
+
+v1::StreamRequest chunk(std::size_t bytes) {
+    v1::StreamRequest request;
+    request.mutable_frame_chunk()->set_data(std::string(bytes, '\x01'));
+    return request;
+}
+
+}  // namespace
+
+void stream_requests(Bytes bytes) {
+    server::Limits limits;
+    limits.particles_per_frame = 100'000;
+    limits.bytes_per_session = std::size_t{1} << 20;
+    server::FrameAssembler assembler(limits);
+    server::InputFrame input(std::make_shared<MemoryAccount>(limits.bytes_per_session));
+    Front front(bytes);
+    may_refuse([&] {
+        while (!front.empty()) {
+            const Bytes message = front.piece(front.number(2));
+            v1::StreamRequest request;
+            if (!request.ParseFromArray(message.data(), static_cast<int>(message.size()))) return;
+            receive(request, assembler, input);
+        }
+        assembler.end_of_stream();
+    });
+}
+
+Seeds stream_request_seeds() {
+    v1::StreamRequest end;
+    end.mutable_frame_end();
+    return {join<v1::StreamRequest>({begin(1, false, false), chunk(24), end, begin(2, true, true), chunk(5), chunk(9), end}),
+            join<v1::StreamRequest>({begin(std::numeric_limits<std::uint64_t>::max(), false, true), chunk(26), end})};
+}
+
+}  // namespace meniscus::fuzz

@@ -1,0 +1,22 @@
+#include "targets.hpp"
+
+namespace meniscus::fuzz {
+
+const std::vector<Target>& targets() {
+    static const std::vector<Target> all{
+        {"stream_requests", stream_requests, stream_request_seeds},
+        {"stream_responses", stream_responses, stream_response_seeds},
+        {"watch_responses", watch_responses, watch_response_seeds},
+        {"settings", settings, settings_seeds},
+        {"brick", brick, brick_seeds},
+        {"vtk", vtk, vtk_seeds},
+        {"particle_ply", particle_ply, particle_ply_seeds},
+        {"xyz", xyz, xyz_seeds},
+        {"mesh_ply", mesh_ply, mesh_ply_seeds},
+        {"mesh_obj", mesh_obj, mesh_obj_seeds},
+        {"brick_file", brick_file, brick_file_seeds},
+    };
+    return all;
+}
+
+}  // namespace meniscus::fuzz

@@ -1,0 +1,55 @@
+// What reads bytes that nobody vouches for. Each target takes any bytes: it may refuse them, and must not crash, hang or ask for
+// memory that the bytes do not justify. libFuzzer makes the bytes (tests/fuzz/run); the test suite tries the seeds and damage to them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace meniscus::fuzz {
+
+using Bytes = std::string_view;
+using Seeds = std::vector<std::string>;
+
+/// Messages of a Stream call, as the server reads them: a list of messages.
+void stream_requests(Bytes bytes);
+Seeds stream_request_seeds();
+
+/// Answers of a Stream and of a Watch call, as the client reads them, and their meshes: a list of messages.
+void stream_responses(Bytes bytes);
+Seeds stream_response_seeds();
+void watch_responses(Bytes bytes);
+Seeds watch_response_seeds();
+
+/// The wire's Settings.
+void settings(Bytes bytes);
+Seeds settings_seeds();
+
+/// One brick: offset bits (1 byte), vertices, triangles, bytes of cell levels (uint32 each), cell levels, Draco bytes.
+void brick(Bytes bytes);
+Seeds brick_seeds();
+
+// Files.
+void vtk(Bytes bytes);
+Seeds vtk_seeds();
+void particle_ply(Bytes bytes);
+Seeds particle_ply_seeds();
+void xyz(Bytes bytes);
+Seeds xyz_seeds();
+void mesh_ply(Bytes bytes);
+Seeds mesh_ply_seeds();
+void mesh_obj(Bytes bytes);
+Seeds mesh_obj_seeds();
+void brick_file(Bytes bytes);
+Seeds brick_file_seeds();
+
+struct Target {
+    const char* name;
+    void (*run)(Bytes);
+    Seeds (*seeds)();
+};
+
+/// All of the above.
+const std::vector<Target>& targets();
+
+}  // namespace meniscus::fuzz

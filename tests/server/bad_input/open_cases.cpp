@@ -1,0 +1,110 @@
+// Streams that are refused as they are opened: ids, wishes, sessions that are not there or not free.
+#include <utility>
+
+#include "bad_input/case.hpp"
+
+namespace meniscus::server::test {
+
+namespace {
+
+constexpr auto ok = grpc::StatusCode::OK;
+constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
+
+const std::string no_session = "00000000-0000-4000-8000-000000000000";
+
+grpc::Status finish(RawStream& stream) {
+    stream.call->WritesDone();
+    return stream.finish();
+}
+
+/// Opens a stream of a new session, with this change to its open.
+std::function<grpc::Status(RunningServer&)> open_with(std::function<void(v1::StreamOpen&)> change) {
+    return [change = std::move(change)](RunningServer& running) {
+        const CaseSession session(running);
+        RawStream stream(running.server.address(), session.id, false);
+        v1::StreamRequest request;
+        request.mutable_open()->set_session_id(session.id);
+        change(*request.mutable_open());
+        stream.call->Write(request);
+        return finish(stream);
+    };
+}
+
+/// This id as metadata and in the message.
+std::function<grpc::Status(RunningServer&)> session_id(std::string id) {
+    return [id = std::move(id)](RunningServer& running) {
+        RawStream stream(running.server.address(), id);
+        return finish(stream);
+    };
+}
+
+grpc::Status metadata_twice(RunningServer& running) {
+    const client::Connection connection = connect(running);
+    grpc::ClientContext context;
+    client::add_session_id(context, no_session);
+    client::add_session_id(context, no_session);
+    const auto call = connection.surfaces->Stream(&context);
+    call->WritesDone();
+    v1::StreamResponse ignored;
+    while (call->Read(&ignored)) {
+    }
+    return call->Finish();
+}
+
+grpc::Status another_stream_uploads(RunningServer& running) {
+    const CaseSession session(running);
+    RawStream first(running.server.address(), session.id);
+    first.send_begin(0, 0);
+    first.send_end();
+    v1::StreamResponse answer;
+    first.call->Read(&answer);
+    RawStream second(running.server.address(), session.id);
+    grpc::Status status = finish(second);
+    finish(first);
+    return status;
+}
+
+grpc::Status session_was_deleted(RunningServer& running) {
+    const std::string id = running.session();
+    running.client.delete_session(id);
+    return session_id(id)(running);
+}
+
+}  // namespace
+
+std::vector<BadInputCase> open_cases() {
+    const auto normal_bits = [](std::uint32_t bits) {
+        return open_with([=](v1::StreamOpen& open) { open.set_normal_bits(bits); });
+    };
+    return {
+        {"NoNormals", ok, "", normal_bits(0)},
+        {"OneNormalBit", invalid, "normal_bits is 1; it must be 0 (no normals) or 2 to 16", normal_bits(1)},
+        {"TwoNormalBits", ok, "", normal_bits(2)},
+        {"SixteenNormalBits", ok, "", normal_bits(16)},
+        {"SeventeenNormalBits", invalid, "normal_bits is 17; it must be 0 (no normals) or 2 to 16", normal_bits(17)},
+        {"MoreNormalBitsThanAnIntHolds", invalid, "normal_bits is 4294967295", normal_bits(0xFFFFFFFFU)},
+        {"NoSessionIdInTheMetadata", invalid, "the call has no metadata x-session-id",
+         [](RunningServer& running) {
+             RawStream stream(running.server.address());
+             return finish(stream);
+         }},
+        {"TwoSessionIdsInTheMetadata", invalid, "the call has metadata x-session-id more than once", metadata_twice},
+        {"AnEmptySessionId", invalid, "x-session-id is \"\"; it must be a UUID", session_id("")},
+        {"ASessionIdInUpperCase", invalid, "x-session-id is \"ABCDEF00-0000-4000-8000-000000000000\"; it must be a UUID",
+         session_id("ABCDEF00-0000-4000-8000-000000000000")},
+        {"ASessionIdThatIsAPath", invalid, "x-session-id is \"../../../../../../../etc/passwd\"; it must be a UUID",
+         session_id("../../../../../../../etc/passwd")},
+        {"ASessionIdThatIsTooLong", invalid, "it must be a UUID of 8-4-4-4-12", session_id(no_session + "0")},
+        {"ASessionIdOfManyBytes", invalid, "it must be a UUID of 8-4-4-4-12", session_id(std::string(4000, '0'))},
+        {"NoSessionIdInTheMessage", invalid, "the message's session id is \"\"; it must be a UUID",
+         open_with([](v1::StreamOpen& open) { open.clear_session_id(); })},
+        {"AnotherSessionIdInTheMessage", invalid, "but the message's session id is " + no_session,
+         open_with([](v1::StreamOpen& open) { open.set_session_id(no_session); })},
+        {"ASessionThatWasNeverCreated", grpc::StatusCode::NOT_FOUND, "no session " + no_session, session_id(no_session)},
+        {"ASessionThatWasDeleted", grpc::StatusCode::NOT_FOUND, "no session ", session_was_deleted},
+        {"ASessionThatAnotherStreamUploadsTo", grpc::StatusCode::FAILED_PRECONDITION, "uploads to session ",
+         another_stream_uploads},
+    };
+}
+
+}  // namespace meniscus::server::test

@@ -1,0 +1,150 @@
+// Sessions that cannot be created, found or deleted.
+#include <limits>
+#include <utility>
+
+#include "bad_input/case.hpp"
+#include "conversion/settings_conversion.hpp"
+
+namespace meniscus::server::test {
+
+namespace {
+
+constexpr auto ok = grpc::StatusCode::OK;
+constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+const std::string no_session = "00000000-0000-4000-8000-000000000000";
+
+grpc::Status create(RunningServer& running, const std::string& metadata, const v1::CreateSessionRequest& request) {
+    const client::Connection connection = connect(running);
+    grpc::ClientContext context;
+    client::add_session_id(context, metadata);
+    v1::CreateSessionResponse response;
+    grpc::Status status = connection.sessions->CreateSession(&context, request, &response);
+    if (status.ok()) running.client.delete_session(request.id());
+    return status;
+}
+
+/// Creates a session whose settings are the tests', with this change.
+std::function<grpc::Status(RunningServer&)> settings_with(std::function<void(v1::Settings&)> change) {
+    return [change = std::move(change)](RunningServer& running) {
+        v1::CreateSessionRequest request;
+        request.set_id(client::new_session_id());
+        *request.mutable_settings() = conversion::to_wire(settings());
+        change(*request.mutable_settings());
+        return create(running, request.id(), request);
+    };
+}
+
+std::function<grpc::Status(RunningServer&)> id(std::string in_message) {
+    return [in_message = std::move(in_message)](RunningServer& running) {
+        v1::CreateSessionRequest request;
+        request.set_id(in_message);
+        *request.mutable_settings() = conversion::to_wire(settings());
+        return create(running, client::new_session_id(), request);
+    };
+}
+
+/// While this many sessions are open: those made here, and the one of the test that runs all cases.
+std::function<grpc::Status(RunningServer&)> beside(std::size_t sessions) {
+    return [=](RunningServer& running) {
+        std::vector<std::unique_ptr<CaseSession>> others;
+        while (running.client.sessions().size() < sessions) others.push_back(std::make_unique<CaseSession>(running));
+        return settings_with([](v1::Settings&) {})(running);
+    };
+}
+
+template <class Request, class Response>
+grpc::Status about_no_session(RunningServer& running,
+                              grpc::Status (v1::SessionService::Stub::*method)(grpc::ClientContext*, const Request&, Response*)) {
+    const client::Connection connection = connect(running);
+    grpc::ClientContext context;
+    client::add_session_id(context, no_session);
+    Request request;
+    request.set_id(no_session);
+    Response response;
+    return (*connection.sessions.*method)(&context, request, &response);
+}
+
+grpc::Status exists_with_other_settings(RunningServer& running) {
+    const CaseSession session(running);
+    v1::CreateSessionRequest request;
+    request.set_id(session.id);
+    request.mutable_settings()->set_particle_radius(1.0);
+    return create(running, session.id, request);
+}
+
+}  // namespace
+
+std::vector<BadInputCase> session_cases() {
+    const auto radius_of = [](double value) { return settings_with([=](v1::Settings& s) { s.set_particle_radius(value); }); };
+    const auto cell_size = [](double value) { return settings_with([=](v1::Settings& s) { s.set_cell_size(value); }); };
+    const auto iso = [](double value) { return settings_with([=](v1::Settings& s) { s.set_iso(value); }); };
+    const auto steps = [](std::uint32_t value) {
+        return settings_with([=](v1::Settings& s) {
+            s.set_edge_points(v1::EDGE_POINTS_BISECT);
+            s.set_bisection_steps(value);
+        });
+    };
+    const auto domain = [](double low, double high) {
+        return settings_with([=](v1::Settings& s) {
+            s.mutable_domain()->mutable_min()->set_x(low);
+            s.mutable_domain()->mutable_max()->set_x(high);
+            s.mutable_domain()->mutable_max()->set_y(1.0);
+            s.mutable_domain()->mutable_max()->set_z(1.0);
+        });
+    };
+    return {
+        {"NoSettings", invalid, "particle radius is 0, must be finite and greater than 0",
+         settings_with([](v1::Settings& s) { s.Clear(); })},
+        {"ARadiusBelowZero", invalid, "particle radius is -1, must be finite and greater than 0", radius_of(-1.0)},
+        {"ARadiusThatIsNoNumber", invalid, "particle radius is nan, must be finite and greater than 0", radius_of(nan)},
+        {"ARadiusWhoseCellIsBelowAllNumbers", invalid, "cell size in world units is 0, must be finite and greater than 0",
+         settings_with([](v1::Settings& s) {
+             s.set_particle_radius(1e-300);
+             s.set_cell_size(1e-300);
+             s.set_smoothing_length(1e-300);
+         })},
+        {"ASmoothingLengthOfZero", invalid, "smoothing length is 0, must be finite and greater than 0",
+         settings_with([](v1::Settings& s) { s.set_smoothing_length(0.0); })},
+        {"ACellSizeOfZero", invalid, "cell size is 0, must be finite and greater than 0", cell_size(0.0)},
+        {"TheSmallestCellSizeForItsSupport", ok, "", cell_size(0.015625)},
+        {"ACellSizeTooSmallForItsSupport", invalid, "spans 266.666667 cells, at most 256 are possible: use a larger cell size",
+         cell_size(0.015)},
+        {"AnIsoValueOfZero", invalid, "iso value is 0, must be finite and greater than 0", iso(0.0)},
+        {"AnIsoValueThatFloat32DoesNotHold", invalid, "iso value is 0, must be finite and greater than 0", iso(1e-60)},
+        {"AToleranceBelowZero", invalid, "tolerance is -0.1, must be finite and greater than 0",
+         settings_with([](v1::Settings& s) { s.set_tolerance(-0.1); })},
+        {"ACountThresholdOfZero", invalid, "count threshold is 0, must be at least 1",
+         settings_with([](v1::Settings& s) { s.set_count_threshold(0); })},
+        {"SevenBisectionSteps", ok, "", steps(7)},
+        {"EightBisectionSteps", invalid, "bisection steps are 8, must be 1 to 7", steps(8)},
+        {"NoBisectionSteps", invalid, "bisection steps are 0, must be 1 to 7", steps(0)},
+        {"AFlatDomain", invalid, "domain runs from 1 to 1 along x, must be finite and run upward", domain(1.0, 1.0)},
+        {"ADomainThatIsNoNumber", invalid, "domain runs from nan to 1 along x, must be finite and run upward", domain(nan, 1.0)},
+        {"AHugeDomain", ok, "", domain(-1e300, 1e300)},
+        {"ADomainWithoutACorner", invalid, "settings.domain needs both its corners, min and max",
+         settings_with([](v1::Settings& s) { s.mutable_domain()->mutable_max()->set_x(1.0); })},
+        {"AnUnknownField", invalid, "settings.field has the value 7, which this version does not know",
+         settings_with([](v1::Settings& s) { s.set_field(static_cast<v1::Field>(7)); })},
+        {"AnUnknownMode", invalid, "settings.mode has the value 7, which this version does not know",
+         settings_with([](v1::Settings& s) { s.set_mode(static_cast<v1::Mode>(7)); })},
+        {"AnUnknownCriterion", invalid, "settings.criterion has the value 7, which this version does not know",
+         settings_with([](v1::Settings& s) { s.set_criterion(static_cast<v1::Criterion>(7)); })},
+        {"UnknownEdgePoints", invalid, "settings.edge_points has the value -1, which this version does not know",
+         settings_with([](v1::Settings& s) { s.set_edge_points(static_cast<v1::EdgePoints>(-1)); })},
+        {"ACreatedSessionWithoutId", invalid, "the message's session id is \"\"; it must be a UUID", id("")},
+        {"ACreatedSessionThatIsNotTheMetadatas", invalid, "but the message's session id is " + no_session, id(no_session)},
+        {"AsManySessionsAsTheLimit", ok, "", beside(2)},
+        {"ASessionPastTheLimit", grpc::StatusCode::RESOURCE_EXHAUSTED, "3 sessions are open; the server holds at most 3",
+         beside(3)},
+        {"ASessionThatExistsWithOtherSettings", grpc::StatusCode::ALREADY_EXISTS, "exists with other settings",
+         exists_with_other_settings},
+        {"AnUnknownSessionToDescribe", grpc::StatusCode::NOT_FOUND, "no session " + no_session,
+         [](RunningServer& running) { return about_no_session(running, &v1::SessionService::Stub::GetSession); }},
+        {"AnUnknownSessionToDelete", grpc::StatusCode::NOT_FOUND, "no session " + no_session,
+         [](RunningServer& running) { return about_no_session(running, &v1::SessionService::Stub::DeleteSession); }},
+    };
+}
+
+}  // namespace meniscus::server::test

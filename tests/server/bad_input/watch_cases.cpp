@@ -1,0 +1,86 @@
+// Watchers' wishes, and watchers too many.
+#include <utility>
+
+#include "bad_input/case.hpp"
+
+namespace meniscus::server::test {
+
+namespace {
+
+constexpr auto ok = grpc::StatusCode::OK;
+constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
+
+const std::string no_session = "00000000-0000-4000-8000-000000000000";
+
+/// Watches until the session, which is given with the metadata, ends.
+grpc::Status watch(RunningServer& running, const std::string& session, const v1::WatchRequest& request) {
+    const client::Connection connection = connect(running);
+    grpc::ClientContext context;
+    client::add_session_id(context, session);
+    const auto call = connection.surfaces->Watch(&context, request);
+    call->WaitForInitialMetadata();
+    // A watcher that was accepted is one until its session ends; for one that was refused there is nothing to end.
+    try {
+        running.client.delete_session(session);
+    } catch (const client::ServerError&) {
+    }
+    v1::WatchResponse ignored;
+    while (call->Read(&ignored)) {
+    }
+    return call->Finish();
+}
+
+/// Watches a new session, with this wish.
+std::function<grpc::Status(RunningServer&)> wish(std::function<void(v1::WatchRequest&)> change) {
+    return [change = std::move(change)](RunningServer& running) {
+        const std::string session = running.session();
+        v1::WatchRequest request;
+        request.set_session_id(session);
+        change(request);
+        return watch(running, session, request);
+    };
+}
+
+/// Watches a session that has this many watchers already.
+std::function<grpc::Status(RunningServer&)> beside(std::size_t watchers) {
+    return [=](RunningServer& running) {
+        const std::string session = running.session();
+        std::vector<client::Watcher> others;
+        for (std::size_t i = 0; i < watchers; ++i) others.push_back(running.client.watch(session));
+        v1::WatchRequest request;
+        request.set_session_id(session);
+        return watch(running, session, request);
+    };
+}
+
+}  // namespace
+
+std::vector<BadInputCase> watch_cases() {
+    const auto normal_bits = [](std::uint32_t bits) {
+        return wish([=](v1::WatchRequest& request) { request.set_normal_bits(bits); });
+    };
+    return {
+        {"AWatcherWithSixteenNormalBits", ok, "", normal_bits(16)},
+        {"AWatcherWithSeventeenNormalBits", invalid, "normal_bits is 17; it must be 0 (no normals) or 2 to 16", normal_bits(17)},
+        {"AWatcherWithOneNormalBit", invalid, "normal_bits is 1; it must be 0 (no normals) or 2 to 16", normal_bits(1)},
+        {"AWatcherWithoutSessionId", invalid, "the message's session id is \"\"; it must be a UUID",
+         wish([](v1::WatchRequest& request) { request.clear_session_id(); })},
+        {"AWatcherOfAnotherSessionThanItsMetadataSays", invalid, "but the message's session id is " + no_session,
+         wish([](v1::WatchRequest& request) { request.set_session_id(no_session); })},
+        {"AWatcherOfNoSession", grpc::StatusCode::NOT_FOUND, "no session " + no_session,
+         [](RunningServer& running) {
+             v1::WatchRequest request;
+             request.set_session_id(no_session);
+             return watch(running, no_session, request);
+         }},
+        {"AWishThatIsNoMessage", invalid, "is not a WatchRequest",
+         wish([](v1::WatchRequest& request) {
+             request = with_raw_field<v1::WatchRequest>(v1::WatchRequest::kRegionFieldNumber, "\x0a\x7f");
+         })},
+        {"AsManyWatchersAsTheLimit", ok, "", beside(1)},
+        {"AWatcherPastTheLimit", grpc::StatusCode::RESOURCE_EXHAUSTED, "has 2 watchers; the server takes at most 2 per session",
+         beside(2)},
+    };
+}
+
+}  // namespace meniscus::server::test
