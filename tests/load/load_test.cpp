@@ -1,0 +1,105 @@
+// Whole runs of the load generator.
+#include "load/load.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "load/report.hpp"
+#include "process.hpp"
+
+namespace meniscus::load {
+namespace {
+
+using server::test::on_free_port;
+using server::test::Process;
+
+LoadOptions small(const std::string& server) {
+    LoadOptions options;
+    options.server = server;
+    options.particles = 200;
+    options.rate = 50.0;
+    options.seconds = 0.6;
+    options.warm_up = 0.2;
+    return options;
+}
+
+TEST(Load, CountsWhatAllOfItsClientsSee) {
+    Process process(on_free_port());
+    LoadOptions options = small(process.address());
+    options.simulators = 2;
+    options.watchers = 2;
+    options.slow = 1;
+    options.slow_seconds = 0.01;
+    options.stalled = 1;
+    options.vanishing = 1;
+    options.vanish_after = 3;
+    const LoadResult result = run_load(options);
+    EXPECT_EQ(result.uploads.answered + result.uploads.not_sent, 60U);
+    EXPECT_EQ(result.uploads.lost(), 0U);
+    EXPECT_EQ(result.uploads.upload_bytes, result.uploads.sent * 200 * 12);
+    EXPECT_LE(result.uploads.answer.count(), 40U);
+    EXPECT_EQ(result.watchers.frames + result.watchers.skipped, 2 * result.uploads.answered);
+    EXPECT_GT(result.slow.frames, 0U);
+    EXPECT_GT(result.vanishing.vanished, 0U);
+    EXPECT_FALSE(has_failures(result)) << to_table(result);
+}
+
+TEST(Load, MeasuresFromWhenAFrameWasDueAlsoOnAServerThatStalls) {
+    Process process(on_free_port());
+    LoadOptions options = small(process.address());
+    options.warm_up = 0.0;
+    options.seconds = 0.8;
+    // The server stands still for 0.4 s: frames due in that time waited for it, whenever they were sent.
+    std::thread stalling([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(400));
+        process.signal(SIGSTOP);
+        std::this_thread::sleep_for(std::chrono::milliseconds(400));
+        process.signal(SIGCONT);
+    });
+    const LoadResult result = run_load(options);
+    stalling.join();
+    // Half of the frames fall into the stall; they waited for 0.2 s in the mean.
+    EXPECT_GT(result.uploads.answer.mean(), 0.05);
+    EXPECT_GT(result.uploads.answer.percentile(0.99), 0.3);
+    EXPECT_EQ(result.uploads.lost(), 0U);
+}
+
+TEST(Load, ReportsFailuresByStatus) {
+    Process process(on_free_port({"--max-particles", "199"}));
+    const LoadOptions options = small(process.address());
+    const LoadResult result = run_load(options);
+    EXPECT_TRUE(has_failures(result));
+    const nlohmann::json json = nlohmann::json::parse(to_json(options, result));
+    EXPECT_EQ(json.at("upload_errors").at("RESOURCE_EXHAUSTED"), 1);
+    EXPECT_EQ(json.at("frames").at("answered"), 0);
+}
+
+TEST(Load, ReportsAServerThatGoesAwayAndEnds) {
+    Process process(on_free_port());
+    LoadOptions options = small(process.address());
+    options.seconds = 5.0;
+    std::thread killing([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(700));
+        process.signal(SIGKILL);
+    });
+    const LoadResult result = run_load(options);
+    killing.join();
+    EXPECT_EQ(result.uploads.errors.count("UNAVAILABLE"), 1U) << to_table(result);
+    EXPECT_GT(result.uploads.not_sent, 0U);
+}
+
+TEST(Load, ReportsAllFiguresAsJson) {
+    Process process(on_free_port());
+    const LoadOptions options = small(process.address());
+    const nlohmann::json json = nlohmann::json::parse(to_json(options, run_load(options)));
+    for (const char* figure : {"due_to_answer_seconds", "due_to_send_seconds"})
+        for (const char* percentile : {"count", "mean", "p50", "p90", "p99", "p99.9", "max"})
+            EXPECT_GE(json.at(figure).at(percentile).get<double>(), 0.0) << figure << percentile;
+    EXPECT_GT(json.at("watchers").at("due_to_watcher_seconds").at("p50").get<double>(), 0.0);
+    EXPECT_GT(json.at("throughput").at("frames_per_second").get<double>(), 0.0);
+}
+
+}  // namespace
+}  // namespace meniscus::load
