@@ -8,7 +8,7 @@ namespace meniscus::cuda {
 namespace {
 
 /// One warp for every cell of the band, one lane for every subcell.
-__global__ void __launch_bounds__(block_threads) emit_cells(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads, 3) emit_cells(const __grid_constant__ Frame f) {
     __shared__ ClosedCell shared[block_warps];
     ClosedCell& cell = shared[warp_in_block()];
     const BlocksView blocks = f.blocks();

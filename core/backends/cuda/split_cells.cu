@@ -42,7 +42,7 @@ __global__ void __launch_bounds__(block_threads) collect_base_vertices(const __g
 }
 
 /// Cells of the band get level 1.
-__global__ void __launch_bounds__(block_threads) find_band(const __grid_constant__ Frame f, bool bends) {
+__global__ void __launch_bounds__(block_threads, 4) find_band(const __grid_constant__ Frame f, bool bends) {
     const BaseVertexSets vertices = f.base_vertices();
     const BandTest test{f.settings.iso, f.settings.deep_inside};
     each_word_by_warp(f, [&](std::uint32_t word, std::uint64_t members, int bit, std::uint32_t block) {
