@@ -45,7 +45,7 @@ __global__ void __launch_bounds__(block_threads) count_cells(const __grid_consta
             if (total[l] != 0) atomicAdd(&f.counts->triangles[l], total[l]);
 }
 
-__global__ void __launch_bounds__(block_threads) count_cracks(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads, 3) count_cracks(const __grid_constant__ Frame f) {
     const BlocksView blocks = f.blocks();
     constexpr int crack = static_cast<int>(TriangleLevel::crack);
     Counter total = 0;

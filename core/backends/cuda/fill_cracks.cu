@@ -7,7 +7,7 @@ namespace meniscus::cuda {
 namespace {
 
 /// One thread for every cell, which keeps its closed cell in shared memory: it is indexed by what the tables say.
-__global__ void __launch_bounds__(block_threads, 3) fill_listed(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads, 2) fill_listed(const __grid_constant__ Frame f) {
     __shared__ ClosedCell cells[block_threads];
     ClosedCell& cell = cells[threadIdx.x];
     const BlocksView blocks = f.blocks();
