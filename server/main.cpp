@@ -3,11 +3,15 @@
 #include <grpc/support/log.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "meniscus/error.hpp"
 #include "options.hpp"
@@ -15,30 +19,44 @@
 
 namespace {
 
+/// How often files of certificates and tokens are read again.
+constexpr timespec reload_period{.tv_sec = 10, .tv_nsec = 0};
+
 /// Blocked before any thread starts, so that only wait_for_stop() sees them.
-sigset_t block_stop_signals() {
+sigset_t block_signals() {
     sigset_t signals;
     sigemptyset(&signals);
-    sigaddset(&signals, SIGTERM);
-    sigaddset(&signals, SIGINT);
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     return signals;
 }
 
-int wait_for_stop(const sigset_t& signals) {
-    int signal = 0;
-    while (sigwait(&signals, &signal) != 0) {
+/// Until then reloads at SIGHUP, and now and then.
+int wait_for_stop(const sigset_t& signals, meniscus::server::Server& server) {
+    for (;;) {
+        const int signal = sigtimedwait(&signals, nullptr, &reload_period);
+        if (signal == SIGTERM || signal == SIGINT) return signal;
+        if (signal == SIGHUP) spdlog::info("{}: reading certificates and tokens again", strsignal(signal));
+        if (signal == SIGHUP || errno == EAGAIN) server.reload();
     }
-    return signal;
 }
 
-/// gRPC's own messages have no reader but a developer's.
+/// Asked for by --check-config.
+int check(const meniscus::server::ServerOptions& options) {
+    const std::vector<std::string> problems = meniscus::server::problems_of(options);
+    for (const std::string& problem : problems) std::fprintf(stderr, "meniscusd: %s\n", problem.c_str());
+    if (problems.empty()) std::puts("the settings can be used");
+    return problems.empty() ? 0 : 2;
+}
+
+/// gRPC's errors are failed handshakes and the like, and why it aborts. The rest has no reader but a developer.
 void log_grpc(gpr_log_func_args* message) {
-    spdlog::debug("gRPC: {}", message->message);
+    const bool is_error = message->severity == GPR_LOG_SEVERITY_ERROR;
+    spdlog::log(is_error ? spdlog::level::warn : spdlog::level::debug, "gRPC: {}", message->message);
 }
 
 int run(const meniscus::server::CommandLine& command_line) {
-    const sigset_t signals = block_stop_signals();
+    const sigset_t signals = block_signals();
     spdlog::set_default_logger(spdlog::stderr_color_mt("meniscusd"));
     spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
     spdlog::set_level(command_line.log_level);
@@ -51,7 +69,7 @@ int run(const meniscus::server::CommandLine& command_line) {
     const meniscus::BackendDescription& backend = server.backend();
     spdlog::info("meniscusd {} listening on {}, backend {} on {}: {}", meniscus::version(), server.address(), backend.name,
                  backend.device, backend.reason);
-    const int signal = wait_for_stop(signals);
+    const int signal = wait_for_stop(signals, server);
     spdlog::info("{}: finishing the frames in flight", strsignal(signal));
     server.shutdown();
     spdlog::info("stopped");
@@ -67,7 +85,9 @@ int main(int argc, char** argv) {
             std::fputs(exit->text.c_str(), exit->code == 0 ? stdout : stderr);
             return exit->code;
         }
-        return run(command_line);
+        // Sockets and files are for this user alone.
+        umask(077);
+        return command_line.check_config ? check(command_line.server) : run(command_line);
     } catch (const meniscus::InvalidInput& error) {
         std::fprintf(stderr, "meniscusd: %s\n", error.what());
         return 2;

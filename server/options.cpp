@@ -4,7 +4,12 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
 #include <map>
+
+#include "meniscus/error.hpp"
+#include "settings_sources.hpp"
 
 namespace meniscus::server {
 
@@ -18,9 +23,24 @@ std::size_t default_memory_limit() {
     return static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(page_bytes);
 }
 
-/// The first line: CLI11 adds a hint on a second one.
-std::string first_line(const std::string& text) {
-    return text.substr(0, text.find('\n'));
+/// A line for each; of a message its first line: CLI11 adds a hint on a second one.
+EarlyExit refuse(const std::vector<std::string>& problems) {
+    EarlyExit exit{.text = {}, .code = 2};
+    for (const std::string& problem : problems)
+        exit.text += fmt::format("meniscusd: {}\n", problem.substr(0, problem.find('\n')));
+    return exit;
+}
+
+spdlog::level::level_enum log_level_by_name(const std::string& name) {
+    static const std::map<std::string, spdlog::level::level_enum> levels{{"debug", spdlog::level::debug},
+                                                                         {"info", spdlog::level::info},
+                                                                         {"warning", spdlog::level::warn},
+                                                                         {"error", spdlog::level::err},
+                                                                         {"off", spdlog::level::off}};
+    const auto found = levels.find(name);
+    if (found == levels.end())
+        throw InvalidInput(fmt::format("--log-level is {}; it must be debug, info, warning, error or off", name));
+    return found->second;
 }
 
 }  // namespace
@@ -34,7 +54,25 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     CLI::App app{"meniscusd: adaptive surfaces of simulated fluid particles, live, over gRPC", "meniscusd"};
     app.option_defaults()->always_capture_default();
     app.set_version_flag("--version", std::string(version()));
-    app.add_option("--listen", server.listen, "HOST:PORT (port 0: a free one, which is logged) or unix:PATH");
+    std::string config;
+    bool print_config = false;
+    app.add_option("--config", config, "File of settings; also MENISCUS_CONFIG")
+        ->envname("MENISCUS_CONFIG")
+        ->configurable(false)
+        ->type_name("FILE");
+    app.add_flag("--print-config", print_config, "Print the settings in effect, as such a file, and end")->configurable(false);
+    app.add_flag("--check-config", command_line.check_config, "Say whether the settings can be used, and end")
+        ->configurable(false);
+    app.add_option("--listen", server.listen,
+                   "HOST:PORT (port 0: a free one, which is logged) or unix:PATH (for this user alone)");
+    app.add_option("--tls-cert", server.tls.certificate, "Certificate chain for TLS, PEM")->type_name("FILE");
+    app.add_option("--tls-key", server.tls.key, "Its key, PEM")->type_name("FILE");
+    app.add_option("--tls-client-ca", server.tls.client_ca, "Mutual TLS: clients need a certificate of one of these, PEM")
+        ->type_name("FILE");
+    app.add_option("--tokens", server.tokens,
+                   "Lines ROLE NAME TOKEN, the role being uploader, watcher or admin: calls need one of these tokens")
+        ->type_name("FILE");
+    app.add_flag("--insecure", server.insecure, "Let other machines connect without TLS");
 
     app.add_option_function<std::string>(
            "--backend", [&server](const std::string& name) { server.backend.backend = backend_by_name(name); },
@@ -64,25 +102,26 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.add_option("--shutdown-grace", grace_seconds,
                    "Seconds that clients get after SIGTERM to take the frames they are owed")
         ->check(CLI::Range(0.0, 3600.0));
-    const std::map<std::string, spdlog::level::level_enum> levels{{"debug", spdlog::level::debug},
-                                                                  {"info", spdlog::level::info},
-                                                                  {"warning", spdlog::level::warn},
-                                                                  {"error", spdlog::level::err},
-                                                                  {"off", spdlog::level::off}};
-    app.add_option("--log-level", command_line.log_level, "debug, info, warning, error or off")
-        ->transform(CLI::CheckedTransformer(levels).description(""))
+    app.add_option_function<std::string>(
+           "--log-level", [&](const std::string& name) { command_line.log_level = log_level_by_name(name); },
+           "debug, info, warning, error or off")
         ->type_name("NAME")
         ->default_str("info");
 
     try {
         app.parse(argc, argv);
+        std::vector<std::string> problems = apply_settings(environment_settings(::environ), app);
+        if (!config.empty()) std::ranges::move(apply_settings(file_settings(config), app), std::back_inserter(problems));
+        if (!problems.empty()) return refuse(problems);
     } catch (const CLI::CallForHelp&) {
         return EarlyExit{.text = app.help(), .code = 0};
     } catch (const CLI::CallForVersion&) {
         return EarlyExit{.text = fmt::format("meniscusd {}\n", version()), .code = 0};
     } catch (const CLI::ParseError& error) {
-        return EarlyExit{.text = fmt::format("meniscusd: {} (see meniscusd --help)\n", first_line(error.what())), .code = 2};
+        const std::string message = error.what();
+        return refuse({message.substr(0, message.find('\n')) + " (see meniscusd --help)"});
     }
+    if (print_config) return EarlyExit{.text = settings_file(app), .code = 0};
     server.shutdown_grace =
         std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(grace_seconds));
     return std::nullopt;

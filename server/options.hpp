@@ -1,4 +1,4 @@
-// The command line of meniscusd.
+// The settings of meniscusd: its command line, its environment, its file.
 #pragma once
 
 #include <spdlog/common.h>
@@ -13,6 +13,7 @@ namespace meniscus::server {
 struct CommandLine {
     ServerOptions server;
     spdlog::level::level_enum log_level = spdlog::level::info;
+    bool check_config = false;  ///< only say whether the settings can be used
 };
 
 /// What main() is to print and to return with.
@@ -21,7 +22,8 @@ struct EarlyExit {
     int code = 0;
 };
 
-/// Asked for help or its version, or told something wrong, meniscusd does not start.
+/// A flag comes before the environment, and that before the file. Asked for help, its version or its settings, or told
+/// something wrong, meniscusd does not start.
 std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, CommandLine& command_line);
 
 }  // namespace meniscus::server

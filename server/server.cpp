@@ -1,16 +1,14 @@
 #include "server.hpp"
 
 #include <fmt/format.h>
-#include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <string_view>
+#include <functional>
 #include <thread>
 
+#include "listen_address.hpp"
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
 
@@ -28,25 +26,6 @@ std::chrono::milliseconds canceling_time(std::chrono::milliseconds grace) {
 
 unsigned threads_or_processors(unsigned threads) {
     return threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-}
-
-/// gRPC takes a Unix socket over from a server that still listens on it; a socket that nobody listens on is fine.
-void require_unused_unix_socket(const std::string& listen) {
-    constexpr std::string_view scheme = "unix:";
-    if (!listen.starts_with(scheme)) return;
-    std::string path = listen.substr(scheme.size());
-    if (path.starts_with("//")) path.erase(0, 2);
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    if (path.empty() || path.size() >= sizeof address.sun_path)
-        throw InvalidInput(fmt::format("cannot listen on {}: the path must have 1 to {} bytes", listen,
-                                       sizeof address.sun_path - 1));
-    path.copy(address.sun_path, path.size());
-    const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    if (probe < 0) return;
-    const bool in_use = ::connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-    ::close(probe);
-    if (in_use) throw InvalidInput(fmt::format("cannot listen on {}: the address is in use", listen));
 }
 
 /// Throws InvalidInput if the backend or a device cannot be used.
@@ -74,20 +53,41 @@ std::string with_port(const std::string& listen, int port) {
 
 }  // namespace
 
+std::vector<std::string> problems_of(const ServerOptions& options) {
+    const std::vector<std::function<void()>> steps{
+        [&] { require_protected("--listen", options.listen, options.tls.any(), options.insecure); },
+        [&] { require_unused_unix_socket(options.listen); },
+        [&] { if (options.tls.any()) load_certificates(options.tls); },
+        [&] { if (!options.tokens.empty()) Tokens::load(options.tokens); },
+        [&] { describe(options); },
+    };
+    std::vector<std::string> problems;
+    for (const auto& step : steps) {
+        try {
+            step();
+        } catch (const InvalidInput& error) {
+            problems.emplace_back(error.what());
+        }
+    }
+    return problems;
+}
+
 Server::Server(const ServerOptions& options)
     : options_(options),
+      access_(options.tls, options.tokens),
       backend_(describe(options)),
       registry_(options.limits, for_sessions(options.backend, backend_), threads_or_processors(options.backend.threads),
                 options.devices),
-      server_service_(backend_, threads_or_processors(options.backend.threads), options.limits),
-      session_service_(registry_),
-      surface_service_(registry_, calls_) {
+      server_service_(access_.authorizer(), backend_, threads_or_processors(options.backend.threads), options.limits),
+      session_service_(registry_, access_.authorizer()),
+      surface_service_(registry_, access_.authorizer(), calls_) {
+    require_protected("--listen", options.listen, options.tls.any(), options.insecure);
     require_unused_unix_socket(options.listen);
     int port = 0;
     grpc::ServerBuilder builder;
     // Otherwise a second server on the same port would silently get half of the calls.
     builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-    builder.AddListeningPort(options.listen, grpc::InsecureServerCredentials(), &port);
+    builder.AddListeningPort(options.listen, access_.credentials(), &port);
     builder.RegisterService(&server_service_);
     builder.RegisterService(&session_service_);
     builder.RegisterService(&surface_service_);

@@ -10,6 +10,7 @@
 
 #include "meniscus/reconstructor.hpp"
 #include "rpc/services.hpp"
+#include "security/access.hpp"
 #include "sessions/limits.hpp"
 #include "sessions/session_registry.hpp"
 
@@ -17,12 +18,18 @@ namespace meniscus::server {
 
 struct ServerOptions {
     std::string listen = "127.0.0.1:50051";  ///< "HOST:PORT", port 0 for a free one, or "unix:PATH"
+    TlsFiles tls;                            ///< none: no TLS
+    std::string tokens;                      ///< file of tokens; empty: everyone may do everything
+    bool insecure = false;                   ///< whether other machines may connect without TLS
     BackendOptions backend;                  ///< backend and threads; limits and devices have the rest
     std::vector<int> devices;                ///< the GPUs to use; empty: all that can reconstruct
     Limits limits;
     /// How long shutdown() waits for clients to take what they are owed.
     std::chrono::milliseconds shutdown_grace = std::chrono::seconds(10);
 };
+
+/// What keeps a server from starting with these options, a line each; an address that is in use may be missed.
+std::vector<std::string> problems_of(const ServerOptions& options);
 
 class Server {
 public:
@@ -36,12 +43,16 @@ public:
     const std::string& address() const noexcept { return address_; }
     const BackendDescription& backend() const noexcept { return backend_; }
 
+    /// Reads certificates and tokens again, for connections and calls from now on. What is wrong is logged and not used.
+    void reload() { access_.reload(); }
+
     /// Takes no new frames, answers those in flight, ends the watchers. Calls that are left after the grace period are
     /// canceled.
     void shutdown();
 
 private:
     const ServerOptions options_;
+    Access access_;
     const BackendDescription backend_;
     SessionRegistry registry_;
     ActiveCalls calls_;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/server_flags.hpp"
 #include "cli/surfaces.hpp"
 #include "meniscus/reconstructor.hpp"
 
@@ -21,8 +22,8 @@ void print_backend(const std::string& version, const std::string& name, const st
               << "device                 " << device << '\n';
 }
 
-void print_server(const std::string& server) {
-    const client::ServerInfo info = connect(server).server_info();
+void print_server(const ServerFlags& server) {
+    const client::ServerInfo info = server.connect().server_info();
     print_backend(info.version, info.backend, info.backend_reason, info.device);
     std::cout << "threads                " << info.threads << '\n'
               << "sessions               " << limit(info.max_sessions) << '\n'
@@ -37,14 +38,14 @@ void print_this_process(Backend choice) {
     print_backend(std::string(version()), backend.name, backend.reason, backend.device);
 }
 
-void print_sessions(const std::string& server) {
-    for (const client::SessionInfo& session : connect(server).sessions())
+void print_sessions(const ServerFlags& server) {
+    for (const client::SessionInfo& session : server.connect().sessions())
         std::cout << session.id << "  " << session.frames << " frames, " << session.watchers << " watchers, "
                   << (session.uploading ? "uploading" : "idle") << '\n';
 }
 
 struct InfoOptions {
-    std::string server;  ///< empty for this process
+    ServerFlags server;  ///< no address: this process
     Backend backend = Backend::automatic;
 };
 
@@ -53,10 +54,10 @@ struct InfoOptions {
 void add_info(CLI::App& app) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App& command = *app.add_subcommand("info", "Describe a server, or what this process would reconstruct with");
-    auto* server = command.add_option("--server", options->server, "HOST:PORT: version, backend, limits of that server");
+    auto* server = options->server.add_to(command, "Version, backend, limits of that server");
     add_backend_option(command, options->backend)->excludes(server);
     command.callback([options] {
-        if (options->server.empty())
+        if (options->server.address.empty())
             print_this_process(options->backend);
         else
             print_server(options->server);
@@ -64,9 +65,9 @@ void add_info(CLI::App& app) {
 }
 
 void add_sessions(CLI::App& app) {
-    auto server = std::make_shared<std::string>();
+    auto server = std::make_shared<ServerFlags>();
     CLI::App& command = *app.add_subcommand("sessions", "List a server's sessions");
-    command.add_option("--server", *server, "HOST:PORT")->required();
+    server->add_to(command, "Whose")->required();
     command.callback([server] { print_sessions(*server); });
 }
 

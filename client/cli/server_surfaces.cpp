@@ -10,9 +10,9 @@ constexpr std::size_t frames_ahead = 4;
 
 }  // namespace
 
-ServerSurfaces::ServerSurfaces(const std::string& address, std::string session, const Settings& settings,
+ServerSurfaces::ServerSurfaces(const ServerFlags& server, std::string session, const Settings& settings,
                                Handler handler)
-    : client_(connect(address)),
+    : client_(server.connect()),
       session_(session.empty() ? client::new_session_id() : std::move(session)),
       handler_(std::move(handler)) {
     client_.create_session(session_, settings);

@@ -12,7 +12,7 @@ namespace meniscus::cli {
 class ServerSurfaces : public Surfaces {
 public:
     /// Throws InvalidInput if the server is not there or refuses the session.
-    ServerSurfaces(const std::string& address, std::string session, const Settings& settings, Handler handler);
+    ServerSurfaces(const ServerFlags& server, std::string session, const Settings& settings, Handler handler);
     ~ServerSurfaces() override;
     void submit(const ParticleFrame& frame, double simulation_time) override;
     void finish() override;

@@ -45,7 +45,7 @@ simulator::LeveledParticles snapshot(const simulator::Simulation& simulation, bo
 }
 
 void simulate(const SimulateOptions& options) {
-    if (!options.session.empty() && options.surfaces.server.empty())
+    if (!options.session.empty() && options.surfaces.server.address.empty())
         throw InvalidInput("--session '" + options.session + "' needs --server");
     check_folder(options.stats);
     simulator::Simulation simulation(
@@ -69,7 +69,7 @@ void simulate(const SimulateOptions& options) {
     };
     const std::string session = options.session.empty() ? client::new_session_id() : options.session;
     const auto surfaces = options.surfaces.open(settings, handle, session);
-    if (!options.surfaces.server.empty()) std::cerr << "session " << session << '\n';
+    if (!options.surfaces.server.address.empty()) std::cerr << "session " << session << '\n';
     for (std::uint64_t frame = 0; frame < options.frames; ++frame) {
         simulation.advance(options.frame_seconds);
         const simulator::LeveledParticles particles = snapshot(simulation, options.adaptive);

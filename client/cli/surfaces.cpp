@@ -41,7 +41,7 @@ CLI::Option* add_backend_option(CLI::App& command, Backend& backend) {
 
 void SurfacesOptions::add_to(CLI::App& command) {
     auto* here = command.add_flag("--local", local, "Reconstruct in this process (the default)");
-    auto* there = command.add_option("--server", server, "HOST:PORT of a meniscusd that reconstructs")->excludes(here);
+    auto* there = server.add_to(command, "A meniscusd that reconstructs")->excludes(here);
     add_backend_option(command, backend.backend)->excludes(there);
     command.add_option("--threads", backend.threads, "Worker threads of this process; 0: one per processor")
         ->excludes(there)
@@ -50,16 +50,8 @@ void SurfacesOptions::add_to(CLI::App& command) {
 
 std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfaces::Handler handler,
                                                 const std::string& session) const {
-    if (server.empty()) return std::make_unique<LocalSurfaces>(settings, backend, std::move(handler));
+    if (server.address.empty()) return std::make_unique<LocalSurfaces>(settings, backend, std::move(handler));
     return std::make_unique<ServerSurfaces>(server, session, settings, std::move(handler));
-}
-
-client::Client connect(const std::string& address) {
-    try {
-        return client::Client(address);
-    } catch (const client::ServerError& e) {
-        throw InvalidInput(e.what());
-    }
 }
 
 }  // namespace meniscus::cli

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/server_flags.hpp"
 #include "meniscus/client/client.hpp"
 
 namespace CLI {
@@ -58,10 +59,10 @@ public:
 /// The flag --backend: what this process reconstructs with.
 CLI::Option* add_backend_option(CLI::App& command, Backend& backend);
 
-/// The flags --local, --server, --backend and --threads.
+/// The flags --local, --backend and --threads, and those of a server.
 struct SurfacesOptions {
     bool local = false;
-    std::string server;      ///< "HOST:PORT"; empty for this process
+    ServerFlags server;      ///< no address: this process
     BackendOptions backend;  ///< of this process
 
     void add_to(CLI::App& command);
@@ -70,8 +71,5 @@ struct SurfacesOptions {
     std::unique_ptr<Surfaces> open(const Settings& settings, Surfaces::Handler handler,
                                    const std::string& session = {}) const;
 };
-
-/// A connection to the server. Throws InvalidInput if there is none.
-client::Client connect(const std::string& address);
 
 }  // namespace meniscus::cli

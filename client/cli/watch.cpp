@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/mesh_output.hpp"
+#include "cli/server_flags.hpp"
 #include "formats/atomic_file.hpp"
 #include "meniscus/error.hpp"
 
@@ -13,18 +14,18 @@ namespace {
 
 struct WatchOptions {
     std::string session;
-    std::string server;
+    ServerFlags server;
     std::string directory;
     std::string format = "ply";
     std::uint64_t frames = 0;  ///< 0: until the session ends
 };
 
 void watch(const WatchOptions& options) {
-    client::Client client = connect(options.server);
+    client::Client client = options.server.connect();
     try {
         client.session(options.session);
     } catch (const client::ServerError& e) {
-        throw InvalidInput("no session '" + options.session + "' at '" + options.server + "': " + e.what());
+        throw InvalidInput("no session '" + options.session + "' at '" + options.server.address + "': " + e.what());
     }
     formats::make_directory(options.directory);
     client::Watcher watcher = client.watch(options.session);
@@ -43,7 +44,7 @@ void add_watch(CLI::App& app) {
     auto options = std::make_shared<WatchOptions>();
     CLI::App& command = *app.add_subcommand("watch", "Write the meshes of a session as they come");
     command.add_option("SESSION", options->session, "The session's id")->required();
-    command.add_option("--server", options->server, "HOST:PORT")->required();
+    options->server.add_to(command, "Where it is")->required();
     command.add_option("-o,--output", options->directory, "Folder for the meshes")->required();
     command.add_option("--format", options->format, "Format of the meshes")
         ->check(CLI::IsMember({"ply", "obj", "bricks"}))

@@ -6,12 +6,15 @@
 
 namespace meniscus::server {
 
-v1::CreateSessionResponse create_session(SessionRegistry& registry, const v1::CreateSessionRequest& request) {
+v1::CreateSessionResponse create_session(SessionRegistry& registry, const Caller& caller,
+                                         const v1::CreateSessionRequest& request) {
     if (!request.has_settings()) throw InvalidInput("CreateSession needs settings");
     const Settings settings = conversion::from_wire(request.settings());
     validate(settings);
     v1::CreateSessionResponse response;
-    *response.mutable_session() = session_message(*registry.create(request.id(), settings));
+    const auto session = registry.create(request.id(), settings, caller.name);
+    Authorizer::require_access(caller, Action::create_session, session->id(), session->owner());
+    *response.mutable_session() = session_message(*session);
     return response;
 }
 

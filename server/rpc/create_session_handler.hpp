@@ -2,11 +2,13 @@
 #pragma once
 
 #include "meniscus/v1/session_service.pb.h"
+#include "security/authorizer.hpp"
 #include "sessions/session_registry.hpp"
 
 namespace meniscus::server {
 
 /// Throws what the call is to be refused with.
-v1::CreateSessionResponse create_session(SessionRegistry& registry, const v1::CreateSessionRequest& request);
+v1::CreateSessionResponse create_session(SessionRegistry& registry, const Caller& caller,
+                                         const v1::CreateSessionRequest& request);
 
 }  // namespace meniscus::server

@@ -4,9 +4,11 @@
 
 namespace meniscus::server {
 
-v1::GetSessionResponse get_session(SessionRegistry& registry, const v1::GetSessionRequest& request) {
+v1::GetSessionResponse get_session(SessionRegistry& registry, const Caller& caller, const v1::GetSessionRequest& request) {
     v1::GetSessionResponse response;
-    *response.mutable_session() = session_message(*registry.find(request.id()));
+    const auto session = registry.find(request.id());
+    Authorizer::require_access(caller, Action::get_session, session->id(), session->owner());
+    *response.mutable_session() = session_message(*session);
     return response;
 }
 

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "meniscus/v1/session_service.pb.h"
+#include "security/authorizer.hpp"
 #include "sessions/session_registry.hpp"
 
 namespace meniscus::server {
 
 /// Throws what the call is to be refused with.
-v1::GetSessionResponse get_session(SessionRegistry& registry, const v1::GetSessionRequest& request);
+v1::GetSessionResponse get_session(SessionRegistry& registry, const Caller& caller, const v1::GetSessionRequest& request);
 
 }  // namespace meniscus::server

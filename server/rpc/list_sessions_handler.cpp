@@ -4,9 +4,11 @@
 
 namespace meniscus::server {
 
-v1::ListSessionsResponse list_sessions(SessionRegistry& registry, const v1::ListSessionsRequest& /*request*/) {
+v1::ListSessionsResponse list_sessions(SessionRegistry& registry, const Caller& caller,
+                                       const v1::ListSessionsRequest& /*request*/) {
     v1::ListSessionsResponse response;
-    for (const auto& session : registry.list()) *response.add_sessions() = session_message(*session);
+    for (const auto& session : registry.list())
+        if (Authorizer::may_see(caller, session->owner())) *response.add_sessions() = session_message(*session);
     return response;
 }
 

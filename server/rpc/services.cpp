@@ -3,6 +3,7 @@
 #include <exception>
 #include <utility>
 
+#include "rpc/caller.hpp"
 #include "rpc/create_session_handler.hpp"
 #include "rpc/delete_session_handler.hpp"
 #include "rpc/get_session_handler.hpp"
@@ -17,12 +18,13 @@ namespace meniscus::server {
 
 namespace {
 
-/// Finishes a unary call with what `handle` returns or throws.
+/// Finishes a unary call that may be made with what `handle`, given the caller, returns or throws.
 template <class Response, class Handle>
-grpc::ServerUnaryReactor* answer(grpc::CallbackServerContext& context, Response& response, const Handle& handle) {
+grpc::ServerUnaryReactor* answer(const Authorizer& authorizer, grpc::CallbackServerContext& context, Action action,
+                                 Response& response, const Handle& handle) {
     grpc::ServerUnaryReactor* reactor = context.DefaultReactor();
     try {
-        response = handle();
+        response = handle(admit(authorizer, context, action));
         reactor->Finish(grpc::Status::OK);
     } catch (...) {
         reactor->Finish(to_status(std::current_exception()));
@@ -32,58 +34,62 @@ grpc::ServerUnaryReactor* answer(grpc::CallbackServerContext& context, Response&
 
 /// The same for a call about one session.
 template <class Request, class Response>
-grpc::ServerUnaryReactor* answer_about_session(grpc::CallbackServerContext& context, SessionRegistry& registry,
-                                               const Request& request, Response& response,
-                                               Response (&handler)(SessionRegistry&, const Request&)) {
-    return answer(context, response, [&] {
+grpc::ServerUnaryReactor* answer_about_session(const Authorizer& authorizer, grpc::CallbackServerContext& context,
+                                               Action action, SessionRegistry& registry, const Request& request,
+                                               Response& response,
+                                               Response (&handler)(SessionRegistry&, const Caller&, const Request&)) {
+    return answer(authorizer, context, action, response, [&](const Caller& caller) {
         require_same_session(metadata_session_id(context), request.id());
-        return handler(registry, request);
+        return handler(registry, caller, request);
     });
 }
 
 }  // namespace
 
-ServerServiceImpl::ServerServiceImpl(BackendDescription backend, unsigned threads, const Limits& limits)
-    : backend_(std::move(backend)), threads_(threads), limits_(limits) {}
+ServerServiceImpl::ServerServiceImpl(const Authorizer& authorizer, BackendDescription backend, unsigned threads,
+                                     const Limits& limits)
+    : authorizer_(authorizer), backend_(std::move(backend)), threads_(threads), limits_(limits) {}
 
 grpc::ServerUnaryReactor* ServerServiceImpl::GetServerInfo(grpc::CallbackServerContext* context,
                                                            const v1::GetServerInfoRequest* /*request*/,
                                                            v1::GetServerInfoResponse* response) {
-    return answer(*context, *response, [&] { return get_server_info(backend_, threads_, limits_); });
+    return answer(authorizer_, *context, Action::describe_server, *response,
+                  [&](const Caller&) { return get_server_info(backend_, threads_, limits_); });
 }
 
 grpc::ServerUnaryReactor* SessionServiceImpl::CreateSession(grpc::CallbackServerContext* context,
                                                             const v1::CreateSessionRequest* request,
                                                             v1::CreateSessionResponse* response) {
-    return answer_about_session(*context, registry_, *request, *response, create_session);
+    return answer_about_session(authorizer_, *context, Action::create_session, registry_, *request, *response, create_session);
 }
 
 grpc::ServerUnaryReactor* SessionServiceImpl::GetSession(grpc::CallbackServerContext* context,
                                                          const v1::GetSessionRequest* request,
                                                          v1::GetSessionResponse* response) {
-    return answer_about_session(*context, registry_, *request, *response, get_session);
+    return answer_about_session(authorizer_, *context, Action::get_session, registry_, *request, *response, get_session);
 }
 
 grpc::ServerUnaryReactor* SessionServiceImpl::ListSessions(grpc::CallbackServerContext* context,
                                                            const v1::ListSessionsRequest* request,
                                                            v1::ListSessionsResponse* response) {
-    return answer(*context, *response, [&] { return list_sessions(registry_, *request); });
+    return answer(authorizer_, *context, Action::list_sessions, *response,
+                  [&](const Caller& caller) { return list_sessions(registry_, caller, *request); });
 }
 
 grpc::ServerUnaryReactor* SessionServiceImpl::DeleteSession(grpc::CallbackServerContext* context,
                                                             const v1::DeleteSessionRequest* request,
                                                             v1::DeleteSessionResponse* response) {
-    return answer_about_session(*context, registry_, *request, *response, delete_session);
+    return answer_about_session(authorizer_, *context, Action::delete_session, registry_, *request, *response, delete_session);
 }
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* SurfaceServiceImpl::Stream(
     grpc::CallbackServerContext* context) {
-    return start_stream(registry_, calls_, *context);
+    return start_stream(registry_, authorizer_, calls_, *context);
 }
 
 grpc::ServerWriteReactor<grpc::ByteBuffer>* SurfaceServiceImpl::Watch(grpc::CallbackServerContext* context,
                                                                       const grpc::ByteBuffer* request) {
-    return start_watch(registry_, calls_, *context, *request);
+    return start_watch(registry_, authorizer_, calls_, *context, *request);
 }
 
 }  // namespace meniscus::server

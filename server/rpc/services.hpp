@@ -6,18 +6,20 @@
 #include "meniscus/v1/session_service.grpc.pb.h"
 #include "meniscus/v1/surface_service.grpc.pb.h"
 #include "rpc/active_calls.hpp"
+#include "security/authorizer.hpp"
 #include "sessions/session_registry.hpp"
 
 namespace meniscus::server {
 
 class ServerServiceImpl final : public v1::ServerService::CallbackService {
 public:
-    ServerServiceImpl(BackendDescription backend, unsigned threads, const Limits& limits);
+    ServerServiceImpl(const Authorizer& authorizer, BackendDescription backend, unsigned threads, const Limits& limits);
 
     grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context, const v1::GetServerInfoRequest* request,
                                             v1::GetServerInfoResponse* response) override;
 
 private:
+    const Authorizer& authorizer_;
     const BackendDescription backend_;
     const unsigned threads_;
     const Limits limits_;
@@ -25,7 +27,8 @@ private:
 
 class SessionServiceImpl final : public v1::SessionService::CallbackService {
 public:
-    explicit SessionServiceImpl(SessionRegistry& registry) : registry_(registry) {}
+    SessionServiceImpl(SessionRegistry& registry, const Authorizer& authorizer)
+        : registry_(registry), authorizer_(authorizer) {}
 
     grpc::ServerUnaryReactor* CreateSession(grpc::CallbackServerContext* context, const v1::CreateSessionRequest* request,
                                             v1::CreateSessionResponse* response) override;
@@ -38,6 +41,7 @@ public:
 
 private:
     SessionRegistry& registry_;
+    const Authorizer& authorizer_;
 };
 
 /// Raw, so that one encoded brick is shared by all who receive it.
@@ -46,7 +50,8 @@ using RawSurfaceService = v1::SurfaceService::WithRawCallbackMethod_Stream<
 
 class SurfaceServiceImpl final : public RawSurfaceService {
 public:
-    SurfaceServiceImpl(SessionRegistry& registry, ActiveCalls& calls) : registry_(registry), calls_(calls) {}
+    SurfaceServiceImpl(SessionRegistry& registry, const Authorizer& authorizer, ActiveCalls& calls)
+        : registry_(registry), authorizer_(authorizer), calls_(calls) {}
 
     grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* Stream(grpc::CallbackServerContext* context) override;
     grpc::ServerWriteReactor<grpc::ByteBuffer>* Watch(grpc::CallbackServerContext* context,
@@ -54,6 +59,7 @@ public:
 
 private:
     SessionRegistry& registry_;
+    const Authorizer& authorizer_;
     ActiveCalls& calls_;
 };
 

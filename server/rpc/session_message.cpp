@@ -8,6 +8,7 @@ v1::Session session_message(const Session& session) {
     const SessionState state = session.state();
     v1::Session message;
     message.set_id(session.id());
+    message.set_owner(session.owner());
     *message.mutable_settings() = conversion::to_wire(session.settings());
     message.set_uploading(state.uploading);
     message.set_watchers(state.watchers);

@@ -21,6 +21,10 @@ grpc::StatusCode code_of(Refusal::Kind kind) {
             return grpc::StatusCode::FAILED_PRECONDITION;
         case Refusal::Kind::unavailable:
             return grpc::StatusCode::UNAVAILABLE;
+        case Refusal::Kind::unauthenticated:
+            return grpc::StatusCode::UNAUTHENTICATED;
+        case Refusal::Kind::permission_denied:
+            return grpc::StatusCode::PERMISSION_DENIED;
     }
     return grpc::StatusCode::INTERNAL;
 }

@@ -11,6 +11,7 @@
 
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
+#include "rpc/caller.hpp"
 #include "rpc/normal_bits.hpp"
 #include "rpc/session_id.hpp"
 #include "rpc/status.hpp"
@@ -31,9 +32,10 @@ public:
     StreamReactor(SessionRegistry& registry, ActiveCalls& calls, const grpc::CallbackServerContext& context)
         : active_(calls), registry_(registry), peer_(context.peer()), assembler_(registry.limits()) {}
 
-    void start(const grpc::CallbackServerContext& context) {
+    void start(const Authorizer& authorizer, const grpc::CallbackServerContext& context) {
         self_ = shared_from_this();
         try {
+            caller_ = admit(authorizer, context, Action::stream);
             session_id_ = metadata_session_id(context);
         } catch (...) {
             refuse(std::current_exception());
@@ -135,6 +137,7 @@ private:
         require_same_session(session_id_, message.session_id());
         const UploadOptions options{.receive_meshes = message.receive_meshes(), .normal_bits = normal_bits_of(message)};
         const auto session = registry_.find(session_id_);
+        Authorizer::require_access(caller_, Action::stream, session_id_, session->owner());
         const auto wake = [self = weak_from_this()] {
             if (const auto reactor = self.lock()) reactor->write();
         };
@@ -252,6 +255,7 @@ private:
     SessionRegistry& registry_;
     const std::string peer_;
     std::shared_ptr<StreamReactor> self_;  ///< until OnDone
+    Caller caller_;
     std::string session_id_;
 
     // Of the reading side.
@@ -279,10 +283,11 @@ private:
 }  // namespace
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* start_stream(SessionRegistry& registry,
+                                                                          const Authorizer& authorizer,
                                                                           ActiveCalls& calls,
                                                                           grpc::CallbackServerContext& context) {
     const auto reactor = std::make_shared<StreamReactor>(registry, calls, context);
-    reactor->start(context);
+    reactor->start(authorizer, context);
     return reactor.get();
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "meniscus/v1/surface_service.pb.h"
+#include "rpc/caller.hpp"
 #include "rpc/normal_bits.hpp"
 #include "rpc/session_id.hpp"
 #include "rpc/status.hpp"
@@ -24,9 +25,11 @@ class WatchReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
 public:
     WatchReactor(ActiveCalls& calls, const grpc::CallbackServerContext& context) : active_(calls), peer_(context.peer()) {}
 
-    void start(SessionRegistry& registry, const grpc::CallbackServerContext& context, const grpc::ByteBuffer& request) {
+    void start(SessionRegistry& registry, const Authorizer& authorizer, const grpc::CallbackServerContext& context,
+               const grpc::ByteBuffer& request) {
         self_ = shared_from_this();
         try {
+            const Caller caller = admit(authorizer, context, Action::watch);
             session_id_ = metadata_session_id(context);
             grpc::ByteBuffer bytes(request);
             v1::WatchRequest message;
@@ -34,6 +37,7 @@ public:
             require_same_session(session_id_, message.session_id());
             const int normal_bits = normal_bits_of(message);
             session_ = registry.find(session_id_);
+            Authorizer::require_access(caller, Action::watch, session_id_, session_->owner());
             slot_ = session_->open_watch(normal_bits, [self = weak_from_this()] {
                 if (const auto reactor = self.lock()) reactor->write();
             });
@@ -119,11 +123,12 @@ private:
 
 }  // namespace
 
-grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, ActiveCalls& calls,
+grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, const Authorizer& authorizer,
+                                                        ActiveCalls& calls,
                                                         grpc::CallbackServerContext& context,
                                                         const grpc::ByteBuffer& request) {
     const auto reactor = std::make_shared<WatchReactor>(calls, context);
-    reactor->start(registry, context, request);
+    reactor->start(registry, authorizer, context, request);
     return reactor.get();
 }
 

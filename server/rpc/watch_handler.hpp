@@ -6,12 +6,14 @@
 #include <grpcpp/support/server_callback.h>
 
 #include "rpc/active_calls.hpp"
+#include "security/authorizer.hpp"
 #include "sessions/session_registry.hpp"
 
 namespace meniscus::server {
 
 /// The call's reactor, which owns itself until the call is done.
-grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, ActiveCalls& calls,
+grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, const Authorizer& authorizer,
+                                                        ActiveCalls& calls,
                                                         grpc::CallbackServerContext& context,
                                                         const grpc::ByteBuffer& request);
 

@@ -8,7 +8,7 @@ namespace meniscus::server {
 
 class Refusal : public std::runtime_error {
 public:
-    enum class Kind { not_found, already_exists, failed_precondition, unavailable };
+    enum class Kind { not_found, already_exists, failed_precondition, unavailable, unauthenticated, permission_denied };
 
     Refusal(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
     Kind kind() const noexcept { return kind_; }

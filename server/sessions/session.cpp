@@ -12,8 +12,9 @@
 namespace meniscus::server {
 
 Session::Session(std::string id, const Settings& settings, const Limits& limits, Reconstruct reconstruct,
-                 std::shared_ptr<WorkerPool> workers)
+                 std::shared_ptr<WorkerPool> workers, std::string owner)
     : id_(std::move(id)),
+      owner_(std::move(owner)),
       settings_(settings),
       limits_(limits),
       workers_(std::move(workers)),

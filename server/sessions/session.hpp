@@ -45,13 +45,15 @@ using Reconstruct = std::function<Statistics(const ParticleFrame& frame, Mesh& m
 /// join() must have returned before the last reference goes, unless no other thread has one.
 class Session {
 public:
+    /// owner: who made it; empty where nobody is asked.
     Session(std::string id, const Settings& settings, const Limits& limits, Reconstruct reconstruct,
-            std::shared_ptr<WorkerPool> workers);
+            std::shared_ptr<WorkerPool> workers, std::string owner = {});
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
     const std::string& id() const noexcept { return id_; }
+    const std::string& owner() const noexcept { return owner_; }
     const Settings& settings() const noexcept { return settings_; }
     const Limits& limits() const noexcept { return limits_; }
     SessionState state() const;
@@ -128,6 +130,7 @@ private:
     std::optional<int> unpublished_normal_bits() const;
 
     const std::string id_;
+    const std::string owner_;
     const Settings settings_;
     const Limits limits_;
     const std::shared_ptr<WorkerPool> workers_;

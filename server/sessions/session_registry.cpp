@@ -51,7 +51,8 @@ SessionRegistry::~SessionRegistry() {
     for (const auto& [id, session] : sessions_) session->close();
 }
 
-std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Settings& settings) {
+std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Settings& settings,
+                                                 const std::string& owner) {
     const std::lock_guard lock(mutex_);
     if (draining_) throw Refusal(Refusal::Kind::unavailable, "the server is shutting down");
     remove_ended();
@@ -63,7 +64,7 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
         throw LimitExceeded(
             fmt::format("{} sessions are open; the server holds at most {}", sessions_.size(), limits_.sessions));
     const BackendOptions backend = place_session();
-    auto session = std::make_shared<Session>(id, settings, limits_, reconstruct_with(settings, backend), workers_);
+    auto session = std::make_shared<Session>(id, settings, limits_, reconstruct_with(settings, backend), workers_, owner);
     sessions_.emplace(id, session);
     spdlog::info("session {} created on {} ({} open)", id, place_name(backend), sessions_.size());
     return session;

@@ -26,7 +26,8 @@ public:
     SessionRegistry& operator=(const SessionRegistry&) = delete;
 
     /// Joins the session that exists with equal settings. Throws InvalidInput (settings), LimitExceeded, Refusal, DeviceError.
-    std::shared_ptr<Session> create(const std::string& id, const Settings& settings);
+    /// owner: of the session if it is new.
+    std::shared_ptr<Session> create(const std::string& id, const Settings& settings, const std::string& owner = {});
     /// Throws Refusal if there is none.
     std::shared_ptr<Session> find(const std::string& id);
     /// Ordered by id.

@@ -2,19 +2,58 @@
 
 #include <gtest/gtest.h>
 
-#include <initializer_list>
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
 #include <vector>
+
+#include "meniscus/error.hpp"
+#include "test_certificates.hpp"
 
 namespace meniscus::server {
 namespace {
 
-ServerOptions parse(std::initializer_list<const char*> flags) {
+/// Set while it lives.
+class Variable {
+public:
+    Variable(std::string name, const std::string& value) : name_(std::move(name)) {
+        ::setenv(name_.c_str(), value.c_str(), 1);
+    }
+    ~Variable() { ::unsetenv(name_.c_str()); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+private:
+    std::string name_;
+};
+
+std::optional<EarlyExit> parse_into(CommandLine& command_line, const std::vector<std::string>& flags) {
     std::vector<const char*> argv{"meniscusd"};
-    argv.insert(argv.end(), flags);
+    for (const std::string& flag : flags) argv.push_back(flag.c_str());
+    return parse_command_line(static_cast<int>(argv.size()), argv.data(), command_line);
+}
+
+ServerOptions parse(const std::vector<std::string>& flags) {
     CommandLine command_line;
-    const auto exit = parse_command_line(static_cast<int>(argv.size()), argv.data(), command_line);
+    const auto exit = parse_into(command_line, flags);
     EXPECT_FALSE(exit) << exit->text;
     return command_line.server;
+}
+
+/// What is printed instead.
+std::string refusal(const std::vector<std::string>& flags) {
+    CommandLine command_line;
+    const auto exit = parse_into(command_line, flags);
+    EXPECT_TRUE(exit && exit->code == 2);
+    return exit ? exit->text : "";
+}
+
+std::string printed(std::vector<std::string> flags) {
+    flags.emplace_back("--print-config");
+    CommandLine command_line;
+    const auto exit = parse_into(command_line, flags);
+    EXPECT_TRUE(exit && exit->code == 0);
+    return exit ? exit->text : "";
 }
 
 TEST(Options, ListDevices) {
@@ -26,6 +65,99 @@ TEST(Options, UseAllDevicesWithoutALimitUnlessTold) {
     const ServerOptions options = parse({});
     EXPECT_TRUE(options.devices.empty());
     EXPECT_EQ(options.limits.device_bytes_per_session, 0U);
+}
+
+TEST(Options, ComeFromTheFlagThenTheEnvironmentThenTheFile) {
+    const test::TestFolder folder;
+    const std::string file = folder.write("config", "max-sessions = 3\n");
+    for (const bool flag : {false, true})
+        for (const bool environment : {false, true})
+            for (const bool in_file : {false, true}) {
+                std::vector<std::string> flags;
+                if (flag) flags = {"--max-sessions", "1"};
+                if (in_file) flags.insert(flags.end(), {"--config", file});
+                std::optional<Variable> variable;
+                if (environment) variable.emplace("MENISCUS_MAX_SESSIONS", "2");
+                const std::uint32_t expected = flag ? 1 : environment ? 2 : in_file ? 3 : 16;
+                EXPECT_EQ(parse(flags).limits.sessions, expected) << flag << environment << in_file;
+            }
+}
+
+TEST(Options, OfEachKindComeFromEachSource) {
+    const test::TestFolder folder;
+    const std::string file = folder.write("config",
+                                          "# a comment\n\n"
+                                          "listen = unix:/run/with = and # in it\n"
+                                          "  memory-limit=4G  \n"
+                                          "devices = 1,2\n"
+                                          "insecure = true\n"
+                                          "shutdown-grace = 2.5\n"
+                                          "backend = cuda\n");
+    const ServerOptions from_file = parse({"--config", file});
+    EXPECT_EQ(from_file.listen, "unix:/run/with = and # in it");
+    EXPECT_EQ(from_file.limits.bytes_per_session, std::size_t{4} << 30U);
+    EXPECT_EQ(from_file.devices, (std::vector<int>{1, 2}));
+    EXPECT_TRUE(from_file.insecure);
+    EXPECT_EQ(from_file.shutdown_grace, std::chrono::milliseconds(2500));
+    EXPECT_EQ(from_file.backend.backend, Backend::cuda);
+
+    const Variable config("MENISCUS_CONFIG", file);
+    const Variable devices("MENISCUS_DEVICES", "3");
+    const Variable insecure("MENISCUS_INSECURE", "false");
+    const Variable empty("MENISCUS_LISTEN", "");
+    const ServerOptions options = parse({"--backend", "cpu"});
+    EXPECT_EQ(options.devices, (std::vector<int>{3}));
+    EXPECT_FALSE(options.insecure);
+    EXPECT_EQ(options.backend.backend, Backend::cpu);
+    EXPECT_EQ(options.listen, from_file.listen) << "an empty variable is none";
+}
+
+TEST(Options, ThatAreWrongAreRefusedWithTheirSource) {
+    const test::TestFolder folder;
+    const std::string file = folder / "config";
+    const auto with = [&](const std::string& lines) { return refusal({"--config", folder.write("config", lines)}); };
+    {
+        const Variable unknown("MENISCUS_LISTN", "127.0.0.1:1");
+        const Variable wrong("MENISCUS_MAX_WATCHERS", "many");
+        const std::string text = refusal({});
+        EXPECT_NE(text.find("MENISCUS_LISTN: there is no setting of this name; --listen is near it"), std::string::npos) << text;
+        EXPECT_NE(text.find("MENISCUS_MAX_WATCHERS: "), std::string::npos) << text;
+        EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+    }
+    const std::string text = with("listen = 127.0.0.1:1\nmax-sesions = 1\nthreads = 5000\nthreads = 1\n");
+    EXPECT_NE(text.find(file + ":2: max-sesions: there is no setting of this name; --max-sessions is near it"), std::string::npos)
+        << text;
+    EXPECT_NE(text.find(file + ":3: threads: "), std::string::npos) << text;
+    EXPECT_NE(text.find("5000"), std::string::npos) << text;
+    EXPECT_NE(text.find(file + ":4: threads is there twice"), std::string::npos) << text;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3) << text;
+    EXPECT_NE(with("print-config = true\n").find("print-config: there is no setting"), std::string::npos);
+    EXPECT_NE(with("config = x\n").find("config: there is no setting"), std::string::npos);
+    EXPECT_THROW(with("[limits]\n"), InvalidInput);
+    EXPECT_THROW(refusal({"--config", folder / "none"}), InvalidInput);
+    EXPECT_THROW(refusal({"--config", folder / "."}), InvalidInput);
+}
+
+TEST(Options, LeaveVariablesOfOthersAlone) {
+    const Variable token("MENISCUS_TOKEN", "secret");
+    const Variable host("MENISCUS_SERVICE_HOST", "10.0.0.1");
+    const Variable port("MENISCUS_PORT_50051_TCP", "tcp://10.0.0.1:50051");
+    EXPECT_EQ(printed({}).find("secret"), std::string::npos);
+}
+
+TEST(Options, ArePrintedAsAFileThatGivesThemAgain) {
+    const test::TestFolder folder;
+    for (const std::vector<std::string>& flags :
+         {std::vector<std::string>{},
+          {"--listen", "[::1]:0", "--devices", "0,2", "--memory-limit", "3M", "--insecure", "--shutdown-grace", "0.25",
+           "--log-level", "debug", "--backend", "cpu", "--tls-cert", "a b.pem", "--tokens", "t#1"}}) {
+        const std::string text = printed(flags);
+        EXPECT_EQ(printed({"--config", folder.write("config", text)}), text);
+    }
+    const std::string text = printed({"--max-sessions", "5", "--tokens", "/etc/meniscus/tokens"});
+    EXPECT_NE(text.find("\nmax-sessions = 5\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("\ntokens = /etc/meniscus/tokens\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("\n# tls-cert =\n"), std::string::npos) << text;
 }
 
 }  // namespace

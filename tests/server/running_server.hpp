@@ -43,13 +43,13 @@ struct RunningServer {
 /// The call itself, for what the client library would never send.
 struct RawStream {
     RawStream(const std::string& address, const std::string& session_id, bool open = true)
-        : connection(address, std::chrono::seconds(10)) {
+        : connection(address) {
         client::add_session_id(context, session_id);
         start();
         if (open) send_open(session_id);
     }
     /// Without metadata.
-    explicit RawStream(const std::string& address) : connection(address, std::chrono::seconds(10)) { start(); }
+    explicit RawStream(const std::string& address) : connection(address) { start(); }
 
     void start() { call = connection.surfaces->Stream(&context); }
 

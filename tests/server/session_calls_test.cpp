@@ -9,7 +9,7 @@ namespace meniscus::server::test {
 namespace {
 
 grpc::Status create_raw(RunningServer& running, const std::string& metadata, const std::string& id, v1::Settings settings) {
-    const client::Connection connection(running.server.address(), std::chrono::seconds(10));
+    const client::Connection connection(running.server.address());
     grpc::ClientContext context;
     if (!metadata.empty()) client::add_session_id(context, metadata);
     v1::CreateSessionRequest request;

@@ -27,8 +27,8 @@ SessionInfo from_wire(const v1::Session& wire) {
 
 class Client::Impl {
 public:
-    Impl(const std::string& address, std::chrono::milliseconds timeout)
-        : connection_(std::make_shared<Connection>(address, timeout)) {}
+    Impl(const std::string& address, const ConnectionOptions& options)
+        : connection_(std::make_shared<Connection>(address, options)) {}
 
     const std::shared_ptr<Connection>& connection() const noexcept { return connection_; }
 
@@ -37,7 +37,7 @@ public:
     void call(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
               const std::string& session_id, const Request& request, Response& response) const {
         grpc::ClientContext context;
-        if (!session_id.empty()) add_session_id(context, session_id);
+        connection_->add_metadata(context, session_id);
         require_ok((stub.*method)(&context, request, &response), connection_->address);
     }
 
@@ -45,8 +45,8 @@ private:
     std::shared_ptr<Connection> connection_;  ///< shared with the streams, which may outlive the client
 };
 
-Client::Client(const std::string& address, std::chrono::milliseconds timeout)
-    : impl_(std::make_unique<Impl>(address, timeout)) {}
+Client::Client(const std::string& address, const ConnectionOptions& options)
+    : impl_(std::make_unique<Impl>(address, options)) {}
 Client::Client(Client&&) noexcept = default;
 Client& Client::operator=(Client&&) noexcept = default;
 Client::~Client() = default;

@@ -3,15 +3,40 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
-#include "meniscus/client/client.hpp"
+#include "conversion/loopback.hpp"
+#include "meniscus/error.hpp"
 
 namespace meniscus::client {
 
 namespace {
 
-std::shared_ptr<grpc::Channel> open_channel(const std::string& address) {
+std::string read_pem(const std::string& path) {
+    if (path.empty()) return {};
+    std::ifstream file(path, std::ios::binary);
+    std::string pem{std::istreambuf_iterator<char>(file), {}};
+    if (pem.find("-----BEGIN ") == std::string::npos)
+        throw InvalidInput(path + " cannot be read, or holds nothing in PEM form");
+    return pem;
+}
+
+std::shared_ptr<grpc::ChannelCredentials> credentials(const ConnectionOptions& options) {
+    if (options.certificate_file.empty() != options.key_file.empty())
+        throw InvalidInput("mutual TLS needs a certificate and its key; only one of them is given");
+    if (options.ca_file.empty() && !options.certificate_file.empty())
+        throw InvalidInput("certificate " + options.certificate_file + " is given without a CA to trust");
+    if (options.ca_file.empty()) return grpc::InsecureChannelCredentials();
+    return grpc::SslCredentials({.pem_root_certs = read_pem(options.ca_file),
+                                 .pem_private_key = read_pem(options.key_file),
+                                 .pem_cert_chain = read_pem(options.certificate_file)});
+}
+
+std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const ConnectionOptions& options) {
     grpc::ChannelArguments arguments;
     // A server that has just started is found without gRPC's wait of seconds between attempts, and a new connection does
     // not inherit that wait from an old one.
@@ -19,7 +44,21 @@ std::shared_ptr<grpc::Channel> open_channel(const std::string& address) {
     arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
     arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
     arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-    return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+    if (!options.server_name.empty()) arguments.SetSslTargetNameOverride(options.server_name);
+    return grpc::CreateCustomChannel(address, credentials(options), arguments);
+}
+
+/// Whether the channel is connected before it is time to give up.
+bool connect(grpc::Channel& channel, const ConnectionOptions& options) {
+    const auto start = std::chrono::system_clock::now();
+    const auto last_retry = start + options.wait;
+    const auto deadline = start + std::max(options.timeout, options.wait);
+    for (;;) {
+        const grpc_connectivity_state state = channel.GetState(true);
+        if (state == GRPC_CHANNEL_READY) return true;
+        const bool refused = state == GRPC_CHANNEL_TRANSIENT_FAILURE;
+        if (!channel.WaitForStateChange(state, refused ? last_retry : deadline)) return false;
+    }
 }
 
 /// Why there is no connection, in gRPC's words.
@@ -30,17 +69,35 @@ std::string connection_failure(v1::ServerService::Stub& server) {
     return server.GetServerInfo(&context, {}, &response).error_message();
 }
 
+/// The token, if it may be sent.
+std::string checked_token(const std::string& address, const ConnectionOptions& options) {
+    for (const char c : options.token)
+        if (c <= ' ' || c > '~') throw InvalidInput("the token has a character that is not a visible ASCII one");
+    if (!options.token.empty() && options.ca_file.empty() && !options.insecure && !conversion::is_loopback(address))
+        throw InvalidInput("the token would travel to " + address +
+                           " without TLS: give the server's CA, or say that this is meant (--tls-ca, --insecure)");
+    return options.token;
+}
+
 }  // namespace
 
-Connection::Connection(std::string server_address, std::chrono::milliseconds timeout)
+Connection::Connection(std::string server_address, const ConnectionOptions& options)
     : address(std::move(server_address)),
-      channel(open_channel(address)),
+      channel(open_channel(address, options)),
       server(v1::ServerService::NewStub(channel)),
       sessions(v1::SessionService::NewStub(channel)),
-      surfaces(v1::SurfaceService::NewStub(channel)) {
-    if (!channel->WaitForConnected(std::chrono::system_clock::now() + timeout))
-        throw ServerError("no server at " + address + " (" + connection_failure(*server) +
-                          "): start meniscusd or check the address");
+      surfaces(v1::SurfaceService::NewStub(channel)),
+      token_(checked_token(address, options)) {
+    if (connect(*channel, options)) return;
+    const std::string reason = connection_failure(*server);
+    if (options.ca_file.empty())
+        throw ServerError("no server at " + address + " (" + reason + "): start meniscusd, or check the address and whether it wants TLS");
+    throw ServerError("no TLS connection to " + address + " (" + reason + "): check the address, the CA and the certificates");
+}
+
+void Connection::add_metadata(grpc::ClientContext& context, const std::string& session_id) const {
+    if (!session_id.empty()) add_session_id(context, session_id);
+    if (!token_.empty()) context.AddMetadata("authorization", "Bearer " + token_);
 }
 
 void add_session_id(grpc::ClientContext& context, const std::string& session_id) {

@@ -4,10 +4,10 @@
 #include <grpcpp/channel.h>
 #include <grpcpp/client_context.h>
 
-#include <chrono>
 #include <memory>
 #include <string>
 
+#include "meniscus/client/client.hpp"
 #include "meniscus/v1/server_service.grpc.pb.h"
 #include "meniscus/v1/session_service.grpc.pb.h"
 #include "meniscus/v1/surface_service.grpc.pb.h"
@@ -16,14 +16,20 @@ namespace meniscus::client {
 
 class Connection {
 public:
-    /// Throws ServerError unless the server is there within the timeout.
-    Connection(std::string address, std::chrono::milliseconds timeout);
+    /// Throws ServerError unless the server is there, InvalidInput if the options are wrong.
+    explicit Connection(std::string address, const ConnectionOptions& options = {});
+
+    /// Gives a call the token, and the id of the session that it is about; empty: about none.
+    void add_metadata(grpc::ClientContext& context, const std::string& session_id) const;
 
     const std::string address;
     const std::shared_ptr<grpc::Channel> channel;
     const std::unique_ptr<v1::ServerService::Stub> server;
     const std::unique_ptr<v1::SessionService::Stub> sessions;
     const std::unique_ptr<v1::SurfaceService::Stub> surfaces;
+
+private:
+    const std::string token_;
 };
 
 /// Every call about one session carries its id as metadata too.

@@ -17,6 +17,10 @@ std::string code_name(grpc::StatusCode code) {
             return "already exists";
         case grpc::StatusCode::FAILED_PRECONDITION:
             return "not possible now";
+        case grpc::StatusCode::UNAUTHENTICATED:
+            return "not known";
+        case grpc::StatusCode::PERMISSION_DENIED:
+            return "not allowed";
         case grpc::StatusCode::UNIMPLEMENTED:
             return "not a meniscusd, or one of another version";
         case grpc::StatusCode::INTERNAL:

@@ -17,7 +17,7 @@ constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
 Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options)
     : connection_(std::move(connection)), options_(options) {
-    add_session_id(context_, session_id);
+    connection_->add_metadata(context_, session_id);
     call_ = connection_->surfaces->Stream(&context_);
     v1::StreamRequest request;
     v1::StreamOpen& open = *request.mutable_open();

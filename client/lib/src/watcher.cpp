@@ -7,7 +7,7 @@ namespace meniscus::client {
 
 Watcher::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, int normal_bits)
     : connection_(std::move(connection)) {
-    add_session_id(context_, session_id);
+    connection_->add_metadata(context_, session_id);
     v1::WatchRequest request;
     request.set_session_id(session_id);
     request.set_normal_bits(static_cast<std::uint32_t>(normal_bits));

@@ -34,6 +34,20 @@ private:
     std::string status_;
 };
 
+/// How to connect, and as whom. Files are PEM.
+struct ConnectionOptions {
+    std::string ca_file = {};           ///< TLS: whose certificates to trust; empty: no TLS
+    std::string certificate_file = {};  ///< mutual TLS, with key_file: this client's own
+    std::string key_file = {};
+    std::string server_name = {};       ///< in the server's certificate; empty: the address's host
+    std::string token = {};             ///< sent with every call
+    bool insecure = false;              ///< whether a token may travel to another machine without TLS
+    /// For a host that does not answer at all. One that refuses the connection is reported at once, unless
+    std::chrono::milliseconds timeout = std::chrono::seconds(10);
+    /// the server may still be starting: so long it is tried again.
+    std::chrono::milliseconds wait = std::chrono::milliseconds(0);
+};
+
 struct ServerInfo {
     std::string version;
     std::string backend;  ///< "cpu" or "cuda"
@@ -129,8 +143,9 @@ private:
 /// A connection to one server. Thread-safe.
 class Client {
 public:
-    /// address: "HOST:PORT" or "unix:PATH". Waits up to `timeout` for the server; throws ServerError if it is not there.
-    explicit Client(const std::string& address, std::chrono::milliseconds timeout = std::chrono::seconds(5));
+    /// address: "HOST:PORT" or "unix:PATH". Throws ServerError if the server is not there, InvalidInput if the options are
+    /// wrong.
+    explicit Client(const std::string& address, const ConnectionOptions& options = {});
     Client(Client&&) noexcept;
     Client& operator=(Client&&) noexcept;
     ~Client();

@@ -1,0 +1,51 @@
+#include "cli/server_flags.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+
+#include "formats/byte_cursor.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+std::string read_token(const std::string& file) {
+    if (!file.empty()) return CLI::detail::trim_copy(formats::read_file(file));
+    const char* token = std::getenv("MENISCUS_TOKEN");
+    return token == nullptr ? "" : token;
+}
+
+}  // namespace
+
+CLI::Option* ServerFlags::add_to(CLI::App& command, const std::string& description) {
+    CLI::Option* server = command.add_option("--server", address, description)->type_name("HOST:PORT");
+    const auto add_file = [&](const std::string& flag, std::string& file, const std::string& meaning) {
+        return command.add_option(flag, file, meaning)->type_name("FILE")->needs(server);
+    };
+    CLI::Option* ca = add_file("--tls-ca", options.ca_file, "TLS; whose certificates to trust, PEM");
+    CLI::Option* certificate =
+        add_file("--tls-cert", options.certificate_file, "Mutual TLS: this client's certificate, PEM")->needs(ca);
+    certificate->needs(add_file("--tls-key", options.key_file, "Its key, PEM")->needs(certificate));
+    command.add_option("--tls-server-name", options.server_name, "Name in the server's certificate, if not the address's host")
+        ->type_name("NAME")
+        ->needs(ca);
+    add_file("--token-file", token_file, "File with the token to call with (default: the variable MENISCUS_TOKEN)");
+    command.add_flag("--insecure", options.insecure, "Let the token travel to another machine without TLS")->needs(server);
+    command.add_option("--wait", wait_seconds, "Seconds to wait for a server that is still starting")
+        ->check(CLI::Range(0.0, 86400.0))
+        ->needs(server);
+    return server;
+}
+
+client::Client ServerFlags::connect() const {
+    client::ConnectionOptions connection = options;
+    connection.token = read_token(token_file);
+    connection.wait = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(wait_seconds));
+    try {
+        return client::Client(address, connection);
+    } catch (const client::ServerError& e) {
+        throw InvalidInput(e.what());
+    }
+}
+
+}  // namespace meniscus::cli

@@ -1,0 +1,28 @@
+// The flags that name a server and say how to connect to it.
+#pragma once
+
+#include <string>
+
+#include "meniscus/client/client.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}
+
+namespace meniscus::cli {
+
+/// --server, --tls-ca, --tls-cert, --tls-key, --tls-server-name, --token-file, --insecure and --wait.
+struct ServerFlags {
+    std::string address;  ///< "HOST:PORT" or "unix:PATH"; empty for none
+    client::ConnectionOptions options;
+    std::string token_file;
+    double wait_seconds = 0.0;
+
+    /// Returns --server, for what else it excludes or requires.
+    CLI::Option* add_to(CLI::App& command, const std::string& description);
+    /// With the token of --token-file or, without that, of MENISCUS_TOKEN. Throws InvalidInput if there is no server.
+    client::Client connect() const;
+};
+
+}  // namespace meniscus::cli

@@ -1,0 +1,42 @@
+// Certificates and tokens of a running server, and their files.
+#pragma once
+
+#include <grpcpp/security/server_credentials.h>
+
+#include <memory>
+#include <string>
+
+#include "security/authorizer.hpp"
+#include "security/certificates.hpp"
+#include "security/tls_credentials.hpp"
+#include "security/tokens.hpp"
+
+namespace meniscus::server {
+
+class Access {
+public:
+    /// tokens: a file; empty: everyone may do everything. Throws InvalidInput if a file cannot be used.
+    Access(const TlsFiles& tls, const std::string& tokens);
+
+    const Authorizer& authorizer() const noexcept { return authorizer_; }
+    /// For one port.
+    std::shared_ptr<grpc::ServerCredentials> credentials() const;
+
+    /// Takes over what has changed in the files. Where one cannot be used, that is logged, and what was there before stays.
+    /// One thread at a time.
+    void reload();
+
+private:
+    void reload_certificates();
+    void reload_tokens();
+
+    const TlsFiles tls_files_;
+    const std::string tokens_file_;
+    Certificates certificates_;
+    Tokens tokens_;
+    Authorizer authorizer_;
+    std::shared_ptr<TlsCredentials> tls_;  ///< none without TLS
+    std::string problems_;                 ///< logged already
+};
+
+}  // namespace meniscus::server

@@ -1,0 +1,85 @@
+#include "security/authorizer.hpp"
+
+#include <fmt/format.h>
+#include <strings.h>
+
+#include <utility>
+
+#include "sessions/refusal.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+std::string_view name_of(Action action) {
+    switch (action) {
+        case Action::describe_server:
+            return "GetServerInfo";
+        case Action::list_sessions:
+            return "ListSessions";
+        case Action::get_session:
+            return "GetSession";
+        case Action::watch:
+            return "Watch";
+        case Action::create_session:
+            return "CreateSession";
+        case Action::stream:
+            return "Stream";
+        case Action::delete_session:
+            return "DeleteSession";
+    }
+    return "this call";
+}
+
+bool only_looks(Action action) {
+    return action == Action::describe_server || action == Action::list_sessions || action == Action::get_session ||
+           action == Action::watch;
+}
+
+std::string_view bearer_token(std::string_view authorization) {
+    constexpr std::string_view scheme = "Bearer ";
+    if (authorization.size() < scheme.size() || ::strncasecmp(authorization.data(), scheme.data(), scheme.size()) != 0)
+        throw Refusal(Refusal::Kind::unauthenticated, "the metadata authorization must be: Bearer TOKEN");
+    return authorization.substr(scheme.size());
+}
+
+}  // namespace
+
+void Authorizer::replace(Tokens tokens) {
+    auto replacement = std::make_shared<const Tokens>(std::move(tokens));
+    const std::lock_guard lock(mutex_);
+    tokens_ = std::move(replacement);
+}
+
+Caller Authorizer::admit(std::span<const std::string_view> authorization, Action action) const {
+    std::shared_ptr<const Tokens> tokens;
+    {
+        const std::lock_guard lock(mutex_);
+        tokens = tokens_;
+    }
+    if (!tokens) return {};
+    if (authorization.size() != 1)
+        throw Refusal(Refusal::Kind::unauthenticated,
+                      fmt::format("the call has metadata authorization {} times; this server needs one: Bearer TOKEN",
+                                  authorization.size()));
+    auto caller = tokens->find(bearer_token(authorization.front()));
+    if (!caller) throw Refusal(Refusal::Kind::unauthenticated, "the token is none of this server's");
+    if (caller->role == Role::watcher && !only_looks(action))
+        throw Refusal(Refusal::Kind::permission_denied,
+                      fmt::format("{} needs a token of the role uploader or admin; that of {} has the role watcher",
+                                  name_of(action), caller->name));
+    return *std::move(caller);
+}
+
+bool Authorizer::may_see(const Caller& caller, std::string_view owner) {
+    return caller.role != Role::uploader || caller.name == owner;
+}
+
+void Authorizer::require_access(const Caller& caller, Action action, const std::string& session, std::string_view owner) {
+    if (may_see(caller, owner)) return;
+    throw Refusal(Refusal::Kind::permission_denied,
+                  fmt::format("session {} is not one of {}'s: {} needs its owner's token, or one of the role admin{}", session,
+                              caller.name, name_of(action), only_looks(action) ? " or watcher" : ""));
+}
+
+}  // namespace meniscus::server

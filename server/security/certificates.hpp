@@ -1,0 +1,33 @@
+// The server's certificate, its key, and whose clients it trusts: PEM files.
+#pragma once
+
+#include <string>
+
+namespace meniscus::server {
+
+struct TlsFiles {
+    std::string certificate;  ///< the chain, the server's own first
+    std::string key;
+    std::string client_ca;  ///< empty: clients need no certificate
+
+    /// Whether TLS is asked for.
+    bool any() const { return !certificate.empty() || !key.empty() || !client_ca.empty(); }
+};
+
+/// The files' contents.
+struct Certificates {
+    std::string chain;
+    std::string key;
+    std::string client_ca;
+
+    bool operator==(const Certificates&) const = default;
+};
+
+/// Throws InvalidInput that names the file and what is wrong: not PEM, expired or not valid yet, a key of another
+/// certificate or one that asks for a pass phrase.
+Certificates load_certificates(const TlsFiles& files);
+
+/// "serial 0A1B, valid until Nov 21 08:00:00 2027 GMT", of certificates that have been loaded.
+std::string describe(const Certificates& certificates);
+
+}  // namespace meniscus::server

@@ -1,0 +1,324 @@
+// Tokens: who may do what.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <vector>
+
+#include "conversion/loopback.hpp"
+#include "conversion/settings_conversion.hpp"
+#include "meniscus/error.hpp"
+#include "running_server.hpp"
+#include "security/tokens.hpp"
+#include "test_certificates.hpp"
+
+namespace meniscus::server::test {
+namespace {
+
+const std::string ada = "token-of-ada-0123456789";
+const std::string ben = "token-of-ben-0123456789";
+const std::string eve = "token-of-eve-0123456789";
+const std::string root = "token-of-root-0123456789";
+
+const char* const file_text =
+    "# role name token\n"
+    "uploader ada token-of-ada-0123456789\n"
+    "\n"
+    "  uploader\tben  token-of-ben-0123456789\n"
+    "watcher eve token-of-eve-0123456789\n"
+    "admin root token-of-root-0123456789\n";
+
+/// A server that asks for tokens, and a session of ada's with a mesh, frame 0.
+class TokensOnAServer : public testing::Test {
+protected:
+    TokensOnAServer() {
+        client::Client ours = client(ada);
+        ours.create_session(id, settings());
+        auto stream = ours.stream(id);
+        stream.push(wave(4, 0.0).view(), 0, 0.0);
+        stream.finish();
+        while (stream.next()) {
+        }
+    }
+
+    client::Client client(const std::string& token) const { return client::Client(server.address(), {.token = token}); }
+
+    static ServerOptions options(const std::string& file) {
+        ServerOptions options = test_options();
+        options.tokens = file;
+        return options;
+    }
+
+    const TestFolder folder;
+    const std::string file = folder.write("tokens", file_text);
+    Server server{options(file)};
+    const std::string id = client::new_session_id();
+};
+
+/// What each call about a session gets with metadata as given.
+class RawCalls {
+public:
+    RawCalls(const std::string& address, std::string session, std::vector<std::string> authorization)
+        : connection_(address), session_(std::move(session)), authorization_(std::move(authorization)) {}
+
+    grpc::Status server_info() const {
+        v1::GetServerInfoResponse response;
+        return connection_.server->GetServerInfo(context().get(), {}, &response);
+    }
+    grpc::Status list() const {
+        v1::ListSessionsResponse response;
+        return connection_.sessions->ListSessions(context().get(), {}, &response);
+    }
+    grpc::Status get() const {
+        v1::GetSessionRequest request;
+        request.set_id(session_);
+        v1::GetSessionResponse response;
+        return connection_.sessions->GetSession(context().get(), request, &response);
+    }
+    grpc::Status create() const {
+        v1::CreateSessionRequest request;
+        request.set_id(session_);
+        *request.mutable_settings() = conversion::to_wire(settings());
+        v1::CreateSessionResponse response;
+        return connection_.sessions->CreateSession(context().get(), request, &response);
+    }
+    grpc::Status remove() const {
+        v1::DeleteSessionRequest request;
+        request.set_id(session_);
+        v1::DeleteSessionResponse response;
+        return connection_.sessions->DeleteSession(context().get(), request, &response);
+    }
+    /// Opens a stream and ends it.
+    grpc::Status stream() const {
+        const auto with = context();
+        const auto call = connection_.surfaces->Stream(with.get());
+        v1::StreamRequest open;
+        open.mutable_open()->set_session_id(session_);
+        call->Write(open);
+        call->WritesDone();
+        return call->Finish();
+    }
+    /// OK once a mesh comes.
+    grpc::Status watch() const {
+        const auto with = context();
+        v1::WatchRequest request;
+        request.set_session_id(session_);
+        const auto call = connection_.surfaces->Watch(with.get(), request);
+        v1::WatchResponse response;
+        if (!call->Read(&response)) return call->Finish();
+        with->TryCancel();
+        while (call->Read(&response)) {
+        }
+        call->Finish();
+        return grpc::Status::OK;
+    }
+
+private:
+    std::unique_ptr<grpc::ClientContext> context() const {
+        auto context = std::make_unique<grpc::ClientContext>();
+        client::add_session_id(*context, session_);
+        for (const std::string& value : authorization_) context->AddMetadata("authorization", value);
+        return context;
+    }
+
+    client::Connection connection_;
+    std::string session_;
+    std::vector<std::string> authorization_;
+};
+
+TEST_F(TokensOnAServer, AreAskedForByEveryCall) {
+    struct Case {
+        std::vector<std::string> authorization;
+        const char* words;
+    };
+    const std::vector<Case> cases{
+        {{}, "authorization 0 times"},
+        {{"Bearer " + ada, "Bearer " + ada}, "authorization 2 times"},
+        {{"Bearer wrong"}, "none of this server's"},
+        {{"Bearer " + ada + "0"}, "none of this server's"},
+        {{"Bearer " + ada.substr(1)}, "none of this server's"},
+        {{"Bearer "}, "none of this server's"},
+        {{"Basic " + ada}, "must be: Bearer TOKEN"},
+        {{ada}, "must be: Bearer TOKEN"},
+    };
+    for (const Case& c : cases) {
+        const RawCalls calls(server.address(), id, c.authorization);
+        for (const grpc::Status& status : {calls.server_info(), calls.list(), calls.get(), calls.create(), calls.stream(),
+                                           calls.watch(), calls.remove()}) {
+            EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
+            EXPECT_NE(status.error_message().find(c.words), std::string::npos) << status.error_message();
+            EXPECT_EQ(status.error_message().find(ada), std::string::npos) << "a token in a message";
+        }
+    }
+    EXPECT_TRUE(RawCalls(server.address(), id, {"bearer " + ada}).get().ok()) << "the scheme has no case";
+}
+
+TEST_F(TokensOnAServer, LetWatchersOnlyLook) {
+    const RawCalls calls(server.address(), id, {"Bearer " + eve});
+    for (const grpc::Status& status : {calls.server_info(), calls.list(), calls.get(), calls.watch()})
+        EXPECT_TRUE(status.ok()) << status.error_message();
+    for (const auto& [status, name] : {std::pair{calls.create(), "CreateSession"}, std::pair{calls.stream(), "Stream"},
+                                       std::pair{calls.remove(), "DeleteSession"}}) {
+        EXPECT_EQ(status.error_code(), grpc::StatusCode::PERMISSION_DENIED);
+        EXPECT_EQ(status.error_message(), std::string(name) + " needs a token of the role uploader or admin; that of eve has the "
+                                                              "role watcher");
+    }
+    EXPECT_EQ(client(eve).sessions().size(), 1U);
+}
+
+TEST_F(TokensOnAServer, KeepUploadersFromEachOthersSessions) {
+    const RawCalls calls(server.address(), id, {"Bearer " + ben});
+    EXPECT_TRUE(calls.server_info().ok());
+    for (const grpc::Status& status : {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.remove()}) {
+        EXPECT_EQ(status.error_code(), grpc::StatusCode::PERMISSION_DENIED);
+        EXPECT_NE(status.error_message().find("session " + id + " is not one of ben's"), std::string::npos)
+            << status.error_message();
+    }
+    EXPECT_TRUE(client(ben).sessions().empty());
+    EXPECT_EQ(client(ada).sessions().size(), 1U);
+}
+
+TEST_F(TokensOnAServer, LetUploadersDoEverythingWithTheirOwn) {
+    const RawCalls calls(server.address(), id, {"Bearer " + ada});
+    for (const grpc::Status& status : {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.remove()})
+        EXPECT_TRUE(status.ok()) << status.error_message();
+}
+
+TEST_F(TokensOnAServer, LetAdminsDoEverythingWithAll) {
+    const RawCalls calls(server.address(), id, {"Bearer " + root});
+    for (const grpc::Status& status : {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.remove()})
+        EXPECT_TRUE(status.ok()) << status.error_message();
+}
+
+TEST_F(TokensOnAServer, NameTheOwnerOfASession) {
+    const client::Connection connection(server.address(), {.token = eve});
+    grpc::ClientContext context;
+    connection.add_metadata(context, {});
+    v1::ListSessionsResponse response;
+    ASSERT_TRUE(connection.sessions->ListSessions(&context, {}, &response).ok());
+    EXPECT_EQ(response.sessions(0).owner(), "ada");
+}
+
+TEST_F(TokensOnAServer, TravelWithEveryCallOfTheLibrary) {
+    client::Client ours = client(ada);
+    EXPECT_EQ(ours.session(id).frames, 1U);
+    auto watcher = ours.watch(id);
+    EXPECT_EQ(watcher.next()->index, 0U);
+    auto stream = ours.stream(id);
+    stream.push(wave(4, 0.0).view(), 3, 0.0);
+    EXPECT_EQ(stream.next()->index, 3U);
+    EXPECT_EQ(watcher.next()->index, 3U);
+    stream.finish();
+    EXPECT_FALSE(stream.next());
+    ours.delete_session(id);
+}
+
+TEST_F(TokensOnAServer, AreReadAgainWithoutEndingStreams) {
+    client::Client ours = client(ada);
+    auto stream = ours.stream(id);
+    stream.push(wave(4, 0.0).view(), 1, 0.0);
+    ASSERT_TRUE(stream.next());
+    folder.write("tokens", "uploader ada another-token-of-ada\n");
+    server.reload();
+    EXPECT_THROW(ours.session(id), client::ServerError);
+    EXPECT_EQ(client("another-token-of-ada").session(id).frames, 2U) << "a new token of that name has its sessions";
+    stream.push(wave(4, 0.0).view(), 2, 0.0);
+    EXPECT_TRUE(stream.next());
+    for (const char* bad : {"", "nonsense", "uploader ada short"}) {
+        folder.write("tokens", bad);
+        server.reload();
+        EXPECT_NO_THROW(client("another-token-of-ada").session(id)) << bad;
+    }
+}
+
+TEST(Tokens, AreRefusedWithTheLineAndWithoutTheToken) {
+    struct Case {
+        const char* text;
+        const char* words;
+    };
+    const TestFolder folder;
+    const std::vector<Case> cases{
+        {"uploader ada 0123456789secret\nwatcher eve\n", ":2: a line must be: ROLE NAME TOKEN"},
+        {"uploader ada 0123456789secret more\n", ":1: a line must be: ROLE NAME TOKEN"},
+        {"owner ada 0123456789secret\n", ":1: the role must be uploader, watcher or admin"},
+        {"# only\nuploader ada 56789secret\n", ":2: the token has 11 characters; it needs at least 16"},
+        {"uploader 0123456789secret ada\n", ":1: the token has 3 characters"},
+        {"uploader ada 0123456789secret\nadmin eve 0123456789secret\n", ":2: the token is there twice"},
+        {"# none\n", "has no tokens"},
+    };
+    for (const Case& c : cases) {
+        try {
+            Tokens::load(folder.write("tokens", c.text));
+            ADD_FAILURE() << c.text;
+        } catch (const InvalidInput& error) {
+            const std::string message = error.what();
+            EXPECT_NE(message.find(c.words), std::string::npos) << message;
+            EXPECT_EQ(message.find("secret"), std::string::npos) << message;
+        }
+    }
+}
+
+TEST(Tokens, AreRefusedInAFileThatEveryoneMayRead) {
+    const TestFolder folder;
+    for (const int mode : {0644, 0604, 0602}) {
+        const std::string path = folder.write("tokens", file_text, mode);
+        try {
+            Tokens::load(path);
+            ADD_FAILURE() << mode;
+        } catch (const InvalidInput& error) {
+            EXPECT_NE(std::string(error.what()).find("chmod 600 " + path), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_EQ(Tokens::load(folder.write("tokens", file_text, 0640)).size(), 4U);
+}
+
+TEST(TokenDigests, AreSha256) {
+    const TokenDigest abc{0xba, 0x78, 0x16, 0xbf, 0x8f, 0x01, 0xcf, 0xea, 0x41, 0x41, 0x40, 0xde, 0x5d, 0xae, 0x22, 0x23,
+                          0xb0, 0x03, 0x61, 0xa3, 0x96, 0x17, 0x7a, 0x9c, 0xb4, 0x10, 0xff, 0x61, 0xf2, 0x00, 0x15, 0xad};
+    EXPECT_EQ(digest_of("abc"), abc);
+}
+
+TEST(TokenDigests, AreEqualInAllBytesOrNotAtAll) {
+    const TokenDigest digest = digest_of("abc");
+    EXPECT_TRUE(equal(digest, digest_of("abc")));
+    for (std::size_t i = 0; i < digest.size(); ++i) {
+        TokenDigest other = digest;
+        other[i] ^= 1U;
+        EXPECT_FALSE(equal(digest, other)) << i;
+    }
+}
+
+TEST(Loopback, IsWhatNoOtherMachineReaches) {
+    for (const char* address : {"localhost:1", "127.0.0.1:50051", "127.9.8.7:0", "[::1]:1", "unix:/run/meniscus"})
+        EXPECT_TRUE(conversion::is_loopback(address)) << address;
+    for (const char* address : {"0.0.0.0:1", "[::]:1", "128.0.0.1:1", "10.0.0.1:1", "example.org:1", "127.0.0.1.example.org:1",
+                                "localhost.example.org:1", "127.1:1", ":1", "", "ipv4:127.0.0.1:1", "dns:///localhost:1"})
+        EXPECT_FALSE(conversion::is_loopback(address)) << address;
+}
+
+TEST(Server, RefusesOtherMachinesWithoutTlsUnlessThatIsMeant) {
+    ServerOptions options = test_options();
+    options.listen = "0.0.0.0:0";
+    EXPECT_THROW(Server{options}, InvalidInput);
+    options.insecure = true;
+    EXPECT_NO_THROW(Server{options});
+    const TestCertificates certificates;
+    options.insecure = false;
+    options.tls = certificates.server_files();
+    EXPECT_NO_THROW(Server{options});
+}
+
+TEST(Client, SendsNoTokenToAnotherMachineWithoutTlsUnlessThatIsMeant) {
+    // An address for documentation: there is no such host.
+    client::ConnectionOptions options{.token = ada, .timeout = std::chrono::milliseconds(1)};
+    EXPECT_THROW(client::Client("192.0.2.1:1", options), InvalidInput);
+    options.insecure = true;
+    EXPECT_THROW(client::Client("192.0.2.1:1", options), client::ServerError);
+}
+
+TEST(Client, RefusesATokenThatCannotTravel) {
+    for (const char* token : {"two words", "line\n", "\x01", "t\xc3\xbcr"})
+        EXPECT_THROW(client::Client("127.0.0.1:1", {.token = token}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meniscus::server::test
