@@ -69,6 +69,7 @@ int run(const meniscus::server::CommandLine& command_line) {
     const meniscus::BackendDescription& backend = server.backend();
     spdlog::info("meniscusd {} listening on {}, backend {} on {}: {}", meniscus::version(), server.address(), backend.name,
                  backend.device, backend.reason);
+    if (!server.http_address().empty()) spdlog::info("metrics and probes at http://{}", server.http_address());
     const int signal = wait_for_stop(signals, server);
     spdlog::info("{}: finishing the frames in flight", strsignal(signal));
     server.shutdown();

@@ -73,6 +73,9 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
                    "Lines ROLE NAME TOKEN, the role being uploader, watcher or admin: calls need one of these tokens")
         ->type_name("FILE");
     app.add_flag("--insecure", server.insecure, "Let other machines connect without TLS");
+    app.add_option("--http", server.http, "HOST:PORT (port 0: a free one, which is logged) of /metrics, /healthz and /readyz");
+    app.add_flag("--reflection", server.standard_services.reflection, "Let clients ask for the contract, as grpcurl does");
+    app.add_flag("--channelz", server.standard_services.channelz, "Let clients ask for connections and their traffic");
 
     app.add_option_function<std::string>(
            "--backend", [&server](const std::string& name) { server.backend.backend = backend_by_name(name); },

@@ -6,11 +6,17 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <thread>
 
 #include "listen_address.hpp"
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
+#include "metrics/limit_gauges.hpp"
+#include "metrics/process_metrics.hpp"
+#include "metrics/session_gauges.hpp"
+#include "rpc/call_counter.hpp"
+#include "web/observation_pages.hpp"
 
 namespace meniscus::server {
 
@@ -76,14 +82,16 @@ Server::Server(const ServerOptions& options)
     : options_(options),
       access_(options.tls, options.tokens),
       backend_(describe(options)),
+      metrics_(std::make_shared<PrometheusMetrics>()),
       registry_(options.limits, for_sessions(options.backend, backend_), threads_or_processors(options.backend.threads),
-                options.devices),
+                options.devices, metrics_),
       server_service_(access_.authorizer(), backend_, threads_or_processors(options.backend.threads), options.limits),
       session_service_(registry_, access_.authorizer()),
       surface_service_(registry_, access_.authorizer(), calls_) {
     require_protected("--listen", options.listen, options.tls.any(), options.insecure);
     require_unused_unix_socket(options.listen);
     int port = 0;
+    load_standard_services();
     grpc::ServerBuilder builder;
     // Otherwise a second server on the same port would silently get half of the calls.
     builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
@@ -91,11 +99,17 @@ Server::Server(const ServerOptions& options)
     builder.RegisterService(&server_service_);
     builder.RegisterService(&session_service_);
     builder.RegisterService(&surface_service_);
+    add_standard_services(builder, options.standard_services);
+    std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
+    interceptors.push_back(make_call_counter(metrics_));
+    builder.experimental().SetInterceptorCreators(std::move(interceptors));
     grpc_ = builder.BuildAndStart();
     if (!grpc_ || port == 0)
         throw InvalidInput(
             fmt::format("cannot listen on {}: the address is in use or not one of this machine", options.listen));
     address_ = with_port(options.listen, port);
+    set_serving(*grpc_, true);
+    if (!options.http.empty()) http_ = std::make_unique<HttpServer>(options.http, pages());
 }
 
 Server::~Server() {
@@ -105,12 +119,32 @@ Server::~Server() {
 void Server::shutdown() {
     if (!grpc_) return;
     const auto deadline = std::chrono::system_clock::now() + options_.shutdown_grace - canceling_time(options_.shutdown_grace);
+    draining_ = true;
+    set_serving(*grpc_, false);
     registry_.drain();
     // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection once
     // the client has confirmed the goodbye, or loses what the client has not read. Idle clients confirm late or never.
     calls_.wait_until_none(deadline);
     grpc_->Shutdown(std::min(deadline, std::chrono::system_clock::now() + goodbye_time));
     grpc_.reset();
+    http_.reset();
+}
+
+std::vector<prometheus::MetricFamily> Server::metrics() {
+    std::vector<prometheus::MetricFamily> all = metrics_->collect();
+    const auto add = [&all](std::vector<prometheus::MetricFamily> more) {
+        all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    };
+    add(session_gauges(registry_));
+    add(limit_gauges(options_.limits, backend_));
+    add(process_metrics());
+    return all;
+}
+
+Router Server::pages() {
+    Router router;
+    add_observation_pages(router, [this] { return metrics(); }, [this] { return !draining_; });
+    return router;
 }
 
 }  // namespace meniscus::server

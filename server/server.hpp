@@ -3,16 +3,20 @@
 
 #include <grpcpp/server.h>
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "meniscus/reconstructor.hpp"
+#include "metrics/prometheus_metrics.hpp"
 #include "rpc/services.hpp"
 #include "security/access.hpp"
+#include "rpc/standard_services.hpp"
 #include "sessions/limits.hpp"
 #include "sessions/session_registry.hpp"
+#include "web/http_server.hpp"
 
 namespace meniscus::server {
 
@@ -21,6 +25,8 @@ struct ServerOptions {
     TlsFiles tls;                            ///< none: no TLS
     std::string tokens;                      ///< file of tokens; empty: everyone may do everything
     bool insecure = false;                   ///< whether other machines may connect without TLS
+    std::string http;                        ///< "HOST:PORT" for metrics and probes, port 0 for a free one; empty: none
+    StandardServices standard_services;
     BackendOptions backend;                  ///< backend and threads; limits and devices have the rest
     std::vector<int> devices;                ///< the GPUs to use; empty: all that can reconstruct
     Limits limits;
@@ -41,6 +47,8 @@ public:
 
     /// As clients should give it, the port being the one chosen.
     const std::string& address() const noexcept { return address_; }
+    /// Of the HTTP port; empty if there is none.
+    std::string http_address() const { return http_ ? http_->address() : std::string(); }
     const BackendDescription& backend() const noexcept { return backend_; }
 
     /// Reads certificates and tokens again, for connections and calls from now on. What is wrong is logged and not used.
@@ -51,9 +59,13 @@ public:
     void shutdown();
 
 private:
+    std::vector<prometheus::MetricFamily> metrics();
+    Router pages();
+
     const ServerOptions options_;
     Access access_;
     const BackendDescription backend_;
+    const std::shared_ptr<PrometheusMetrics> metrics_;
     SessionRegistry registry_;
     ActiveCalls calls_;
     ServerServiceImpl server_service_;
@@ -61,6 +73,8 @@ private:
     SurfaceServiceImpl surface_service_;
     std::unique_ptr<grpc::Server> grpc_;
     std::string address_;
+    std::atomic<bool> draining_{false};
+    std::unique_ptr<HttpServer> http_;  ///< last: its pages read the rest
 };
 
 }  // namespace meniscus::server

@@ -235,6 +235,7 @@ private:
         } else if (upload_) {
             auto next = upload_->output.take();
             if (const auto* message = std::get_if<SharedMessage>(&next)) {
+                registry_.metrics().message_sent(Metrics::Receiver::simulator, (*message)->size());
                 outgoing_ = to_bytes(*message);
                 writing_ = true;
                 StartWrite(&outgoing_);

@@ -23,7 +23,8 @@ namespace {
 class WatchReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
                            public std::enable_shared_from_this<WatchReactor> {
 public:
-    WatchReactor(ActiveCalls& calls, const grpc::CallbackServerContext& context) : active_(calls), peer_(context.peer()) {}
+    WatchReactor(Metrics& metrics, ActiveCalls& calls, const grpc::CallbackServerContext& context)
+        : metrics_(metrics), active_(calls), peer_(context.peer()) {}
 
     void start(SessionRegistry& registry, const Authorizer& authorizer, const grpc::CallbackServerContext& context,
                const grpc::ByteBuffer& request) {
@@ -95,7 +96,9 @@ private:
                 finish(to_status(end->error));
         }
         if (!frame_) return;
-        outgoing_ = to_bytes(frame_->messages[sent_++]);
+        const SharedMessage& message = frame_->messages[sent_++];
+        metrics_.message_sent(Metrics::Receiver::watcher, message->size());
+        outgoing_ = to_bytes(message);
         writing_ = true;
         StartWrite(&outgoing_);
     }
@@ -105,6 +108,7 @@ private:
         Finish(status);
     }
 
+    Metrics& metrics_;
     const ActiveCalls::Token active_;
     const std::string peer_;
     std::shared_ptr<WatchReactor> self_;  ///< until OnDone
@@ -127,7 +131,7 @@ grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registr
                                                         ActiveCalls& calls,
                                                         grpc::CallbackServerContext& context,
                                                         const grpc::ByteBuffer& request) {
-    const auto reactor = std::make_shared<WatchReactor>(calls, context);
+    const auto reactor = std::make_shared<WatchReactor>(registry.metrics(), calls, context);
     reactor->start(registry, authorizer, context, request);
     return reactor.get();
 }

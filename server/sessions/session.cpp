@@ -7,18 +7,20 @@
 #include <utility>
 
 #include "meniscus/error.hpp"
+#include "meniscus/v1/surface_service.pb.h"
 #include "sessions/refusal.hpp"
 
 namespace meniscus::server {
 
 Session::Session(std::string id, const Settings& settings, const Limits& limits, Reconstruct reconstruct,
-                 std::shared_ptr<WorkerPool> workers, std::string owner)
+                 std::shared_ptr<WorkerPool> workers, std::string owner, std::shared_ptr<Metrics> metrics)
     : id_(std::move(id)),
       owner_(std::move(owner)),
       settings_(settings),
       limits_(limits),
       workers_(std::move(workers)),
       reconstruct_(std::move(reconstruct)),
+      metrics_(std::move(metrics)),
       inputs_([&] {
           const auto account = std::make_shared<MemoryAccount>(limits.bytes_per_session);
           return std::array<InputFrame, 2>{InputFrame(account), InputFrame(account)};
@@ -64,6 +66,7 @@ void Session::return_input(InputFrame& input) {
 }
 
 void Session::submit(std::shared_ptr<Upload> upload, InputFrame& input) {
+    metrics_->frame_received(input.bytes.size());
     received_.put({.upload = std::move(upload), .input = &input, .error = nullptr});
 }
 
@@ -206,12 +209,16 @@ void Session::perform(Encode& task) {
         published_.clear();
     }
     try {
-        if (upload.options.receive_meshes)
-            publish(upload.options.normal_bits,
-                    encode_frame(*newest_, upload.options.normal_bits, *workers_,
-                                 [&](const SharedMessage& message) { upload.output.push(message); }));
-        else
-            upload.output.push(encode_statistics(*newest_));
+        if (upload.options.receive_meshes) {
+            const auto encoded = encode_frame(*newest_, upload.options.normal_bits, *workers_,
+                                              [&](const SharedMessage& message) { upload.output.push(message); });
+            count_answer(encoded->messages.back());
+            publish(upload.options.normal_bits, encoded);
+        } else {
+            const SharedMessage statistics = encode_statistics(*newest_);
+            count_answer(statistics);
+            upload.output.push(statistics);
+        }
     } catch (...) {
         EndUpload end{.upload = task.upload, .error = std::current_exception()};
         perform(end);
@@ -240,6 +247,14 @@ void Session::perform(EndSession& task) {
 
 void Session::perform(EncodeForWatchers&) {
     encode_for_watchers();
+}
+
+void Session::count_answer(const SharedMessage& statistics) {
+    v1::StreamResponse response;
+    response.ParseFromString(*statistics);
+    metrics_->frame_finished(response.frame_statistics());
+    const std::lock_guard lock(mutex_);
+    state_.last_frame = std::move(*response.mutable_frame_statistics());
 }
 
 void Session::publish(int normal_bits, const std::shared_ptr<const EncodedFrame>& frame) {

@@ -17,6 +17,7 @@
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
+#include "metrics/metrics.hpp"
 #include "sessions/channel.hpp"
 #include "sessions/frame_encoder.hpp"
 #include "sessions/input_frame.hpp"
@@ -33,6 +34,7 @@ struct SessionState {
     std::uint32_t watchers = 0;
     std::uint64_t frames = 0;
     std::optional<std::uint64_t> last_frame_index;
+    std::optional<v1::FrameStatistics> last_frame;  ///< of the frame answered last
 };
 
 /// Replaces the mesh by the frame's surface; throws what Reconstructor::reconstruct throws.
@@ -47,7 +49,8 @@ class Session {
 public:
     /// owner: who made it; empty where nobody is asked.
     Session(std::string id, const Settings& settings, const Limits& limits, Reconstruct reconstruct,
-            std::shared_ptr<WorkerPool> workers, std::string owner = {});
+            std::shared_ptr<WorkerPool> workers, std::string owner = {},
+            std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>());
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -124,6 +127,8 @@ private:
     void perform(EndUpload& task);
     void perform(EndSession& task);
     void perform(EncodeForWatchers& task);
+    /// A frame was answered with these statistics.
+    void count_answer(const SharedMessage& statistics);
     void publish(int normal_bits, const std::shared_ptr<const EncodedFrame>& frame);
     /// Encodes the newest mesh for the watchers whose wishes nobody shared.
     void encode_for_watchers();
@@ -135,6 +140,7 @@ private:
     const Limits limits_;
     const std::shared_ptr<WorkerPool> workers_;
     const Reconstruct reconstruct_;
+    const std::shared_ptr<Metrics> metrics_;
 
     std::array<InputFrame, 2> inputs_;
     std::array<ReconstructedFrame, 2> frames_;

@@ -35,11 +35,12 @@ std::string place_name(const BackendOptions& backend) {
 }  // namespace
 
 SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
-                                 std::vector<int> devices)
+                                 std::vector<int> devices, std::shared_ptr<Metrics> metrics)
     : limits_(limits),
       backend_(with_memory_limits(backend, limits)),
       devices_(std::move(devices)),
-      workers_(std::make_shared<WorkerPool>(encoding_threads)) {
+      workers_(std::make_shared<WorkerPool>(encoding_threads)),
+      metrics_(std::move(metrics)) {
     joining_ = std::thread([this] {
         while (const auto session = removed_.take()) (*session)->join();
     });
@@ -64,7 +65,8 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
         throw LimitExceeded(
             fmt::format("{} sessions are open; the server holds at most {}", sessions_.size(), limits_.sessions));
     const BackendOptions backend = place_session();
-    auto session = std::make_shared<Session>(id, settings, limits_, reconstruct_with(settings, backend), workers_, owner);
+    auto session =
+        std::make_shared<Session>(id, settings, limits_, reconstruct_with(settings, backend), workers_, owner, metrics_);
     sessions_.emplace(id, session);
     spdlog::info("session {} created on {} ({} open)", id, place_name(backend), sessions_.size());
     return session;

@@ -20,7 +20,7 @@ class SessionRegistry {
 public:
     /// encoding_threads: at least 1. devices: the GPUs that sessions may use; all if none is named.
     SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
-                    std::vector<int> devices = {});
+                    std::vector<int> devices = {}, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>());
     ~SessionRegistry();
     SessionRegistry(const SessionRegistry&) = delete;
     SessionRegistry& operator=(const SessionRegistry&) = delete;
@@ -39,6 +39,7 @@ public:
     void drain();
 
     const Limits& limits() const noexcept { return limits_; }
+    Metrics& metrics() const noexcept { return *metrics_; }
 
 private:
     /// Forgets the sessions that ended by themselves. With the lock held.
@@ -50,6 +51,7 @@ private:
     const BackendOptions backend_;
     const std::vector<int> devices_;
     const std::shared_ptr<WorkerPool> workers_;
+    const std::shared_ptr<Metrics> metrics_;
 
     std::mutex mutex_;
     std::map<std::string, std::shared_ptr<Session>> sessions_;

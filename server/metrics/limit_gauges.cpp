@@ -1,0 +1,31 @@
+#include "metrics/limit_gauges.hpp"
+
+#include <string>
+
+#include "metrics/gauge_family.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+prometheus::MetricFamily build_info(const BackendDescription& backend) {
+    prometheus::MetricFamily family = gauge("meniscus_build_info", "Always 1; its labels tell what runs.", 1);
+    family.metric.front().label = {{"version", std::string(version())}, {"backend", backend.name}, {"device", backend.device}};
+    return family;
+}
+
+}  // namespace
+
+std::vector<prometheus::MetricFamily> limit_gauges(const Limits& limits, const BackendDescription& backend) {
+    const auto number = [](auto limit) { return static_cast<double>(limit); };
+    return {build_info(backend),
+            gauges("meniscus_limit", "What the server refuses to exceed, in the unit of the name; 0: no limit.", "name",
+                   {{"sessions", number(limits.sessions)},
+                    {"watchers_per_session", number(limits.watchers_per_session)},
+                    {"particles_per_frame", number(limits.particles_per_frame)},
+                    {"bytes_per_session", number(limits.bytes_per_session)},
+                    {"device_bytes_per_session", number(limits.device_bytes_per_session)},
+                    {"chunk_bytes", number(chunk_bytes)}})};
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,15 @@
+// What does not change while the server runs: its limits and what it is.
+#pragma once
+
+#include <prometheus/metric_family.h>
+
+#include <vector>
+
+#include "meniscus/reconstructor.hpp"
+#include "sessions/limits.hpp"
+
+namespace meniscus::server {
+
+std::vector<prometheus::MetricFamily> limit_gauges(const Limits& limits, const BackendDescription& backend);
+
+}  // namespace meniscus::server

@@ -1,0 +1,37 @@
+// What the service counts, as those see it who report.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "meniscus/v1/mesh.pb.h"
+
+namespace meniscus::server {
+
+/// Called once per frame, message or call, from any thread. This one counts nothing.
+class Metrics {
+public:
+    enum class Drop : std::uint8_t { replaced, not_nth };
+    enum class Receiver : std::uint8_t { simulator, watcher };
+
+    Metrics() = default;
+    virtual ~Metrics() = default;
+    Metrics(const Metrics&) = delete;
+    Metrics& operator=(const Metrics&) = delete;
+
+    /// A frame is there to its last byte.
+    virtual void frame_received(std::uint64_t /*bytes*/) {}
+    virtual void frame_dropped(Drop /*reason*/) {}
+    /// Reconstructed, and encoded for the simulator if it wants meshes.
+    virtual void frame_finished(const v1::FrameStatistics& /*statistics*/) {}
+    /// Bytes of one message. Takes no lock.
+    virtual void message_sent(Receiver /*to*/, std::uint64_t /*bytes*/) {}
+    /// A watcher had not taken the frame before a newer one replaced it.
+    virtual void frame_skipped() {}
+    /// A watcher has taken the end of a frame; seconds since the last byte of that frame had come in.
+    virtual void watcher_lag(double /*seconds*/) {}
+    /// A call has ended; the status code by its name in gRPC, as "INVALID_ARGUMENT".
+    virtual void call_ended(std::string_view /*code*/) {}
+};
+
+}  // namespace meniscus::server

@@ -1,0 +1,115 @@
+#include "metrics/prometheus_metrics.hpp"
+
+#include <prometheus/counter.h>
+#include <prometheus/family.h>
+#include <prometheus/histogram.h>
+#include <prometheus/registry.h>
+
+#include <array>
+#include <string>
+
+#include "conversion/statistics_conversion.hpp"
+#include "meniscus/statistics.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+/// Three per decade, from the stages of a small frame to a frame of many millions of particles.
+const prometheus::Histogram::BucketBoundaries seconds_buckets{0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05,
+                                                              0.1,    0.25,    0.5,    1.0,   2.5,    5.0,   10.0, 25.0,  50.0};
+
+double number(std::uint64_t count) {
+    return static_cast<double>(count);
+}
+
+}  // namespace
+
+struct PrometheusMetrics::Instruments {
+    prometheus::Counter& counter(const char* name, const char* help, const prometheus::Labels& labels = {}) {
+        return prometheus::BuildCounter().Name(name).Help(help).Register(registry).Add(labels);
+    }
+    prometheus::Histogram& seconds(const char* name, const char* help, const prometheus::Labels& labels = {}) {
+        return prometheus::BuildHistogram().Name(name).Help(help).Register(registry).Add(labels, seconds_buckets);
+    }
+    prometheus::Histogram& stage(std::string_view name) {
+        return seconds("meniscus_frame_stage_seconds", "Time of one step of a frame.", {{"stage", std::string(name)}});
+    }
+    prometheus::Counter& dropped(const char* reason) {
+        return counter("meniscus_frames_dropped_total", "Frames dropped by the policy of their stream.", {{"reason", reason}});
+    }
+    prometheus::Counter& sent(const char* to) {
+        return counter("meniscus_sent_bytes_total", "Bytes of the messages of Stream and Watch.", {{"to", to}});
+    }
+
+    prometheus::Registry registry;
+
+    prometheus::Counter& frames = counter("meniscus_frames_total", "Frames reconstructed and answered.");
+    prometheus::Counter& particles = counter("meniscus_particles_total", "Particles of those frames.");
+    prometheus::Counter& triangles = counter("meniscus_triangles_total", "Triangles of their meshes.");
+    prometheus::Counter& upload_bytes = counter("meniscus_upload_bytes_total", "Particle bytes of frames received whole.");
+    prometheus::Counter& mesh_bytes = counter("meniscus_mesh_bytes_total", "Bytes of encoded bricks, each encoding counted once.");
+    std::array<prometheus::Counter*, 2> drops{&dropped("replaced"), &dropped("not_nth")};
+    std::array<prometheus::Counter*, 2> sent_bytes{&sent("simulator"), &sent("watcher")};
+    prometheus::Counter& skipped =
+        counter("meniscus_watcher_frames_skipped_total", "Frames that a watcher had not taken before a newer one came.");
+
+    std::array<prometheus::Histogram*, stage_count> stages = [this] {
+        std::array<prometheus::Histogram*, stage_count> all{};
+        for (std::size_t i = 0; i < stage_count; ++i) all[i] = &stage(stage_names[i]);
+        return all;
+    }();
+    prometheus::Histogram& encode = stage("encode");
+    prometheus::Histogram& reconstruction = seconds("meniscus_frame_reconstruction_seconds", "All steps of a frame but its encoding.");
+    prometheus::Histogram& latency = seconds("meniscus_frame_latency_seconds", "From a frame's last byte to the end of its encoding.");
+    prometheus::Histogram& lag =
+        seconds("meniscus_watcher_lag_seconds", "From a frame's last byte until a watcher has taken the end of its mesh.");
+
+    prometheus::Family<prometheus::Counter>& calls =
+        prometheus::BuildCounter().Name("meniscus_calls_total").Help("gRPC calls that have ended, by status code.").Register(registry);
+};
+
+PrometheusMetrics::PrometheusMetrics() : instruments_(std::make_unique<Instruments>()) {}
+PrometheusMetrics::~PrometheusMetrics() = default;
+
+void PrometheusMetrics::frame_received(std::uint64_t bytes) {
+    instruments_->upload_bytes.Increment(number(bytes));
+}
+
+void PrometheusMetrics::frame_dropped(Drop reason) {
+    instruments_->drops[static_cast<std::size_t>(reason)]->Increment();
+}
+
+void PrometheusMetrics::frame_finished(const v1::FrameStatistics& statistics) {
+    instruments_->frames.Increment();
+    instruments_->particles.Increment(number(statistics.particles()));
+    instruments_->triangles.Increment(number(statistics.triangles()));
+    instruments_->mesh_bytes.Increment(number(statistics.encoded_bytes()));
+    const Statistics reconstruction = conversion::from_wire(statistics);
+    for (std::size_t i = 0; i < stage_count; ++i) instruments_->stages[i]->Observe(reconstruction.stage_seconds[i]);
+    instruments_->reconstruction.Observe(reconstruction.total_seconds);
+    if (statistics.encoded_bytes() != 0) instruments_->encode.Observe(statistics.encode_seconds());
+    instruments_->latency.Observe(statistics.latency_seconds());
+}
+
+void PrometheusMetrics::message_sent(Receiver to, std::uint64_t bytes) {
+    instruments_->sent_bytes[static_cast<std::size_t>(to)]->Increment(number(bytes));
+}
+
+void PrometheusMetrics::frame_skipped() {
+    instruments_->skipped.Increment();
+}
+
+void PrometheusMetrics::watcher_lag(double seconds) {
+    instruments_->lag.Observe(seconds);
+}
+
+void PrometheusMetrics::call_ended(std::string_view code) {
+    instruments_->calls.Add({{"code", std::string(code)}}).Increment();
+}
+
+std::vector<prometheus::MetricFamily> PrometheusMetrics::collect() const {
+    return instruments_->registry.Collect();
+}
+
+}  // namespace meniscus::server

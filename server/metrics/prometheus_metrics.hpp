@@ -1,0 +1,34 @@
+// What the service counts, for Prometheus.
+#pragma once
+
+#include <prometheus/metric_family.h>
+
+#include <memory>
+#include <vector>
+
+#include "metrics/metrics.hpp"
+
+namespace meniscus::server {
+
+class PrometheusMetrics final : public Metrics {
+public:
+    PrometheusMetrics();
+    ~PrometheusMetrics() override;
+
+    void frame_received(std::uint64_t bytes) override;
+    void frame_dropped(Drop reason) override;
+    void frame_finished(const v1::FrameStatistics& statistics) override;
+    void message_sent(Receiver to, std::uint64_t bytes) override;
+    void frame_skipped() override;
+    void watcher_lag(double seconds) override;
+    void call_ended(std::string_view code) override;
+
+    /// All that was counted so far.
+    std::vector<prometheus::MetricFamily> collect() const;
+
+private:
+    struct Instruments;
+    const std::unique_ptr<Instruments> instruments_;
+};
+
+}  // namespace meniscus::server

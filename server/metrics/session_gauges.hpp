@@ -1,0 +1,15 @@
+// The state of the sessions, as gauges.
+#pragma once
+
+#include <prometheus/metric_family.h>
+
+#include <vector>
+
+#include "sessions/session_registry.hpp"
+
+namespace meniscus::server {
+
+/// Of this moment.
+std::vector<prometheus::MetricFamily> session_gauges(SessionRegistry& registry);
+
+}  // namespace meniscus::server

@@ -1,0 +1,18 @@
+// What an HTTP client cannot exceed.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+namespace meniscus::server {
+
+struct HttpLimits {
+    /// Beyond it, a new connection takes the place of the one that has been silent longest.
+    std::size_t connections = 64;
+    std::uint32_t header_bytes = 8192;  ///< of the request line, and of all fields
+    /// For a whole request to come, and for an answer to be taken.
+    std::chrono::milliseconds patience = std::chrono::seconds(30);
+};
+
+}  // namespace meniscus::server

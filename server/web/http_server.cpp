@@ -1,0 +1,113 @@
+#include "web/http_server.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/post.hpp>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "meniscus/error.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+using boost::asio::ip::tcp;
+
+/// After an accept that failed, for want of descriptors most likely.
+constexpr auto accept_pause = std::chrono::milliseconds(100);
+
+/// Of "HOST:PORT" or "[IPv6]:PORT".
+tcp::endpoint resolve(boost::asio::io_context& context, const std::string& listen) {
+    const std::size_t colon = listen.rfind(':');
+    if (colon == std::string::npos || colon == 0 || colon + 1 == listen.size())
+        throw InvalidInput(fmt::format("cannot serve HTTP on {}: give HOST:PORT", listen));
+    std::string host = listen.substr(0, colon);
+    if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+    boost::system::error_code error;
+    const auto found = tcp::resolver(context).resolve(host, listen.substr(colon + 1), tcp::resolver::passive, error);
+    if (error) throw InvalidInput(fmt::format("cannot serve HTTP on {}: {}", listen, error.message()));
+    return *found.begin();
+}
+
+}  // namespace
+
+HttpServer::HttpServer(const std::string& listen, Router router, const HttpLimits& limits)
+    : router_(std::move(router)), limits_(limits) {
+    const tcp::endpoint endpoint = resolve(context_, listen);
+    try {
+        if (!endpoint.address().is_loopback())
+            throw InvalidInput(fmt::format("cannot serve HTTP on {}: other machines could read it; give a loopback address", listen));
+        acceptor_.open(endpoint.protocol());
+        acceptor_.set_option(tcp::acceptor::reuse_address(true));
+        acceptor_.bind(endpoint);
+        acceptor_.listen();
+    } catch (const boost::system::system_error& error) {
+        throw InvalidInput(fmt::format("cannot serve HTTP on {}: {}", listen, error.code().message()));
+    }
+    address_ = fmt::format("{}:{}", listen.substr(0, listen.rfind(':')), acceptor_.local_endpoint().port());
+    accept();
+    thread_ = std::thread([this] { serve(); });
+}
+
+HttpServer::~HttpServer() {
+    boost::asio::post(context_, [this] {
+        acceptor_.close();
+        retry_.cancel();
+        for (HttpConnection* connection : connections_) connection->close();
+    });
+    thread_.join();
+}
+
+void HttpServer::serve() {
+    for (;;) {
+        try {
+            context_.run();
+            return;
+        } catch (const std::exception& error) {  // of one connection, which is gone with it
+            spdlog::error("HTTP: internal error: {}", error.what());
+        }
+    }
+}
+
+void HttpServer::accept() {
+    acceptor_.async_accept(
+        [this](boost::beast::error_code error, tcp::socket socket) { accepted(error, std::move(socket)); });
+}
+
+void HttpServer::accepted(boost::beast::error_code error, tcp::socket socket) {
+    if (!acceptor_.is_open()) return;
+    if (error) {
+        spdlog::warn("an HTTP connection was not accepted: {}", error.message());
+        retry_.expires_after(accept_pause);
+        retry_.async_wait([this](boost::beast::error_code canceled) {
+            if (!canceled && acceptor_.is_open()) accept();
+        });
+        return;
+    }
+    welcome(std::move(socket));
+    accept();
+}
+
+void HttpServer::welcome(tcp::socket socket) {
+    if (connections_.size() >= limits_.connections) {
+        HttpConnection* silent = connections_.front();
+        connections_.pop_front();
+        silent->close();
+    }
+    const auto connection = std::make_shared<HttpConnection>(
+        std::move(socket), router_, limits_,
+        HttpConnection::Observer{
+            .answered =
+                [this](HttpConnection& active) {
+                    connections_.remove(&active);
+                    connections_.push_back(&active);
+                },
+            .gone = [this](HttpConnection& ended) { connections_.remove(&ended); }});
+    connections_.push_back(connection.get());
+    connection->start();
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,17 @@
+// The pages by which a server is watched: /metrics, /healthz, /readyz.
+#pragma once
+
+#include <prometheus/metric_family.h>
+
+#include <functional>
+#include <vector>
+
+#include "web/router.hpp"
+
+namespace meniscus::server {
+
+/// collect: all metrics of this moment. ready: false once the server takes no new work.
+void add_observation_pages(Router& router, std::function<std::vector<prometheus::MetricFamily>()> collect,
+                           std::function<bool()> ready);
+
+}  // namespace meniscus::server
