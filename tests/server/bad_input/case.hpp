@@ -48,7 +48,7 @@ struct CaseSession {
 };
 
 inline client::Connection connect(const RunningServer& running) {
-    return {running.server.address(), std::chrono::seconds(10)};
+    return client::Connection(running.server.address());
 }
 
 /// Of a stream of a new session, after a good frame, that must be answered.

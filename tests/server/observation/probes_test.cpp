@@ -46,7 +46,7 @@ grpc::Status call(const client::Connection& connection, const std::string& metho
 
 TEST(Probes, HealthIsKnownForEachServiceAndForTheServer) {
     const RunningServer running;
-    const client::Connection connection(running.server.address(), std::chrono::seconds(10));
+    const client::Connection connection(running.server.address());
     const auto stub = Health::NewStub(connection.channel);
     for (const char* service : {"", "meniscus.v1.ServerService", "meniscus.v1.SessionService", "meniscus.v1.SurfaceService"}) {
         grpc::ClientContext context;
@@ -65,7 +65,7 @@ TEST(Probes, TellOfDrainingWhileTheServerStillAnswers) {
     RunningServer running(options);
     const std::string http = running.server.http_address();
     EXPECT_EQ(http_get(http, "/readyz").status, 200);
-    const client::Connection connection(running.server.address(), std::chrono::seconds(10));
+    const client::Connection connection(running.server.address());
     const auto stub = Health::NewStub(connection.channel);
     grpc::ClientContext context;
     const auto watch = stub->Watch(&context, about("meniscus.v1.SurfaceService"));
@@ -100,8 +100,8 @@ TEST(Probes, ReflectionAndChannelzAnswerOnlyIfChosen) {
     options.standard_services = {.reflection = true, .channelz = true};
     const RunningServer open(options);
     const RunningServer closed;  // beside it in one process
-    const client::Connection to_open(open.server.address(), std::chrono::seconds(10));
-    const client::Connection to_closed(closed.server.address(), std::chrono::seconds(10));
+    const client::Connection to_open(open.server.address());
+    const client::Connection to_closed(closed.server.address());
     const std::string reflection = "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo";
     const std::string channelz = "/grpc.channelz.v1.Channelz/GetServers";
     std::string response;
@@ -120,7 +120,7 @@ TEST(Probes, ReflectionCallsThatStayOpenAreBounded) {
     ServerOptions options = test_options();
     options.standard_services.reflection = true;
     RunningServer running(options);
-    const client::Connection connection(running.server.address(), std::chrono::seconds(10));
+    const client::Connection connection(running.server.address());
     grpc::GenericStub stub(connection.channel);
     grpc::CompletionQueue queue;
     struct Call {
