@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "coding/draco_header.hpp"
 #include "coding/triangle_levels.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/error.hpp"
@@ -20,16 +21,35 @@ constexpr std::size_t cells_per_brick = std::size_t{brick_base_cells} * brick_ba
                        std::to_string(brick.coordinate[2]) + "): " + what);
 }
 
-std::unique_ptr<draco::Mesh> decode_draco(const EncodedBrick& brick) {
-    // A brick's lattice has room for at most so many triangles and vertices: refused before memory is asked for.
+/// Draco allocates what its bytes claim before it finds that they do not hold it: their claims are compared first, with
+/// what was announced and with what so many bytes can say.
+void require_plausible(const EncodedBrick& brick) {
+    // A brick's lattice has room for at most so many triangles and vertices.
     constexpr std::uint32_t most = 16U * brick_cells * brick_cells * brick_cells;
     if (brick.triangles > most || brick.vertices > most)
         refuse(brick, "announces " + std::to_string(brick.triangles) + " triangles and " + std::to_string(brick.vertices) +
                           " vertices, a brick has at most " + std::to_string(most));
+    // The smoothest surface takes an eighth of a byte per triangle at the speed that is in use.
+    constexpr std::size_t most_per_byte = 64;
+    if (brick.triangles / most_per_byte > brick.draco.size())
+        refuse(brick, "announces " + std::to_string(brick.triangles) + " triangles in " + std::to_string(brick.draco.size()) +
+                          " bytes, more than " + std::to_string(most_per_byte) + " per byte");
+    const auto header = read_draco_header(brick.draco);
+    if (!header) refuse(brick, "its bytes are not a Draco mesh as bricks have them");
+    if (header->faces != brick.triangles)
+        refuse(brick, "has " + std::to_string(header->faces) + " triangles, announced were " + std::to_string(brick.triangles));
+    if (header->vertices > 3 * header->faces || header->symbols > header->faces || header->split_symbols > header->symbols ||
+        header->attribute_connectivities > 1)
+        refuse(brick, "its Draco mesh has " + std::to_string(header->vertices) + " vertices, " + std::to_string(header->symbols) +
+                          " symbols, " + std::to_string(header->split_symbols) + " splits and " +
+                          std::to_string(header->attribute_connectivities) + " more connectivities, which do not fit " +
+                          std::to_string(header->faces) + " triangles");
+}
+
+std::unique_ptr<draco::Mesh> decode_draco(const EncodedBrick& brick) {
+    require_plausible(brick);
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(brick.draco.data()), brick.draco.size());
-    const auto type = draco::Decoder::GetEncodedGeometryType(&buffer);
-    if (!type.ok() || type.value() != draco::TRIANGULAR_MESH) refuse(brick, "its bytes are not a Draco mesh");
     draco::Decoder decoder;
     auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
     if (!mesh.ok()) refuse(brick, "its bytes are not a Draco mesh (" + mesh.status().error_msg_string() + ")");

@@ -114,6 +114,48 @@ TEST(BrickCoding, RefusesADamagedBrickOrDecodesSomeMesh) {
     EXPECT_THROW(decode_brick(whole, 40), InvalidInput);
 }
 
+/// The Draco bytes of a brick, with other counts in their header.
+EncodedBrick with_counts(EncodedBrick brick, std::uint32_t vertices, std::uint32_t faces, std::uint32_t symbols) {
+    constexpr std::size_t counts_at = 12;
+    std::vector<std::byte> draco(brick.draco.begin(), brick.draco.begin() + counts_at);
+    std::size_t rest = counts_at;
+    const auto replace = [&](std::uint32_t value) {
+        while (std::to_integer<unsigned>(brick.draco.at(rest++)) >= 0x80U) {
+        }
+        for (; value >= 0x80U; value >>= 7) draco.push_back(static_cast<std::byte>((value & 0x7FU) | 0x80U));
+        draco.push_back(static_cast<std::byte>(value));
+    };
+    replace(vertices);
+    replace(faces);
+    draco.push_back(brick.draco.at(rest++));
+    replace(symbols);
+    draco.insert(draco.end(), brick.draco.begin() + static_cast<std::ptrdiff_t>(rest), brick.draco.end());
+    brick.draco = draco;
+    return brick;
+}
+
+TEST(BrickCoding, RefusesCountsBeforeDracoAllocatesByThem) {
+    const Mesh mesh = test::reconstruct(test::default_settings(), test::splash(63, 6).frame());
+    const EncodedBrick whole = encode_brick(mesh, 0);
+    const auto refusal = [&](const EncodedBrick& brick) -> std::string {
+        try {
+            decode_brick(brick, mesh.offset_bits);
+        } catch (const InvalidInput& error) {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_EQ(refusal(whole), "");
+    // Draco would ask for 30 GB.
+    constexpr std::uint32_t many = 1'000'000'000;
+    EXPECT_NE(refusal(with_counts(whole, many / 2, many, many)).find("has 1000000000 triangles, announced were"), std::string::npos);
+    EXPECT_NE(refusal(with_counts(whole, many, whole.triangles, whole.triangles)).find("1000000000 vertices"), std::string::npos);
+    EXPECT_NE(refusal(with_counts(whole, whole.vertices, whole.triangles, many)).find("1000000000 symbols"), std::string::npos);
+    EncodedBrick announced = with_counts(whole, 2'000'000, 4'000'000, 4'000'000);
+    announced.triangles = 4'000'000;
+    EXPECT_NE(refusal(announced).find("more than 64 per byte"), std::string::npos);
+}
+
 TEST(BrickCoding, RefusesABrickThatOccursTwice) {
     const Mesh mesh = test::reconstruct(test::default_settings(), test::splash(64, 6).frame());
     const DecodedBrick brick = decode_brick(encode_brick(mesh, 0), mesh.offset_bits);
