@@ -105,6 +105,14 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.add_option("--shutdown-grace", grace_seconds,
                    "Seconds that clients get after SIGTERM to take the frames they are owed")
         ->check(CLI::Range(0.0, 3600.0));
+    app.add_option("--record", server.recording.directory,
+                   "Folder to keep every session's particles and meshes in; see meniscus recordings, replay, convert")
+        ->type_name("DIR")
+        ->default_str("");
+    app.add_option("--record-limit", server.recording.limit,
+                   "Bytes of all recordings in that folder, as 100G; 0: no limit. Nothing is deleted: recording stops")
+        ->transform(CLI::AsSizeValue(false))
+        ->type_name("BYTES");
     app.add_option_function<std::string>(
            "--log-level", [&](const std::string& name) { command_line.log_level = log_level_by_name(name); },
            "debug, info, warning, error or off")

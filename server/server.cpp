@@ -15,6 +15,7 @@
 #include "metrics/limit_gauges.hpp"
 #include "metrics/process_metrics.hpp"
 #include "metrics/session_gauges.hpp"
+#include "recording/session_recording.hpp"
 #include "rpc/call_counter.hpp"
 #include "web/observation_pages.hpp"
 
@@ -52,6 +53,13 @@ BackendOptions for_sessions(BackendOptions backend, const BackendDescription& fo
     return backend;
 }
 
+Observe record_with(RecordingWriter* recordings) {
+    if (recordings == nullptr) return nullptr;
+    return [recordings](const std::string& id, const Settings& settings) {
+        return std::make_shared<SessionRecording>(*recordings, id, settings);
+    };
+}
+
 std::string with_port(const std::string& listen, int port) {
     if (listen.starts_with("unix:")) return listen;
     return fmt::format("{}:{}", listen.substr(0, listen.rfind(':')), port);
@@ -82,9 +90,10 @@ Server::Server(const ServerOptions& options)
     : options_(options),
       access_(options.tls, options.tokens),
       backend_(describe(options)),
+      recordings_(options.recording.directory.empty() ? nullptr : std::make_unique<RecordingWriter>(options.recording)),
       metrics_(std::make_shared<PrometheusMetrics>()),
       registry_(options.limits, for_sessions(options.backend, backend_), threads_or_processors(options.backend.threads),
-                options.devices, metrics_),
+                options.devices, metrics_, record_with(recordings_.get())),
       server_service_(access_.authorizer(), backend_, threads_or_processors(options.backend.threads), options.limits),
       session_service_(registry_, access_.authorizer()),
       surface_service_(registry_, access_.authorizer(), calls_) {

@@ -11,6 +11,7 @@
 
 #include "meniscus/reconstructor.hpp"
 #include "metrics/prometheus_metrics.hpp"
+#include "recording/recording_writer.hpp"
 #include "rpc/services.hpp"
 #include "security/access.hpp"
 #include "rpc/standard_services.hpp"
@@ -30,6 +31,7 @@ struct ServerOptions {
     BackendOptions backend;                  ///< backend and threads; limits and devices have the rest
     std::vector<int> devices;                ///< the GPUs to use; empty: all that can reconstruct
     Limits limits;
+    RecordingOptions recording;
     /// How long shutdown() waits for clients to take what they are owed.
     std::chrono::milliseconds shutdown_grace = std::chrono::seconds(10);
 };
@@ -50,6 +52,8 @@ public:
     /// Of the HTTP port; empty if there is none.
     std::string http_address() const { return http_ ? http_->address() : std::string(); }
     const BackendDescription& backend() const noexcept { return backend_; }
+    /// None if nothing is recorded.
+    const RecordingWriter* recordings() const noexcept { return recordings_.get(); }
 
     /// Reads certificates and tokens again, for connections and calls from now on. What is wrong is logged and not used.
     void reload() { access_.reload(); }
@@ -66,6 +70,7 @@ private:
     Access access_;
     const BackendDescription backend_;
     const std::shared_ptr<PrometheusMetrics> metrics_;
+    const std::unique_ptr<RecordingWriter> recordings_;  ///< none: nothing is recorded
     SessionRegistry registry_;
     ActiveCalls calls_;
     ServerServiceImpl server_service_;

@@ -13,7 +13,8 @@
 namespace meniscus::server {
 
 Session::Session(std::string id, const Settings& settings, const Limits& limits, Reconstruct reconstruct,
-                 std::shared_ptr<WorkerPool> workers, std::string owner, std::shared_ptr<Metrics> metrics)
+                 std::shared_ptr<WorkerPool> workers, std::string owner, std::shared_ptr<Metrics> metrics,
+                 std::shared_ptr<SessionObserver> observer)
     : id_(std::move(id)),
       owner_(std::move(owner)),
       settings_(settings),
@@ -21,6 +22,7 @@ Session::Session(std::string id, const Settings& settings, const Limits& limits,
       workers_(std::move(workers)),
       reconstruct_(std::move(reconstruct)),
       metrics_(std::move(metrics)),
+      observer_(std::move(observer)),
       inputs_([&] {
           const auto account = std::make_shared<MemoryAccount>(limits.bytes_per_session);
           return std::array<InputFrame, 2>{InputFrame(account), InputFrame(account)};
@@ -173,6 +175,7 @@ void Session::reconstruct_frames() {
             tasks_.put(EndUpload{.upload = failed, .error = std::current_exception()});
             continue;
         }
+        if (observer_) observer_->reconstructed(input);
         return_input(input);
         tasks_.put(Encode{.upload = std::move(received->upload), .frame = *frame});
     }
@@ -224,6 +227,7 @@ void Session::perform(Encode& task) {
         perform(end);
     }
     encode_for_watchers();
+    if (observer_) encode_for_observer();
 }
 
 void Session::perform(EndUpload& task) {
@@ -277,6 +281,22 @@ void Session::encode_for_watchers() {
         spdlog::error("session {}: frame {} could not be encoded for its watchers, who keep the one before: {}", id_,
                       newest_->index, error.what());
     }
+}
+
+void Session::encode_for_observer() {
+    constexpr int bits = SessionObserver::normal_bits;
+    std::shared_ptr<const EncodedFrame> frame;
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto found = published_.find(bits); found != published_.end()) frame = found->second;
+    }
+    try {
+        if (!frame) publish(bits, frame = encode_frame(*newest_, bits, *workers_, nullptr));
+    } catch (const std::exception& error) {
+        spdlog::error("session {}: frame {} could not be encoded for its recording: {}", id_, newest_->index, error.what());
+        return;
+    }
+    observer_->encoded(std::move(frame));
 }
 
 std::optional<int> Session::unpublished_normal_bits() const {

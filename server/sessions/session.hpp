@@ -23,6 +23,7 @@
 #include "sessions/input_frame.hpp"
 #include "sessions/latest_frame.hpp"
 #include "sessions/limits.hpp"
+#include "sessions/session_observer.hpp"
 #include "sessions/slot_pool.hpp"
 #include "sessions/upload.hpp"
 #include "sessions/worker_pool.hpp"
@@ -47,10 +48,11 @@ using Reconstruct = std::function<Statistics(const ParticleFrame& frame, Mesh& m
 /// join() must have returned before the last reference goes, unless no other thread has one.
 class Session {
 public:
-    /// owner: who made it; empty where nobody is asked.
+    /// owner: who made it; empty where nobody is asked. observer: may be none.
     Session(std::string id, const Settings& settings, const Limits& limits, Reconstruct reconstruct,
             std::shared_ptr<WorkerPool> workers, std::string owner = {},
-            std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>());
+            std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>(),
+            std::shared_ptr<SessionObserver> observer = nullptr);
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -132,6 +134,7 @@ private:
     void publish(int normal_bits, const std::shared_ptr<const EncodedFrame>& frame);
     /// Encodes the newest mesh for the watchers whose wishes nobody shared.
     void encode_for_watchers();
+    void encode_for_observer();
     std::optional<int> unpublished_normal_bits() const;
 
     const std::string id_;
@@ -141,6 +144,7 @@ private:
     const std::shared_ptr<WorkerPool> workers_;
     const Reconstruct reconstruct_;
     const std::shared_ptr<Metrics> metrics_;
+    const std::shared_ptr<SessionObserver> observer_;
 
     std::array<InputFrame, 2> inputs_;
     std::array<ReconstructedFrame, 2> frames_;

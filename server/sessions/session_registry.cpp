@@ -35,10 +35,11 @@ std::string place_name(const BackendOptions& backend) {
 }  // namespace
 
 SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
-                                 std::vector<int> devices, std::shared_ptr<Metrics> metrics)
+                                 std::vector<int> devices, std::shared_ptr<Metrics> metrics, Observe observe)
     : limits_(limits),
       backend_(with_memory_limits(backend, limits)),
       devices_(std::move(devices)),
+      observe_(std::move(observe)),
       workers_(std::make_shared<WorkerPool>(encoding_threads)),
       metrics_(std::move(metrics)) {
     joining_ = std::thread([this] {
@@ -65,8 +66,8 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
         throw LimitExceeded(
             fmt::format("{} sessions are open; the server holds at most {}", sessions_.size(), limits_.sessions));
     const BackendOptions backend = place_session();
-    auto session =
-        std::make_shared<Session>(id, settings, limits_, reconstruct_with(settings, backend), workers_, owner, metrics_);
+    auto session = std::make_shared<Session>(id, settings, limits_, reconstruct_with(settings, backend), workers_, owner,
+                                             metrics_, observe_ ? observe_(id, settings) : nullptr);
     sessions_.emplace(id, session);
     spdlog::info("session {} created on {} ({} open)", id, place_name(backend), sessions_.size());
     return session;

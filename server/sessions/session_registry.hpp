@@ -1,6 +1,7 @@
 // All sessions of a server, by their ids.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -16,11 +17,15 @@
 
 namespace meniscus::server {
 
+/// Makes the observer of a new session.
+using Observe = std::function<std::shared_ptr<SessionObserver>(const std::string& id, const Settings& settings)>;
+
 class SessionRegistry {
 public:
-    /// encoding_threads: at least 1. devices: the GPUs that sessions may use; all if none is named.
+    /// encoding_threads: at least 1. devices: the GPUs that sessions may use; all if none is named. observe: may be empty.
     SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
-                    std::vector<int> devices = {}, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>());
+                    std::vector<int> devices = {}, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>(),
+                    Observe observe = nullptr);
     ~SessionRegistry();
     SessionRegistry(const SessionRegistry&) = delete;
     SessionRegistry& operator=(const SessionRegistry&) = delete;
@@ -50,6 +55,7 @@ private:
     const Limits limits_;
     const BackendOptions backend_;
     const std::vector<int> devices_;
+    const Observe observe_;
     const std::shared_ptr<WorkerPool> workers_;
     const std::shared_ptr<Metrics> metrics_;
 

@@ -1,0 +1,109 @@
+#include "recording/recording_entries.hpp"
+
+#include <cstddef>
+#include <string_view>
+
+#include "conversion/recording_format.hpp"
+#include "conversion/settings_conversion.hpp"
+#include "meniscus/v1/recording.pb.h"
+#include "meniscus/v1/surface_service.pb.h"
+#include "sessions/limits.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+void append_varint(std::string& out, std::uint64_t value) {
+    for (; value >= 0x80; value >>= 7U) out += static_cast<char>((value & 0x7fU) | 0x80U);
+    out += static_cast<char>(value);
+}
+
+void append_delimited(std::string& out, const google::protobuf::MessageLite& message) {
+    append_varint(out, message.ByteSizeLong());
+    message.AppendToString(&out);
+}
+
+/// A field that holds `size` bytes, up to them.
+std::string field_before(int number, std::size_t size) {
+    constexpr std::uint64_t length_delimited = 2;
+    std::string out;
+    append_varint(out, static_cast<std::uint64_t>(number) << 3U | length_delimited);
+    append_varint(out, size);
+    return out;
+}
+
+/// A StreamRequest with this chunk, written by hand: its bytes are copied once.
+void append_chunk(std::string& out, std::string_view data) {
+    const std::string inner = field_before(v1::FrameChunk::kDataFieldNumber, data.size());
+    const std::string outer = field_before(v1::StreamRequest::kFrameChunkFieldNumber, inner.size() + data.size());
+    append_varint(out, outer.size() + inner.size() + data.size());
+    out.append(outer).append(inner).append(data);
+}
+
+v1::StreamRequest begin_message(const InputFrame& frame) {
+    v1::StreamRequest request;
+    v1::FrameBegin& begin = *request.mutable_frame_begin();
+    begin.set_frame_index(frame.index);
+    begin.set_simulation_time(frame.simulation_time);
+    begin.set_particle_count(frame.particle_count);
+    begin.set_has_levels(frame.has_levels);
+    begin.set_encoding(frame.quantized ? v1::POSITION_ENCODING_UINT16 : v1::POSITION_ENCODING_FLOAT32);
+    if (frame.quantized) *begin.mutable_quantization_box() = conversion::to_wire(frame.quantization_box);
+    return request;
+}
+
+}  // namespace
+
+std::string recording_begin(const std::string& session_id, const Settings& settings, std::int64_t started_at) {
+    v1::RecordingEntry entry;
+    v1::RecordingBegin& begin = *entry.mutable_begin();
+    begin.set_version(conversion::recording_version);
+    begin.set_session_id(session_id);
+    *begin.mutable_settings() = conversion::to_wire(settings);
+    begin.set_started_at(started_at);
+    std::string out(conversion::recording_magic);
+    append_delimited(out, entry);
+    return out;
+}
+
+RecordingBytes recorded_particles(const InputFrame& frame, std::int64_t arrived_at) {
+    RecordingBytes bytes;
+    // Not to grow while the particles are copied: 12 bytes at most before each chunk, and the messages around them.
+    constexpr std::size_t overhead = 512;
+    bytes.messages.reserve(frame.bytes.size() + frame.bytes.size() / chunk_bytes * 16 + overhead);
+    append_delimited(bytes.messages, begin_message(frame));
+    std::string_view rest(reinterpret_cast<const char*>(frame.bytes.data()), frame.bytes.size());
+    while (!rest.empty()) {
+        const std::string_view chunk = rest.substr(0, chunk_bytes);
+        append_chunk(bytes.messages, chunk);
+        rest.remove_prefix(chunk.size());
+    }
+    v1::StreamRequest end;
+    end.mutable_frame_end();
+    append_delimited(bytes.messages, end);
+
+    v1::RecordingEntry entry;
+    v1::RecordedParticles& particles = *entry.mutable_particles();
+    particles.set_frame_index(frame.index);
+    particles.set_simulation_time(frame.simulation_time);
+    particles.set_particle_count(frame.particle_count);
+    particles.set_arrived_at(arrived_at);
+    particles.set_bytes(bytes.messages.size());
+    append_delimited(bytes.entry, entry);
+    return bytes;
+}
+
+RecordingBytes recorded_mesh(const EncodedFrame& frame) {
+    RecordingBytes bytes;
+    for (const SharedMessage& message : frame.messages) {
+        append_varint(bytes.messages, message->size());
+        bytes.messages.append(*message);
+    }
+    v1::RecordingEntry entry;
+    entry.mutable_mesh()->set_frame_index(frame.frame_index);
+    entry.mutable_mesh()->set_bytes(bytes.messages.size());
+    append_delimited(bytes.entry, entry);
+    return bytes;
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,48 @@
+#include "recording/recording_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <stdexcept>
+#include <system_error>
+
+#include "conversion/recording_format.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, int error) {
+    throw std::runtime_error(fmt::format("{}: {}", path.string(), std::generic_category().message(error)));
+}
+
+}  // namespace
+
+RecordingFile::RecordingFile(const std::filesystem::path& directory, const std::string& session_id) {
+    const std::filesystem::path folder = directory / session_id;
+    if (::mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) fail(folder, errno);
+    for (unsigned number = 1; descriptor_ < 0; ++number) {
+        path_ = folder / fmt::format("{:06}{}", number, conversion::recording_extension);
+        descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+        if (descriptor_ < 0 && errno != EEXIST) fail(path_, errno);
+    }
+}
+
+RecordingFile::~RecordingFile() {
+    ::close(descriptor_);
+}
+
+void RecordingFile::append(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written >= 0)
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+        else if (errno != EINTR)
+            fail(path_, errno);
+    }
+}
+
+}  // namespace meniscus::server

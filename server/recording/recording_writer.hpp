@@ -1,0 +1,90 @@
+// Writes the recordings of all sessions, on a thread of its own: no session waits for the disk, or fails with it.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <variant>
+
+#include "meniscus/settings.hpp"
+#include "recording/recording_entries.hpp"
+#include "recording/recording_file.hpp"
+#include "recording/recording_options.hpp"
+#include "recording/write_queue.hpp"
+#include "sessions/encoded_frame.hpp"
+
+namespace meniscus::server {
+
+struct RecordingCounters {
+    std::uint64_t frames = 0;           ///< whose particles were written
+    std::uint64_t bytes = 0;            ///< written
+    std::uint64_t frames_left_out = 0;  ///< the disk was too slow
+    std::uint64_t stopped = 0;          ///< recordings that a failure or the limit has ended
+};
+
+struct RecordedSession {
+    std::string id;
+    Settings settings;
+    std::atomic<bool> stopped{false};  ///< by the writer: nothing more of this session will be written
+};
+
+/// Frames of rising index: one file, created with the first of them.
+struct RecordedRun {
+    std::shared_ptr<RecordedSession> session;
+    std::int64_t started_at = 0;        ///< microseconds since 1970-01-01 UTC
+    std::optional<RecordingFile> file;  ///< of the writing thread
+};
+
+class RecordingWriter {
+public:
+    /// Creates the directory if it is missing. Throws InvalidInput if it cannot be written to.
+    explicit RecordingWriter(const RecordingOptions& options);
+    /// Writes what waits.
+    ~RecordingWriter();
+    RecordingWriter(const RecordingWriter&) = delete;
+    RecordingWriter& operator=(const RecordingWriter&) = delete;
+
+    /// Whether there is room for this many bytes; write() or cancel() follows. If not, the frame is counted as left out.
+    bool reserve(std::size_t bytes);
+    void cancel(std::size_t bytes);
+    /// Particles, or a mesh.
+    using Frame = std::variant<RecordingBytes, std::shared_ptr<const EncodedFrame>>;
+    void write(std::shared_ptr<RecordedRun> run, std::uint64_t frame_index, Frame frame, std::size_t reserved);
+
+    std::size_t waiting_limit() const noexcept { return queue_.limit(); }
+    RecordingCounters counters() const noexcept;
+    /// Wall clock, microseconds since 1970-01-01 UTC, which a correction of the system's clock does not set back.
+    std::int64_t wall_clock(std::chrono::steady_clock::time_point time) const;
+
+private:
+    struct Job {
+        std::shared_ptr<RecordedRun> run;
+        std::uint64_t frame_index = 0;
+        Frame frame;
+    };
+
+    void write_jobs();
+    void perform(Job& job);
+    /// Throws LimitExceeded.
+    void admit(std::uint64_t bytes);
+    void append(RecordedRun& run, const RecordingBytes& bytes);
+
+    const RecordingOptions options_;
+    const std::chrono::system_clock::time_point wall_start_ = std::chrono::system_clock::now();
+    const std::chrono::steady_clock::time_point steady_start_ = std::chrono::steady_clock::now();
+
+    std::atomic<std::uint64_t> frames_{0};
+    std::atomic<std::uint64_t> bytes_{0};
+    std::atomic<std::uint64_t> left_out_{0};
+    std::atomic<std::uint64_t> stopped_{0};
+
+    std::uint64_t used_ = 0;  ///< bytes of all recordings; of the writing thread
+    WriteQueue<Job> queue_;
+    std::thread thread_;
+};
+
+}  // namespace meniscus::server

@@ -1,0 +1,218 @@
+// What becomes of frames on their way to the disk.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "conversion/recording_format.hpp"
+#include "meniscus/error.hpp"
+#include "recording/session_recording.hpp"
+#include "recording/write_queue.hpp"
+#include "test_frames.hpp"
+
+namespace meniscus::server::test {
+namespace {
+
+const std::string session_id = "00000000-0000-4000-8000-000000000001";
+
+class RecordingWriterTest : public testing::Test {
+protected:
+    RecordingWriterTest() { std::filesystem::create_directory(directory_); }
+    ~RecordingWriterTest() override { std::filesystem::remove_all(directory_); }
+
+    RecordingOptions options() const { return {.directory = directory_}; }
+    std::filesystem::path file(int number) const {
+        return directory_ / session_id / ("00000" + std::to_string(number) + ".recording");
+    }
+    /// Bytes of all recordings.
+    std::uint64_t bytes() const {
+        std::uint64_t sum = 0;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(directory_))
+            if (entry.is_regular_file()) sum += entry.file_size();
+        return sum;
+    }
+
+    const std::filesystem::path directory_ =
+        std::filesystem::temp_directory_path() / ("meniscus-recordings-" + std::to_string(::getpid()));
+};
+
+InputFrame frame(std::uint64_t index, std::size_t particles = 4) {
+    InputFrame frame(nullptr);
+    frame.allocate(12 * particles);
+    std::fill(frame.bytes.begin(), frame.bytes.end(), std::byte{0});
+    frame.index = index;
+    frame.particle_count = particles;
+    frame.received_at = std::chrono::steady_clock::now();
+    return frame;
+}
+
+std::shared_ptr<const EncodedFrame> mesh(std::uint64_t index) {
+    auto encoded = std::make_shared<EncodedFrame>();
+    encoded->frame_index = index;
+    encoded->messages.push_back(std::make_shared<const std::string>("mesh"));
+    return encoded;
+}
+
+TEST(WriteQueue, TakesNoMoreThanItsLimitAtATime) {
+    WriteQueue<int> queue(100);
+    EXPECT_TRUE(queue.reserve(60));
+    EXPECT_FALSE(queue.reserve(41));
+    EXPECT_TRUE(queue.reserve(40));
+    queue.cancel(40);
+    queue.put(1, 60);
+    EXPECT_FALSE(queue.reserve(41));
+    EXPECT_EQ(queue.take(), 1);
+    EXPECT_FALSE(queue.reserve(41)) << "what is being written is in memory still";
+    queue.close();
+    EXPECT_EQ(queue.take(), std::nullopt);
+    EXPECT_TRUE(queue.reserve(100));
+}
+
+TEST(WriteQueue, TakesALargerFrameAlone) {
+    WriteQueue<int> queue(100);
+    EXPECT_TRUE(queue.reserve(1000));
+    EXPECT_FALSE(queue.reserve(1));
+}
+
+TEST(WriteQueue, GivesWhatWaitsAfterItsEnd) {
+    WriteQueue<int> queue(100);
+    for (const int i : {1, 2}) {
+        ASSERT_TRUE(queue.reserve(1));
+        queue.put(i, 1);
+    }
+    queue.close();
+    EXPECT_EQ(queue.take(), 1);
+    EXPECT_EQ(queue.take(), 2);
+    EXPECT_EQ(queue.take(), std::nullopt);
+}
+
+TEST_F(RecordingWriterTest, WritesWhatWaitsBeforeItEnds) {
+    {
+        RecordingWriter writer(options());
+        SessionRecording recording(writer, session_id, settings());
+        for (std::uint64_t i = 0; i < 100; ++i) {
+            recording.reconstructed(frame(i));
+            recording.encoded(mesh(i));
+        }
+    }
+    EXPECT_GT(bytes(), 100U * 48U);
+    EXPECT_FALSE(std::filesystem::exists(file(2)));
+}
+
+TEST_F(RecordingWriterTest, BeginsAnotherFileWhereIndicesDoNotRise) {
+    {
+        RecordingWriter writer(options());
+        SessionRecording recording(writer, session_id, settings());
+        for (const std::uint64_t i : {3, 4, 4, 9, 0}) recording.reconstructed(frame(i));
+    }
+    EXPECT_TRUE(std::filesystem::exists(file(3)));
+    EXPECT_FALSE(std::filesystem::exists(file(4)));
+}
+
+TEST_F(RecordingWriterTest, KeepsWhatAnEarlierServerRecorded) {
+    for (int server = 0; server < 2; ++server) {
+        RecordingWriter writer(options());
+        SessionRecording(writer, session_id, settings()).reconstructed(frame(0));
+    }
+    EXPECT_EQ(std::filesystem::file_size(file(1)), std::filesystem::file_size(file(2)));
+}
+
+TEST_F(RecordingWriterTest, IsTheOperatorsAlone) {
+    {
+        RecordingWriter writer({.directory = directory_ / "made"});
+        SessionRecording(writer, session_id, settings()).reconstructed(frame(0));
+    }
+    using std::filesystem::perms;
+    const auto mode = [&](const std::filesystem::path& path) { return std::filesystem::status(path).permissions(); };
+    EXPECT_EQ(mode(directory_ / "made"), perms::owner_all);
+    EXPECT_EQ(mode(directory_ / "made" / session_id), perms::owner_all);
+    EXPECT_EQ(mode(directory_ / "made" / session_id / "000001.recording"), perms::owner_read | perms::owner_write);
+}
+
+TEST_F(RecordingWriterTest, NeverPassesItsLimitAndDeletesNothing) {
+    RecordingOptions limited = options();
+    std::uint64_t first = 0;
+    {
+        RecordingWriter writer(limited);
+        SessionRecording(writer, session_id, settings()).reconstructed(frame(0));
+    }
+    first = bytes();
+    limited.limit = 2 * first + first / 2;  // what is there, as much again, and too little for a third
+    RecordingCounters counters;
+    {
+        RecordingWriter writer(limited);
+        SessionRecording recording(writer, session_id, settings());
+        recording.reconstructed(frame(0));
+        for (std::uint64_t i = 1; i < 20; ++i) recording.reconstructed(frame(i));
+        SessionRecording other(writer, "00000000-0000-4000-8000-000000000002", settings());
+        other.reconstructed(frame(0, 64));
+        while (writer.counters().stopped < 2) {
+        }
+        counters = writer.counters();
+    }
+    EXPECT_LE(bytes(), limited.limit);
+    EXPECT_GE(bytes(), 2 * first);
+    EXPECT_EQ(std::filesystem::file_size(file(1)), first);
+    EXPECT_EQ(counters.bytes, bytes() - first);
+    EXPECT_EQ(counters.frames_left_out, 0U);
+}
+
+TEST_F(RecordingWriterTest, FindsTheRoomThatDeletedRecordingsLeave) {
+    RecordingOptions limited = options();
+    limited.limit = 400;
+    RecordingWriter writer(limited);
+    SessionRecording full(writer, session_id, settings());
+    for (std::uint64_t i = 0; i < 10; ++i) full.reconstructed(frame(i));
+    while (writer.counters().stopped < 1) {
+    }
+    const std::uint64_t frames = writer.counters().frames;
+    std::filesystem::remove(file(1));
+    SessionRecording next(writer, "00000000-0000-4000-8000-000000000002", settings());
+    next.reconstructed(frame(0));
+    while (writer.counters().frames == frames && writer.counters().stopped < 2) {
+    }
+    EXPECT_EQ(writer.counters().stopped, 1U);
+}
+
+TEST_F(RecordingWriterTest, LeavesOutFramesThatTheDiskIsTooSlowFor) {
+    RecordingOptions narrow = options();
+    narrow.waiting_limit = 1;  // the disk is slower than a loop over frames of a megabyte
+    RecordingCounters counters;
+    constexpr std::uint64_t frames = 50;
+    {
+        RecordingWriter writer(narrow);
+        SessionRecording recording(writer, session_id, settings());
+        InputFrame large = frame(0, 100'000);
+        for (; large.index < frames; ++large.index) recording.reconstructed(large);
+        do counters = writer.counters();
+        while (counters.frames + counters.frames_left_out < frames);
+    }
+    EXPECT_GT(counters.frames, 0U);
+    EXPECT_GT(counters.frames_left_out, 0U);
+    EXPECT_EQ(counters.stopped, 0U);
+}
+
+TEST_F(RecordingWriterTest, AFileThatCannotBeCreatedStopsThatSessionsRecordingAlone) {
+    std::ofstream(directory_ / session_id) << "in the way";
+    RecordingWriter writer(options());
+    SessionRecording blocked(writer, session_id, settings());
+    SessionRecording other(writer, "00000000-0000-4000-8000-000000000002", settings());
+    blocked.reconstructed(frame(0));
+    other.reconstructed(frame(0));
+    while (writer.counters().frames < 1) {
+    }
+    EXPECT_EQ(writer.counters().stopped, 1U);
+    EXPECT_EQ(writer.counters().frames, 1U);
+}
+
+TEST_F(RecordingWriterTest, RefusesAFolderThatCannotBe) {
+    std::ofstream(directory_ / "file") << "no folder";
+    EXPECT_THROW(RecordingWriter({.directory = directory_ / "file"}), InvalidInput);
+    EXPECT_THROW(RecordingWriter({.directory = directory_ / "missing" / "folder"}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meniscus::server::test
