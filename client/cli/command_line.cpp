@@ -33,6 +33,9 @@ int run(int argc, const char* const* argv) {
     add_compare(app);
     add_info(app);
     add_sessions(app);
+    add_recordings(app);
+    add_replay(app);
+    add_convert(app);
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty()) throw InvalidInput("a subcommand is needed; meniscus --help lists them");

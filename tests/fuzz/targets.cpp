@@ -15,6 +15,7 @@ const std::vector<Target>& targets() {
         {"mesh_ply", mesh_ply, mesh_ply_seeds},
         {"mesh_obj", mesh_obj, mesh_obj_seeds},
         {"brick_file", brick_file, brick_file_seeds},
+        {"recording", recording, recording_seeds},
     };
     return all;
 }

@@ -42,6 +42,8 @@ void mesh_obj(Bytes bytes);
 Seeds mesh_obj_seeds();
 void brick_file(Bytes bytes);
 Seeds brick_file_seeds();
+void recording(Bytes bytes);
+Seeds recording_seeds();
 
 struct Target {
     const char* name;

@@ -1,0 +1,49 @@
+#include "cli/recording_files.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <system_error>
+
+#include "conversion/recording_format.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::cli {
+
+std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& folder) {
+    if (!std::filesystem::is_directory(folder)) throw InvalidInput(folder.string() + ": no such folder");
+    std::vector<std::filesystem::path> paths;
+    std::error_code error;
+    auto i = std::filesystem::recursive_directory_iterator(folder, error);
+    for (; !error && i != std::filesystem::recursive_directory_iterator(); i.increment(error)) {
+        if (i.depth() > 0) i.disable_recursion_pending();
+        if (i->path().extension() == conversion::recording_extension) paths.push_back(i->path());
+    }
+    if (error) throw InvalidInput(folder.string() + ": cannot be read: " + error.message());
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+void RecordingSelection::add_to(CLI::App& command) {
+    command.add_option("RECORDING", path, "A file NNNNNN.recording, or a session's folder if it holds one only")->required();
+    command.add_option("--from", from, "First frame, by its index (default: all)");
+    command.add_option("--to", to, "Last frame, by its index");
+}
+
+formats::Recording RecordingSelection::open() const {
+    std::filesystem::path file = path;
+    if (std::filesystem::is_directory(file)) {
+        const auto found = recordings_in(file);
+        if (found.size() != 1)
+            throw InvalidInput(path + ": holds " + std::to_string(found.size()) +
+                               " recordings; name one (meniscus recordings lists them)");
+        file = found.front();
+    }
+    formats::Recording recording(file);
+    if (recording.cut_bytes() != 0)
+        std::cerr << file.string() << ": its last " << recording.cut_bytes()
+                  << " bytes are no whole frame and are left out: it was cut, or is being written\n";
+    return recording;
+}
+
+}  // namespace meniscus::cli

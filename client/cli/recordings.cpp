@@ -1,0 +1,99 @@
+// meniscus recordings: what meniscusd --record has kept.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <ctime>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/recording_files.hpp"
+#include "cli/settings_json.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+std::string utc(std::chrono::system_clock::time_point time) {
+    const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
+    std::tm parts{};
+    gmtime_r(&seconds, &parts);
+    std::string text(sizeof "0000-00-00T00:00:00Z", '\0');
+    text.resize(std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts));
+    return text;
+}
+
+double seconds(const std::vector<formats::RecordedFrame>& frames) {
+    if (frames.empty()) return 0.0;
+    return std::chrono::duration<double>(frames.back().arrived_at - frames.front().arrived_at).count();
+}
+
+nlohmann::ordered_json describe(const formats::Recording& recording) {
+    const auto& frames = recording.frames();
+    nlohmann::ordered_json out;
+    out["session"] = recording.session_id();
+    out["started_at"] = utc(recording.started_at());
+    out["frames"] = frames.size();
+    if (!frames.empty()) {
+        out["first_index"] = frames.front().index;
+        out["last_index"] = frames.back().index;
+    }
+    out["meshes"] = std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return frame.mesh.has_value(); });
+    out["seconds"] = seconds(frames);
+    out["bytes"] = recording.bytes();
+    out["cut_bytes"] = recording.cut_bytes();
+    out["settings"] = to_json(recording.settings());
+    return out;
+}
+
+void print(const nlohmann::ordered_json& recording) {
+    std::cout << recording["file"].get<std::string>() << "  ";
+    if (recording.contains("error")) {
+        std::cout << "unreadable: " << recording["error"].get<std::string>() << '\n';
+        return;
+    }
+    const auto& settings = recording["settings"];
+    std::cout << recording["started_at"].get<std::string>() << "  " << recording["frames"] << " frames";
+    if (recording.contains("first_index"))
+        std::cout << " (" << recording["first_index"] << " to " << recording["last_index"] << ")";
+    std::cout << ", " << recording["meshes"] << " meshes, " << recording["seconds"].get<double>() << " s, "
+              << recording["bytes"] << " bytes; particle radius " << settings["particle_radius"].get<double>()
+              << ", cell size " << settings["cell_size"].get<double>() << ", " << settings["mode"].get<std::string>();
+    if (recording["cut_bytes"] != 0) std::cout << "; its last " << recording["cut_bytes"] << " bytes are no whole frame";
+    std::cout << '\n';
+}
+
+struct RecordingsOptions {
+    std::string folder;
+    bool json = false;
+};
+
+void list(const RecordingsOptions& options) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const auto& path : recordings_in(options.folder)) {
+        nlohmann::ordered_json recording{{"file", path.string()}};
+        // One bad file does not hide the others.
+        try {
+            recording.update(describe(formats::Recording(path)));
+        } catch (const InvalidInput& e) {
+            recording["error"] = e.what();
+        }
+        if (options.json)
+            all.push_back(std::move(recording));
+        else
+            print(recording);
+    }
+    if (options.json) std::cout << nlohmann::ordered_json{{"recordings", all}}.dump(2) << '\n';
+}
+
+}  // namespace
+
+void add_recordings(CLI::App& app) {
+    auto options = std::make_shared<RecordingsOptions>();
+    CLI::App& command = *app.add_subcommand("recordings", "List what meniscusd --record DIR has kept");
+    command.add_option("DIR", options->folder, "The folder, or one session's folder in it")->required();
+    command.add_flag("--json", options->json, "As JSON, with all settings");
+    command.callback([options] { list(*options); });
+}
+
+}  // namespace meniscus::cli

@@ -1,0 +1,115 @@
+// meniscus replay: the particles of a recording, uploaded again.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "cli/commands.hpp"
+#include "cli/recording_files.hpp"
+#include "cli/replay_pace.hpp"
+#include "cli/server_flags.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+/// Frames under way: enough to keep the server busy.
+constexpr std::size_t frames_ahead = 4;
+
+struct ReplayOptions {
+    RecordingSelection recording;
+    ServerFlags server;
+    std::string session;
+    std::string speed = "1";
+    bool loop = false;
+};
+
+/// Takes a stream's answers, on a thread of its own, until the stream ends.
+class Answers {
+public:
+    explicit Answers(client::Stream& stream) : stream_(stream), thread_([this] { take(); }) {}
+    ~Answers() {
+        if (thread_.joinable()) end();
+    }
+    Answers(const Answers&) = delete;
+    Answers& operator=(const Answers&) = delete;
+
+    /// Waits for the answers to all frames. Throws what went wrong with one of them.
+    void finish() {
+        end();
+        if (error_) std::rethrow_exception(error_);
+    }
+
+private:
+    void end() {
+        stream_.finish();
+        thread_.join();
+    }
+
+    void take() {
+        try {
+            while (const auto frame = stream_.next())
+                std::cerr << "frame " << frame->index << ": " << frame->statistics.particles << " particles, "
+                          << frame->statistics.triangles << " triangles, " << frame->statistics.total_seconds << " s\n";
+        } catch (...) {
+            error_ = std::current_exception();
+        }
+    }
+
+    client::Stream& stream_;
+    std::exception_ptr error_;
+    std::thread thread_;
+};
+
+void upload(const formats::Recording& recording, const ReplayOptions& options, client::Stream& stream) {
+    const auto frames = recording.frames(options.recording.from, options.recording.to);
+    const formats::RecordedFrame& first = frames.front();
+    const formats::RecordedFrame& last = frames.back();
+    const std::chrono::duration<double> seconds = last.arrived_at - first.arrived_at;
+    // Between the last frame and the first of the next round: as between any two.
+    const auto interval = frames.size() > 1 ? seconds / static_cast<double>(frames.size() - 1) : seconds;
+    ReplayPace pace(options.speed);
+    Answers answers(stream);
+    for (std::uint64_t round = 0; round == 0 || options.loop; ++round)
+        for (const formats::RecordedFrame& frame : frames) {
+            const formats::RecordedParticles particles = recording.particles(frame);
+            pace.wait((frame.arrived_at - first.arrived_at) + static_cast<double>(round) * (seconds + interval));
+            stream.push(particles.view(), frame.index + round * (last.index - first.index + 1), frame.simulation_time);
+        }
+    answers.finish();
+}
+
+void replay(const ReplayOptions& options) {
+    const formats::Recording recording = options.recording.open();
+    client::Client client = options.server.connect();
+    const std::string session = options.session.empty() ? client::new_session_id() : options.session;
+    client.create_session(session, recording.settings());
+    std::cerr << "session " << session << '\n';
+    client::Stream stream = client.stream(session, {.receive_meshes = false, .waiting_limit = frames_ahead});
+    try {
+        upload(recording, options, stream);
+    } catch (...) {
+        // Nobody else knows of it; what went wrong before is what to report.
+        try {
+            client.delete_session(session);
+        } catch (const std::exception&) {
+        }
+        throw;
+    }
+    client.delete_session(session);
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app) {
+    auto options = std::make_shared<ReplayOptions>();
+    CLI::App& command = *app.add_subcommand("replay", "Upload the particles of a recording again, as a new session");
+    options->recording.add_to(command);
+    options->server.add_to(command, "Where to")->required();
+    command.add_option("--session", options->session, "UUID of the session to create (default: a new one)");
+    command.add_option("--speed", options->speed, "Times as fast as it was recorded, or max")->capture_default_str();
+    command.add_flag("--loop", options->loop, "Begin again after the last frame, until interrupted; indices go on rising");
+    command.callback([options] { replay(*options); });
+}
+
+}  // namespace meniscus::cli

@@ -1,0 +1,12 @@
+// Settings as JSON, by the names of their flags.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "meniscus/settings.hpp"
+
+namespace meniscus::cli {
+
+nlohmann::ordered_json to_json(const Settings& settings);
+
+}  // namespace meniscus::cli

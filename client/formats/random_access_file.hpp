@@ -1,0 +1,34 @@
+// A file too large to be read whole.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace meniscus::formats {
+
+class RandomAccessFile {
+public:
+    /// Throws InvalidInput if it does not exist, is not a regular file or cannot be read.
+    explicit RandomAccessFile(std::filesystem::path path);
+    ~RandomAccessFile();
+    RandomAccessFile(RandomAccessFile&& other) noexcept;
+    RandomAccessFile& operator=(RandomAccessFile&& other) noexcept;
+
+    const std::filesystem::path& path() const noexcept { return path_; }
+    /// Bytes, when it was opened.
+    std::uint64_t size() const noexcept { return size_; }
+    /// `size` bytes from `first` on, all of which the file has. Throws InvalidInput if it has been cut since.
+    std::string read(std::uint64_t first, std::size_t size) const;
+
+    /// Throws InvalidInput: "PATH: message".
+    [[noreturn]] void fail(const std::string& message) const;
+
+private:
+    std::filesystem::path path_;
+    int descriptor_ = -1;
+    std::uint64_t size_ = 0;
+};
+
+}  // namespace meniscus::formats

@@ -1,0 +1,108 @@
+#include "formats/recorded_particles.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <string>
+
+#include "conversion/recording_format.hpp"
+#include "conversion/settings_conversion.hpp"
+#include "formats/delimited_messages.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/v1/surface_service.pb.h"
+
+namespace meniscus::formats {
+namespace {
+
+class Reader {
+public:
+    Reader(const RandomAccessFile& file, const RecordedFrame& frame)
+        : file_(file),
+          frame_(frame),
+          messages_(file, frame.particles.first, frame.particles.first + frame.particles.size) {}
+
+    RecordedParticles read() {
+        RecordedParticles particles;
+        begin(next(v1::StreamRequest::kFrameBegin, "frame_begin").frame_begin(), particles);
+        fill(std::as_writable_bytes(std::span(particles.positions)));
+        fill(std::as_writable_bytes(std::span(particles.quantized)));
+        fill(std::as_writable_bytes(std::span(particles.levels)));
+        if (!chunk_.empty()) fail("more bytes than its particles have");
+        next(v1::StreamRequest::kFrameEnd, "frame_end");
+        if (!messages_.at_end()) fail("messages behind frame_end");
+        return particles;
+    }
+
+private:
+    const v1::StreamRequest& next(v1::StreamRequest::MessageCase kind, const char* name) {
+        const auto bytes = messages_.next(conversion::max_recorded_message_bytes);
+        if (!bytes || !request_.ParseFromString(*bytes) || request_.message_case() != kind)
+            fail(std::string("no ") + name + " where one is due");
+        return request_;
+    }
+
+    void begin(const v1::FrameBegin& message, RecordedParticles& particles) {
+        if (message.frame_index() != frame_.index || message.particle_count() != frame_.particle_count)
+            fail("its frame_begin tells of frame " + std::to_string(message.frame_index()) + " with " +
+                 std::to_string(message.particle_count()) + " particles");
+        const bool quantized = message.encoding() == v1::POSITION_ENCODING_UINT16;
+        if (!quantized && message.encoding() != v1::POSITION_ENCODING_FLOAT32 &&
+            message.encoding() != v1::POSITION_ENCODING_UNSPECIFIED)
+            fail("its encoding has the value " + std::to_string(static_cast<int>(message.encoding())) +
+                 ", which this version does not know");
+        const std::uint64_t particle_bytes = (quantized ? 6U : 12U) + (message.has_levels() ? 1U : 0U);
+        const std::uint64_t count = message.particle_count();
+        // Before memory is allocated by it.
+        if (count > frame_.particles.size / particle_bytes)
+            fail(std::to_string(count) + " particles of " + std::to_string(particle_bytes) + " bytes are announced, but only " +
+                 std::to_string(frame_.particles.size) + " bytes follow");
+        if (quantized) {
+            particles.quantization_box = box(message);
+            particles.quantized.resize(3 * count);
+        } else {
+            particles.positions.resize(3 * count);
+        }
+        if (message.has_levels()) particles.levels.resize(count);
+    }
+
+    Box box(const v1::FrameBegin& message) const {
+        try {
+            return conversion::from_wire(message.quantization_box(), "quantization_box");
+        } catch (const InvalidInput& e) {
+            fail(e.what());
+        }
+    }
+
+    /// From the chunks, whose cuts may fall anywhere.
+    void fill(std::span<std::byte> out) {
+        while (!out.empty()) {
+            if (chunk_.empty()) {
+                const auto& data = next(v1::StreamRequest::kFrameChunk, "frame_chunk").frame_chunk().data();
+                if (data.empty()) fail("an empty frame_chunk");
+                chunk_ = std::as_bytes(std::span(data));
+            }
+            const std::size_t size = std::min(out.size(), chunk_.size());
+            std::memcpy(out.data(), chunk_.data(), size);
+            out = out.subspan(size);
+            chunk_ = chunk_.subspan(size);
+        }
+    }
+
+    [[noreturn]] void fail(const std::string& what) const {
+        file_.fail("frame " + std::to_string(frame_.index) + ", at byte " + std::to_string(messages_.position()) + ": " + what);
+    }
+
+    const RandomAccessFile& file_;
+    const RecordedFrame& frame_;
+    DelimitedMessages messages_;
+    v1::StreamRequest request_;
+    std::span<const std::byte> chunk_;  ///< what is left of the one in request_
+};
+
+}  // namespace
+
+RecordedParticles read_recorded_particles(const RandomAccessFile& file, const RecordedFrame& frame) {
+    return Reader(file, frame).read();
+}
+
+}  // namespace meniscus::formats

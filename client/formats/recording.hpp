@@ -1,0 +1,82 @@
+// Recordings of sessions, as meniscusd --record keeps them; conversion/recording_format.hpp describes the files.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/random_access_file.hpp"
+#include "meniscus/client/client.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/settings.hpp"
+
+namespace meniscus::formats {
+
+/// Where a frame's messages are in the file.
+struct ByteRange {
+    std::uint64_t first = 0;
+    std::uint64_t size = 0;
+};
+
+/// A frame as the recording announces it. Times are those of the server's wall clock.
+struct RecordedFrame {
+    std::uint64_t index = 0;
+    double simulation_time = 0.0;
+    std::uint64_t particle_count = 0;
+    std::chrono::system_clock::time_point arrived_at;
+    ByteRange particles;
+    std::optional<ByteRange> mesh;
+};
+
+/// A frame's particles, owned, encoded as they were uploaded.
+struct RecordedParticles {
+    std::vector<float> positions;          ///< as ParticleFrame has them, here and below
+    std::vector<std::uint16_t> quantized;
+    Box quantization_box;
+    std::vector<std::uint8_t> levels;
+
+    ParticleFrame view() const {
+        return {.positions = positions, .quantized = quantized, .quantization_box = quantization_box, .levels = levels};
+    }
+    /// World positions, float32 or decoded.
+    std::vector<float> world_positions() const;
+};
+
+class Recording {
+public:
+    /// Finds the frames without reading them. A frame that the file does not hold to its end, and all after it, is left out:
+    /// see cut_bytes(). Throws InvalidInput, in one line that names the file, for anything else that is not a recording.
+    explicit Recording(const std::filesystem::path& path);
+
+    const std::filesystem::path& path() const noexcept { return file_.path(); }
+    const std::string& session_id() const noexcept { return session_id_; }
+    const Settings& settings() const noexcept { return settings_; }
+    std::chrono::system_clock::time_point started_at() const noexcept { return started_at_; }
+    /// By rising index.
+    const std::vector<RecordedFrame>& frames() const noexcept { return frames_; }
+    /// Those with an index from `first` to `last`. Throws InvalidInput if there is none.
+    std::vector<RecordedFrame> frames(std::uint64_t first, std::uint64_t last) const;
+    std::uint64_t bytes() const noexcept { return file_.size(); }
+    /// Bytes at the end that hold no whole frame: the server was killed, the disk was full, or it is being written.
+    std::uint64_t cut_bytes() const noexcept { return cut_bytes_; }
+
+    /// Reads one of this recording's frames. Throws InvalidInput if its messages are not a frame, or another one.
+    RecordedParticles particles(const RecordedFrame& frame) const;
+    /// The same for its mesh, which it has.
+    client::ReceivedFrame mesh(const RecordedFrame& frame) const;
+
+private:
+    class Scan;
+
+    RandomAccessFile file_;
+    std::string session_id_;
+    Settings settings_;
+    std::chrono::system_clock::time_point started_at_;
+    std::vector<RecordedFrame> frames_;
+    std::uint64_t cut_bytes_ = 0;
+};
+
+}  // namespace meniscus::formats

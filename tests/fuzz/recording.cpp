@@ -1,0 +1,69 @@
+#include "formats/recording.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "recording/recording_entries.hpp"
+#include "support.hpp"
+
+namespace meniscus::fuzz {
+
+namespace {
+
+/// A file in memory.
+class MemoryFile {
+public:
+    explicit MemoryFile(Bytes bytes) : descriptor_(::memfd_create("recording", MFD_CLOEXEC)) {
+        require(::write(descriptor_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()), "the input is a file");
+    }
+    ~MemoryFile() { ::close(descriptor_); }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+
+    std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+private:
+    int descriptor_;
+};
+
+server::InputFrame frame(std::uint64_t index, bool quantized, bool levels) {
+    constexpr std::size_t particles = 2;
+    server::InputFrame frame(nullptr);
+    frame.index = index;
+    frame.particle_count = particles;
+    frame.quantized = quantized;
+    frame.has_levels = levels;
+    frame.bytes.assign(particles * ((quantized ? 6U : 12U) + (levels ? 1U : 0U)), std::byte{0});
+    return frame;
+}
+
+}  // namespace
+
+void recording(Bytes bytes) {
+    const MemoryFile file(bytes);
+    may_refuse([&] {
+        const formats::Recording recording(file.path());
+        require(recording.cut_bytes() < bytes.size(), "a recording has a beginning");
+        for (const formats::RecordedFrame& recorded : recording.frames()) {
+            may_refuse([&] {
+                const auto particles = recording.particles(recorded);
+                require(particles.view().count() == recorded.particle_count, "all of a frame's particles");
+            });
+            if (recorded.mesh) may_refuse([&] { (void)recording.mesh(recorded); });
+        }
+    });
+}
+
+Seeds recording_seeds() {
+    Settings settings;
+    settings.particle_radius = 0.1;
+    const std::string begin = server::recording_begin("00000000-0000-4000-8000-000000000001", settings, 0);
+    std::string all = begin;
+    for (const std::uint64_t i : {0, 1, 2, 3}) {
+        const server::RecordingBytes particles = server::recorded_particles(frame(i, i % 2 == 1, i > 1), 0);
+        all += particles.entry + particles.messages;
+    }
+    return {begin, all};
+}
+
+}  // namespace meniscus::fuzz
