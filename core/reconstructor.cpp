@@ -137,7 +137,7 @@ private:
             mesh.bricks = Array<MeshBrick>(AccountAllocator<MeshBrick>(account_));
         }
         mesh.cell_size = world_cell_size(settings_);
-        mesh.offset_bits = settings_.edge_points == EdgePoints::bisect ? settings_.bisection_steps + 1 : 6;
+        mesh.offset_bits = offset_bits(settings_);
     }
 
     Settings settings_;

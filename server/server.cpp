@@ -90,8 +90,8 @@ Server::Server(const ServerOptions& options)
     : options_(options),
       access_(options.tls, options.tokens),
       backend_(describe(options)),
-      recordings_(options.recording.directory.empty() ? nullptr : std::make_unique<RecordingWriter>(options.recording)),
       metrics_(std::make_shared<PrometheusMetrics>()),
+      recordings_(options.recording.directory.empty() ? nullptr : std::make_unique<RecordingWriter>(options.recording)),
       registry_(options.limits, for_sessions(options.backend, backend_), threads_or_processors(options.backend.threads),
                 options.devices, metrics_, record_with(recordings_.get())),
       server_service_(access_.authorizer(), backend_, threads_or_processors(options.backend.threads), options.limits),
@@ -130,7 +130,7 @@ void Server::shutdown() {
     const auto deadline = std::chrono::system_clock::now() + options_.shutdown_grace - canceling_time(options_.shutdown_grace);
     draining_ = true;
     set_serving(*grpc_, false);
-    registry_.drain();
+    registry_.drain(options_.shutdown_grace);
     // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection once
     // the client has confirmed the goodbye, or loses what the client has not read. Idle clients confirm late or never.
     calls_.wait_until_none(deadline);

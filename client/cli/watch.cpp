@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/mesh_output.hpp"
 #include "cli/server_flags.hpp"
+#include "cli/watch_wishes.hpp"
 #include "formats/atomic_file.hpp"
 #include "meniscus/error.hpp"
 
@@ -18,6 +19,7 @@ struct WatchOptions {
     std::string directory;
     std::string format = "ply";
     std::uint64_t frames = 0;  ///< 0: until the session ends
+    WatchWishes wishes;
 };
 
 void watch(const WatchOptions& options) {
@@ -28,13 +30,16 @@ void watch(const WatchOptions& options) {
         throw InvalidInput("no session '" + options.session + "' at '" + options.server.address + "': " + e.what());
     }
     formats::make_directory(options.directory);
-    client::Watcher watcher = client.watch(options.session);
+    client::Watcher watcher = client.watch(options.session, options.wishes.build());
     for (std::uint64_t received = 0; options.frames == 0 || received < options.frames; ++received) {
         const auto frame = watcher.next();
         if (!frame) return;
         const auto path = frame_path(options.directory, frame->index, options.format);
         write_surface(path, Surface(*frame));
-        std::cerr << path.string() << ": " << frame->statistics.triangles << " triangles\n";
+        std::uint64_t triangles = 0;
+        for (const auto& brick : frame->bricks) triangles += brick->triangles;
+        std::cerr << path.string() << ": " << triangles << " triangles, " << frame->changed.size() << " of "
+                  << frame->bricks.size() << " bricks new\n";
     }
 }
 
@@ -51,6 +56,7 @@ void add_watch(CLI::App& app) {
         ->capture_default_str();
     command.add_option("--frames", options->frames, "End after so many; 0: when the session ends")
         ->capture_default_str();
+    options->wishes.add_to(command);
     command.callback([options] { watch(*options); });
 }
 

@@ -34,6 +34,10 @@ v1::StreamResponse begin_message(const client::ReceivedFrame& frame) {
     begin.set_offset_bits(frame.offset_bits);
     begin.set_brick_cells(brick_cells);
     begin.set_brick_count(static_cast<std::uint32_t>(frame.bricks.size()));
+    begin.set_run_id(frame.run_id);
+    std::uint64_t triangles = 0;
+    for (const auto& brick : frame.bricks) triangles += brick->triangles;
+    begin.set_triangle_count(triangles);
     return message;
 }
 
@@ -73,9 +77,9 @@ void write_bricks(const std::filesystem::path& path, const client::ReceivedFrame
         google::protobuf::util::SerializeDelimitedToOstream(message, &file.stream());
     };
     write(begin_message(frame));
-    for (const EncodedBrick& brick : frame.bricks) {
-        const std::size_t parts = std::max<std::size_t>(1, (brick.draco.size() + part_bytes - 1) / part_bytes);
-        for (std::size_t part = 0; part < parts; ++part) write(part_message(brick, part, parts));
+    for (const auto& brick : frame.bricks) {
+        const std::size_t parts = std::max<std::size_t>(1, (brick->draco.size() + part_bytes - 1) / part_bytes);
+        for (std::size_t part = 0; part < parts; ++part) write(part_message(*brick, part, parts));
     }
     write(statistics_message(frame));
     file.commit();
@@ -87,7 +91,8 @@ client::ReceivedFrame read_bricks(const std::string& name, std::string_view byte
     if (bytes.size() > limit)
         in.fail(std::to_string(bytes.size()) + " bytes; at most " + std::to_string(limit) + " are read");
     google::protobuf::io::ArrayInputStream stream(bytes.data(), static_cast<int>(bytes.size()));
-    client::FrameReceiver receiver(true);
+    // Statistics are of the whole surface; a watcher may have asked for less, so they need not be of this mesh.
+    client::FrameReceiver receiver(true, true);
     while (true) {
         const std::string place = std::to_string(stream.ByteCount());
         v1::StreamResponse message;
@@ -113,8 +118,9 @@ client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistic
     frame.offset_bits = mesh.offset_bits;
     static_cast<Statistics&>(frame.statistics) = statistics;
     for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
-        frame.bricks.push_back(encode_brick(mesh, i, options));
-        frame.statistics.encoded_bytes += frame.bricks.back().draco.size() + frame.bricks.back().cell_levels.size();
+        const auto brick = std::make_shared<const EncodedBrick>(encode_brick(mesh, i, options));
+        frame.statistics.encoded_bytes += brick->draco.size() + brick->cell_levels.size();
+        frame.bricks.push_back(brick);
     }
     frame.statistics.encode_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return frame;

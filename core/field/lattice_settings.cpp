@@ -40,8 +40,7 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     // A lone particle's blob in the color field: W(q) = iso W(0). At iso 0.6 that is q = 0.28; a quarter support is enough there.
     if (s.field == Field::color && s.iso < 1.0) blob_closest = static_cast<float>(1.0 - std::min(0.25 * lone_particle_reach(s.iso) / lone_particle_reach(0.6), 1.0));
     if (s.cell_size > 0.17 * 2.0 * s.smoothing_length) blob_level = 3;
-    // Bisection ends in the middle of an interval of c / 2^steps.
-    if (s.edge_points == EdgePoints::bisect) offset_bits = s.bisection_steps + 1;
+    offset_bits = meniscus::offset_bits(s);
     if (s.domain) {
         has_domain = true;
         const auto& [low, high] = *s.domain;

@@ -95,12 +95,12 @@ RecordingBytes recorded_particles(const InputFrame& frame, std::int64_t arrived_
 
 RecordingBytes recorded_mesh(const EncodedFrame& frame) {
     RecordingBytes bytes;
-    for (const SharedMessage& message : frame.messages) {
+    frame.for_each_message([&](const SharedMessage& message) {
         append_varint(bytes.messages, message->size());
         bytes.messages.append(*message);
-    }
+    });
     v1::RecordingEntry entry;
-    entry.mutable_mesh()->set_frame_index(frame.frame_index);
+    entry.mutable_mesh()->set_frame_index(frame.index);
     entry.mutable_mesh()->set_bytes(bytes.messages.size());
     append_delimited(bytes.entry, entry);
     return bytes;

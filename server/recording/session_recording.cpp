@@ -43,11 +43,11 @@ void SessionRecording::reconstructed(const InputFrame& frame) noexcept {
 
 void SessionRecording::encoded(std::shared_ptr<const EncodedFrame> frame) noexcept {
     if (session_->stopped) return;
-    const std::uint64_t index = frame->frame_index;
+    const std::uint64_t index = frame->index;
     auto run = run_without_mesh(index);
     if (!run) return;
     std::size_t bytes = 0;
-    for (const SharedMessage& message : frame->messages) bytes += message->size();
+    frame->for_each_message([&](const SharedMessage& message) { bytes += message->size(); });
     if (!writer_.reserve(bytes)) {
         left_out(index, "the disk does not keep up");
         return;

@@ -1,7 +1,9 @@
 #include "rpc/watch_handler.hpp"
 
+#include <grpcpp/alarm.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -10,23 +12,23 @@
 
 #include "meniscus/v1/surface_service.pb.h"
 #include "rpc/caller.hpp"
-#include "rpc/normal_bits.hpp"
 #include "rpc/session_id.hpp"
 #include "rpc/status.hpp"
+#include "rpc/watch_wishes.hpp"
 #include "rpc/wire_bytes.hpp"
 
 namespace meniscus::server {
 
 namespace {
 
-/// Sends a frame to its end, then takes the newest. Finishes after a cancellation as soon as no write is under way.
+/// Sends what the watch has for it, message by message. Finishes after a cancellation as soon as no write is under way.
 class WatchReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
                            public std::enable_shared_from_this<WatchReactor> {
 public:
     WatchReactor(Metrics& metrics, ActiveCalls& calls, const grpc::CallbackServerContext& context)
         : metrics_(metrics), active_(calls), peer_(context.peer()) {}
 
-    void start(SessionRegistry& registry, const Authorizer& authorizer, const grpc::CallbackServerContext& context,
+    void start(SessionRegistry& registry, const Authorizer& authorizer, grpc::CallbackServerContext& context,
                const grpc::ByteBuffer& request) {
         self_ = shared_from_this();
         try {
@@ -36,10 +38,9 @@ public:
             v1::WatchRequest message;
             parse(bytes, message, "WatchRequest");
             require_same_session(session_id_, message.session_id());
-            const int normal_bits = normal_bits_of(message);
             session_ = registry.find(session_id_);
             Authorizer::require_access(caller, Action::watch, session_id_, session_->owner());
-            slot_ = session_->open_watch(normal_bits, [self = weak_from_this()] {
+            watch_ = session_->open_watch(watch_wishes_of(message, session_->settings()), [self = weak_from_this()] {
                 if (const auto reactor = self.lock()) reactor->write();
             });
         } catch (...) {
@@ -48,7 +49,8 @@ public:
             return;
         }
         spdlog::info("session {}: watcher from {} connected", session_id_, peer_);
-        // At once: the client knows from here on that it misses no mesh.
+        // At once: the client knows from here on that it misses no mesh. With metadata, as a refusal has none.
+        context.AddInitialMetadata("x-session-id", session_id_);
         StartSendInitialMetadata();
         write();
     }
@@ -71,8 +73,8 @@ public:
     }
 
     void OnDone() override {
-        if (slot_) {
-            session_->close_watch(slot_);
+        if (watch_) {
+            session_->close_watch(watch_);
             spdlog::info("session {}: watcher from {} gone", session_id_, peer_);
         }
         const auto self = std::move(self_);
@@ -86,21 +88,26 @@ private:
             finish({grpc::StatusCode::CANCELLED, "the client has gone"});
             return;
         }
-        if (!frame_ || sent_ == frame_->messages.size()) {
-            frame_.reset();
-            sent_ = 0;
-            auto next = slot_->take();
-            if (auto* frame = std::get_if<std::shared_ptr<const EncodedFrame>>(&next))
-                frame_ = std::move(*frame);
-            else if (const auto* end = std::get_if<LatestFrame::End>(&next))
-                finish(to_status(end->error));
+        auto next = watch_->take();
+        if (const auto* message = std::get_if<SharedMessage>(&next)) {
+            metrics_.message_sent(Metrics::Receiver::watcher, (*message)->size());
+            outgoing_ = to_bytes(*message);
+            writing_ = true;
+            StartWrite(&outgoing_);
+        } else if (const auto* later = std::get_if<Watch::Later>(&next)) {
+            write_at(later->at);
+        } else if (const auto* end = std::get_if<Watch::End>(&next)) {
+            finish(to_status(end->error));
         }
-        if (!frame_) return;
-        const SharedMessage& message = frame_->messages[sent_++];
-        metrics_.message_sent(Metrics::Receiver::watcher, message->size());
-        outgoing_ = to_bytes(message);
-        writing_ = true;
-        StartWrite(&outgoing_);
+    }
+
+    /// A new alarm each time: one that has been set is not set again, only given up.
+    void write_at(Watch::Clock::time_point time) {
+        alarm_ = std::make_unique<grpc::Alarm>();
+        alarm_->Set(std::chrono::system_clock::now() + (time - Watch::Clock::now()), [self = weak_from_this()](bool rang) {
+            if (!rang) return;
+            if (const auto reactor = self.lock()) reactor->write();
+        });
     }
 
     void finish(const grpc::Status& status) {
@@ -114,12 +121,11 @@ private:
     std::shared_ptr<WatchReactor> self_;  ///< until OnDone
     std::string session_id_;
     std::shared_ptr<Session> session_;
-    std::shared_ptr<LatestFrame> slot_;
+    std::shared_ptr<Watch> watch_;
 
     std::mutex mutex_;  ///< for what follows
-    std::shared_ptr<const EncodedFrame> frame_;  ///< being sent
-    std::size_t sent_ = 0;                       ///< of its messages
     grpc::ByteBuffer outgoing_;
+    std::unique_ptr<grpc::Alarm> alarm_;  ///< for the next frame, by the rate
     bool writing_ = false;
     bool canceled_ = false;
     bool finished_ = false;

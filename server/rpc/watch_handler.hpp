@@ -1,4 +1,4 @@
-// SurfaceService.Watch: a session's newest meshes, whole.
+// SurfaceService.Watch: a session's newest meshes, by difference.
 #pragma once
 
 #include <grpcpp/server_context.h>

@@ -1,6 +1,9 @@
 // A frame as it goes out: immutable messages, shared by all who receive it.
 #pragma once
 
+#include <array>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -11,10 +14,44 @@ namespace meniscus::server {
 /// One StreamResponse, which is a WatchResponse byte for byte, in protobuf's wire format.
 using SharedMessage = std::shared_ptr<const std::string>;
 
-/// A whole mesh with its statistics: MeshBegin, the bricks, FrameStatistics.
-struct EncodedFrame {
-    std::uint64_t frame_index = 0;
+/// How a mesh is encoded. Who wishes for the same shares one encode.
+struct MeshFormat {
+    int max_level = 3;      ///< finest level of grid, 1 to 3
+    int position_bits = 0;  ///< vertices lie on multiples of c / 2^position_bits; 0: as reconstructed
+    int normal_bits = 0;    ///< per octahedral component; 0: no normals
+    auto operator<=>(const MeshFormat&) const = default;
+};
+
+/// One brick, or its parts in order. The same in every frame in which the brick is the same.
+struct BrickMessages {
+    std::array<std::int32_t, 3> place{};  ///< x y z in bricks
+    std::uint64_t content_hash = 0;       ///< of what was encoded
+    std::uint32_t triangles = 0;
+    std::size_t bytes = 0;
     std::vector<SharedMessage> messages;
+};
+
+using SharedBrick = std::shared_ptr<const BrickMessages>;
+
+/// A whole mesh with its statistics, in one format.
+struct EncodedFrame {
+    std::uint64_t index = 0;
+    std::uint64_t run_id = 0;
+    double simulation_time = 0.0;
+    double cell_size = 0.0;
+    std::uint32_t offset_bits = 0;
+    SharedMessage begin;              ///< announces the whole mesh
+    std::vector<SharedBrick> bricks;  ///< ordered by place (z, y, x)
+    SharedMessage statistics;
+
+    /// The messages that carry the whole mesh, in their order.
+    template <class Visit>
+    void for_each_message(const Visit& visit) const {
+        visit(begin);
+        for (const SharedBrick& brick : bricks)
+            for (const SharedMessage& message : brick->messages) visit(message);
+        visit(statistics);
+    }
 };
 
 }  // namespace meniscus::server

@@ -7,7 +7,9 @@
 #include "conversion/statistics_conversion.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/v1/surface_service.pb.h"
+#include "sessions/begin_message.hpp"
 #include "sessions/limits.hpp"
+#include "sessions/place_order.hpp"
 
 namespace meniscus::server {
 
@@ -29,23 +31,14 @@ SharedMessage serialize(const v1::StreamResponse& response) {
     return std::make_shared<const std::string>(response.SerializeAsString());
 }
 
-SharedMessage begin_message(const ReconstructedFrame& frame) {
-    v1::StreamResponse response;
-    v1::MeshBegin& begin = *response.mutable_mesh_begin();
-    begin.set_frame_index(frame.index);
-    begin.set_simulation_time(frame.simulation_time);
-    begin.set_cell_size(frame.mesh.cell_size);
-    begin.set_offset_bits(frame.mesh.offset_bits);
-    begin.set_brick_cells(brick_cells);
-    begin.set_brick_count(static_cast<std::uint32_t>(frame.mesh.bricks.size()));
-    return serialize(response);
-}
-
-std::vector<SharedMessage> brick_messages(const EncodedBrick& brick) {
+SharedBrick brick_messages(const EncodedBrick& brick, std::uint64_t content_hash) {
+    auto result = std::make_shared<BrickMessages>();
+    result->place = brick.coordinate;
+    result->content_hash = content_hash;
+    result->triangles = brick.triangles;
     const auto* draco = reinterpret_cast<const char*>(brick.draco.data());
     const std::size_t part_count = std::max<std::size_t>(1, (brick.draco.size() + chunk_bytes - 1) / chunk_bytes);
-    std::vector<SharedMessage> messages;
-    messages.reserve(part_count);
+    result->messages.reserve(part_count);
     for (std::size_t part = 0; part < part_count; ++part) {
         v1::StreamResponse response;
         v1::MeshBrick& wire = *response.mutable_mesh_brick();
@@ -60,9 +53,18 @@ std::vector<SharedMessage> brick_messages(const EncodedBrick& brick) {
         wire.set_draco(draco + first, std::min(chunk_bytes, brick.draco.size() - first));
         wire.set_part_index(static_cast<std::uint32_t>(part));
         wire.set_part_count(static_cast<std::uint32_t>(part_count));
-        messages.push_back(serialize(response));
+        result->messages.push_back(serialize(response));
+        result->bytes += result->messages.back()->size();
     }
-    return messages;
+    return result;
+}
+
+/// The earlier frame's brick at this place; none if there was none.
+SharedBrick find_brick(const EncodedFrame* frame, const std::array<std::int32_t, 3>& place) {
+    if (frame == nullptr) return nullptr;
+    const auto found = std::ranges::lower_bound(frame->bricks, PlaceOrder(place), {},
+                                                [](const SharedBrick& brick) { return PlaceOrder(brick->place); });
+    return found != frame->bricks.end() && (*found)->place == place ? *found : nullptr;
 }
 
 v1::StreamResponse statistics_response(const ReconstructedFrame& frame) {
@@ -77,32 +79,45 @@ v1::StreamResponse statistics_response(const ReconstructedFrame& frame) {
 
 }  // namespace
 
-std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, int normal_bits, WorkerPool& workers,
-                                                 const MessageSink& sink) {
+std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
+                                                 const EncodedFrame* before, WorkerPool& workers, const MessageSink& sink) {
     const auto start = Clock::now();
+    const Mesh& mesh = *frame.mesh_at(format.max_level);
+    const CodingOptions coding{.normal_bits = format.normal_bits, .position_bits = format.position_bits};
     auto encoded = std::make_shared<EncodedFrame>();
-    encoded->frame_index = frame.index;
-    const auto emit = [&](SharedMessage message) {
+    encoded->index = frame.index;
+    encoded->run_id = frame.run_id;
+    encoded->simulation_time = frame.simulation_time;
+    encoded->cell_size = mesh.cell_size;
+    encoded->offset_bits = encoded_offset_bits(mesh, coding);
+    const auto emit = [&](const SharedMessage& message) {
         if (sink) sink(message);
-        encoded->messages.push_back(std::move(message));
     };
-    emit(begin_message(frame));
+    v1::StreamResponse begin = begin_response(*encoded);
+    begin.mutable_mesh_begin()->set_brick_count(static_cast<std::uint32_t>(mesh.bricks.size()));
+    begin.mutable_mesh_begin()->set_triangle_count(mesh.triangles.size());
+    encoded->begin = serialize(begin);
+    emit(encoded->begin);
 
     std::mutex emitting;
     std::uint64_t bytes = 0;
-    workers.for_each(frame.mesh.bricks.size(), [&](std::size_t brick) {
-        auto messages = brick_messages(encode_brick(frame.mesh, brick, {.normal_bits = normal_bits}));
+    encoded->bricks.resize(mesh.bricks.size());
+    workers.for_each(mesh.bricks.size(), [&](std::size_t i) {
+        const BrickContent content = brick_content(mesh, i, coding);
+        const std::uint64_t hash = content.hash();
+        SharedBrick brick = find_brick(before, content.coordinate);
+        if (!brick || brick->content_hash != hash) brick = brick_messages(encode_brick(content, coding), hash);
+        encoded->bricks[i] = brick;
         const std::lock_guard lock(emitting);
-        for (SharedMessage& message : messages) {
-            bytes += message->size();
-            emit(std::move(message));
-        }
+        bytes += brick->bytes;
+        for (const SharedMessage& message : brick->messages) emit(message);
     });
 
     v1::StreamResponse end = statistics_response(frame);
     end.mutable_frame_statistics()->set_encode_seconds(seconds_since(start));
     end.mutable_frame_statistics()->set_encoded_bytes(bytes);
-    emit(serialize(end));
+    encoded->statistics = serialize(end);
+    emit(encoded->statistics);
     return encoded;
 }
 

@@ -1,6 +1,7 @@
 // A mesh to the messages that carry it.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -15,19 +16,37 @@ namespace meniscus::server {
 
 /// A frame after its reconstruction.
 struct ReconstructedFrame {
+    /// The surface with its levels capped; `made` if somebody wished for it.
+    struct CappedMesh {
+        bool made = false;
+        Mesh mesh;
+    };
+
+    std::uint64_t number = 0;  ///< frames of the session up to this one
     std::uint64_t index = 0;
+    std::uint64_t run_id = 0;
     double simulation_time = 0.0;
     std::chrono::steady_clock::time_point received_at;
     Mesh mesh;
+    std::array<CappedMesh, 2> capped;  ///< at levels 1 and 2
     Statistics statistics;
+
+    CappedMesh& capped_at(int max_level) { return capped.at(static_cast<std::size_t>(max_level - 1)); }
+    /// None if it was not made.
+    const Mesh* mesh_at(int max_level) const {
+        if (max_level == 3) return &mesh;
+        const CappedMesh& cap = capped.at(static_cast<std::size_t>(max_level - 1));
+        return cap.made ? &cap.mesh : nullptr;
+    }
 };
 
 /// Called with every message as soon as it is there, one call at a time. The parts of a brick follow one another.
 using MessageSink = std::function<void(const SharedMessage&)>;
 
-/// Encodes the bricks in parallel; sink may be empty.
-std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, int normal_bits, WorkerPool& workers,
-                                                 const MessageSink& sink);
+/// Encodes the bricks in parallel, but those whose content `before` has already: an earlier frame of the session in the same
+/// format, or none. The frame has the mesh of that format. sink may be empty.
+std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
+                                                 const EncodedFrame* before, WorkerPool& workers, const MessageSink& sink);
 
 /// The statistics alone, for a simulator that wants no meshes.
 SharedMessage encode_statistics(const ReconstructedFrame& frame);

@@ -12,9 +12,24 @@
 
 namespace meniscus::server {
 
+namespace {
+
+Refusal shutting_down() {
+    return {Refusal::Kind::unavailable, "the server is shutting down"};
+}
+
+/// The one that a watcher with the stream's wishes shares.
+MeshFormat stream_format(const UploadOptions& options, const Settings& settings) {
+    return {.max_level = 3,
+            .position_bits = static_cast<int>(offset_bits(settings)),
+            .normal_bits = settings.normals ? options.normal_bits : 0};
+}
+
+}  // namespace
+
 Session::Session(std::string id, const Settings& settings, const Limits& limits, Reconstruct reconstruct,
                  std::shared_ptr<WorkerPool> workers, std::string owner, std::shared_ptr<Metrics> metrics,
-                 std::shared_ptr<SessionObserver> observer)
+                 EmitCapped emit_capped, std::shared_ptr<SessionObserver> observer)
     : id_(std::move(id)),
       owner_(std::move(owner)),
       settings_(settings),
@@ -22,6 +37,7 @@ Session::Session(std::string id, const Settings& settings, const Limits& limits,
       workers_(std::move(workers)),
       reconstruct_(std::move(reconstruct)),
       metrics_(std::move(metrics)),
+      emit_capped_(std::move(emit_capped)),
       observer_(std::move(observer)),
       inputs_([&] {
           const auto account = std::make_shared<MemoryAccount>(limits.bytes_per_session);
@@ -43,6 +59,11 @@ SessionState Session::state() const {
     SessionState state = state_;
     state.uploading = upload_ != nullptr;
     state.watchers = static_cast<std::uint32_t>(watches_.size());
+    for (const auto& watch : watches_) {
+        const Watch::Progress progress = watch->progress();
+        state.frames_skipped += progress.frames_skipped;
+        state.watcher_lag = std::max<std::chrono::duration<double>>(state.watcher_lag, progress.lag);
+    }
     return state;
 }
 
@@ -51,7 +72,7 @@ std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::
     auto upload = std::make_shared<Upload>(options, std::move(wake), std::move(drain));
     const std::lock_guard lock(mutex_);
     if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id_));
-    if (draining_) throw Refusal(Refusal::Kind::unavailable, "the server is shutting down");
+    if (draining_) throw shutting_down();
     if (upload_)
         throw Refusal(Refusal::Kind::failed_precondition, fmt::format("another stream uploads to session {}", id_));
     upload_ = upload;
@@ -80,34 +101,39 @@ void Session::end_upload(std::shared_ptr<Upload> upload, std::exception_ptr erro
     received_.put({.upload = std::move(upload), .input = nullptr, .error = std::move(error)});
 }
 
-std::shared_ptr<LatestFrame> Session::open_watch(int normal_bits, std::function<void()> wake) {
-    auto slot = std::make_shared<LatestFrame>(std::move(wake));
+std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::function<void()> wake) {
+    auto watch = std::make_shared<Watch>(wishes, std::move(wake));
     const std::lock_guard lock(mutex_);
     if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id_));
-    if (draining_) throw Refusal(Refusal::Kind::unavailable, "the server is shutting down");
+    if (draining_) throw shutting_down();
     if (limits_.watchers_per_session != 0 && watches_.size() >= limits_.watchers_per_session)
         throw LimitExceeded(fmt::format("session {} has {} watchers; the server takes at most {} per session", id_,
                                         watches_.size(), limits_.watchers_per_session));
-    watches_.push_back({.normal_bits = normal_bits, .slot = slot});
-    if (const auto found = published_.find(normal_bits); found != published_.end())
-        slot->put(found->second);
-    else
-        tasks_.put(EncodeForWatchers{});
-    return slot;
+    watches_.push_back(watch);
+    if (const auto found = published_.find(wishes.format); found != published_.end()) {
+        watch->put(found->second);
+        return watch;
+    }
+    tasks_.put(EncodeForWatchers{});
+    if (wishes.format.max_level < 3) received_.put({.max_level = wishes.format.max_level});
+    return watch;
 }
 
-void Session::close_watch(const std::shared_ptr<LatestFrame>& watch) {
+void Session::close_watch(const std::shared_ptr<Watch>& watch) {
     const std::lock_guard lock(mutex_);
-    std::erase_if(watches_, [&](const Watch& w) { return w.slot == watch; });
+    if (std::erase(watches_, watch) != 0) state_.frames_skipped += watch->progress().frames_skipped;
 }
 
-void Session::drain() {
+void Session::drain(std::chrono::duration<double> grace) {
     std::shared_ptr<Upload> upload;
+    std::vector<std::shared_ptr<Watch>> watches;
     {
         const std::lock_guard lock(mutex_);
         draining_ = true;
         upload = upload_;
+        watches = watches_;
     }
+    for (const auto& watch : watches) watch->announce_end(grace);
     if (upload)
         upload->drain();
     else  // behind the frames of an upload that has ended already
@@ -119,7 +145,7 @@ void Session::close() {
     const auto error = std::make_exception_ptr(
         Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id_)));
     for (const auto& upload : attached.uploads) upload->output.abort(error);
-    for (const Watch& watch : attached.watches) watch.slot->finish(nullptr);
+    for (const auto& watch : attached.watches) watch->finish(nullptr);
 }
 
 Session::Attached Session::detach() {
@@ -151,6 +177,10 @@ void Session::join() {
 void Session::reconstruct_frames() {
     std::shared_ptr<Upload> failed;
     while (auto received = received_.take()) {
+        if (received->max_level != 0) {
+            cap_levels_again(received->max_level);
+            continue;
+        }
         if (received->input == nullptr) {
             tasks_.put(EndUpload{.upload = std::move(received->upload), .error = std::move(received->error)});
             continue;
@@ -192,9 +222,47 @@ void Session::reconstruct(const InputFrame& input, ReconstructedFrame& frame) {
     frame.index = input.index;
     frame.simulation_time = input.simulation_time;
     frame.received_at = input.received_at;
+    frame.number = ++reconstructed_;
+    cap_levels(frame);
     const std::lock_guard lock(mutex_);
     ++state_.frames;
     state_.last_frame_index = input.index;
+}
+
+void Session::cap_levels(ReconstructedFrame& frame) {
+    for (const int max_level : {1, 2}) {
+        auto& capped = frame.capped_at(max_level);
+        capped.made = is_wished_for(max_level) && emit_capped(max_level, capped.mesh);
+    }
+}
+
+void Session::cap_levels_again(int max_level) {
+    if (reconstructed_ == 0) return;
+    AddCapped task{.frame_number = reconstructed_, .max_level = max_level, .mesh = {}};
+    try {
+        if (emit_capped(max_level, task.mesh)) tasks_.put(std::move(task));
+    } catch (const DeviceError& error) {
+        spdlog::error("session {} ends: {}", id_, error.what());
+        tasks_.put(EndSession{std::current_exception()});
+    }
+}
+
+bool Session::emit_capped(int max_level, Mesh& mesh) {
+    try {
+        emit_capped_(max_level, mesh);
+        return true;
+    } catch (const DeviceError&) {
+        throw;
+    } catch (const std::exception& error) {
+        spdlog::error("session {}: no mesh of levels up to {} for its watchers, who keep the one before: {}", id_, max_level,
+                      error.what());
+        return false;
+    }
+}
+
+bool Session::is_wished_for(int max_level) const {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(watches_, [&](const auto& watch) { return watch->wishes().format.max_level == max_level; });
 }
 
 void Session::encode_frames() {
@@ -209,14 +277,15 @@ void Session::perform(Encode& task) {
     newest_ = task.frame;
     {
         const std::lock_guard lock(mutex_);
-        published_.clear();
+        before_ = std::exchange(published_, {});
     }
     try {
         if (upload.options.receive_meshes) {
-            const auto encoded = encode_frame(*newest_, upload.options.normal_bits, *workers_,
-                                              [&](const SharedMessage& message) { upload.output.push(message); });
-            count_answer(encoded->messages.back());
-            publish(upload.options.normal_bits, encoded);
+            const MeshFormat format = stream_format(upload.options, settings_);
+            const auto encoded =
+                encode_newest(format, [&](const SharedMessage& message) { upload.output.push(message); });
+            count_answer(encoded->statistics);
+            publish(format, encoded);
         } else {
             const SharedMessage statistics = encode_statistics(*newest_);
             count_answer(statistics);
@@ -228,10 +297,11 @@ void Session::perform(Encode& task) {
     }
     encode_for_watchers();
     if (observer_) encode_for_observer();
+    before_.clear();
 }
 
 void Session::perform(EndUpload& task) {
-    std::vector<Watch> done;
+    std::vector<std::shared_ptr<Watch>> done;
     {
         const std::lock_guard lock(mutex_);
         if (upload_ == task.upload) upload_.reset();
@@ -240,13 +310,13 @@ void Session::perform(EndUpload& task) {
     }
     // Only now: who hears of the end may open the next stream.
     if (task.upload) task.upload->output.finish(task.error);
-    for (const Watch& watch : done) watch.slot->finish(nullptr);
+    for (const auto& watch : done) watch->finish(std::make_exception_ptr(shutting_down()));
 }
 
 void Session::perform(EndSession& task) {
     const Attached attached = detach();
     for (const auto& upload : attached.uploads) upload->output.finish(task.error);
-    for (const Watch& watch : attached.watches) watch.slot->finish(task.error);
+    for (const auto& watch : attached.watches) watch->finish(task.error);
 }
 
 void Session::perform(EncodeForWatchers&) {
@@ -261,22 +331,35 @@ void Session::count_answer(const SharedMessage& statistics) {
     state_.last_frame = std::move(*response.mutable_frame_statistics());
 }
 
-void Session::publish(int normal_bits, const std::shared_ptr<const EncodedFrame>& frame) {
-    std::vector<std::shared_ptr<LatestFrame>> slots;
+void Session::perform(AddCapped& task) {
+    // A newer frame has it already: the watcher was there when that was reconstructed.
+    if (newest_ == nullptr || newest_->number != task.frame_number) return;
+    auto& capped = newest_->capped_at(task.max_level);
+    if (!capped.made) capped.mesh = std::move(task.mesh);
+    capped.made = true;
+    encode_for_watchers();
+}
+
+std::shared_ptr<const EncodedFrame> Session::encode_newest(const MeshFormat& format, const MessageSink& sink) {
+    const auto before = before_.find(format);
+    return encode_frame(*newest_, format, before != before_.end() ? before->second.get() : nullptr, *workers_, sink);
+}
+
+void Session::publish(const MeshFormat& format, const std::shared_ptr<const EncodedFrame>& frame) {
+    std::vector<std::shared_ptr<Watch>> watches;
     {
         const std::lock_guard lock(mutex_);
-        published_[normal_bits] = frame;
-        for (const Watch& watch : watches_)
-            if (watch.normal_bits == normal_bits) slots.push_back(watch.slot);
+        published_[format] = frame;
+        for (const auto& watch : watches_)
+            if (watch->wishes().format == format) watches.push_back(watch);
     }
-    for (const auto& slot : slots) slot->put(frame);
+    for (const auto& watch : watches) watch->put(frame);
 }
 
 void Session::encode_for_watchers() {
     if (newest_ == nullptr) return;
     try {
-        while (const auto bits = unpublished_normal_bits())
-            publish(*bits, encode_frame(*newest_, *bits, *workers_, nullptr));
+        while (const auto format = unpublished_format()) publish(*format, encode_newest(*format, nullptr));
     } catch (const std::exception& error) {
         spdlog::error("session {}: frame {} could not be encoded for its watchers, who keep the one before: {}", id_,
                       newest_->index, error.what());
@@ -284,14 +367,14 @@ void Session::encode_for_watchers() {
 }
 
 void Session::encode_for_observer() {
-    constexpr int bits = SessionObserver::normal_bits;
+    const MeshFormat format = stream_format({.normal_bits = SessionObserver::normal_bits}, settings_);
     std::shared_ptr<const EncodedFrame> frame;
     {
         const std::lock_guard lock(mutex_);
-        if (const auto found = published_.find(bits); found != published_.end()) frame = found->second;
+        if (const auto found = published_.find(format); found != published_.end()) frame = found->second;
     }
     try {
-        if (!frame) publish(bits, frame = encode_frame(*newest_, bits, *workers_, nullptr));
+        if (!frame) publish(format, frame = encode_newest(format, nullptr));
     } catch (const std::exception& error) {
         spdlog::error("session {}: frame {} could not be encoded for its recording: {}", id_, newest_->index, error.what());
         return;
@@ -299,10 +382,12 @@ void Session::encode_for_observer() {
     observer_->encoded(std::move(frame));
 }
 
-std::optional<int> Session::unpublished_normal_bits() const {
+std::optional<MeshFormat> Session::unpublished_format() const {
     const std::lock_guard lock(mutex_);
-    for (const Watch& watch : watches_)
-        if (!published_.contains(watch.normal_bits)) return watch.normal_bits;
+    for (const auto& watch : watches_) {
+        const MeshFormat& format = watch->wishes().format;
+        if (!published_.contains(format) && newest_->mesh_at(format.max_level) != nullptr) return format;
+    }
     return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <exception>
 #include <functional>
 #include <map>
@@ -21,11 +22,11 @@
 #include "sessions/channel.hpp"
 #include "sessions/frame_encoder.hpp"
 #include "sessions/input_frame.hpp"
-#include "sessions/latest_frame.hpp"
 #include "sessions/limits.hpp"
 #include "sessions/session_observer.hpp"
 #include "sessions/slot_pool.hpp"
 #include "sessions/upload.hpp"
+#include "sessions/watch.hpp"
 #include "sessions/worker_pool.hpp"
 
 namespace meniscus::server {
@@ -36,10 +37,15 @@ struct SessionState {
     std::uint64_t frames = 0;
     std::optional<std::uint64_t> last_frame_index;
     std::optional<v1::FrameStatistics> last_frame;  ///< of the frame answered last
+    std::uint64_t frames_skipped = 0;                 ///< over all watchers, those that have gone included
+    std::chrono::duration<double> watcher_lag{0.0};   ///< of the watcher that lags most
 };
 
 /// Replaces the mesh by the frame's surface; throws what Reconstructor::reconstruct throws.
 using Reconstruct = std::function<Statistics(const ParticleFrame& frame, Mesh& mesh)>;
+
+/// Replaces the mesh by the last frame's surface with its levels capped; throws what Reconstructor::emit_capped throws.
+using EmitCapped = std::function<void(int max_level, Mesh& mesh)>;
 
 /// A pipeline of three steps that overlap: a frame is received (by its stream, into one of two input slots) while the
 /// one before is reconstructed (first thread, into one of two meshes) and the one before that is encoded (second
@@ -48,10 +54,11 @@ using Reconstruct = std::function<Statistics(const ParticleFrame& frame, Mesh& m
 /// join() must have returned before the last reference goes, unless no other thread has one.
 class Session {
 public:
-    /// owner: who made it; empty where nobody is asked. observer: may be none.
+    /// owner: who made it; empty where nobody is asked. emit_capped: called by the thread that calls reconstruct; none if no
+    /// watcher will wish for a level cap. observer: may be none.
     Session(std::string id, const Settings& settings, const Limits& limits, Reconstruct reconstruct,
             std::shared_ptr<WorkerPool> workers, std::string owner = {},
-            std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>(),
+            std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>(), EmitCapped emit_capped = nullptr,
             std::shared_ptr<SessionObserver> observer = nullptr);
     ~Session();
     Session(const Session&) = delete;
@@ -77,11 +84,11 @@ public:
     // Watching.
 
     /// Gets the newest mesh at once if there is one. Throws LimitExceeded, or Refusal if the session ends.
-    std::shared_ptr<LatestFrame> open_watch(int normal_bits, std::function<void()> wake);
-    void close_watch(const std::shared_ptr<LatestFrame>& watch);
+    std::shared_ptr<Watch> open_watch(const WatchWishes& wishes, std::function<void()> wake);
+    void close_watch(const std::shared_ptr<Watch>& watch);
 
-    /// Lets the frame on its way in be the last, then ends the watchers. Returns at once.
-    void drain();
+    /// Lets the frame on its way in be the last, then ends the watchers, who are told that they have so long. Returns at once.
+    void drain(std::chrono::duration<double> grace);
     /// Drops what is in flight, and ends the upload and the watchers. Returns at once.
     void close();
     /// Whether the session was closed, or a GPU that failed has ended it.
@@ -91,9 +98,10 @@ public:
 
 private:
     struct Received {
-        std::shared_ptr<Upload> upload;
+        std::shared_ptr<Upload> upload = nullptr;
         InputFrame* input = nullptr;  ///< none: the upload ends
-        std::exception_ptr error;
+        std::exception_ptr error = nullptr;
+        int max_level = 0;            ///< or, if not 0: a watcher has come who wishes for this cap
     };
     struct Encode {
         std::shared_ptr<Upload> upload;
@@ -107,35 +115,46 @@ private:
         std::exception_ptr error;
     };
     struct EncodeForWatchers {};
-    using Task = std::variant<Encode, EndUpload, EndSession, EncodeForWatchers>;
-
-    struct Watch {
-        int normal_bits = 0;
-        std::shared_ptr<LatestFrame> slot;
+    /// The mesh of a cap that was wished for after its frame had been reconstructed.
+    struct AddCapped {
+        std::uint64_t frame_number = 0;
+        int max_level = 0;
+        Mesh mesh;
     };
+    using Task = std::variant<Encode, EndUpload, EndSession, EncodeForWatchers, AddCapped>;
+
+    using Encodings = std::map<MeshFormat, std::shared_ptr<const EncodedFrame>>;
 
     struct Attached {
         std::vector<std::shared_ptr<Upload>> uploads;
-        std::vector<Watch> watches;
+        std::vector<std::shared_ptr<Watch>> watches;
     };
     /// Ends the threads' work. Returns whom to tell: nobody from the second call on.
     Attached detach();
 
     void reconstruct_frames();
     void reconstruct(const InputFrame& input, ReconstructedFrame& frame);
+    /// With the level caps that watchers wish for now.
+    void cap_levels(ReconstructedFrame& frame);
+    /// Of the last frame, for a watcher who has come since.
+    void cap_levels_again(int max_level);
+    bool emit_capped(int max_level, Mesh& mesh);
+    bool is_wished_for(int max_level) const;
 
     void encode_frames();
     void perform(Encode& task);
     void perform(EndUpload& task);
     void perform(EndSession& task);
     void perform(EncodeForWatchers& task);
+    void perform(AddCapped& task);
     /// A frame was answered with these statistics.
     void count_answer(const SharedMessage& statistics);
-    void publish(int normal_bits, const std::shared_ptr<const EncodedFrame>& frame);
+    std::shared_ptr<const EncodedFrame> encode_newest(const MeshFormat& format, const MessageSink& sink);
+    void publish(const MeshFormat& format, const std::shared_ptr<const EncodedFrame>& frame);
     /// Encodes the newest mesh for the watchers whose wishes nobody shared.
     void encode_for_watchers();
     void encode_for_observer();
-    std::optional<int> unpublished_normal_bits() const;
+    std::optional<MeshFormat> unpublished_format() const;
 
     const std::string id_;
     const std::string owner_;
@@ -144,6 +163,7 @@ private:
     const std::shared_ptr<WorkerPool> workers_;
     const Reconstruct reconstruct_;
     const std::shared_ptr<Metrics> metrics_;
+    const EmitCapped emit_capped_;
     const std::shared_ptr<SessionObserver> observer_;
 
     std::array<InputFrame, 2> inputs_;
@@ -152,14 +172,16 @@ private:
     Channel<Received> received_;
     Channel<ReconstructedFrame*> free_frames_;
     Channel<Task> tasks_;
+    std::uint64_t reconstructed_ = 0;       ///< frames; of the reconstructing thread
     ReconstructedFrame* newest_ = nullptr;  ///< of the encoding thread
+    Encodings before_;                      ///< of the frame before the newest, whose bricks may serve again; of the same thread
 
     mutable std::mutex mutex_;  ///< for what follows
     SessionState state_;
     std::shared_ptr<Upload> upload_;                     ///< the one that sends
     std::vector<std::shared_ptr<Upload>> unanswered_;    ///< and those whose last frames are still on their way
-    std::vector<Watch> watches_;
-    std::map<int, std::shared_ptr<const EncodedFrame>> published_;  ///< the newest mesh, by normal_bits
+    std::vector<std::shared_ptr<Watch>> watches_;
+    Encodings published_;  ///< the newest mesh
     bool draining_ = false;
     bool closed_ = false;
 

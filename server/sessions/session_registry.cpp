@@ -21,11 +21,18 @@ BackendOptions with_memory_limits(BackendOptions backend, const Limits& limits) 
     return backend;
 }
 
-Reconstruct reconstruct_with(const Settings& settings, const BackendOptions& backend) {
-    return [reconstructor = std::make_shared<Reconstructor>(settings, backend)](const ParticleFrame& frame, Mesh& mesh) {
+std::shared_ptr<Session> make_session(const std::string& id, const Settings& settings, const Limits& limits,
+                                      const BackendOptions& backend, const std::shared_ptr<WorkerPool>& workers,
+                                      const std::string& owner, const std::shared_ptr<Metrics>& metrics,
+                                      std::shared_ptr<SessionObserver> observer) {
+    const auto reconstructor = std::make_shared<Reconstructor>(settings, backend);
+    const auto reconstruct = [reconstructor](const ParticleFrame& frame, Mesh& mesh) {
         reconstructor->reconstruct(frame, mesh);
         return reconstructor->statistics();
     };
+    const auto emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); };
+    return std::make_shared<Session>(id, settings, limits, reconstruct, workers, owner, metrics, emit_capped,
+                                     std::move(observer));
 }
 
 std::string place_name(const BackendOptions& backend) {
@@ -66,8 +73,8 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
         throw LimitExceeded(
             fmt::format("{} sessions are open; the server holds at most {}", sessions_.size(), limits_.sessions));
     const BackendOptions backend = place_session();
-    auto session = std::make_shared<Session>(id, settings, limits_, reconstruct_with(settings, backend), workers_, owner,
-                                             metrics_, observe_ ? observe_(id, settings) : nullptr);
+    auto session = make_session(id, settings, limits_, backend, workers_, owner, metrics_,
+                                observe_ ? observe_(id, settings) : nullptr);
     sessions_.emplace(id, session);
     spdlog::info("session {} created on {} ({} open)", id, place_name(backend), sessions_.size());
     return session;
@@ -122,12 +129,12 @@ BackendOptions SessionRegistry::place_session() const {
     return place;
 }
 
-void SessionRegistry::drain() {
+void SessionRegistry::drain(std::chrono::duration<double> grace) {
     {
         const std::lock_guard lock(mutex_);
         draining_ = true;
     }
-    for (const auto& session : list()) session->drain();
+    for (const auto& session : list()) session->drain(grace);
 }
 
 }  // namespace meniscus::server

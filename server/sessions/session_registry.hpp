@@ -1,6 +1,7 @@
 // All sessions of a server, by their ids.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -41,7 +42,8 @@ public:
     void remove(const std::string& id);
 
     /// No new sessions and uploads; those that run end after the frame on its way in. Returns at once.
-    void drain();
+    /// grace: what is left then is ended regardless.
+    void drain(std::chrono::duration<double> grace);
 
     const Limits& limits() const noexcept { return limits_; }
     Metrics& metrics() const noexcept { return *metrics_; }

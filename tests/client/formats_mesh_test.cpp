@@ -97,8 +97,9 @@ TEST(BrickFile, IsReadBackInParts) {
     frame.statistics.triangles = 7;
     frame.statistics.stage_seconds[7] = 0.5;
     frame.statistics.backend = "cpu";
-    frame.bricks.push_back({{-1, 2, 3}, 5, 6, {std::byte{3}}, std::vector<std::byte>((1 << 21) + 5, std::byte{9})});
-    frame.bricks.push_back({{0, 0, 0}, 1, 1, {}, {}});
+    frame.bricks.push_back(std::make_shared<EncodedBrick>(EncodedBrick{{0, 0, 0}, 1, 1, {}, {}}));
+    frame.bricks.push_back(std::make_shared<EncodedBrick>(
+        EncodedBrick{{-1, 2, 3}, 5, 6, {std::byte{3}}, std::vector<std::byte>((1 << 21) + 5, std::byte{9})}));
     formats::write_bricks(directory / "f.bricks", frame);
     const auto back = formats::read_bricks("f", formats::read_file(directory / "f.bricks"));
     EXPECT_EQ(back.index, 7U);
@@ -106,9 +107,9 @@ TEST(BrickFile, IsReadBackInParts) {
     EXPECT_EQ(back.cell_size, 0.0125);
     EXPECT_EQ(back.offset_bits, 6U);
     ASSERT_EQ(back.bricks.size(), 2U);
-    EXPECT_EQ(back.bricks[0].coordinate, frame.bricks[0].coordinate);
-    EXPECT_EQ(back.bricks[0].cell_levels, frame.bricks[0].cell_levels);
-    EXPECT_EQ(back.bricks[0].draco, frame.bricks[0].draco);
+    EXPECT_EQ(back.bricks[1]->coordinate, frame.bricks[1]->coordinate);
+    EXPECT_EQ(back.bricks[1]->cell_levels, frame.bricks[1]->cell_levels);
+    EXPECT_EQ(back.bricks[1]->draco, frame.bricks[1]->draco);
     EXPECT_EQ(back.statistics.triangles, 7U);
     EXPECT_EQ(back.statistics.stage_seconds[7], 0.5);
     EXPECT_EQ(back.statistics.backend, "cpu");

@@ -116,7 +116,8 @@ std::vector<Sample> samples() {
     out.push_back({"mesh ply", formats::read_file(directory / "mesh.ply"), particles(formats::read_mesh_ply)});
     out.push_back({"mesh obj", formats::read_file(directory / "mesh.obj"), particles(formats::read_obj)});
     client::ReceivedFrame frame = formats::encode_frame(tetrahedron(), {}, 4, 0.5);
-    frame.bricks = {EncodedBrick{{1, -2, 3}, 4, 4, {std::byte{1}}, std::vector<std::byte>(30, std::byte{9})}};
+    frame.bricks = {std::make_shared<const EncodedBrick>(
+        EncodedBrick{{1, -2, 3}, 4, 4, {std::byte{1}}, std::vector<std::byte>(30, std::byte{9})})};
     frame.statistics.triangles = 4;
     formats::write_bricks(directory / "frame.bricks", frame);
     out.push_back({"bricks", formats::read_file(directory / "frame.bricks"), particles(formats::read_bricks)});

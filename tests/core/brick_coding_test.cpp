@@ -1,9 +1,14 @@
 // Bricks travel through Draco without loss, and decoding survives any bytes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "coding/round_position.hpp"
 #include "meniscus/meniscus.hpp"
 #include "support/mesh_check.hpp"
 #include "support/particles.hpp"
@@ -41,6 +46,68 @@ TEST(BrickCoding, KeepsEveryNumberOfOffsetBits) {
         EXPECT_EQ(mesh.offset_bits, steps + 1);
         EXPECT_EQ(mesh_sha256(round_trip(mesh, {})), mesh_sha256(mesh));
     }
+}
+
+TEST(BrickCoding, KeepsAMeshClosedAndItsLevelsOnEveryCoarserLattice) {
+    std::vector<test::NamedParticles> inputs = test::adversarial(0.025F);
+    inputs.push_back({"splash", test::splash(61)});
+    for (const auto& [name, particles] : inputs)
+        for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
+            Settings settings = test::default_settings();
+            settings.edge_points = edge_points;
+            settings.bisection_steps = 7;
+            const Mesh mesh = test::reconstruct(settings, particles.frame());
+            for (std::uint32_t bits = 2; bits <= mesh.offset_bits; ++bits) {
+                SCOPED_TRACE(name + ", " + std::to_string(bits) + " bits");
+                const CodingOptions options{.position_bits = static_cast<int>(bits)};
+                EXPECT_EQ(encoded_offset_bits(mesh, options), bits);
+                std::vector<DecodedBrick> bricks;
+                for (std::size_t b = 0; b < mesh.bricks.size(); ++b) bricks.push_back(decode_brick(encode_brick(mesh, b, options), bits));
+                const Mesh coarser = weld_bricks(bricks, mesh.cell_size, bits);
+                EXPECT_TRUE(test::check(coarser).closed_manifold()) << test::check(coarser).text();
+                EXPECT_EQ(coarser.vertices.size(), mesh.vertices.size());
+                for (std::size_t level = 0; level < triangle_level_count; ++level)
+                    EXPECT_EQ(coarser.levels[level].count, mesh.levels[level].count);
+            }
+        }
+}
+
+TEST(BrickCoding, RoundsToTheNearestPointInsideOfAVertexsEdge) {
+    constexpr std::uint32_t from = 6;
+    for (std::uint32_t to = 2; to <= from; ++to)
+        for (std::uint32_t p = 0; p <= 64U << from; ++p) {
+            const std::uint32_t step = 1U << (from - to);
+            const std::uint32_t rounded = round_position(static_cast<std::uint16_t>(p), from, to) * step;
+            ASSERT_EQ(rounded % (1U << from) == 0, p % (1U << from) == 0) << p;
+            ASSERT_EQ(rounded >> from, p >> from) << p;
+            const std::uint32_t moved = std::max(p, rounded) - std::min(p, rounded);
+            // By half a step; beside a lattice point, which stays free, by less than one.
+            const std::uint32_t beside = p % (1U << from);
+            ASSERT_LE(2 * moved, beside < step || beside > (1U << from) - step ? 2 * step - 1 : step) << p;
+        }
+}
+
+TEST(BrickCoding, HashesTheSameContentAlikeAndAnyOtherDifferently) {
+    const Mesh mesh = test::reconstruct(test::default_settings(), test::splash(62).frame());
+    const BrickContent content = brick_content(mesh, 0);
+    EXPECT_EQ(content.hash(), brick_content(mesh, 0).hash());
+    const auto differs = [&](const auto& change) {
+        BrickContent other = content;
+        change(other);
+        EXPECT_NE(other.hash(), content.hash());
+    };
+    differs([](BrickContent& c) { c.positions.back()[2] ^= 1U; });
+    differs([](BrickContent& c) { c.normals.front()[0] = -c.normals.front()[0]; });
+    differs([](BrickContent& c) { std::swap(c.triangles[0], c.triangles[1]); });
+    differs([](BrickContent& c) { c.cell_levels.back() ^= std::byte{1}; });
+    differs([](BrickContent& c) { c.normals.clear(); });
+    differs([](BrickContent& c) { c.triangles.pop_back(); });
+}
+
+TEST(BrickCoding, RefusesALatticeFinerThanTheMeshs) {
+    const Mesh mesh = test::reconstruct(test::default_settings(), test::splash(62).frame());
+    EXPECT_THROW(brick_content(mesh, 0, {.position_bits = 1}), InvalidInput);
+    EXPECT_THROW(brick_content(mesh, 0, {.position_bits = 7}), InvalidInput);
 }
 
 TEST(BrickCoding, KeepsNormalsWithinTwoDegreesAtEightBits) {

@@ -7,8 +7,8 @@ namespace meniscus::fuzz {
 namespace {
 
 template <class Response>
-void receive(Bytes bytes) {
-    client::FrameReceiver receiver(true);
+void receive(Bytes bytes, bool differences) {
+    client::FrameReceiver receiver(true, differences);
     Front front(bytes);
     may_refuse([&] {
         while (!front.empty()) {
@@ -25,7 +25,7 @@ void receive(Bytes bytes) {
 
 /// One frame with all of its bricks, the first in two parts.
 template <class Response>
-std::string whole_frame() {
+std::vector<Response> whole_frame() {
     const Mesh mesh = sample_mesh();
     std::vector<Response> responses;
     v1::MeshBegin& begin = *responses.emplace_back().mutable_mesh_begin();
@@ -56,25 +56,43 @@ std::string whole_frame() {
     v1::FrameStatistics& statistics = *responses.emplace_back().mutable_frame_statistics();
     statistics.set_frame_index(3);
     statistics.set_triangles(mesh.triangles.size());
-    return join(responses);
+    return responses;
+}
+
+/// The frame after it, in which the first brick has vanished.
+std::vector<v1::WatchResponse> difference() {
+    const Mesh mesh = sample_mesh();
+    std::vector<v1::WatchResponse> responses = whole_frame<v1::WatchResponse>();
+    v1::MeshBegin begin = responses.front().mesh_begin();
+    begin.set_frame_index(4);
+    begin.set_base_frame_index(3);
+    begin.set_brick_count(0);
+    begin.set_triangle_count(mesh.triangles.size() - mesh.bricks[0].triangle_count());
+    v1::BrickPlace& place = *begin.add_vanished();
+    place.set_x(mesh.bricks[0].coordinate[0]);
+    place.set_y(mesh.bricks[0].coordinate[1]);
+    place.set_z(mesh.bricks[0].coordinate[2]);
+    *responses.emplace_back().mutable_mesh_begin() = begin;
+    responses.emplace_back().mutable_frame_statistics()->set_frame_index(4);
+    return responses;
 }
 
 }  // namespace
 
 void stream_responses(Bytes bytes) {
-    receive<v1::StreamResponse>(bytes);
+    receive<v1::StreamResponse>(bytes, false);
 }
 
 Seeds stream_response_seeds() {
-    return {whole_frame<v1::StreamResponse>()};
+    return {join(whole_frame<v1::StreamResponse>())};
 }
 
 void watch_responses(Bytes bytes) {
-    receive<v1::WatchResponse>(bytes);
+    receive<v1::WatchResponse>(bytes, true);
 }
 
 Seeds watch_response_seeds() {
-    return {whole_frame<v1::WatchResponse>()};
+    return {join(whole_frame<v1::WatchResponse>()), join(difference())};
 }
 
 }  // namespace meniscus::fuzz

@@ -81,7 +81,7 @@ TEST(BadInputException, ReachesTheCallerOfPushAndNext) {
             large.next();
         },
         LimitExceeded);
-    auto watcher = running.client.watch(id, 1);
+    auto watcher = running.client.watch(id, {.normal_bits = 1});
     EXPECT_THROW(watcher.next(), InvalidInput);
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/limits.hpp"
@@ -31,11 +33,14 @@ TEST(FrameEncoder, SendsBeginThenBricksThenStatistics) {
     WorkerPool workers(3);
     const ReconstructedFrame frame = reconstructed(test::wave(12, 0.0));
     std::vector<SharedMessage> sent;
-    const auto encoded = encode_frame(frame, 8, workers, [&](const SharedMessage& m) { sent.push_back(m); });
-    EXPECT_EQ(encoded->messages, sent);
+    const auto encoded =
+        encode_frame(frame, {.normal_bits = 8}, nullptr, workers, [&](const SharedMessage& m) { sent.push_back(m); });
+    EXPECT_EQ(encoded->begin, sent.front());
+    EXPECT_EQ(encoded->statistics, sent.back());
     ASSERT_EQ(sent.size(), frame.mesh.bricks.size() + 2);
     EXPECT_EQ(parsed(sent.front()).mesh_begin().frame_index(), 5U);
     EXPECT_EQ(parsed(sent.front()).mesh_begin().brick_count(), frame.mesh.bricks.size());
+    EXPECT_EQ(parsed(sent.front()).mesh_begin().triangle_count(), frame.mesh.triangles.size());
     std::uint64_t bytes = 0;
     for (std::size_t i = 1; i + 1 < sent.size(); ++i) {
         EXPECT_TRUE(parsed(sent[i]).has_mesh_brick());
@@ -58,24 +63,53 @@ TEST(FrameEncoder, KeepsThePartsOfABrickTogetherAndWithinTheChunkSize) {
     }
     ReconstructedFrame frame = reconstructed(particles);
     WorkerPool workers(2);
-    const auto encoded = encode_frame(frame, 16, workers, nullptr);
-    std::uint32_t expected_part = 0;
-    for (const SharedMessage& message : encoded->messages) {
-        const v1::WatchResponse response = parsed(message);
-        if (!response.has_mesh_brick()) continue;
-        EXPECT_LE(response.mesh_brick().draco().size(), chunk_bytes);
-        EXPECT_EQ(response.mesh_brick().part_index(), expected_part);
-        expected_part = (expected_part + 1) % response.mesh_brick().part_count();
+    const auto encoded = encode_frame(frame, {.normal_bits = 16}, nullptr, workers, nullptr);
+    for (const SharedBrick& brick : encoded->bricks) {
+        std::uint32_t part = 0;
+        for (const SharedMessage& message : brick->messages) {
+            const v1::WatchResponse response = parsed(message);
+            EXPECT_LE(response.mesh_brick().draco().size(), chunk_bytes);
+            EXPECT_EQ(response.mesh_brick().part_index(), part++);
+            EXPECT_EQ(response.mesh_brick().part_count(), brick->messages.size());
+        }
     }
-    EXPECT_EQ(expected_part, 0U);
 }
 
 TEST(FrameEncoder, SendsAnEmptyMesh) {
     WorkerPool workers(1);
-    const auto encoded = encode_frame(reconstructed({}), 8, workers, nullptr);
-    ASSERT_EQ(encoded->messages.size(), 2U);
-    EXPECT_EQ(parsed(encoded->messages[0]).mesh_begin().brick_count(), 0U);
-    EXPECT_GT(parsed(encoded->messages[0]).mesh_begin().cell_size(), 0.0);
+    const auto encoded = encode_frame(reconstructed({}), {.normal_bits = 8}, nullptr, workers, nullptr);
+    EXPECT_TRUE(encoded->bricks.empty());
+    EXPECT_EQ(parsed(encoded->begin).mesh_begin().brick_count(), 0U);
+    EXPECT_GT(parsed(encoded->begin).mesh_begin().cell_size(), 0.0);
+}
+
+TEST(FrameEncoder, EncodesOnlyTheBricksThatHaveChanged) {
+    WorkerPool workers(2);
+    // Two bodies of water, far apart; one of them moves.
+    const auto particles = [](double phase) {
+        test::Particles both = test::wave(10, phase);
+        for (const float p : test::wave(10, 0.0).positions) both.positions.push_back(p + 20.0F);
+        return both;
+    };
+    const auto before = encode_frame(reconstructed(particles(0.0)), {.normal_bits = 8}, nullptr, workers, nullptr);
+    const auto after = encode_frame(reconstructed(particles(0.5)), {.normal_bits = 8}, before.get(), workers, nullptr);
+    const auto anew = encode_frame(reconstructed(particles(0.5)), {.normal_bits = 8}, nullptr, workers, nullptr);
+    ASSERT_EQ(after->bricks.size(), anew->bricks.size());
+    std::size_t reused = 0;
+    std::size_t far = 0;
+    for (std::size_t i = 0; i < after->bricks.size(); ++i) {
+        const SharedBrick& brick = after->bricks[i];
+        const bool is_reused = std::ranges::count(before->bricks, brick) != 0;
+        const bool is_far = brick->place[0] >= 2;
+        EXPECT_TRUE(is_reused || !is_far);
+        reused += is_reused ? 1U : 0U;
+        far += is_far ? 1U : 0U;
+        ASSERT_EQ(brick->messages.size(), anew->bricks[i]->messages.size());
+        for (std::size_t m = 0; m < brick->messages.size(); ++m)
+            EXPECT_EQ(*brick->messages[m], *anew->bricks[i]->messages[m]);
+    }
+    EXPECT_GT(far, 0U);
+    EXPECT_LT(reused, after->bricks.size());
 }
 
 }  // namespace

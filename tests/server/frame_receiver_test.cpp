@@ -10,10 +10,11 @@
 namespace meniscus::client {
 namespace {
 
-v1::StreamResponse begin(std::uint32_t bricks) {
+v1::StreamResponse begin(std::uint32_t bricks, std::uint64_t triangles = 0, std::uint64_t index = 3) {
     v1::StreamResponse response;
     v1::MeshBegin& message = *response.mutable_mesh_begin();
-    message.set_frame_index(3);
+    message.set_frame_index(index);
+    message.set_triangle_count(triangles);
     message.set_cell_size(0.1);
     message.set_offset_bits(6);
     message.set_brick_cells(brick_cells);
@@ -41,13 +42,13 @@ v1::StreamResponse statistics(std::uint64_t triangles, std::uint64_t index = 3) 
 
 TEST(FrameReceiver, PutsPartsAndBricksTogether) {
     FrameReceiver receiver(true);
-    EXPECT_FALSE(receiver.take(begin(2)));
+    EXPECT_FALSE(receiver.take(begin(2, 4)));
     for (std::uint32_t part = 0; part < 3; ++part) EXPECT_FALSE(receiver.take(brick(0, part, 3)));
     EXPECT_FALSE(receiver.take(brick(1)));
     const auto frame = receiver.take(statistics(4));
     ASSERT_TRUE(frame);
     ASSERT_EQ(frame->bricks.size(), 2U);
-    EXPECT_EQ(frame->bricks[0].draco, (std::vector<std::byte>{std::byte{'a'}, std::byte{'b'}, std::byte{'c'}}));
+    EXPECT_EQ(frame->bricks[0]->draco, (std::vector<std::byte>{std::byte{'a'}, std::byte{'b'}, std::byte{'c'}}));
     receiver.end_of_stream();
 }
 
@@ -93,10 +94,102 @@ TEST(FrameReceiver, RefusesMessagesOutOfOrder) {
 }
 
 TEST(FrameReceiver, RefusesCountsThatContradictEachOther) {
-    FrameReceiver receiver(true);
-    receiver.take(begin(1));
+    const auto refuses = [](std::uint64_t announced, std::uint64_t in_statistics) {
+        FrameReceiver receiver(true);
+        receiver.take(begin(1, announced));
+        receiver.take(brick(0));
+        EXPECT_THROW(receiver.take(statistics(in_statistics)), ServerError);
+    };
+    refuses(2, 3);
+    refuses(3, 2);
+}
+
+/// Has received bricks 0 and 1 of frame 3.
+FrameReceiver watching() {
+    FrameReceiver receiver(true, true);
+    receiver.take(begin(2, 4));
     receiver.take(brick(0));
-    EXPECT_THROW(receiver.take(statistics(3)), ServerError);
+    receiver.take(brick(1));
+    EXPECT_TRUE(receiver.take(statistics(4)));
+    return receiver;
+}
+
+v1::StreamResponse difference(std::uint32_t bricks, std::uint64_t triangles, std::initializer_list<int> vanished,
+                              std::uint64_t base = 3) {
+    v1::StreamResponse response = begin(bricks, triangles, 4);
+    response.mutable_mesh_begin()->set_base_frame_index(base);
+    for (const int x : vanished) response.mutable_mesh_begin()->add_vanished()->set_x(x);
+    return response;
+}
+
+TEST(FrameReceiver, MergesADifferenceAndSharesWhatStaysTheSame) {
+    FrameReceiver receiver = watching();
+    receiver.take(difference(2, 6, {}));
+    receiver.take(brick(2));
+    receiver.take(brick(1));
+    // Statistics are of the whole surface, of which a watcher may have asked for a part.
+    const auto frame = receiver.take(statistics(99, 4));
+    ASSERT_TRUE(frame);
+    ASSERT_EQ(frame->bricks.size(), 3U);
+    EXPECT_EQ(frame->bricks[0].use_count(), 2);
+    for (int x = 0; x < 3; ++x) EXPECT_EQ(frame->bricks[static_cast<std::size_t>(x)]->coordinate[0], x);
+    receiver.take(difference(0, 2, {0, 2}, 4));
+    EXPECT_EQ(receiver.take(statistics(2, 4))->bricks.size(), 1U);
+}
+
+TEST(FrameReceiver, ForgetsAFrameThatIsGivenUpForANewerOne) {
+    FrameReceiver receiver = watching();
+    receiver.take(difference(2, 2, {0}));
+    receiver.take(brick(2, 0, 2));
+    receiver.take(difference(0, 2, {1}));
+    const auto frame = receiver.take(statistics(2, 4));
+    ASSERT_TRUE(frame);
+    ASSERT_EQ(frame->bricks.size(), 1U);
+    EXPECT_EQ(frame->bricks[0]->coordinate[0], 0);
+}
+
+TEST(FrameReceiver, RefusesADifferenceToAFrameItDoesNotHave) {
+    EXPECT_THROW(FrameReceiver(true, true).take(difference(0, 0, {})), ServerError);
+    EXPECT_THROW(watching().take(difference(0, 4, {}, 2)), ServerError);
+    FrameReceiver other_lattice = watching();
+    v1::StreamResponse response = difference(0, 4, {});
+    response.mutable_mesh_begin()->set_offset_bits(5);
+    EXPECT_THROW(other_lattice.take(response), ServerError);
+}
+
+TEST(FrameReceiver, RefusesVanishedBricksThatAreNotThere) {
+    EXPECT_THROW(watching().take(difference(0, 4, {2})), ServerError);
+    EXPECT_THROW(watching().take(difference(0, 2, {1, 1})), ServerError);
+    FrameReceiver whole(true, true);
+    v1::StreamResponse response = begin(0);
+    response.mutable_mesh_begin()->add_vanished();
+    EXPECT_THROW(whole.take(response), ServerError);
+    FrameReceiver both = watching();
+    both.take(difference(1, 4, {1}));
+    EXPECT_THROW(both.take(brick(1)), ServerError);
+}
+
+TEST(FrameReceiver, RefusesADifferenceThatDoesNotAddUp) {
+    FrameReceiver receiver = watching();
+    receiver.take(difference(1, 4, {}));
+    receiver.take(brick(2));
+    EXPECT_THROW(receiver.take(statistics(4, 4)), ServerError);
+}
+
+TEST(FrameReceiver, RefusesDifferencesWhereNoneWereAskedFor) {
+    FrameReceiver receiver(true);
+    receiver.take(begin(0));
+    EXPECT_TRUE(receiver.take(statistics(0)));
+    EXPECT_THROW(receiver.take(difference(0, 0, {})), ServerError);
+}
+
+TEST(FrameReceiver, LetsTheServerSayThatItGoesDown) {
+    FrameReceiver receiver(true);
+    v1::StreamResponse draining;
+    draining.mutable_draining();
+    receiver.take(begin(0));
+    EXPECT_FALSE(receiver.take(draining));
+    EXPECT_TRUE(receiver.take(statistics(0)));
 }
 
 TEST(FrameReceiver, RefusesALatticeItCannotRead) {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "sessions/channel.hpp"
-#include "sessions/latest_frame.hpp"
 #include "sessions/output_queue.hpp"
 #include "sessions/slot_pool.hpp"
 
@@ -20,12 +19,6 @@ namespace {
 
 SharedMessage message(const std::string& text) {
     return std::make_shared<const std::string>(text);
-}
-
-std::shared_ptr<const EncodedFrame> frame(std::uint64_t index) {
-    auto frame = std::make_shared<EncodedFrame>();
-    frame->frame_index = index;
-    return frame;
 }
 
 TEST(Channel, KeepsTheOrderAcrossThreads) {
@@ -148,34 +141,6 @@ TEST(OutputQueue, DropsWhatWaitsWhenAborted) {
     queue.abort(std::make_exception_ptr(std::runtime_error("gone")));
     EXPECT_FALSE(room.get());
     EXPECT_NE(std::get<OutputQueue::End>(queue.take()).error, nullptr);
-}
-
-TEST(LatestFrame, IsReplacedByNewerState) {
-    LatestFrame latest([] {});
-    for (std::uint64_t i = 0; i < 5; ++i) latest.put(frame(i));
-    EXPECT_EQ(std::get<std::shared_ptr<const EncodedFrame>>(latest.take())->frame_index, 4U);
-    EXPECT_TRUE(std::holds_alternative<LatestFrame::Nothing>(latest.take()));
-}
-
-TEST(LatestFrame, WakesAWaitingConsumerOnce) {
-    int woken = 0;
-    LatestFrame latest([&] { ++woken; });
-    latest.put(frame(0));
-    EXPECT_EQ(woken, 0);
-    latest.take();
-    latest.take();
-    latest.put(frame(1));
-    latest.put(frame(2));
-    EXPECT_EQ(woken, 1);
-}
-
-TEST(LatestFrame, GivesTheLastFrameBeforeTheEnd) {
-    LatestFrame latest([] {});
-    latest.put(frame(3));
-    latest.finish(nullptr);
-    latest.put(frame(4));
-    EXPECT_EQ(std::get<std::shared_ptr<const EncodedFrame>>(latest.take())->frame_index, 3U);
-    EXPECT_TRUE(std::holds_alternative<LatestFrame::End>(latest.take()));
 }
 
 }  // namespace

@@ -54,7 +54,9 @@ TEST(Meniscusd, EndsWellWithAClientThatNeverReads) {
     auto watcher = client.watch(id);
     auto stream = client.stream(id, {.receive_meshes = false});
     const Particles particles = spray(12);
-    for (std::uint64_t i = 0; i < 60; ++i) stream.push(particles.view(), i, 0.0);
+    Particles moved = particles;
+    for (float& p : moved.positions) p += 0.03F;
+    for (std::uint64_t i = 0; i < 60; ++i) stream.push((i % 2 == 0 ? particles : moved).view(), i, 0.0);
     stream.finish();
     while (stream.next()) {
     }

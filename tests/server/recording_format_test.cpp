@@ -61,7 +61,7 @@ std::string mesh_bytes(std::uint64_t index, const Particles& particles) {
     reconstructor.reconstruct(particles.view(), frame.mesh);
     frame.statistics = reconstructor.statistics();
     WorkerPool workers(1);
-    return bytes_of(recorded_mesh(*encode_frame(frame, 8, workers, nullptr)));
+    return bytes_of(recorded_mesh(*encode_frame(frame, {.position_bits = 6, .normal_bits = 8}, nullptr, workers, nullptr)));
 }
 
 std::string beginning() {

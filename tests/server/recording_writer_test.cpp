@@ -51,8 +51,8 @@ InputFrame frame(std::uint64_t index, std::size_t particles = 4) {
 
 std::shared_ptr<const EncodedFrame> mesh(std::uint64_t index) {
     auto encoded = std::make_shared<EncodedFrame>();
-    encoded->frame_index = index;
-    encoded->messages.push_back(std::make_shared<const std::string>("mesh"));
+    encoded->index = index;
+    encoded->begin = encoded->statistics = std::make_shared<const std::string>("mesh");
     return encoded;
 }
 

@@ -68,7 +68,7 @@ TEST_F(Registry, ForgetsASessionThatEndedByItself) {
 
 TEST_F(Registry, TakesNoSessionsWhileItDrains) {
     const auto session = registry.create(first_id, test::settings());
-    registry.drain();
+    registry.drain(std::chrono::seconds(1));
     EXPECT_THROW(registry.create(second_id, test::settings()), Refusal);
     EXPECT_THROW(session->open_upload({}, [] {}, [] {}), Refusal);
 }

@@ -79,27 +79,49 @@ struct Simulator {
     std::exception_ptr error;
 };
 
+WatchWishes normals(int bits) {
+    return {.format = {.position_bits = 6, .normal_bits = bits}};
+}
+
 /// Plays a watcher.
 struct Spectator {
-    explicit Spectator(Session& s, int normal_bits = 8)
-        : session(s), slot(session.open_watch(normal_bits, [this] { awake.release(); })) {}
-    ~Spectator() { session.close_watch(slot); }
+    explicit Spectator(Session& s, const WatchWishes& wishes = normals(8))
+        : session(s), watch(session.open_watch(wishes, [this] { awake.release(); })) {}
+    ~Spectator() { session.close_watch(watch); }
 
-    std::shared_ptr<const EncodedFrame> receive() {
+    /// The messages of the next frame, none at the end. That the server goes down is put aside.
+    std::vector<SharedMessage> receive() {
+        std::vector<SharedMessage> messages;
         for (;;) {
-            auto next = slot->take();
-            if (auto* frame = std::get_if<std::shared_ptr<const EncodedFrame>>(&next)) return *frame;
-            if (const auto* end = std::get_if<LatestFrame::End>(&next)) {
+            auto next = watch->take();
+            if (const auto* message = std::get_if<SharedMessage>(&next)) {
+                v1::WatchResponse response;
+                EXPECT_TRUE(response.ParseFromString(**message));
+                if (response.has_draining()) {
+                    told_of_the_end = true;
+                    continue;
+                }
+                messages.push_back(*message);
+                if (response.has_mesh_begin()) triangles = response.mesh_begin().triangle_count();
+                if (!response.has_frame_statistics()) continue;
+                index = response.frame_statistics().frame_index();
+                return messages;
+            }
+            if (const auto* end = std::get_if<Watch::End>(&next)) {
                 error = end->error;
-                return nullptr;
+                return {};
             }
             awake.acquire();
         }
     }
+    std::uint64_t receive_index() { return receive().empty() ? ~std::uint64_t{0} : index; }
 
     Session& session;
     std::counting_semaphore<> awake{0};
-    std::shared_ptr<LatestFrame> slot;
+    std::shared_ptr<Watch> watch;
+    std::uint64_t index = 0;      ///< of the last frame received
+    std::uint64_t triangles = 0;  ///< of it
+    bool told_of_the_end = false;
     std::exception_ptr error;
 };
 
@@ -111,10 +133,27 @@ Reconstruct reconstruct_on_the_cpu() {
     };
 }
 
+/// A mesh with less in it for a lower cap, whatever the frame.
+void emit_capped(int max_level, Mesh& mesh) {
+    Reconstructor reconstructor(test::settings(), {.threads = 1});
+    reconstructor.reconstruct(test::wave(static_cast<std::size_t>(max_level) + 1, 0.0).view(), mesh);
+}
+
+WatchWishes at_most(int max_level) {
+    WatchWishes wishes = normals(8);
+    wishes.format.max_level = max_level;
+    return wishes;
+}
+
 struct SessionPipeline : testing::Test {
     Limits limits{.watchers_per_session = 3};
     std::shared_ptr<WorkerPool> workers = std::make_shared<WorkerPool>(2);
-    Session session{id, test::settings(), limits, reconstruct_on_the_cpu(), workers};
+    std::atomic<int> caps_emitted{0};
+    Session session{id,      test::settings(), limits, reconstruct_on_the_cpu(),
+                    workers, {},               std::make_shared<Metrics>(), [this](int max_level, Mesh& mesh) {
+                        ++caps_emitted;
+                        emit_capped(max_level, mesh);
+                    }};
     const test::Particles particles = test::wave(6, 0.0);
 };
 
@@ -178,12 +217,15 @@ TEST_F(SessionPipeline, SendsStatisticsAloneToWhoWantsNoMeshes) {
 TEST_F(SessionPipeline, SharesOneEncodeBetweenStreamAndWatchersWithTheSameWishes) {
     Spectator first(session);
     Spectator second(session);
-    Spectator other(session, 0);
+    Spectator other(session, normals(0));
     Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});
     simulator.send(0, particles);
     const auto frame = first.receive();
-    EXPECT_EQ(frame, second.receive());
-    EXPECT_NE(frame, other.receive());
+    const auto shared = second.receive();
+    ASSERT_EQ(frame.size(), shared.size());
+    // But for the announcement, which depends on what a watcher has.
+    EXPECT_TRUE(std::equal(frame.begin() + 1, frame.end(), shared.begin() + 1));
+    EXPECT_NE(frame.back(), other.receive().back());
     simulator.end();
 }
 
@@ -192,10 +234,10 @@ TEST_F(SessionPipeline, GivesALateWatcherTheCurrentMeshWhateverItsWishes) {
     simulator.send(3, particles);
     simulator.end();
     simulator.receive_all();
-    Spectator watcher(session, 10);
-    EXPECT_EQ(watcher.receive()->frame_index, 3U);
-    Spectator same(session, 10);
-    EXPECT_EQ(same.receive()->frame_index, 3U);
+    Spectator watcher(session, normals(10));
+    EXPECT_EQ(watcher.receive_index(), 3U);
+    Spectator same(session, normals(10));
+    EXPECT_EQ(same.receive_index(), 3U);
 }
 
 TEST_F(SessionPipeline, GivesALaggingWatcherTheNewestFrame) {
@@ -205,16 +247,42 @@ TEST_F(SessionPipeline, GivesALaggingWatcherTheNewestFrame) {
     for (std::uint64_t i = 0; i < 6; ++i) simulator.send(i, particles);
     simulator.end();
     received.get();
-    EXPECT_EQ(watcher.receive()->frame_index, 5U);
+    EXPECT_EQ(watcher.receive_index(), 5U);
+    EXPECT_EQ(session.state().frames_skipped, 5U);
+}
+
+TEST_F(SessionPipeline, EmitsALevelCapOncePerFrameForAllWhoWishForItAndOnlyThen) {
+    Simulator simulator(session, {.receive_meshes = false, .normal_bits = 0});
+    simulator.send(0, particles);
+    EXPECT_TRUE(simulator.receive());
+    EXPECT_EQ(caps_emitted, 0);
+    // Too late for the frame's reconstruction: the surface is emitted once more for the first of the two.
+    Spectator first(session, at_most(1));
+    EXPECT_EQ(first.receive_index(), 0U);
+    EXPECT_EQ(caps_emitted, 1);
+    Spectator second(session, at_most(1));
+    EXPECT_EQ(second.receive_index(), 0U);
+    EXPECT_EQ(second.triangles, first.triangles);
+    {
+        Spectator other(session, at_most(2));
+        EXPECT_EQ(other.receive_index(), 0U);
+        EXPECT_GT(other.triangles, first.triangles);
+        EXPECT_EQ(caps_emitted, 2);
+    }
+    simulator.send(1, particles);
+    EXPECT_EQ(first.receive_index(), 1U);
+    EXPECT_EQ(second.receive_index(), 1U);
+    EXPECT_EQ(caps_emitted, 3);
+    simulator.end();
 }
 
 TEST_F(SessionPipeline, RefusesWatchersPastTheLimit) {
-    std::vector<std::shared_ptr<LatestFrame>> watches;
-    for (std::uint32_t i = 0; i < limits.watchers_per_session; ++i) watches.push_back(session.open_watch(8, [] {}));
+    std::vector<std::shared_ptr<Watch>> watches;
+    for (std::uint32_t i = 0; i < limits.watchers_per_session; ++i) watches.push_back(session.open_watch(normals(8), [] {}));
     EXPECT_EQ(session.state().watchers, limits.watchers_per_session);
-    EXPECT_THROW(session.open_watch(8, [] {}), LimitExceeded);
+    EXPECT_THROW(session.open_watch(normals(8), [] {}), LimitExceeded);
     session.close_watch(watches.front());
-    EXPECT_NO_THROW(session.open_watch(8, [] {}));
+    EXPECT_NO_THROW(session.open_watch(normals(8), [] {}));
 }
 
 TEST_F(SessionPipeline, EndsUploadAndWatchersWhenClosed) {
@@ -223,9 +291,10 @@ TEST_F(SessionPipeline, EndsUploadAndWatchersWhenClosed) {
     session.close();
     simulator.receive_all();
     EXPECT_THROW(std::rethrow_exception(simulator.error), Refusal);
-    EXPECT_EQ(watcher.receive(), nullptr);
+    EXPECT_TRUE(watcher.receive().empty());
+    EXPECT_EQ(watcher.error, nullptr);
     EXPECT_THROW(session.open_upload({}, [] {}, [] {}), Refusal);
-    EXPECT_THROW(session.open_watch(8, [] {}), Refusal);
+    EXPECT_THROW(session.open_watch(normals(8), [] {}), Refusal);
 }
 
 TEST_F(SessionPipeline, ClosesWhileNobodyReads) {
@@ -240,18 +309,21 @@ TEST_F(SessionPipeline, EndsWatchersAfterTheLastFrameWhenDrained) {
     Spectator watcher(session);
     Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});
     simulator.send(0, particles);
-    session.drain();
+    session.drain(std::chrono::seconds(5));
     EXPECT_EQ(simulator.drained, 1);
     simulator.end();
     EXPECT_EQ(simulator.receive_all(), (std::vector<std::uint64_t>{0}));
-    EXPECT_EQ(watcher.receive()->frame_index, 0U);
-    EXPECT_EQ(watcher.receive(), nullptr);
+    EXPECT_EQ(watcher.receive_index(), 0U);
+    EXPECT_TRUE(watcher.receive().empty());
+    EXPECT_TRUE(watcher.told_of_the_end);
+    EXPECT_THROW(std::rethrow_exception(watcher.error), Refusal);
 }
 
 TEST_F(SessionPipeline, EndsWatchersAtOnceWhenDrainedWithoutAnUpload) {
     Spectator watcher(session);
-    session.drain();
-    EXPECT_EQ(watcher.receive(), nullptr);
+    session.drain(std::chrono::seconds(5));
+    EXPECT_TRUE(watcher.receive().empty());
+    EXPECT_THROW(std::rethrow_exception(watcher.error), Refusal);
 }
 
 TEST(SessionOnADevice, AnswersWhatCameBeforeTheDeviceFailedThenEndsItsUploadsAndWatchersWithTheReason) {
@@ -267,7 +339,7 @@ TEST(SessionOnADevice, AnswersWhatCameBeforeTheDeviceFailedThenEndsItsUploadsAnd
     simulator.send(1, particles);
     EXPECT_EQ(simulator.receive_all(), (std::vector<std::uint64_t>{0}));
     EXPECT_THROW(std::rethrow_exception(simulator.error), DeviceError);
-    while (watcher.receive()) {
+    while (!watcher.receive().empty()) {
     }
     EXPECT_THROW(std::rethrow_exception(watcher.error), DeviceError);
     EXPECT_TRUE(session.ended());

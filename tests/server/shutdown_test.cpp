@@ -26,7 +26,7 @@ TEST(Shutdown, LetsAFrameThatIsOnItsWayInBeTheLast) {
     stopping.join();
 }
 
-TEST(Shutdown, EndsWatchersAfterTheLastMesh) {
+TEST(Shutdown, TellsWatchersWhyAfterTheLastMesh) {
     RunningServer running;
     const std::string id = running.session();
     auto watcher = running.client.watch(id);
@@ -37,7 +37,26 @@ TEST(Shutdown, EndsWatchersAfterTheLastMesh) {
     }
     std::thread stopping([&] { running.server.shutdown(); });
     EXPECT_EQ(watcher.next()->index, 7U);
-    EXPECT_FALSE(watcher.next());
+    EXPECT_THROW(watcher.next(), client::ServerError);
+    stopping.join();
+}
+
+TEST(Shutdown, IsAnnouncedToWatchers) {
+    RunningServer running;
+    const std::string id = running.session();
+    client::Connection connection(running.server.address());
+    grpc::ClientContext context;
+    client::add_session_id(context, id);
+    v1::WatchRequest request;
+    request.set_session_id(id);
+    const auto call = connection.surfaces->Watch(&context, request);
+    call->WaitForInitialMetadata();
+    std::thread stopping([&] { running.server.shutdown(); });
+    v1::WatchResponse response;
+    ASSERT_TRUE(call->Read(&response));
+    EXPECT_EQ(response.draining().seconds(), 60.0);
+    EXPECT_FALSE(call->Read(&response));
+    EXPECT_EQ(call->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
     stopping.join();
 }
 

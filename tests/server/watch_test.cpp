@@ -32,7 +32,7 @@ TEST(Watch, StartsWithTheCurrentMesh) {
     stream.push(particles.view(), 5, 0.0);
     ASSERT_TRUE(stream.next());
     for (const int normal_bits : {8, 0, 12}) {
-        auto watcher = running.client.watch(id, normal_bits);
+        auto watcher = running.client.watch(id, {.normal_bits = normal_bits});
         const auto frame = watcher.next();
         EXPECT_EQ(frame->index, 5U);
         EXPECT_EQ(mesh_sha256(frame->mesh()), local_sha256(particles));
@@ -43,7 +43,7 @@ TEST(Watch, ServesSeveralWatchers) {
     RunningServer running;
     const std::string id = running.session();
     auto first = running.client.watch(id);
-    auto second = running.client.watch(id, 0);
+    auto second = running.client.watch(id, {.normal_bits = 0});
     EXPECT_EQ(running.client.session(id).watchers, 2U);
     const Particles particles = wave(6, 0.0);
     auto stream = running.client.stream(id);
@@ -60,7 +60,9 @@ TEST(Watch, GivesWhoLagsWholeFramesAndTheNewestAtLast) {
     // Far more than gRPC's buffers hold.
     constexpr std::uint64_t last = 80;
     const Particles particles = spray(12);
-    for (std::uint64_t i = 0; i <= last; ++i) stream.push(particles.view(), i, 0.0);
+    Particles moved = particles;
+    for (float& p : moved.positions) p += 0.03F;
+    for (std::uint64_t i = 0; i <= last; ++i) stream.push((i % 2 == 0 ? particles : moved).view(), i, 0.0);
     stream.finish();
     while (stream.next()) {
     }

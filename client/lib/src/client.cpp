@@ -103,8 +103,8 @@ Stream Client::stream(const std::string& session_id, const StreamOptions& option
     return Stream(std::make_unique<Stream::Impl>(impl_->connection(), session_id, options));
 }
 
-Watcher Client::watch(const std::string& session_id, int normal_bits) {
-    return Watcher(std::make_unique<Watcher::Impl>(impl_->connection(), session_id, normal_bits));
+Watcher Client::watch(const std::string& session_id, const WatchOptions& options) {
+    return Watcher(std::make_unique<Watcher::Impl>(impl_->connection(), session_id, options));
 }
 
 }  // namespace meniscus::client

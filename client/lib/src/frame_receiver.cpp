@@ -20,22 +20,29 @@ void append(std::vector<std::byte>& bytes, const std::string& more) {
     if (!more.empty()) std::memcpy(bytes.data() + size, more.data(), more.size());
 }
 
-std::string place_name(const std::array<std::int32_t, 3>& place) {
+/// Of a message that has x, y and z.
+template <class Message>
+std::string place_name(const Message& place) {
     std::string name = "(";
-    name += std::to_string(place[0]) + ", " + std::to_string(place[1]) + ", " + std::to_string(place[2]) + ")";
+    name += std::to_string(place.x()) + ", " + std::to_string(place.y()) + ", " + std::to_string(place.z()) + ")";
     return name;
+}
+
+std::string frame_name(std::uint64_t index) {
+    return "frame " + std::to_string(index);
 }
 
 }  // namespace
 
 void FrameReceiver::end_of_stream() const {
-    if (frame_) throw ServerError("the server ended within frame " + std::to_string(frame_->index));
+    if (frame_) throw ServerError("the server ended within " + frame_name(frame_->header.index));
 }
 
 void FrameReceiver::begin(const v1::MeshBegin& message) {
-    const std::string name = "frame " + std::to_string(message.frame_index());
+    const std::string name = frame_name(message.frame_index());
     if (!meshes_) throw ServerError("the server sent a mesh that was not asked for, " + name);
-    if (frame_) throw ServerError("the server began " + name + " within frame " + std::to_string(frame_->index));
+    if (frame_ && !differences_)
+        throw ServerError("the server began " + name + " within " + frame_name(frame_->header.index));
     if (message.brick_cells() != static_cast<std::uint32_t>(brick_cells))
         throw ServerError(name + " has bricks of " + std::to_string(message.brick_cells()) + " cells; this version knows " +
                           std::to_string(brick_cells));
@@ -43,63 +50,105 @@ void FrameReceiver::begin(const v1::MeshBegin& message) {
         throw ServerError(name + " has offset_bits " + std::to_string(message.offset_bits()) + "; allowed are 2 to 9");
     if (!std::isfinite(message.cell_size()) || message.cell_size() <= 0.0)
         throw ServerError(name + " has cell_size " + std::to_string(message.cell_size()));
-    frame_.emplace();
-    frame_->index = message.frame_index();
-    frame_->simulation_time = message.simulation_time();
-    frame_->cell_size = message.cell_size();
-    frame_->offset_bits = message.offset_bits();
-    brick_count_ = message.brick_count();
-    missing_parts_ = 0;
-    triangles_ = 0;
-    places_.clear();
+    Frame frame;
+    frame.header.index = message.frame_index();
+    frame.header.run_id = message.run_id();
+    frame.header.simulation_time = message.simulation_time();
+    frame.header.cell_size = message.cell_size();
+    frame.header.offset_bits = message.offset_bits();
+    frame.brick_count = message.brick_count();
+    frame.triangles = message.triangle_count();
+    begin_difference(message, frame);
+    frame_ = std::move(frame);
+}
+
+void FrameReceiver::begin_difference(const v1::MeshBegin& message, Frame& frame) const {
+    const std::string name = frame_name(message.frame_index());
+    if (!message.has_base_frame_index()) {
+        if (message.vanished_size() != 0) throw ServerError(name + " says that bricks have vanished, but not from which frame");
+        return;
+    }
+    const std::string base = frame_name(message.base_frame_index());
+    if (!differences_) throw ServerError(name + " is a difference to " + base + ", which was not asked for");
+    if (!whole_ || whole_->index != message.base_frame_index())
+        throw ServerError(name + " is a difference to " + base + "; the last complete one is " +
+                          (whole_ ? frame_name(whole_->index) : "none"));
+    if (whole_->cell_size != message.cell_size() || whole_->offset_bits != message.offset_bits())
+        throw ServerError(name + " is a difference to " + base + ", which has another lattice");
+    frame.has_base = true;
+    for (const v1::BrickPlace& wire : message.vanished()) {
+        const Place place{wire.z(), wire.y(), wire.x()};
+        if (!bricks_.contains(place) || !frame.vanished.insert(place).second)
+            throw ServerError(name + " says that brick " + place_name(wire) + " has vanished, which is not there");
+    }
 }
 
 void FrameReceiver::add(const v1::MeshBrick& message) {
     if (!frame_) throw ServerError("the server sent a brick outside of a frame");
-    const std::array<std::int32_t, 3> place{message.x(), message.y(), message.z()};
-    const std::string name = "frame " + std::to_string(frame_->index) + ", brick " + place_name(place);
-    if (missing_parts_ == 0) {
+    Frame& frame = *frame_;
+    const Place place{message.z(), message.y(), message.x()};
+    const std::string name = frame_name(frame.header.index) + ", brick " + place_name(message);
+    if (frame.missing_parts == 0) {
         if (message.part_index() != 0 || message.part_count() == 0)
             throw ServerError(name + " begins with part " + std::to_string(message.part_index()) + " of " +
                               std::to_string(message.part_count()));
-        if (frame_->bricks.size() == brick_count_)
-            throw ServerError(name + " is one more than the " + std::to_string(brick_count_) + " that were announced");
-        if (!places_.insert(place).second) throw ServerError(name + " came twice");
-        EncodedBrick& brick = frame_->bricks.emplace_back();
-        brick.coordinate = place;
-        brick.vertices = message.vertex_count();
-        brick.triangles = message.triangle_count();
-        append(brick.cell_levels, message.cell_levels());
-        part_count_ = missing_parts_ = message.part_count();
-        triangles_ += brick.triangles;
-    } else if (place != frame_->bricks.back().coordinate || message.part_count() != part_count_ ||
-               message.part_index() != part_count_ - missing_parts_) {
+        if (frame.bricks.size() == frame.brick_count)
+            throw ServerError(name + " is one more than the " + std::to_string(frame.brick_count) + " that were announced");
+        if (frame.vanished.contains(place)) throw ServerError(name + " was said to have vanished");
+        auto brick = std::make_shared<EncodedBrick>();
+        if (!frame.bricks.emplace(place, brick).second) throw ServerError(name + " came twice");
+        brick->coordinate = {message.x(), message.y(), message.z()};
+        brick->vertices = message.vertex_count();
+        brick->triangles = message.triangle_count();
+        append(brick->cell_levels, message.cell_levels());
+        frame.brick = std::move(brick);
+        frame.part_count = frame.missing_parts = message.part_count();
+    } else if (frame.brick->coordinate != std::array{message.x(), message.y(), message.z()} ||
+               message.part_count() != frame.part_count || message.part_index() != frame.part_count - frame.missing_parts) {
         throw ServerError(name + ", part " + std::to_string(message.part_index()) + ", came in place of part " +
-                          std::to_string(part_count_ - missing_parts_) + " of brick " +
-                          place_name(frame_->bricks.back().coordinate));
+                          std::to_string(frame.part_count - frame.missing_parts) + " of the brick before");
     }
-    append(frame_->bricks.back().draco, message.draco());
-    --missing_parts_;
+    append(frame.brick->draco, message.draco());
+    --frame.missing_parts;
+}
+
+void FrameReceiver::complete_mesh(const v1::FrameStatistics& message) {
+    const std::string name = frame_name(message.frame_index());
+    if (!frame_ || frame_->header.index != message.frame_index())
+        throw ServerError("the server sent statistics of " + name + " without its mesh");
+    Frame& frame = *frame_;
+    if (frame.missing_parts != 0 || frame.bricks.size() != frame.brick_count)
+        throw ServerError(name + " ended after " + std::to_string(frame.bricks.size()) + " bricks of " +
+                          std::to_string(frame.brick_count) + (frame.missing_parts != 0 ? ", in the middle of one" : ""));
+    if (frame.has_base) {
+        for (const Place& place : frame.vanished) bricks_.erase(place);
+        for (auto& [place, brick] : frame.bricks) bricks_.insert_or_assign(place, std::move(brick));
+    } else {
+        bricks_ = std::move(frame.bricks);
+    }
+    std::uint64_t triangles = 0;
+    for (const auto& [place, brick] : bricks_) triangles += brick->triangles;
+    if (triangles != frame.triangles)
+        throw ServerError(name + " has bricks of " + std::to_string(triangles) + " triangles; announced were " +
+                          std::to_string(frame.triangles));
+    if (!differences_ && triangles != message.triangles())
+        throw ServerError(name + " has bricks of " + std::to_string(triangles) + " triangles; its statistics say " +
+                          std::to_string(message.triangles()));
+    whole_ = std::move(frame.header);
+    frame_.reset();
 }
 
 ReceivedFrame FrameReceiver::end(const v1::FrameStatistics& message) {
-    const std::string name = "frame " + std::to_string(message.frame_index());
+    ReceivedFrame frame;
     if (meshes_) {
-        if (!frame_ || frame_->index != message.frame_index())
-            throw ServerError("the server sent statistics of " + name + " without its mesh");
-        if (missing_parts_ != 0 || frame_->bricks.size() != brick_count_)
-            throw ServerError(name + " ended after " + std::to_string(frame_->bricks.size()) + " bricks of " +
-                              std::to_string(brick_count_) + (missing_parts_ != 0 ? ", in the middle of one" : ""));
-        if (triangles_ != message.triangles())
-            throw ServerError(name + " has bricks of " + std::to_string(triangles_) + " triangles; its statistics say " +
-                              std::to_string(message.triangles()));
+        complete_mesh(message);
+        frame = *whole_;
+        frame.bricks.reserve(bricks_.size());
+        for (const auto& [place, brick] : bricks_) frame.bricks.push_back(brick);
     } else {
-        frame_.emplace();
-        frame_->index = message.frame_index();
-        frame_->simulation_time = message.simulation_time();
+        frame.index = message.frame_index();
+        frame.simulation_time = message.simulation_time();
     }
-    ReceivedFrame frame = std::move(*frame_);
-    frame_.reset();
     static_cast<Statistics&>(frame.statistics) = conversion::from_wire(message);
     frame.statistics.encode_seconds = message.encode_seconds();
     frame.statistics.latency_seconds = message.latency_seconds();

@@ -7,7 +7,7 @@ namespace meniscus::client {
 Mesh ReceivedFrame::mesh() const {
     std::vector<DecodedBrick> decoded;
     decoded.reserve(bricks.size());
-    for (const EncodedBrick& brick : bricks) decoded.push_back(decode_brick(brick, offset_bits));
+    for (const auto& brick : bricks) decoded.push_back(decode_brick(*brick, offset_bits));
     return weld_bricks(decoded, cell_size, offset_bits);
 }
 

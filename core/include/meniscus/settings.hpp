@@ -71,6 +71,9 @@ void validate(const Settings& settings);
 /// The finest cell's edge in world units.
 inline double world_cell_size(const Settings& s) { return s.cell_size * s.particle_radius; }
 
+/// Vertices lie on multiples of c / 2^offset_bits, 2 to 8: bisection ends in the middle of an interval of c / 2^steps.
+inline std::uint32_t offset_bits(const Settings& s) { return s.edge_points == EdgePoints::bisect ? s.bisection_steps + 1 : 6; }
+
 enum class Backend : std::uint8_t { automatic, cpu, cuda };
 
 /// "auto", "cpu" or "cuda". Throws InvalidInput for other names.

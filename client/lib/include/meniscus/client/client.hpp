@@ -2,6 +2,7 @@
 // Knows neither gRPC nor Draco on its face, so that simulation code need not either.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -80,11 +81,18 @@ struct FrameStatistics : Statistics {
 /// One received frame. Bricks stay encoded until they are asked for.
 struct ReceivedFrame {
     std::uint64_t index = 0;
+    std::uint64_t run_id = 0;  ///< of the run of frames that the simulator sends; 0: of no run
     double simulation_time = 0.0;
     double cell_size = 0.0;
     std::uint32_t offset_bits = 0;
-    std::vector<EncodedBrick> bricks;  ///< empty when no meshes were asked for
-    FrameStatistics statistics;
+    /// All of them, ordered by coordinate (z, y, x); empty when no meshes were asked for. A watcher's frames share those that
+    /// did not change.
+    std::vector<std::shared_ptr<const EncodedBrick>> bricks;
+    /// To a watcher: the bricks that are new or were received anew since the frame that next() returned before, and those of
+    /// that frame which are there no longer. x y z in bricks.
+    std::vector<std::array<std::int32_t, 3>> changed;
+    std::vector<std::array<std::int32_t, 3>> vanished;
+    FrameStatistics statistics;  ///< of the frame as reconstructed, whatever a watcher wishes to have of it
 
     /// Decodes and welds the bricks. Throws InvalidInput if they are not a mesh.
     Mesh mesh() const;
@@ -121,14 +129,28 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Receives a session's meshes, newest first; frames that came while the caller was busy are skipped by the server.
+/// What a watcher wishes to be sent. Watchers with equal max_level, position_bits and normal_bits cost the server one encode.
+struct WatchOptions {
+    int normal_bits = 8;                 ///< 2 to 16, 0 for none
+    std::optional<int> position_bits{};  ///< vertices lie on multiples of c / 2^position_bits, 2 to the mesh's offset_bits; none: as reconstructed
+    int max_level = 3;                   ///< finest level of grid, 1 to 3: below 3 the surface is coarser, and closed as ever
+    std::optional<Box> region{};         ///< world units: only bricks that touch it; the mesh ends where they do
+    std::uint64_t bytes_per_second = 0;  ///< in the mean: frames are skipped to keep it; 0: no limit
+    std::optional<std::array<double, 3>> viewpoint{};  ///< world units: nearest bricks are sent first
+    /// How long to try again after the connection breaks, the server goes down, or comes back without the session, which its
+    /// simulator then creates again. next() goes on with the first frame of a run that it has not returned before. 0: not at all.
+    std::chrono::milliseconds reconnect{0};
+};
+
+/// Receives a session's meshes, always the newest; frames that came while the caller was busy are skipped by the server.
 class Watcher {
 public:
     Watcher(Watcher&&) noexcept;
     Watcher& operator=(Watcher&&) noexcept;
     ~Watcher();
 
-    /// Waits for the next frame; none when the session or the server has ended. Throws ServerError.
+    /// Waits for the next frame; none when the session has ended. Throws InvalidInput for a wish out of range, LimitExceeded or
+    /// ServerError, also when the server goes down.
     std::optional<ReceivedFrame> next();
     /// Ends a next() that waits in another thread; it then returns none.
     void cancel();
@@ -159,7 +181,7 @@ public:
 
     /// The session must exist.
     Stream stream(const std::string& session_id, const StreamOptions& options = {});
-    Watcher watch(const std::string& session_id, int normal_bits = 8);
+    Watcher watch(const std::string& session_id, const WatchOptions& options = {});
 
 private:
     class Impl;

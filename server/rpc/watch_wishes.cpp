@@ -1,0 +1,63 @@
+#include "rpc/watch_wishes.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "conversion/settings_conversion.hpp"
+#include "meniscus/error.hpp"
+#include "rpc/normal_bits.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+int position_bits_of(const v1::WatchRequest& request, const Settings& settings) {
+    const std::uint32_t finest = offset_bits(settings);
+    if (!request.has_position_bits()) return static_cast<int>(finest);
+    const std::uint32_t bits = request.position_bits();
+    if (bits < 2 || bits > finest)
+        throw InvalidInput(fmt::format("position_bits is {}; it must be 2 to {}, the session's, or not set", bits, finest));
+    return static_cast<int>(bits);
+}
+
+int max_level_of(const v1::WatchRequest& request) {
+    if (!request.has_max_level()) return 3;
+    const std::uint32_t level = request.max_level();
+    if (level < 1 || level > 3) throw InvalidInput(fmt::format("max_level is {}; it must be 1 to 3, or not set", level));
+    return static_cast<int>(level);
+}
+
+Box region_of(const v1::Box& wire) {
+    const Box box = conversion::from_wire(wire, "region");
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double low = box.min[axis];
+        const double high = box.max[axis];
+        if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
+            throw InvalidInput(fmt::format("region runs from {} to {} on the {} axis; it must be finite, its min less than its max",
+                                           low, high, "xyz"[axis]));
+    }
+    return box;
+}
+
+std::array<double, 3> viewpoint_of(const v1::Vector3& wire) {
+    if (!std::isfinite(wire.x()) || !std::isfinite(wire.y()) || !std::isfinite(wire.z()))
+        throw InvalidInput(fmt::format("viewpoint is ({}, {}, {}); it must be finite", wire.x(), wire.y(), wire.z()));
+    return {wire.x(), wire.y(), wire.z()};
+}
+
+}  // namespace
+
+WatchWishes watch_wishes_of(const v1::WatchRequest& request, const Settings& settings) {
+    WatchWishes wishes;
+    wishes.format = {.max_level = max_level_of(request),
+                     .position_bits = position_bits_of(request, settings),
+                     .normal_bits = normal_bits_of(request)};
+    if (!settings.normals) wishes.format.normal_bits = 0;
+    if (request.has_region()) wishes.region = region_of(request.region());
+    wishes.bytes_per_second = request.bytes_per_second();
+    if (request.has_viewpoint()) wishes.viewpoint = viewpoint_of(request.viewpoint());
+    return wishes;
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,13 @@
+// A watcher's wishes, from the wire.
+#pragma once
+
+#include "meniscus/settings.hpp"
+#include "meniscus/v1/surface_service.pb.h"
+#include "sessions/watch_wishes.hpp"
+
+namespace meniscus::server {
+
+/// Equal formats for wishes that come to the same in a session of these settings. Throws InvalidInput for a wish out of range.
+WatchWishes watch_wishes_of(const v1::WatchRequest& request, const Settings& settings);
+
+}  // namespace meniscus::server

@@ -1,0 +1,37 @@
+// From the mesh that a watcher has to a newer one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "sessions/encoded_frame.hpp"
+#include "sessions/watch_wishes.hpp"
+
+namespace meniscus::server {
+
+/// Which bricks a watcher has, of the last frame that it has been sent whole. Refers to no encode, so that it keeps none alive.
+struct WatcherMesh {
+    struct Brick {
+        std::array<std::int32_t, 3> place{};
+        std::uint64_t content_hash = 0;
+    };
+    std::uint64_t frame_index = 0;
+    std::vector<Brick> bricks;  ///< ordered by place (z, y, x)
+};
+
+struct MeshUpdate {
+    std::deque<SharedMessage> messages;  ///< in the order of sending
+    std::size_t bytes = 0;               ///< of them
+    WatcherMesh result;                  ///< what the watcher has after the last one
+};
+
+/// Names at most so many vanished bricks, to keep the announcement below 2 MB; beyond that the mesh is sent whole.
+inline constexpr std::size_t max_vanished = 65536;
+
+/// base: what the watcher has; none: the mesh is sent whole.
+MeshUpdate update_mesh(const EncodedFrame& frame, const WatchWishes& wishes, const WatcherMesh* base);
+
+}  // namespace meniscus::server

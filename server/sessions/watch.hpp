@@ -1,0 +1,89 @@
+// One watcher, as its session sees it: one slot for the newest frame, and the rest of the one that is being sent.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "sessions/encoded_frame.hpp"
+#include "sessions/mesh_update.hpp"
+#include "sessions/token_bucket.hpp"
+#include "sessions/watch_wishes.hpp"
+
+namespace meniscus::server {
+
+/// A watcher that lags finds the newest frame here, never a backlog. The session puts frames in; whoever writes to the
+/// watcher takes messages out, one by one: each frame's difference to the last one that went out whole.
+class Watch {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    /// A write that has taken so long means that the watcher has stopped reading. The rest of its frame is then given up for the
+    /// next one that is put, so that who does not read keeps no old encode alive.
+    static constexpr Clock::duration stalled_after = std::chrono::seconds(2);
+
+    struct Nothing {};  ///< for now: `wake` will be called
+    struct Later {
+        Clock::time_point at;  ///< by the rate that was wished for; `wake` is called if there is reason to come earlier
+    };
+    struct End {
+        std::exception_ptr error;  ///< none: all went well
+    };
+    using Next = std::variant<Nothing, Later, SharedMessage, End>;
+
+    struct Progress {
+        std::uint64_t frames_skipped = 0;  ///< replaced before they were taken, or given up
+        Clock::duration lag{};             ///< how long the watcher has owed itself a frame; 0: it has the newest
+    };
+
+    /// wake: called once, by a producing thread, after take() has found nothing and there is something again.
+    Watch(WatchWishes wishes, std::function<void()> wake);
+
+    const WatchWishes& wishes() const noexcept { return wishes_; }
+
+    // The session's side.
+
+    /// In the format wished for. Replaces a frame that has not been taken.
+    void put(std::shared_ptr<const EncodedFrame> frame, Clock::time_point now = Clock::now());
+    /// Tells the watcher, between two messages, that the server goes down in so long.
+    void announce_end(std::chrono::duration<double> grace);
+    /// Nothing follows the frames that are here now, which go out without waiting for the rate; the first call counts.
+    void finish(std::exception_ptr error);
+    Progress progress(Clock::time_point now = Clock::now()) const;
+
+    // The writer's side, one thread at a time.
+
+    /// The next message, the one before having been written.
+    Next take(Clock::time_point now = Clock::now());
+
+private:
+    enum class Waits { no, for_the_rate, for_a_frame };
+
+    SharedMessage next_message(Clock::time_point now);
+
+    const WatchWishes wishes_;
+    const std::function<void()> wake_;
+
+    mutable std::mutex mutex_;  ///< for what follows
+    std::shared_ptr<const EncodedFrame> newest_;  ///< not begun yet
+    Clock::time_point newest_since_;              ///< when this slot was last filled while it was empty
+    MeshUpdate update_;                           ///< what is left of the frame that is being sent
+    std::optional<WatcherMesh> sent_;             ///< the last frame that went out whole
+    std::optional<TokenBucket> bucket_;
+    std::optional<Clock::time_point> writing_since_;
+    std::optional<Clock::time_point> behind_since_;
+    std::uint64_t skipped_ = 0;
+    SharedMessage draining_;
+    std::exception_ptr error_;
+    bool finished_ = false;
+    Waits waits_ = Waits::no;
+};
+
+}  // namespace meniscus::server
