@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <random>
 #include <thread>
 
 #include "meniscus/error.hpp"
@@ -71,9 +73,47 @@ TEST(Watch, GivesWhoLagsWholeFramesAndTheNewestAtLast) {
         const auto frame = watcher.next();  // throws if a frame is torn
         ASSERT_TRUE(frame);
         ++received;
-        if (frame->index == last) break;
+        if (frame->index != last) continue;
+        EXPECT_EQ(mesh_sha256(frame->mesh()), local_sha256(particles));
+        break;
     }
     EXPECT_LT(received, last);
+}
+
+/// Two bodies of water, of which one moves.
+Particles half_still(double phase) {
+    Particles particles = wave(8, phase);
+    for (const float p : wave(8, 0.0).positions) particles.positions.push_back(p + 20.0F);
+    return particles;
+}
+
+TEST(Watch, ReceivesOnlyWhatChangedAndHasTheWholeMeshOfEveryFrame) {
+    RunningServer running;
+    const std::string id = running.session();
+    auto watcher = running.client.watch(id);
+    auto stream = running.client.stream(id, {.receive_meshes = false});
+    constexpr std::uint64_t last = 40;
+    std::thread simulator([&] {
+        for (std::uint64_t i = 0; i <= last; ++i) stream.push(half_still(0.2 * static_cast<double>(i)).view(), i, 0.0);
+        stream.finish();
+        while (stream.next()) {
+        }
+    });
+    std::mt19937 random(1);
+    std::size_t unchanged = 0;
+    for (bool first = true;; first = false) {
+        const auto frame = watcher.next();
+        ASSERT_TRUE(frame);
+        EXPECT_EQ(mesh_sha256(frame->mesh()), local_sha256(half_still(0.2 * static_cast<double>(frame->index))));
+        if (!first) {
+            for (const auto& place : frame->changed) EXPECT_LT(place[0], 2);
+            unchanged += frame->bricks.size() - frame->changed.size();
+        }
+        if (frame->index == last) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds(random() % 20));
+    }
+    EXPECT_GT(unchanged, 0U);
+    simulator.join();
 }
 
 TEST(Watch, EndsWithItsSession) {

@@ -1,4 +1,5 @@
 // Watchers' wishes, and watchers too many.
+#include <limits>
 #include <utility>
 
 #include "bad_input/case.hpp"
@@ -63,6 +64,26 @@ std::vector<BadInputCase> watch_cases() {
         {"AWatcherWithSixteenNormalBits", ok, "", normal_bits(16)},
         {"AWatcherWithSeventeenNormalBits", invalid, "normal_bits is 17; it must be 0 (no normals) or 2 to 16", normal_bits(17)},
         {"AWatcherWithOneNormalBit", invalid, "normal_bits is 1; it must be 0 (no normals) or 2 to 16", normal_bits(1)},
+        {"AWatcherWithTwoPositionBits", ok, "", wish([](v1::WatchRequest& request) { request.set_position_bits(2); })},
+        {"AWatcherWithOnePositionBit", invalid, "position_bits is 1; it must be 2 to 6",
+         wish([](v1::WatchRequest& request) { request.set_position_bits(1); })},
+        {"AWatcherWithMorePositionBitsThanTheMeshHas", invalid, "position_bits is 7; it must be 2 to 6",
+         wish([](v1::WatchRequest& request) { request.set_position_bits(7); })},
+        {"AWatcherOfTheCoarsestLevelAlone", ok, "", wish([](v1::WatchRequest& request) { request.set_max_level(1); })},
+        {"AWatcherOfLevelZero", invalid, "max_level is 0; it must be 1 to 3",
+         wish([](v1::WatchRequest& request) { request.set_max_level(0); })},
+        {"AWatcherOfLevelFour", invalid, "max_level is 4; it must be 1 to 3",
+         wish([](v1::WatchRequest& request) { request.set_max_level(4); })},
+        {"AWatcherOfARegionWithoutCorners", invalid, "region", wish([](v1::WatchRequest& request) { request.mutable_region(); })},
+        {"AWatcherOfAnEmptyRegion", invalid, "region runs from 0 to 0 on the x axis",
+         wish([](v1::WatchRequest& request) {
+             request.mutable_region()->mutable_min();
+             request.mutable_region()->mutable_max();
+         })},
+        {"AWatcherWhoseViewpointIsNotFinite", invalid, "viewpoint is (nan, 0, 0); it must be finite",
+         wish([](v1::WatchRequest& request) {
+             request.mutable_viewpoint()->set_x(std::numeric_limits<double>::quiet_NaN());
+         })},
         {"AWatcherWithoutSessionId", invalid, "the message's session id is \"\"; it must be a UUID",
          wish([](v1::WatchRequest& request) { request.clear_session_id(); })},
         {"AWatcherOfAnotherSessionThanItsMetadataSays", invalid, "but the message's session id is " + no_session,
