@@ -5,7 +5,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <iterator>
+#include <limits>
 #include <map>
 
 #include "meniscus/error.hpp"
@@ -21,6 +23,15 @@ std::size_t default_memory_limit() {
     const long page_bytes = ::sysconf(_SC_PAGE_SIZE);
     if (pages <= 0 || page_bytes <= 0) return 0;
     return static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(page_bytes);
+}
+
+/// A full chunk, and what is around it.
+constexpr std::size_t min_message_bytes = chunk_bytes + 1024;
+/// What gRPC can be told.
+constexpr std::size_t max_message_bytes = std::numeric_limits<int>::max();
+
+std::chrono::milliseconds milliseconds(double seconds) {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(seconds));
 }
 
 /// A line for each; of a message its first line: CLI11 adds a hint on a second one.
@@ -49,6 +60,8 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     ServerOptions& server = command_line.server;
     server.limits.particles_per_frame = 100'000'000;
     server.limits.bytes_per_session = default_memory_limit();
+    server.limits.bytes_in_flight = default_memory_limit();
+    double idle_seconds = 3600.0;
     double grace_seconds = std::chrono::duration<double>(server.shutdown_grace).count();
 
     CLI::App app{"meniscusd: adaptive surfaces of simulated fluid particles, live, over gRPC", "meniscusd"};
@@ -94,6 +107,19 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.add_option("--max-sessions", server.limits.sessions, "Sessions at a time; 0: no limit");
     app.add_option("--max-watchers", server.limits.watchers_per_session, "Watchers of one session; 0: no limit");
     app.add_option("--max-particles", server.limits.particles_per_frame, "Particles of one frame; 0: no limit");
+    app.add_option("--max-bytes-in-flight", server.limits.bytes_in_flight,
+                   "Frames that wait to be reconstructed, over all sessions; 0: no limit. Default: half of the machine's memory")
+        ->transform(CLI::AsSizeValue(false))
+        ->type_name("BYTES");
+    app.add_option("--max-frames-per-second", server.limits.frames_per_second, "Frames of one session; 0: no limit");
+    app.add_option("--max-chunks", server.limits.chunks_per_frame, "Chunk messages of one frame; 0: no limit");
+    app.add_option("--max-message-bytes", server.limits.message_bytes, "Size of one message, as 4M")
+        ->transform(CLI::AsSizeValue(false))
+        ->check(CLI::Range(min_message_bytes, max_message_bytes))
+        ->type_name("BYTES");
+    app.add_option("--max-idle", idle_seconds,
+                   "Seconds that a stream, or a session without streams, watchers and calls, is kept without use; 0: no limit")
+        ->check(CLI::Range(0.0, 1e7));
     app.add_option("--memory-limit", server.limits.bytes_per_session,
                    "Memory of one session's reconstruction, as 4G or 500M; 0: no limit. Default: half of the machine's")
         ->transform(CLI::AsSizeValue(false))
@@ -133,8 +159,8 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         return refuse({message.substr(0, message.find('\n')) + " (see meniscusd --help)"});
     }
     if (print_config) return EarlyExit{.text = settings_file(app), .code = 0};
-    server.shutdown_grace =
-        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(grace_seconds));
+    server.limits.idle_time = milliseconds(idle_seconds);
+    server.shutdown_grace = milliseconds(grace_seconds);
     return std::nullopt;
 }
 

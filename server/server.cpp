@@ -60,6 +60,12 @@ Observe record_with(RecordingWriter* recordings) {
     };
 }
 
+/// A client that vanished without a goodbye is noticed, and its session is free again.
+void keep_alive(grpc::ServerBuilder& builder) {
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20'000);
+}
+
 std::string with_port(const std::string& listen, int port) {
     if (listen.starts_with("unix:")) return listen;
     return fmt::format("{}:{}", listen.substr(0, listen.rfind(':')), port);
@@ -104,6 +110,8 @@ Server::Server(const ServerOptions& options)
     grpc::ServerBuilder builder;
     // Otherwise a second server on the same port would silently get half of the calls.
     builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+    builder.SetMaxReceiveMessageSize(static_cast<int>(options.limits.message_bytes));
+    keep_alive(builder);
     builder.AddListeningPort(options.listen, access_.credentials(), &port);
     builder.RegisterService(&server_service_);
     builder.RegisterService(&session_service_);

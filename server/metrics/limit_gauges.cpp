@@ -25,7 +25,12 @@ std::vector<prometheus::MetricFamily> limit_gauges(const Limits& limits, const B
                     {"particles_per_frame", number(limits.particles_per_frame)},
                     {"bytes_per_session", number(limits.bytes_per_session)},
                     {"device_bytes_per_session", number(limits.device_bytes_per_session)},
-                    {"chunk_bytes", number(chunk_bytes)}})};
+                    {"chunk_bytes", number(chunk_bytes)},
+                    {"bytes_in_flight", number(limits.bytes_in_flight)},
+                    {"frames_per_second", number(limits.frames_per_second)},
+                    {"chunks_per_frame", number(limits.chunks_per_frame)},
+                    {"idle_seconds", std::chrono::duration<double>(limits.idle_time).count()},
+                    {"message_bytes", number(limits.message_bytes)}})};
 }
 
 }  // namespace meniscus::server

@@ -18,6 +18,11 @@ v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, uns
     wire.set_bytes_per_session(limits.bytes_per_session);
     wire.set_device_bytes_per_session(limits.device_bytes_per_session);
     wire.set_chunk_bytes(chunk_bytes);
+    wire.set_bytes_in_flight(limits.bytes_in_flight);
+    wire.set_frames_per_second(limits.frames_per_second);
+    wire.set_chunks_per_frame(limits.chunks_per_frame);
+    wire.set_idle_seconds(std::chrono::duration<double>(limits.idle_time).count());
+    wire.set_message_bytes(limits.message_bytes);
     return response;
 }
 

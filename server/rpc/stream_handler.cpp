@@ -1,5 +1,6 @@
 #include "rpc/stream_handler.hpp"
 
+#include <grpcpp/support/proto_buffer_reader.h>
 #include <spdlog/spdlog.h>
 
 #include <exception>
@@ -12,9 +13,10 @@
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "rpc/caller.hpp"
-#include "rpc/normal_bits.hpp"
+#include "rpc/frame_chunk_reader.hpp"
 #include "rpc/session_id.hpp"
 #include "rpc/status.hpp"
+#include "rpc/upload_options.hpp"
 #include "rpc/wire_bytes.hpp"
 #include "sessions/frame_assembler.hpp"
 #include "sessions/refusal.hpp"
@@ -24,7 +26,8 @@ namespace meniscus::server {
 namespace {
 
 /// Two sides run side by side. The reading side is one thread at a time: a read is under way, or a free input slot is
-/// waited for, or reading has ended. The writing side sends what the upload's output holds and finishes the call after
+/// waited for, or reading has ended. It owns the input slot while it works on a message; otherwise whoever holds the lock
+/// does, so that a call that ends gives its slot back however dead its connection is. The writing side sends what the upload's output holds and finishes the call after
 /// its end. It also finishes after a cancellation, as soon as no write is under way, so that no call outlives its client.
 class StreamReactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
                             public std::enable_shared_from_this<StreamReactor> {
@@ -41,16 +44,13 @@ public:
             refuse(std::current_exception());
             return;
         }
-        StartRead(&incoming_);
+        start_read();
     }
 
     // The reading side.
 
     void OnReadDone(bool ok) override {
-        if (!may_read()) {
-            give_input_back();
-            return;
-        }
+        if (!begin_work()) return;
         try {
             if (!ok) {
                 assembler_.end_of_stream();
@@ -88,37 +88,56 @@ public:
         const auto self = std::move(self_);
         if (!upload_) return;
         // For a call that ended before its upload: nobody reads, and the session is free for the next stream.
-        upload_->output.close();
-        session_->end_upload(upload_, nullptr);
+        session_->cancel_upload(upload_);
         spdlog::info("session {}: stream from {} closed: {}", session_id_, peer_, outcome_);
     }
 
 private:
-    /// Whether what has been read is still wanted.
-    bool may_read() {
+    /// False if what has been read is not wanted any more.
+    bool begin_work() {
         const std::lock_guard lock(mutex_);
-        return !reading_ended_ && !canceled_;
+        if (reading_ended_ || canceled_) return false;
+        working_ = true;
+        return true;
     }
 
     void receive() {
-        parse(incoming_, request_, "StreamRequest");
-        incoming_.Clear();
         if (!upload_) {
+            parse(incoming_, request_, "StreamRequest");
             if (!request_.has_open()) throw InvalidInput("the first message of a stream must be open");
             open(request_.open());
             request_input();
             return;
         }
+        upload_->last_activity = Upload::Clock::now();
+        if (!receive_chunk() && !receive_message()) return;
+        read_next();
+    }
+
+    /// False if it is another message.
+    bool receive_chunk() {
+        grpc::ProtoBufferReader bytes(&incoming_);
+        if (!bytes.status().ok()) return false;
+        FrameChunkReader chunk(bytes, incoming_.Length());
+        if (!chunk.bytes()) return false;
+        chunk.copy_to(assembler_.append(*chunk.bytes(), *input_));
+        return true;
+    }
+
+    /// False if the next read is not for now.
+    bool receive_message() {
+        parse(incoming_, request_, "StreamRequest");
         switch (request_.message_case()) {
             case v1::StreamRequest::kOpen:
                 throw InvalidInput("a second open; a stream has one, its first message");
             case v1::StreamRequest::kFrameBegin:
+                session_->admit_frame(request_.frame_begin().frame_index());
                 assembler_.begin(request_.frame_begin(), *input_);
                 enter_frame(true);
-                break;
+                return true;
             case v1::StreamRequest::kFrameChunk:
                 assembler_.append(request_.frame_chunk(), *input_);
-                break;
+                return true;
             case v1::StreamRequest::kFrameEnd:
                 assembler_.end(*input_);
                 session_->submit(upload_, *std::exchange(input_, nullptr));
@@ -126,16 +145,34 @@ private:
                     request_input();
                 else
                     end_reading(shutting_down());
-                return;
+                return false;
             case v1::StreamRequest::MESSAGE_NOT_SET:
-                throw InvalidInput("a message of a kind that this version does not know");
+                break;
         }
+        throw InvalidInput("a message of a kind that this version does not know");
+    }
+
+    void read_next() {
+        InputFrame* unused = nullptr;
+        {
+            const std::lock_guard lock(mutex_);
+            working_ = false;
+            if (reading_ended_ || canceled_)
+                unused = std::exchange(input_, nullptr);
+            else
+                start_read();
+        }
+        if (unused != nullptr) session_->return_input(*unused);
+    }
+
+    void start_read() {
+        incoming_.Clear();
         StartRead(&incoming_);
     }
 
     void open(const v1::StreamOpen& message) {
         require_same_session(session_id_, message.session_id());
-        const UploadOptions options{.receive_meshes = message.receive_meshes(), .normal_bits = normal_bits_of(message)};
+        const UploadOptions options = upload_options(message);
         const auto session = registry_.find(session_id_);
         Authorizer::require_access(caller_, Action::stream, session_id_, session->owner());
         const auto wake = [self = weak_from_this()] {
@@ -154,11 +191,18 @@ private:
         write();
     }
 
-    /// The next read starts once a slot is free: until then gRPC's flow control slows the simulator down.
+    /// The next read starts once a slot is free, and the simulator reads what it is told: until then gRPC's flow control
+    /// slows it down.
     void request_input() {
-        session_->request_input([self = weak_from_this()](InputFrame& input) {
-            const auto reactor = self.lock();
-            return reactor && reactor->use_input(input);
+        {
+            const std::lock_guard lock(mutex_);
+            working_ = false;
+        }
+        upload_->unreported_drops.when_below_limit([self = weak_from_this(), session = session_] {
+            session->request_input([self](InputFrame& input) {
+                const auto reactor = self.lock();
+                return reactor && reactor->use_input(input);
+            });
         });
     }
 
@@ -167,12 +211,8 @@ private:
         const std::lock_guard lock(mutex_);
         if (reading_ended_ || canceled_) return false;
         input_ = &input;
-        StartRead(&incoming_);
+        start_read();
         return true;
-    }
-
-    void give_input_back() {
-        if (input_ != nullptr) session_->return_input(*std::exchange(input_, nullptr));
     }
 
     /// False if the frame that has ended is to be the last.
@@ -184,7 +224,13 @@ private:
 
     /// What was received before is answered, then the call ends with the error.
     void end_reading(std::exception_ptr error) {
-        give_input_back();
+        InputFrame* unused = nullptr;
+        {
+            const std::lock_guard lock(mutex_);
+            working_ = false;
+            unused = std::exchange(input_, nullptr);
+        }
+        if (unused != nullptr) session_->return_input(*unused);
         stop_reading(std::move(error));
     }
 
@@ -226,8 +272,18 @@ private:
     }
 
     void write() {
-        const std::lock_guard lock(mutex_);
-        if (writing_ || finished_) return;
+        InputFrame* unused = nullptr;
+        {
+            const std::lock_guard lock(mutex_);
+            if (writing_ || finished_) return;
+            write_next();
+            if (finished_ && !working_) unused = std::exchange(input_, nullptr);
+        }
+        // Outside of the lock: the slot may go to another stream at once.
+        if (unused != nullptr) session_->return_input(*unused);
+    }
+
+    void write_next() {
         if (canceled_) {
             finish({grpc::StatusCode::CANCELLED, "the client has gone"});
         } else if (refusal_) {
@@ -273,6 +329,7 @@ private:
     grpc::ByteBuffer outgoing_;
     std::optional<std::exception_ptr> refusal_;
     std::string outcome_;
+    bool working_ = false;  ///< the reading side, on a message
     bool in_frame_ = false;
     bool draining_ = false;
     bool reading_ended_ = false;

@@ -75,7 +75,11 @@ void FrameAssembler::begin(const v1::FrameBegin& message, InputFrame& frame) {
     const Box box = quantized ? quantization_box(message) : Box{};
     expected_ = admitted_bytes(message, quantized);
 
-    frame.allocate(expected_);
+    try {
+        frame.allocate(expected_);
+    } catch (const LimitExceeded& error) {
+        throw LimitExceeded(fmt::format("frame {}: {}", message.frame_index(), error.what()));
+    }
     frame.index = message.frame_index();
     frame.simulation_time = message.simulation_time();
     frame.particle_count = static_cast<std::size_t>(message.particle_count());
@@ -84,20 +88,30 @@ void FrameAssembler::begin(const v1::FrameBegin& message, InputFrame& frame) {
     frame.has_levels = message.has_levels();
     index_ = message.frame_index();
     filled_ = 0;
+    chunks_ = 0;
     in_frame_ = true;
 }
 
 void FrameAssembler::append(const v1::FrameChunk& message, InputFrame& frame) {
+    const std::span<std::byte> place = append(message.data().size(), frame);
+    if (!place.empty()) std::memcpy(place.data(), message.data().data(), place.size());
+}
+
+std::span<std::byte> FrameAssembler::append(std::size_t bytes, InputFrame& frame) {
     if (!in_frame_) throw InvalidInput("a chunk outside of a frame; frame_begin comes first");
-    const std::string& data = message.data();
-    if (data.size() > chunk_bytes)
+    if (bytes > chunk_bytes)
         throw InvalidInput(
-            fmt::format("frame {}: a chunk of {} bytes; at most {} are allowed", *index_, data.size(), chunk_bytes));
-    if (data.size() > expected_ - filled_)
+            fmt::format("frame {}: a chunk of {} bytes; at most {} are allowed", *index_, bytes, chunk_bytes));
+    if (limits_.chunks_per_frame != 0 && chunks_ >= limits_.chunks_per_frame)
+        throw LimitExceeded(fmt::format("frame {}: more than {} chunks; the server takes at most {} per frame: send larger ones",
+                                        *index_, chunks_, limits_.chunks_per_frame));
+    if (bytes > expected_ - filled_)
         throw InvalidInput(fmt::format("frame {}: at least {} bytes for {} particles; {} were announced", *index_,
-                                       filled_ + data.size(), frame.particle_count, expected_));
-    if (!data.empty()) std::memcpy(frame.bytes.data() + filled_, data.data(), data.size());
-    filled_ += data.size();
+                                       filled_ + bytes, frame.particle_count, expected_));
+    const std::span<std::byte> place(frame.bytes.data() + filled_, bytes);
+    filled_ += bytes;
+    ++chunks_;
+    return place;
 }
 
 void FrameAssembler::end(InputFrame& frame) {

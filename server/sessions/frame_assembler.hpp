@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/input_frame.hpp"
@@ -19,6 +20,8 @@ public:
 
     void begin(const v1::FrameBegin& message, InputFrame& frame);
     void append(const v1::FrameChunk& message, InputFrame& frame);
+    /// For a chunk of this many bytes: where they belong.
+    std::span<std::byte> append(std::size_t bytes, InputFrame& frame);
     void end(InputFrame& frame);
     /// No further message follows.
     void end_of_stream() const;
@@ -32,6 +35,7 @@ private:
     Limits limits_;
     bool in_frame_ = false;
     std::size_t filled_ = 0;
+    std::uint32_t chunks_ = 0;
     std::optional<std::uint64_t> index_;  ///< of the frame begun last
     std::size_t expected_ = 0;
 };

@@ -5,17 +5,27 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "meniscus/memory.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "sessions/bytes_in_flight.hpp"
 
 namespace meniscus::server {
 
 struct InputFrame {
-    explicit InputFrame(const std::shared_ptr<MemoryAccount>& account) : bytes(AccountAllocator<std::byte>(account)) {}
+    explicit InputFrame(const std::shared_ptr<MemoryAccount>& account,
+                        std::shared_ptr<BytesInFlight> all_sessions = std::make_shared<BytesInFlight>())
+        : bytes(AccountAllocator<std::byte>(account)), in_flight_(std::move(all_sessions)) {}
+    ~InputFrame() { land(); }
+    InputFrame(const InputFrame&) = delete;
+    InputFrame& operator=(const InputFrame&) = delete;
 
-    /// Makes `bytes` of this size; keeps its memory if that suffices. Throws LimitExceeded or std::bad_alloc.
+    /// Makes `bytes` of this size, which are then in flight; keeps its memory if that suffices. Throws LimitExceeded or
+    /// std::bad_alloc.
     void allocate(std::size_t size);
+    /// Its bytes are no longer in flight. Its memory stays for the next frame.
+    void land() noexcept;
     /// The particles, in place.
     ParticleFrame view() const;
 
@@ -27,6 +37,10 @@ struct InputFrame {
     Box quantization_box;
     Array<std::byte> bytes;  ///< all positions, then all levels
     std::chrono::steady_clock::time_point received_at;
+
+private:
+    std::shared_ptr<BytesInFlight> in_flight_;
+    std::size_t bytes_in_flight_ = 0;
 };
 
 }  // namespace meniscus::server

@@ -1,6 +1,7 @@
 // What the server refuses to exceed. 0 means no limit.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 
@@ -17,6 +18,16 @@ struct Limits {
     std::size_t bytes_per_session = 0;
     /// For the reconstruction of one session on its GPU.
     std::size_t device_bytes_per_session = 0;
+    /// Of all sessions' frames, each from its beginning until it has been reconstructed.
+    std::size_t bytes_in_flight = 0;
+    /// Begun in any second by the streams of one session.
+    std::uint32_t frames_per_second = 0;
+    /// Chunk messages of one frame, empty ones included.
+    std::uint32_t chunks_per_frame = 65536;
+    /// After which a stream ends that brings nothing and is owed nothing, and a session that nobody uses.
+    std::chrono::milliseconds idle_time{0};
+    /// Of one message as it arrives; at least a full chunk and what is around it.
+    std::size_t message_bytes = std::size_t{4} << 20;
 };
 
 }  // namespace meniscus::server

@@ -19,12 +19,16 @@
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
 #include "metrics/metrics.hpp"
+#include "sessions/bytes_in_flight.hpp"
 #include "sessions/channel.hpp"
 #include "sessions/frame_encoder.hpp"
+#include "sessions/frame_queue.hpp"
+#include "sessions/frame_rate.hpp"
 #include "sessions/input_frame.hpp"
 #include "sessions/limits.hpp"
 #include "sessions/session_observer.hpp"
 #include "sessions/slot_pool.hpp"
+#include "sessions/turns.hpp"
 #include "sessions/upload.hpp"
 #include "sessions/watch.hpp"
 #include "sessions/worker_pool.hpp"
@@ -37,6 +41,8 @@ struct SessionState {
     std::uint64_t frames = 0;
     std::optional<std::uint64_t> last_frame_index;
     std::optional<v1::FrameStatistics> last_frame;  ///< of the frame answered last
+    std::uint64_t frames_dropped_replaced = 0;
+    std::uint64_t frames_dropped_not_nth = 0;
     std::uint64_t frames_skipped = 0;                 ///< over all watchers, those that have gone included
     std::chrono::duration<double> watcher_lag{0.0};   ///< of the watcher that lags most
 };
@@ -47,9 +53,17 @@ using Reconstruct = std::function<Statistics(const ParticleFrame& frame, Mesh& m
 /// Replaces the mesh by the last frame's surface with its levels capped; throws what Reconstructor::emit_capped throws.
 using EmitCapped = std::function<void(int max_level, Mesh& mesh)>;
 
+/// What sessions share.
+struct SharedResources {
+    /// On the device that the session reconstructs on.
+    std::shared_ptr<Turns> turns = std::make_shared<Turns>();
+    std::shared_ptr<BytesInFlight> bytes_in_flight = std::make_shared<BytesInFlight>();
+};
+
 /// A pipeline of three steps that overlap: a frame is received (by its stream, into one of two input slots) while the
 /// one before is reconstructed (first thread, into one of two meshes) and the one before that is encoded (second
 /// thread). A step waits for the next one only through these slots, which is also all the memory that frames take.
+/// UploadPolicy::latest has a third input slot: for the frame that waits, and is replaced once a newer one is complete.
 ///
 /// join() must have returned before the last reference goes, unless no other thread has one.
 class Session {
@@ -59,7 +73,7 @@ public:
     Session(std::string id, const Settings& settings, const Limits& limits, Reconstruct reconstruct,
             std::shared_ptr<WorkerPool> workers, std::string owner = {},
             std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>(), EmitCapped emit_capped = nullptr,
-            std::shared_ptr<SessionObserver> observer = nullptr);
+            std::shared_ptr<SessionObserver> observer = nullptr, SharedResources shared = {});
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -72,14 +86,19 @@ public:
 
     // Uploading. Frames go: request_input, submit or return_input, ..., end_upload.
 
-    /// Throws Refusal if another stream uploads or the session ends.
+    /// A stream that resumes the session's run takes the place of the one before, which ends. Throws Refusal if a stream
+    /// of another run uploads, or the session ends.
     std::shared_ptr<Upload> open_upload(const UploadOptions& options, std::function<void()> wake,
                                         std::function<void()> drain);
     void request_input(SlotPool<InputFrame>::Waiter waiter);
     void return_input(InputFrame& input);
+    /// Before a frame is begun. Throws LimitExceeded for one too many in a second.
+    void admit_frame(std::uint64_t index);
     void submit(std::shared_ptr<Upload> upload, InputFrame& input);
     /// What was submitted before is still answered; then the upload's output ends with the error.
     void end_upload(std::shared_ptr<Upload> upload, std::exception_ptr error);
+    /// Nobody reads any more: its frames that wait are forgotten.
+    void cancel_upload(const std::shared_ptr<Upload>& upload);
 
     // Watching.
 
@@ -87,8 +106,14 @@ public:
     std::shared_ptr<Watch> open_watch(const WatchWishes& wishes, std::function<void()> wake);
     void close_watch(const std::shared_ptr<Watch>& watch);
 
-    /// Lets the frame on its way in be the last, then ends the watchers, who are told that they have so long. Returns at once.
+    /// Lets the frame on its way in be the last, then ends the watchers. Streams and watchers are told that they have so long.
+    /// Returns at once.
     void drain(std::chrono::duration<double> grace);
+    /// Ends an upload that has been idle for Limits::idle_time. Returns whether the session has been without a stream,
+    /// a watcher or a call for so long.
+    bool end_idle(std::chrono::steady_clock::time_point now);
+    /// A call is about this session.
+    void touch();
     /// Drops what is in flight, and ends the upload and the watchers. Returns at once.
     void close();
     /// Whether the session was closed, or a GPU that failed has ended it.
@@ -97,15 +122,13 @@ public:
     void join();
 
 private:
-    struct Received {
-        std::shared_ptr<Upload> upload = nullptr;
-        InputFrame* input = nullptr;  ///< none: the upload ends
-        std::exception_ptr error = nullptr;
-        int max_level = 0;            ///< or, if not 0: a watcher has come who wishes for this cap
-    };
     struct Encode {
         std::shared_ptr<Upload> upload;
         ReconstructedFrame* frame = nullptr;
+    };
+    struct ReportDrop {
+        std::shared_ptr<Upload> upload;
+        DroppedFrame dropped;
     };
     struct EndUpload {
         std::shared_ptr<Upload> upload;  ///< none: only looks whether the session drains
@@ -121,7 +144,7 @@ private:
         int max_level = 0;
         Mesh mesh;
     };
-    using Task = std::variant<Encode, EndUpload, EndSession, EncodeForWatchers, AddCapped>;
+    using Task = std::variant<Encode, ReportDrop, EndUpload, EndSession, EncodeForWatchers, AddCapped>;
 
     using Encodings = std::map<MeshFormat, std::shared_ptr<const EncodedFrame>>;
 
@@ -132,8 +155,17 @@ private:
     /// Ends the threads' work. Returns whom to tell: nobody from the second call on.
     Attached detach();
 
+    std::shared_ptr<Run> run_of(const UploadOptions& options) const;
+    /// As the upload's policy says. Returns the inputs that are free again. With the lock held.
+    std::vector<InputFrame*> enqueue(std::shared_ptr<Upload> upload, InputFrame& input);
+
     void reconstruct_frames();
-    void reconstruct(const InputFrame& input, ReconstructedFrame& frame);
+    void pass_on(Received note);
+    /// False if the session ends.
+    bool reconstruct_next(Received received);
+    void reconstruct(const Received& received, ReconstructedFrame& frame);
+    /// Unless the observer has seen the frame already, before its run was resumed.
+    void show_to_observer(const Received& received);
     /// With the level caps that watchers wish for now.
     void cap_levels(ReconstructedFrame& frame);
     /// Of the last frame, for a watcher who has come since.
@@ -143,6 +175,10 @@ private:
 
     void encode_frames();
     void perform(Encode& task);
+    /// A frame of a resumed run that was finished before: for the simulator alone.
+    void answer_again(Encode& task);
+    void answered(Upload& upload);
+    void perform(ReportDrop& task);
     void perform(EndUpload& task);
     void perform(EndSession& task);
     void perform(EncodeForWatchers& task);
@@ -165,19 +201,26 @@ private:
     const std::shared_ptr<Metrics> metrics_;
     const EmitCapped emit_capped_;
     const std::shared_ptr<SessionObserver> observer_;
+    const SharedResources shared_;
 
-    std::array<InputFrame, 2> inputs_;
+    std::array<InputFrame, 3> inputs_;  ///< the last one for UploadPolicy::latest
     std::array<ReconstructedFrame, 2> frames_;
     SlotPool<InputFrame> free_inputs_;
-    Channel<Received> received_;
+    FrameQueue received_;
     Channel<ReconstructedFrame*> free_frames_;
     Channel<Task> tasks_;
-    std::uint64_t reconstructed_ = 0;       ///< frames; of the reconstructing thread
-    ReconstructedFrame* newest_ = nullptr;  ///< of the encoding thread
-    Encodings before_;                      ///< of the frame before the newest, whose bricks may serve again; of the same thread
+    std::uint64_t reconstructed_ = 0;          ///< frames; of the reconstructing thread
+    ReconstructedFrame* next_mesh_ = nullptr;  ///< of the same: taken before it is needed
+    std::shared_ptr<Upload> failed_;           ///< of the same: its frames that follow are dropped
+    ReconstructedFrame* newest_ = nullptr;     ///< of the encoding thread
+    Encodings before_;                         ///< of the frame before the newest, whose bricks may serve again; of the same thread
 
     mutable std::mutex mutex_;  ///< for what follows
     SessionState state_;
+    FrameRate frame_rate_;
+    std::chrono::steady_clock::time_point last_used_ = std::chrono::steady_clock::now();
+    std::shared_ptr<Run> run_;                           ///< of the stream opened last
+    bool third_input_in_use_ = false;
     std::shared_ptr<Upload> upload_;                     ///< the one that sends
     std::vector<std::shared_ptr<Upload>> unanswered_;    ///< and those whose last frames are still on their way
     std::vector<std::shared_ptr<Watch>> watches_;

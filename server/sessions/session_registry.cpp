@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "meniscus/devices.hpp"
@@ -21,18 +22,9 @@ BackendOptions with_memory_limits(BackendOptions backend, const Limits& limits) 
     return backend;
 }
 
-std::shared_ptr<Session> make_session(const std::string& id, const Settings& settings, const Limits& limits,
-                                      const BackendOptions& backend, const std::shared_ptr<WorkerPool>& workers,
-                                      const std::string& owner, const std::shared_ptr<Metrics>& metrics,
-                                      std::shared_ptr<SessionObserver> observer) {
-    const auto reconstructor = std::make_shared<Reconstructor>(settings, backend);
-    const auto reconstruct = [reconstructor](const ParticleFrame& frame, Mesh& mesh) {
-        reconstructor->reconstruct(frame, mesh);
-        return reconstructor->statistics();
-    };
-    const auto emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); };
-    return std::make_shared<Session>(id, settings, limits, reconstruct, workers, owner, metrics, emit_capped,
-                                     std::move(observer));
+/// Often enough that nothing is kept for much longer than the limit says.
+std::chrono::milliseconds idle_check_interval(const Limits& limits) {
+    return std::clamp(limits.idle_time / 4, std::chrono::milliseconds(10), std::chrono::milliseconds(10'000));
 }
 
 std::string place_name(const BackendOptions& backend) {
@@ -41,20 +33,36 @@ std::string place_name(const BackendOptions& backend) {
 
 }  // namespace
 
+ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOptions& backend) {
+    const auto reconstructor = std::make_shared<Reconstructor>(settings, backend);
+    return {.reconstruct =
+                [reconstructor](const ParticleFrame& frame, Mesh& mesh) {
+                    reconstructor->reconstruct(frame, mesh);
+                    return reconstructor->statistics();
+                },
+            .emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); }};
+}
+
 SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
-                                 std::vector<int> devices, std::shared_ptr<Metrics> metrics, Observe observe)
+                                 std::vector<int> devices, std::shared_ptr<Metrics> metrics, Observe observe,
+                                 MakeReconstruct make)
     : limits_(limits),
       backend_(with_memory_limits(backend, limits)),
       devices_(std::move(devices)),
       observe_(std::move(observe)),
+      make_reconstruct_(std::move(make)),
       workers_(std::make_shared<WorkerPool>(encoding_threads)),
-      metrics_(std::move(metrics)) {
+      metrics_(std::move(metrics)),
+      bytes_in_flight_(std::make_shared<BytesInFlight>(limits.bytes_in_flight)) {
     joining_ = std::thread([this] {
         while (const auto session = removed_.take()) (*session)->join();
     });
+    if (limits.idle_time.count() != 0)
+        idle_check_.emplace(idle_check_interval(limits), [this] { end_idle(std::chrono::steady_clock::now()); });
 }
 
 SessionRegistry::~SessionRegistry() {
+    idle_check_.reset();
     removed_.close();
     joining_.join();
     for (const auto& [id, session] : sessions_) session->close();
@@ -66,15 +74,20 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
     if (draining_) throw Refusal(Refusal::Kind::unavailable, "the server is shutting down");
     remove_ended();
     if (const auto found = sessions_.find(id); found != sessions_.end()) {
-        if (found->second->settings() == settings) return found->second;
+        if (found->second->settings() == settings) {
+            found->second->touch();
+            return found->second;
+        }
         throw Refusal(Refusal::Kind::already_exists, fmt::format("session {} exists with other settings", id));
     }
     if (limits_.sessions != 0 && sessions_.size() >= limits_.sessions)
         throw LimitExceeded(
             fmt::format("{} sessions are open; the server holds at most {}", sessions_.size(), limits_.sessions));
     const BackendOptions backend = place_session();
-    auto session = make_session(id, settings, limits_, backend, workers_, owner, metrics_,
-                                observe_ ? observe_(id, settings) : nullptr);
+    ReconstructFunctions functions = make_reconstruct_(settings, backend);
+    auto session = std::make_shared<Session>(id, settings, limits_, std::move(functions.reconstruct), workers_, owner, metrics_,
+                                             std::move(functions.emit_capped), observe_ ? observe_(id, settings) : nullptr,
+                                             shared_on(backend));
     sessions_.emplace(id, session);
     spdlog::info("session {} created on {} ({} open)", id, place_name(backend), sessions_.size());
     return session;
@@ -85,6 +98,7 @@ std::shared_ptr<Session> SessionRegistry::find(const std::string& id) {
     remove_ended();
     const auto found = sessions_.find(id);
     if (found == sessions_.end()) throw Refusal(Refusal::Kind::not_found, fmt::format("no session {}", id));
+    found->second->touch();
     return found->second;
 }
 
@@ -129,12 +143,36 @@ BackendOptions SessionRegistry::place_session() const {
     return place;
 }
 
+SharedResources SessionRegistry::shared_on(const BackendOptions& place) {
+    constexpr int cpu = -1;
+    auto& turns = turns_[place.backend == Backend::cuda ? place.device : cpu];
+    if (!turns) turns = std::make_shared<Turns>();
+    return {.turns = turns, .bytes_in_flight = bytes_in_flight_};
+}
+
 void SessionRegistry::drain(std::chrono::duration<double> grace) {
     {
         const std::lock_guard lock(mutex_);
         draining_ = true;
     }
     for (const auto& session : list()) session->drain(grace);
+}
+
+void SessionRegistry::end_idle(std::chrono::steady_clock::time_point now) {
+    for (const auto& session : list()) {
+        if (!session->end_idle(now)) continue;
+        {
+            const std::lock_guard lock(mutex_);
+            // Somebody may have found it, or removed it, in the meantime.
+            const auto found = sessions_.find(session->id());
+            if (found == sessions_.end() || found->second != session || !session->end_idle(now)) continue;
+            sessions_.erase(found);
+        }
+        session->close();
+        spdlog::info("session {} removed: nobody has used it for {:.3g} s", session->id(),
+                     std::chrono::duration<double>(limits_.idle_time).count());
+        removed_.put(session);
+    }
 }
 
 }  // namespace meniscus::server

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "meniscus/settings.hpp"
 #include "sessions/channel.hpp"
 #include "sessions/limits.hpp"
+#include "sessions/periodic.hpp"
 #include "sessions/session.hpp"
 #include "sessions/worker_pool.hpp"
 
@@ -21,12 +23,22 @@ namespace meniscus::server {
 /// Makes the observer of a new session.
 using Observe = std::function<std::shared_ptr<SessionObserver>(const std::string& id, const Settings& settings)>;
 
+/// What a new session reconstructs with.
+struct ReconstructFunctions {
+    Reconstruct reconstruct;
+    EmitCapped emit_capped;
+};
+using MakeReconstruct = std::function<ReconstructFunctions(const Settings& settings, const BackendOptions& backend)>;
+
+/// Those of a Reconstructor.
+ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOptions& backend);
+
 class SessionRegistry {
 public:
     /// encoding_threads: at least 1. devices: the GPUs that sessions may use; all if none is named. observe: may be empty.
     SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
                     std::vector<int> devices = {}, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>(),
-                    Observe observe = nullptr);
+                    Observe observe = nullptr, MakeReconstruct make = make_reconstruct);
     ~SessionRegistry();
     SessionRegistry(const SessionRegistry&) = delete;
     SessionRegistry& operator=(const SessionRegistry&) = delete;
@@ -44,8 +56,12 @@ public:
     /// No new sessions and uploads; those that run end after the frame on its way in. Returns at once.
     /// grace: what is left then is ended regardless.
     void drain(std::chrono::duration<double> grace);
+    /// Ends the streams, and forgets the sessions, that have been idle for Limits::idle_time.
+    void end_idle(std::chrono::steady_clock::time_point now);
 
     const Limits& limits() const noexcept { return limits_; }
+    /// Of the frames of all sessions.
+    std::size_t bytes_in_flight() const noexcept { return bytes_in_flight_->bytes(); }
     Metrics& metrics() const noexcept { return *metrics_; }
 
 private:
@@ -53,21 +69,27 @@ private:
     void remove_ended();
     /// Where the next session reconstructs.
     BackendOptions place_session() const;
+    /// What sessions on this place share. With the lock held.
+    SharedResources shared_on(const BackendOptions& place);
 
     const Limits limits_;
     const BackendOptions backend_;
     const std::vector<int> devices_;
     const Observe observe_;
+    const MakeReconstruct make_reconstruct_;
     const std::shared_ptr<WorkerPool> workers_;
     const std::shared_ptr<Metrics> metrics_;
+    const std::shared_ptr<BytesInFlight> bytes_in_flight_;
 
     std::mutex mutex_;
     std::map<std::string, std::shared_ptr<Session>> sessions_;
+    std::map<int, std::shared_ptr<Turns>> turns_;  ///< by device
     bool draining_ = false;
 
     // Joins the threads of sessions that were removed, so that no gRPC thread has to wait for a reconstruction.
     Channel<std::shared_ptr<Session>> removed_;
     std::thread joining_;
+    std::optional<Periodic> idle_check_;  ///< last: it uses the others
 };
 
 }  // namespace meniscus::server

@@ -104,6 +104,33 @@ TEST_F(FrameAssembly, RefusesBytesThatDoNotMatchTheCount) {
     EXPECT_THROW(assembler.append(chunk(2), frame), InvalidInput);
 }
 
+TEST_F(FrameAssembly, TakesAsManyChunksAsTheLimitSaysAndNoEmptyOneMore) {
+    limits.chunks_per_frame = 3;
+    FrameAssembler limited{limits};
+    for (std::uint64_t i = 0; i < 2; ++i) {
+        limited.begin(begin(i, 1), frame);
+        for (const std::size_t bytes : {0U, 0U, 12U}) limited.append(chunk(bytes), frame);
+        limited.end(frame);
+    }
+    limited.begin(begin(2, 1), frame);
+    for (const std::size_t bytes : {0U, 0U, 11U}) limited.append(chunk(bytes), frame);
+    EXPECT_THROW(limited.append(chunk(0), frame), LimitExceeded);
+}
+
+TEST_F(FrameAssembly, TakesBytesInFlightOfAllSessionsUpToTheLimit) {
+    const auto in_flight = std::make_shared<BytesInFlight>(1200);
+    InputFrame first{nullptr, in_flight};
+    InputFrame second{nullptr, in_flight};
+    FrameAssembler other{limits};
+    assembler.begin(begin(0, 60), first);
+    other.begin(begin(0, 40), second);
+    EXPECT_EQ(in_flight->bytes(), 1200U);
+    second.land();
+    FrameAssembler third{limits};
+    EXPECT_THROW(third.begin(begin(0, 41), second), LimitExceeded);
+    EXPECT_EQ(in_flight->bytes(), 720U);
+}
+
 TEST_F(FrameAssembly, RefusesATimeThatIsNotFinite) {
     v1::FrameBegin message = begin(0, 1);
     message.set_simulation_time(std::nan(""));

@@ -73,6 +73,24 @@ TEST_F(Registry, TakesNoSessionsWhileItDrains) {
     EXPECT_THROW(session->open_upload({}, [] {}, [] {}), Refusal);
 }
 
+TEST(IdleRegistry, ForgetsASessionThatNobodyHasUsedForAsLongAsTheLimitSaysAndNoneBefore) {
+    using Clock = std::chrono::steady_clock;
+    constexpr auto limit = std::chrono::hours(1);
+    SessionRegistry registry{Limits{.idle_time = limit}, BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
+    const auto before = Clock::now();
+    const auto used = registry.create(first_id, test::settings());
+    const auto upload = used->open_upload({}, [] {}, [] {});
+    registry.create(second_id, test::settings());
+    const auto after = Clock::now();
+    registry.end_idle(before + limit - std::chrono::milliseconds(1));
+    EXPECT_EQ(registry.list().size(), 2U);
+    registry.end_idle(after + limit);
+    ASSERT_EQ(registry.list().size(), 1U);
+    EXPECT_EQ(registry.list()[0], used);
+    const auto end = std::get<OutputQueue::End>(upload->output.take());
+    EXPECT_THROW(std::rethrow_exception(end.error), LimitExceeded);
+}
+
 TEST_F(Registry, RefusesSettingsOutOfRange) {
     EXPECT_THROW(registry.create(first_id, Settings{}), InvalidInput);
     EXPECT_TRUE(registry.list().empty());

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <cstring>
 #include <future>
 #include <limits>
 #include <optional>
@@ -16,68 +15,15 @@
 #include "meniscus/reconstructor.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/refusal.hpp"
+#include "simulator_player.hpp"
 #include "test_frames.hpp"
 
 namespace meniscus::server {
 namespace {
 
-constexpr const char* id = "00000000-0000-4000-8000-000000000000";
-
-/// Plays a stream: one thread uploads, another reads.
-struct Simulator {
-    Simulator(Session& s, const UploadOptions& options)
-        : session(s), upload(session.open_upload(options, [this] { awake.release(); }, [this] { ++drained; })) {}
-
-    void send(std::uint64_t index, const test::Particles& particles) {
-        std::promise<InputFrame*> lent;
-        session.request_input([&](InputFrame& input) {
-            lent.set_value(&input);
-            return true;
-        });
-        InputFrame& input = *lent.get_future().get();
-        input.index = index;
-        input.simulation_time = 0.0;
-        input.quantized = false;
-        input.has_levels = false;
-        input.particle_count = particles.positions.size() / 3;
-        input.allocate(particles.positions.size() * sizeof(float));
-        if (!particles.positions.empty())
-            std::memcpy(input.bytes.data(), particles.positions.data(), input.bytes.size());
-        input.received_at = std::chrono::steady_clock::now();
-        session.submit(upload, input);
-    }
-    void end() { session.end_upload(upload, nullptr); }
-
-    /// The next message, or none at the end.
-    std::optional<v1::StreamResponse> receive() {
-        for (;;) {
-            auto next = upload->output.take();
-            if (const auto* message = std::get_if<SharedMessage>(&next)) {
-                v1::StreamResponse response;
-                EXPECT_TRUE(response.ParseFromString(**message));
-                return response;
-            }
-            if (const auto* end = std::get_if<OutputQueue::End>(&next)) {
-                error = end->error;
-                return std::nullopt;
-            }
-            awake.acquire();
-        }
-    }
-    /// Indices of the frames that are answered until the end.
-    std::vector<std::uint64_t> receive_all() {
-        std::vector<std::uint64_t> indices;
-        while (const auto response = receive())
-            if (response->has_frame_statistics()) indices.push_back(response->frame_statistics().frame_index());
-        return indices;
-    }
-
-    Session& session;
-    std::counting_semaphore<> awake{0};
-    std::atomic<int> drained{0};
-    std::shared_ptr<Upload> upload;
-    std::exception_ptr error;
-};
+using test::id;
+using test::reconstruct_on_the_cpu;
+using test::Simulator;
 
 WatchWishes normals(int bits) {
     return {.format = {.position_bits = 6, .normal_bits = bits}};
@@ -124,14 +70,6 @@ struct Spectator {
     bool told_of_the_end = false;
     std::exception_ptr error;
 };
-
-Reconstruct reconstruct_on_the_cpu() {
-    return [reconstructor = std::make_shared<Reconstructor>(test::settings(), BackendOptions{.threads = 2})](
-               const ParticleFrame& frame, Mesh& mesh) {
-        reconstructor->reconstruct(frame, mesh);
-        return reconstructor->statistics();
-    };
-}
 
 /// A mesh with less in it for a lower cap, whatever the frame.
 void emit_capped(int max_level, Mesh& mesh) {

@@ -1,0 +1,38 @@
+#include "rpc/upload_options.hpp"
+
+#include <fmt/format.h>
+
+#include "meniscus/error.hpp"
+#include "rpc/normal_bits.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+UploadPolicy policy_of(const v1::StreamOpen& message) {
+    switch (message.policy()) {
+        case v1::UPLOAD_POLICY_UNSPECIFIED:
+        case v1::UPLOAD_POLICY_EVERY_FRAME:
+            return UploadPolicy::every_frame;
+        case v1::UPLOAD_POLICY_LATEST:
+            return UploadPolicy::latest;
+        case v1::UPLOAD_POLICY_EVERY_NTH:
+            if (message.nth() == 0) throw InvalidInput("nth is 0; with UPLOAD_POLICY_EVERY_NTH it must be at least 1");
+            return UploadPolicy::every_nth;
+        default:
+            throw InvalidInput(fmt::format("policy has the value {}, which this version does not know",
+                                           static_cast<int>(message.policy())));
+    }
+}
+
+}  // namespace
+
+UploadOptions upload_options(const v1::StreamOpen& message) {
+    return {.receive_meshes = message.receive_meshes(),
+            .normal_bits = normal_bits_of(message),
+            .policy = policy_of(message),
+            .nth = message.nth(),
+            .run_id = message.run_id()};
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,12 @@
+// What a stream asks for as it opens.
+#pragma once
+
+#include "meniscus/v1/surface_service.pb.h"
+#include "sessions/upload.hpp"
+
+namespace meniscus::server {
+
+/// Throws InvalidInput for a value out of range.
+UploadOptions upload_options(const v1::StreamOpen& message);
+
+}  // namespace meniscus::server

@@ -1,0 +1,56 @@
+// A session's frames between their arrival and their reconstruction.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "sessions/dropped_frame.hpp"
+#include "sessions/input_frame.hpp"
+#include "sessions/upload.hpp"
+
+namespace meniscus::server {
+
+/// A frame, or a note that keeps its place among the frames.
+struct Received {
+    std::shared_ptr<Upload> upload = nullptr;
+    InputFrame* input = nullptr;               ///< the frame; none: a note
+    std::optional<DroppedFrame> dropped = {};  ///< a note of a dropped frame
+    int max_level = 0;                         ///< or, if not 0, of a watcher who has come and wishes for this cap
+    std::exception_ptr error = nullptr;        ///< or that the upload ends, with this
+};
+
+/// A frame can still be replaced or withdrawn until it is taken; therefore whoever takes frames is first told of one, makes
+/// ready, and then takes what is there. One thread takes.
+class FrameQueue {
+public:
+    enum class Next { frame, note, closed };
+
+    /// Dropped once the queue is closed.
+    void put(Received received);
+    /// Notes in place of the upload's frames that wait, each as replaced. Returns the frames.
+    std::vector<InputFrame*> replace(const Upload& upload);
+    /// Forgets the frames and the dropped ones of the upload. Returns the frames.
+    std::vector<InputFrame*> withdraw(const Upload& upload);
+
+    /// Waits until there is something.
+    Next wait();
+    /// The first in the queue if it is of this kind, which it need not be any more.
+    std::optional<Received> take(Next kind);
+
+    /// Forgets what has not been taken.
+    void close();
+
+private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<Received> waiting_;
+    bool closed_ = false;
+};
+
+}  // namespace meniscus::server

@@ -1,0 +1,26 @@
+// How many frames a session may begin in a second.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace meniscus::server {
+
+/// A token bucket that holds a second's frames. Not thread-safe.
+class FrameRate {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    /// limit: frames per second, 0 for none.
+    explicit FrameRate(std::uint32_t limit) : limit_(limit), tokens_(limit) {}
+
+    /// Whether one more frame may begin at this time, and takes note of it.
+    bool take(Clock::time_point now);
+
+private:
+    double limit_;
+    double tokens_;
+    Clock::time_point filled_at_{};
+};
+
+}  // namespace meniscus::server

@@ -1,0 +1,33 @@
+#include "sessions/stream_notices.hpp"
+
+#include <string>
+
+#include "meniscus/v1/surface_service.pb.h"
+
+namespace meniscus::server {
+
+namespace {
+
+// One serialization serves both RPCs.
+static_assert(int{v1::StreamResponse::kDrainingFieldNumber} == int{v1::WatchResponse::kDrainingFieldNumber});
+
+v1::DropReason to_wire(DropReason reason) {
+    return reason == DropReason::replaced ? v1::DROP_REASON_REPLACED : v1::DROP_REASON_NOT_NTH;
+}
+
+}  // namespace
+
+SharedMessage frame_dropped_message(const DroppedFrame& frame) {
+    v1::StreamResponse response;
+    response.mutable_frame_dropped()->set_frame_index(frame.index);
+    response.mutable_frame_dropped()->set_reason(to_wire(frame.reason));
+    return std::make_shared<const std::string>(response.SerializeAsString());
+}
+
+SharedMessage draining_message(std::chrono::duration<double> grace) {
+    v1::StreamResponse response;
+    response.mutable_draining()->set_seconds(grace.count());
+    return std::make_shared<const std::string>(response.SerializeAsString());
+}
+
+}  // namespace meniscus::server

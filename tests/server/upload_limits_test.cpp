@@ -1,0 +1,142 @@
+// Limits of uploading streams over a real connection: exactly at each, and one past it.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "running_server.hpp"
+
+namespace meniscus::server::test {
+namespace {
+
+constexpr auto exhausted = grpc::StatusCode::RESOURCE_EXHAUSTED;
+
+struct UploadLimits : testing::Test {
+    struct Outcome {
+        grpc::Status status;
+        int answered = 0;
+    };
+    static Outcome outcome(RawStream& stream) {
+        stream.call->WritesDone();
+        const grpc::Status status = stream.finish();
+        return {status, stream.answered};
+    }
+    static void expect_refused(const grpc::Status& status, const std::string& words) {
+        EXPECT_EQ(status.error_code(), exhausted);
+        EXPECT_NE(status.error_message().find(words), std::string::npos) << status.error_message();
+    }
+
+    ServerOptions options = test_options();
+};
+
+TEST_F(UploadLimits, ChunksPerFrame) {
+    options.limits.chunks_per_frame = 4;
+    RunningServer running(options);
+    for (const int extra : {0, 1}) {
+        RawStream stream(running.server.address(), running.session());
+        stream.send_begin(0, 1);
+        stream.send_chunk(12);
+        for (int i = 0; i < 3 + extra; ++i) stream.send_chunk(0);
+        stream.send_end();
+        const Outcome result = outcome(stream);
+        EXPECT_EQ(result.answered, 1 - extra);
+        if (extra == 0)
+            EXPECT_TRUE(result.status.ok()) << result.status.error_message();
+        else
+            expect_refused(result.status, "frame 0: more than 4 chunks; the server takes at most 4 per frame");
+    }
+}
+
+TEST_F(UploadLimits, FramesPerSecond) {
+    options.limits.frames_per_second = 3;
+    RunningServer running(options);
+    for (const std::uint64_t frames : {3U, 300U}) {
+        RawStream stream(running.server.address(), running.session());
+        for (std::uint64_t i = 0; i < frames; ++i) {
+            stream.send_begin(i, 0);
+            stream.send_end();
+        }
+        const Outcome result = outcome(stream);
+        EXPECT_GE(result.answered, 3);
+        if (frames == 3)
+            EXPECT_TRUE(result.status.ok()) << result.status.error_message();
+        else
+            expect_refused(result.status, "more than 3 frames in a second");
+    }
+}
+
+TEST_F(UploadLimits, BytesInFlightOverAllSessions) {
+    options.limits.bytes_in_flight = 240;
+    RunningServer running(options);
+    RawStream holds(running.server.address(), running.session());
+    holds.send_begin(0, 10);
+    holds.send_chunk(1);
+    const auto send = [&](std::uint64_t particles) {
+        RawStream stream(running.server.address(), running.session());
+        stream.send_begin(0, particles);
+        stream.send_chunk(12 * particles);
+        stream.send_end();
+        return outcome(stream);
+    };
+    // Until the other one is there.
+    Outcome refused;
+    while ((refused = send(11)).status.ok()) {
+    }
+    expect_refused(refused.status, "at most 240 bytes over all sessions");
+    EXPECT_TRUE(send(10).status.ok());
+    EXPECT_TRUE(send(10).status.ok());
+    holds.context.TryCancel();
+    holds.finish();
+    while (!send(20).status.ok()) {
+    }
+    expect_refused(send(21).status, "frame 0: a frame of 252 bytes");
+}
+
+TEST_F(UploadLimits, MessageBytes) {
+    options.limits.message_bytes = chunk_bytes + 1024;
+    RunningServer running(options);
+    const std::string id = running.session();
+    for (const std::size_t bytes : {chunk_bytes, chunk_bytes + 2000}) {
+        RawStream stream(running.server.address(), id);
+        stream.send_begin(0, chunk_bytes / 4);
+        stream.send_chunk(bytes);
+        if (bytes == chunk_bytes) {
+            stream.send_chunk(chunk_bytes);
+            stream.send_chunk(chunk_bytes);
+            stream.send_end();
+        }
+        const Outcome result = outcome(stream);
+        EXPECT_EQ(result.answered, bytes == chunk_bytes ? 1 : 0);
+        EXPECT_EQ(result.status.ok(), bytes == chunk_bytes) << result.status.error_message();
+    }
+}
+
+TEST_F(UploadLimits, IdleTime) {
+    options.limits.idle_time = std::chrono::seconds(1);
+    RunningServer running(options);
+    const std::string id = running.session();
+    RawStream stream(running.server.address(), id);
+    stream.send_begin(0, 0);
+    stream.send_end();
+    const grpc::Status status = stream.finish();
+    EXPECT_EQ(stream.answered, 1);
+    expect_refused(status, "the server keeps an idle stream for 1 s");
+    while (!running.client.sessions().empty()) std::this_thread::yield();
+}
+
+TEST_F(UploadLimits, AreWhatTheServerSays) {
+    options.limits = Limits{.bytes_in_flight = 1, .frames_per_second = 2, .chunks_per_frame = 3,
+                            .idle_time = std::chrono::milliseconds(4500), .message_bytes = 5'000'000};
+    RunningServer running(options);
+    client::Connection connection(running.server.address(), std::chrono::seconds(10));
+    grpc::ClientContext context;
+    v1::GetServerInfoResponse response;
+    ASSERT_TRUE(connection.server->GetServerInfo(&context, {}, &response).ok());
+    EXPECT_EQ(response.limits().bytes_in_flight(), 1U);
+    EXPECT_EQ(response.limits().frames_per_second(), 2U);
+    EXPECT_EQ(response.limits().chunks_per_frame(), 3U);
+    EXPECT_EQ(response.limits().idle_seconds(), 4.5);
+    EXPECT_EQ(response.limits().message_bytes(), 5'000'000U);
+}
+
+}  // namespace
+}  // namespace meniscus::server::test
