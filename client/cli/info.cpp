@@ -30,7 +30,12 @@ void print_server(const ServerFlags& server) {
               << "watchers per session   " << limit(info.max_watchers_per_session) << '\n'
               << "particles per frame    " << limit(info.max_particles_per_frame) << '\n'
               << "bytes per session      " << limit(info.max_bytes_per_session) << '\n'
-              << "GPU bytes per session  " << limit(info.max_device_bytes_per_session) << '\n';
+              << "GPU bytes per session  " << limit(info.max_device_bytes_per_session) << '\n'
+              << "bytes in flight        " << limit(info.max_bytes_in_flight) << '\n'
+              << "frames per second      " << limit(info.max_frames_per_second) << '\n'
+              << "chunks per frame       " << limit(info.max_chunks_per_frame) << '\n'
+              << "bytes per message      " << info.max_message_bytes << '\n'
+              << "idle seconds           " << limit(info.max_idle_seconds) << '\n';
 }
 
 void print_this_process(Backend choice) {

@@ -1,5 +1,6 @@
 #include "cli/server_surfaces.hpp"
 
+#include <iostream>
 #include <utility>
 
 namespace meniscus::cli {
@@ -11,12 +12,11 @@ constexpr std::size_t frames_ahead = 4;
 }  // namespace
 
 ServerSurfaces::ServerSurfaces(const ServerFlags& server, std::string session, const Settings& settings,
-                               Handler handler)
+                               client::StreamOptions options, Handler handler)
     : client_(server.connect()),
       session_(session.empty() ? client::new_session_id() : std::move(session)),
       handler_(std::move(handler)) {
     client_.create_session(session_, settings);
-    client::StreamOptions options;
     options.waiting_limit = frames_ahead;
     stream_ = client_.stream(session_, options);
     receiver_ = std::thread([this] { receive(); });
@@ -43,6 +43,7 @@ void ServerSurfaces::submit(const ParticleFrame& frame, double simulation_time) 
 void ServerSurfaces::finish() {
     end_stream();
     if (failed_) std::rethrow_exception(error_);
+    if (stream_->dropped() != 0) std::cerr << stream_->dropped() << " frames dropped, as the policy says\n";
     client_.delete_session(session_);
     finished_ = true;
 }

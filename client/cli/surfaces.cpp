@@ -1,6 +1,9 @@
 #include "cli/surfaces.hpp"
 
 #include <CLI/CLI.hpp>
+#include <chrono>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include "cli/local_surfaces.hpp"
@@ -39,9 +42,44 @@ CLI::Option* add_backend_option(CLI::App& command, Backend& backend) {
         ->default_str("auto");
 }
 
+namespace {
+
+void add_stream_options(CLI::App& command, client::StreamOptions& stream, CLI::Option& server) {
+    static const std::map<std::string, client::UploadPolicy> policies{{"every-frame", client::UploadPolicy::every_frame},
+                                                                      {"latest", client::UploadPolicy::latest},
+                                                                      {"every-nth", client::UploadPolicy::every_nth}};
+    auto* policy = command
+                       .add_option("--policy", stream.policy,
+                                   "With --server: what happens to frames that come faster than they are reconstructed: "
+                                   "every-frame (they wait), latest (newer ones replace them), every-nth (see --nth)")
+                       ->transform(CLI::CheckedTransformer(policies).description(""))
+                       ->type_name("NAME")
+                       ->default_str("every-frame")
+                       ->needs(&server);
+    command.add_option("--nth", stream.nth, "With --policy every-nth: of so many frames one is reconstructed")
+        ->check(CLI::Range(1U, std::numeric_limits<std::uint32_t>::max()))
+        ->needs(policy)
+        ->capture_default_str();
+    stream.reconnect = std::chrono::seconds(30);
+    command
+        .add_option_function<double>(
+            "--reconnect",
+            [&stream](double seconds) {
+                stream.reconnect =
+                    std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(seconds));
+            },
+            "With --server: seconds for which a server that is out of reach is tried again; 0: not at all")
+        ->check(CLI::Range(0.0, 1e6))
+        ->default_str("30")
+        ->needs(&server);
+}
+
+}  // namespace
+
 void SurfacesOptions::add_to(CLI::App& command) {
     auto* here = command.add_flag("--local", local, "Reconstruct in this process (the default)");
     auto* there = server.add_to(command, "A meniscusd that reconstructs")->excludes(here);
+    add_stream_options(command, stream, *there);
     add_backend_option(command, backend.backend)->excludes(there);
     command.add_option("--threads", backend.threads, "Worker threads of this process; 0: one per processor")
         ->excludes(there)
@@ -51,7 +89,7 @@ void SurfacesOptions::add_to(CLI::App& command) {
 std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfaces::Handler handler,
                                                 const std::string& session) const {
     if (server.address.empty()) return std::make_unique<LocalSurfaces>(settings, backend, std::move(handler));
-    return std::make_unique<ServerSurfaces>(server, session, settings, std::move(handler));
+    return std::make_unique<ServerSurfaces>(server, session, settings, stream, std::move(handler));
 }
 
 }  // namespace meniscus::cli

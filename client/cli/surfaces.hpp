@@ -59,11 +59,12 @@ public:
 /// The flag --backend: what this process reconstructs with.
 CLI::Option* add_backend_option(CLI::App& command, Backend& backend);
 
-/// The flags --local, --backend and --threads, and those of a server.
+/// The flags --local, --backend and --threads, and those of a server and a stream to it.
 struct SurfacesOptions {
     bool local = false;
     ServerFlags server;      ///< no address: this process
     BackendOptions backend;  ///< of this process
+    client::StreamOptions stream;  ///< to the server
 
     void add_to(CLI::App& command);
     /// session: id to create on the server, chosen here if empty. The handler may be called from another thread, one

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
+#include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "meniscus/client/client.hpp"
@@ -46,6 +49,32 @@ TEST(Meniscusd, AnswersTheFramesInFlightOnSigterm) {
     EXPECT_EQ(process.exit_code(), 0);
 }
 
+TEST(Meniscusd, LosesNoFrameAndAnswersNoneTwiceWhenItIsKilledAndStartedAgain) {
+    auto process = std::make_unique<Process>(on_free_port());
+    const std::string address = process->address();
+    client::Client client(address);
+    const std::string id = client::new_session_id();
+    client.create_session(id, settings());
+    auto stream = client.stream(id, {.reconnect = std::chrono::seconds(60)});
+    constexpr std::uint64_t count = 30;
+    std::thread pusher([&] {
+        for (std::uint64_t i = 0; i < count; ++i) stream.push(wave(12, static_cast<double>(i)).view(), i, 0.0);
+        stream.finish();
+    });
+    std::uint64_t received = 0;
+    while (const auto frame = stream.next()) {
+        EXPECT_EQ(frame->index, received++);
+        EXPECT_EQ(mesh_sha256(frame->mesh()), local_sha256(wave(12, static_cast<double>(frame->index))));
+        if (frame->index != 5 && frame->index != 17) continue;
+        process->signal(SIGKILL);
+        EXPECT_EQ(process->exit_code(), 128 + SIGKILL);
+        process = std::make_unique<Process>(std::vector<std::string>{"--listen", address, "--threads", "2"});
+        process->address();
+    }
+    pusher.join();
+    EXPECT_EQ(received, count);
+}
+
 TEST(Meniscusd, EndsWellWithAClientThatNeverReads) {
     Process process(on_free_port({"--shutdown-grace", "0.5"}));
     client::Client client(process.address());
@@ -76,6 +105,8 @@ TEST(Meniscusd, RefusesWrongFlagsInOneLine) {
                                                       {"--devices", "1000"},
                                                       {"--backend", "cpu", "--devices", "0"},
                                                       {"--max-sessions", "-1"},
+                                                      {"--max-message-bytes", "1M"},
+                                                      {"--max-idle", "-1"},
                                                       {"--log-level", "loud"},
                                                       {"--listen"}};
     for (const auto& flags : wrong) {
@@ -99,7 +130,9 @@ TEST(Meniscusd, RefusesAnAddressInUseInOneLine) {
 
 TEST(Meniscusd, TakesLimitsWithUnits) {
     Process process(on_free_port({"--memory-limit", "4G", "--device-memory-limit", "2G", "--max-sessions", "5",
-                                  "--max-watchers", "6", "--max-particles", "7"}));
+                                  "--max-watchers", "6", "--max-particles", "7", "--max-bytes-in-flight", "8M",
+                                  "--max-frames-per-second", "9", "--max-chunks", "10", "--max-idle", "11.5",
+                                  "--max-message-bytes", "2M"}));
     client::Client client(process.address());
     const client::ServerInfo info = client.server_info();
     EXPECT_EQ(info.max_bytes_per_session, std::uint64_t{4} << 30U);
@@ -107,6 +140,11 @@ TEST(Meniscusd, TakesLimitsWithUnits) {
     EXPECT_EQ(info.max_sessions, 5U);
     EXPECT_EQ(info.max_watchers_per_session, 6U);
     EXPECT_EQ(info.max_particles_per_frame, 7U);
+    EXPECT_EQ(info.max_bytes_in_flight, std::uint64_t{8} << 20U);
+    EXPECT_EQ(info.max_frames_per_second, 9U);
+    EXPECT_EQ(info.max_chunks_per_frame, 10U);
+    EXPECT_EQ(info.max_idle_seconds, 11.5);
+    EXPECT_EQ(info.max_message_bytes, std::uint64_t{2} << 20U);
 }
 
 TEST(Meniscusd, TellsItsVersionAndHelp) {

@@ -20,6 +20,7 @@ SessionInfo from_wire(const v1::Session& wire) {
     info.watchers = wire.watchers();
     info.frames = wire.frames();
     if (wire.has_last_frame_index()) info.last_frame_index = wire.last_frame_index();
+    info.frames_dropped = wire.frames_dropped();
     return info;
 }
 
@@ -65,6 +66,11 @@ ServerInfo Client::server_info() {
     info.max_particles_per_frame = response.limits().particles_per_frame();
     info.max_bytes_per_session = response.limits().bytes_per_session();
     info.max_device_bytes_per_session = response.limits().device_bytes_per_session();
+    info.max_bytes_in_flight = response.limits().bytes_in_flight();
+    info.max_frames_per_second = response.limits().frames_per_second();
+    info.max_chunks_per_frame = response.limits().chunks_per_frame();
+    info.max_idle_seconds = response.limits().idle_seconds();
+    info.max_message_bytes = response.limits().message_bytes();
     return info;
 }
 

@@ -1,8 +1,8 @@
-#include <algorithm>
+#include <random>
 #include <utility>
 
-#include "conversion/settings_conversion.hpp"
 #include "error_mapping.hpp"
+#include "frame_receiver.hpp"
 #include "meniscus/error.hpp"
 #include "stream_impl.hpp"
 
@@ -10,120 +10,99 @@ namespace meniscus::client {
 
 namespace {
 
-/// The largest that the server takes.
-constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
+/// Of a call that creates the session again: a network that swallows packets must not hold the attempts up.
+constexpr std::chrono::seconds attempt_time{5};
+
+std::uint64_t random_run_id() {
+    std::random_device device;
+    std::uniform_int_distribution<std::uint64_t> ids(1);
+    return ids(device);
+}
+
+v1::UploadPolicy to_wire(UploadPolicy policy) {
+    switch (policy) {
+        case UploadPolicy::latest:
+            return v1::UPLOAD_POLICY_LATEST;
+        case UploadPolicy::every_nth:
+            return v1::UPLOAD_POLICY_EVERY_NTH;
+        case UploadPolicy::every_frame:
+            break;
+    }
+    return v1::UPLOAD_POLICY_EVERY_FRAME;
+}
+
+v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& options) {
+    v1::StreamOpen open;
+    open.set_session_id(session_id);
+    open.set_receive_meshes(options.receive_meshes);
+    open.set_normal_bits(static_cast<std::uint32_t>(options.normal_bits));
+    open.set_policy(to_wire(options.policy));
+    open.set_nth(options.nth);
+    open.set_run_id(random_run_id());
+    return open;
+}
+
+v1::CreateSessionRequest as_it_is_now(Connection& connection, const std::string& session_id) {
+    grpc::ClientContext context;
+    connection.add_metadata(context, session_id);
+    v1::GetSessionRequest request;
+    request.set_id(session_id);
+    v1::GetSessionResponse response;
+    require_ok(connection.sessions->GetSession(&context, request, &response), connection.address);
+    v1::CreateSessionRequest create;
+    create.set_id(session_id);
+    *create.mutable_settings() = response.session().settings();
+    return create;
+}
 
 }  // namespace
 
 Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options)
-    : connection_(std::move(connection)), options_(options) {
-    connection_->add_metadata(context_, session_id);
-    call_ = connection_->surfaces->Stream(&context_);
-    v1::StreamRequest request;
-    v1::StreamOpen& open = *request.mutable_open();
-    open.set_session_id(session_id);
-    open.set_receive_meshes(options.receive_meshes);
-    open.set_normal_bits(static_cast<std::uint32_t>(options.normal_bits));
-    // A refusal arrives as the call's status, which the reader gets.
-    call_->Write(request);
-    reader_ = std::thread([this] { read(); });
+    : connection_(std::move(connection)), options_(options), open_(open_message(session_id, options)) {
+    if (resumes()) session_ = as_it_is_now(*connection_, session_id);
+    call_ = open_call();
+    receiver_ = std::thread([this, call = call_] { receive(call); });
+    sender_ = std::thread([this] { send(); });
 }
 
 Stream::Impl::~Impl() {
     {
         const std::lock_guard lock(mutex_);
-        if (!ended_) context_.TryCancel();
+        left_ = true;
+        if (call_) call_->cancel();
+        if (creating_) creating_->TryCancel();
     }
-    reader_.join();
-}
-
-void Stream::Impl::read() {
-    FrameReceiver receiver(options_.receive_meshes);
-    std::exception_ptr error;
-    try {
-        v1::StreamResponse response;
-        while (call_->Read(&response)) {
-            auto frame = receiver.take(response);
-            if (!frame) continue;
-            const std::lock_guard lock(mutex_);
-            waiting_.push_back(std::move(*frame));
-            changed_.notify_all();
-        }
-    } catch (...) {
-        error = std::current_exception();
-        context_.TryCancel();
-        v1::StreamResponse ignored;
-        while (call_->Read(&ignored)) {
-        }
-    }
-    const grpc::Status status = call_->Finish();
-    if (!error) {
-        try {
-            require_ok(status, connection_->address);
-            receiver.end_of_stream();
-        } catch (...) {
-            error = std::current_exception();
-        }
-    }
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-    error_ = error;
     changed_.notify_all();
+    receiver_.join();
+    sender_.join();
 }
 
-void Stream::Impl::wait_for_room() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] {
-        return ended_ || options_.waiting_limit == 0 || outstanding_ < options_.waiting_limit;
-    });
-    if (ended_ && error_) std::rethrow_exception(error_);
-    ++outstanding_;
-}
-
-void Stream::Impl::send(const v1::StreamRequest& request) {
-    if (call_->Write(request)) return;
-    // The call has ended: its status says why.
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return ended_; });
-    if (error_) std::rethrow_exception(error_);
-    throw ServerError("the server at " + connection_->address + " ended the stream before its last frame");
-}
-
-void Stream::Impl::send_chunks(std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const auto chunk = bytes.first(std::min(bytes.size(), chunk_bytes));
-        chunk_.mutable_frame_chunk()->mutable_data()->assign(reinterpret_cast<const char*>(chunk.data()), chunk.size());
-        send(chunk_);
-        bytes = bytes.subspan(chunk.size());
-    }
+std::shared_ptr<UploadCall> Stream::Impl::open_call() const {
+    return std::make_shared<UploadCall>(connection_, open_.session_id(), open_);
 }
 
 void Stream::Impl::push(const ParticleFrame& frame, std::uint64_t index, double simulation_time) {
+    std::unique_lock lock(mutex_);
     if (finished_) throw InvalidInput("frame " + std::to_string(index) + " was pushed after finish()");
-    wait_for_room();
-    v1::StreamRequest request;
-    v1::FrameBegin& begin = *request.mutable_frame_begin();
-    begin.set_frame_index(index);
-    begin.set_simulation_time(simulation_time);
-    begin.set_particle_count(frame.count());
-    begin.set_has_levels(!frame.levels.empty());
-    if (frame.is_quantized()) {
-        begin.set_encoding(v1::POSITION_ENCODING_UINT16);
-        *begin.mutable_quantization_box() = conversion::to_wire(frame.quantization_box);
-    } else {
-        begin.set_encoding(v1::POSITION_ENCODING_FLOAT32);
-    }
-    send(request);
-    send_chunks(std::as_bytes(frame.positions));
-    send_chunks(std::as_bytes(frame.quantized));
-    send_chunks(std::as_bytes(frame.levels));
-    request.mutable_frame_end();
-    send(request);
+    // One frame is copied while the one before is sent.
+    changed_.wait(lock, [&] {
+        const bool room = options_.waiting_limit == 0 || outstanding_ < options_.waiting_limit;
+        return ended_ || (room && sent_ == unanswered_.size());
+    });
+    if (error_) std::rethrow_exception(error_);
+    if (ended_) throw ServerError("the server at " + connection_->address + " ended the stream before its last frame");
+    lock.unlock();
+    auto pushed = std::make_shared<PushedFrame>(copy_frame(frame, index, simulation_time, *pool_));
+    lock.lock();
+    ++outstanding_;
+    unanswered_.push_back(std::move(pushed));
+    changed_.notify_all();
 }
 
 void Stream::Impl::finish() {
-    if (std::exchange(finished_, true)) return;
-    call_->WritesDone();
+    const std::lock_guard lock(mutex_);
+    finished_ = true;
+    changed_.notify_all();
 }
 
 std::optional<ReceivedFrame> Stream::Impl::next() {
@@ -138,6 +117,191 @@ std::optional<ReceivedFrame> Stream::Impl::next() {
     --outstanding_;
     changed_.notify_all();
     return frame;
+}
+
+std::uint64_t Stream::Impl::dropped() const {
+    const std::lock_guard lock(mutex_);
+    return dropped_;
+}
+
+bool Stream::Impl::may_send() const {
+    return call_ && !draining_ && (sent_ < unanswered_.size() || (finished_ && !half_closed_));
+}
+
+void Stream::Impl::send() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        changed_.wait(lock, [&] { return ended_ || may_send(); });
+        if (ended_) return;
+        const std::shared_ptr<UploadCall> call = call_;
+        if (sent_ == unanswered_.size()) {
+            half_closed_ = true;
+            lock.unlock();
+            call->no_more_frames();
+            lock.lock();
+            continue;
+        }
+        const std::shared_ptr<PushedFrame> frame = unanswered_[sent_++];
+        changed_.notify_all();
+        lock.unlock();
+        const bool sent = call->send(*frame);
+        if (!resumes()) frame->bytes.reset();
+        lock.lock();
+        // What became of it is for the receiving thread to find out.
+        if (!sent && call_ == call) call_.reset();
+    }
+}
+
+void Stream::Impl::receive(std::shared_ptr<UploadCall> call) {
+    try {
+        while (call) {
+            const grpc::Status status = read_answers(*call);
+            if (status.ok()) {
+                const std::lock_guard lock(mutex_);
+                if (!unanswered_.empty())
+                    throw ServerError("the server at " + connection_->address + " ended the stream before frame " +
+                                      std::to_string(unanswered_.front()->begin.frame_index()) + " was answered");
+                break;
+            }
+            if (!is_worth_another_call(status)) require_ok(status, connection_->address);
+            call = reopen(status);
+        }
+        end(nullptr);
+    } catch (...) {
+        end(std::current_exception());
+    }
+}
+
+grpc::Status Stream::Impl::read_answers(UploadCall& call) {
+    FrameReceiver receiver(options_.receive_meshes);
+    try {
+        v1::StreamResponse response;
+        while (call.read(response)) {
+            if (response.has_draining()) {
+                const std::lock_guard lock(mutex_);
+                // Without another call to come it may yet be that this one takes them.
+                draining_ = resumes();
+            } else if (response.has_frame_dropped()) {
+                take(response.frame_dropped());
+            } else if (auto frame = receiver.take(response)) {
+                take(std::move(*frame));
+            }
+        }
+    } catch (...) {
+        call.cancel();
+        v1::StreamResponse ignored;
+        while (call.read(ignored)) {
+        }
+        call.finish();
+        throw;
+    }
+    const grpc::Status status = call.finish();
+    if (status.ok()) receiver.end_of_stream();
+    return status;
+}
+
+void Stream::Impl::take(ReceivedFrame frame) {
+    broken_at_.reset();
+    const std::lock_guard lock(mutex_);
+    if (!settle(frame.index)) return;
+    frame.dropped = std::exchange(dropped_since_, {});
+    waiting_.push_back(std::move(frame));
+    changed_.notify_all();
+}
+
+void Stream::Impl::take(const v1::FrameDropped& dropped) {
+    broken_at_.reset();
+    const std::lock_guard lock(mutex_);
+    if (!settle(dropped.frame_index())) return;
+    const auto reason = dropped.reason() == v1::DROP_REASON_REPLACED ? DropReason::replaced : DropReason::not_nth;
+    dropped_since_.push_back({.index = dropped.frame_index(), .reason = reason});
+    ++dropped_;
+    --outstanding_;
+    changed_.notify_all();
+}
+
+bool Stream::Impl::settle(std::uint64_t index) {
+    if (sent_ == 0 || unanswered_.front()->begin.frame_index() != index) {
+        if (last_answered_ && index <= *last_answered_) return false;
+        throw ServerError("the server at " + connection_->address + " answered frame " + std::to_string(index) +
+                          ", which is not the next one that it was sent");
+    }
+    last_answered_ = index;
+    unanswered_.pop_front();
+    --sent_;
+    return true;
+}
+
+bool Stream::Impl::is_worth_another_call(const grpc::Status& status) const {
+    switch (status.error_code()) {
+        case grpc::StatusCode::UNAVAILABLE:
+        case grpc::StatusCode::CANCELLED:          // by a proxy, or a server that did not wait any longer
+        case grpc::StatusCode::UNKNOWN:            // gRPC's word for some broken connections
+        case grpc::StatusCode::DEADLINE_EXCEEDED:  // of an attempt
+            break;
+        default:
+            return false;
+    }
+    const std::lock_guard lock(mutex_);
+    return resumes() && !left_;
+}
+
+std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
+    if (!broken_at_) {
+        broken_at_ = Clock::now();
+        backoff_.reset();
+    }
+    std::unique_lock lock(mutex_);
+    call_.reset();
+    const auto deadline = *broken_at_ + options_.reconnect;
+    for (;;) {
+        const auto attempt_at = Clock::now() + backoff_.next();
+        if (attempt_at >= deadline)
+            throw ServerError("the server at " + connection_->address + " has not been available for " +
+                              std::to_string(std::chrono::duration_cast<std::chrono::seconds>(options_.reconnect).count()) +
+                              " s (" + status.error_message() + "): frame " +
+                              (unanswered_.empty() ? "none" : std::to_string(unanswered_.front()->begin.frame_index())) +
+                              " is the first without an answer",
+                              "UNAVAILABLE");
+        if (changed_.wait_until(lock, attempt_at, [&] { return left_; })) return nullptr;
+        creating_ = std::make_shared<grpc::ClientContext>();
+        lock.unlock();
+        status = create_session();
+        std::shared_ptr<UploadCall> call;
+        if (status.ok()) call = open_call();
+        lock.lock();
+        creating_.reset();
+        if (left_) {
+            if (call) call->cancel();
+            return call;
+        }
+        if (call) {
+            call_ = call;
+            sent_ = 0;
+            half_closed_ = false;
+            draining_ = false;
+            changed_.notify_all();
+            return call;
+        }
+        lock.unlock();
+        if (!is_worth_another_call(status)) require_ok(status, connection_->address);
+        lock.lock();
+    }
+}
+
+grpc::Status Stream::Impl::create_session() {
+    grpc::ClientContext& context = *creating_;
+    connection_->add_metadata(context, session_.id());
+    context.set_deadline(std::chrono::system_clock::now() + attempt_time);
+    v1::CreateSessionResponse response;
+    return connection_->sessions->CreateSession(&context, session_, &response);
+}
+
+void Stream::Impl::end(std::exception_ptr error) {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    error_ = std::move(error);
+    changed_.notify_all();
 }
 
 Stream::Stream(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -155,6 +319,10 @@ void Stream::finish() {
 
 std::optional<ReceivedFrame> Stream::next() {
     return impl_->next();
+}
+
+std::uint64_t Stream::dropped() const {
+    return impl_->dropped();
 }
 
 }  // namespace meniscus::client

@@ -1,6 +1,7 @@
 // The inside of a Stream.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -8,16 +9,21 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "backoff.hpp"
+#include "byte_pool.hpp"
 #include "connection.hpp"
-#include "frame_receiver.hpp"
 #include "meniscus/client/client.hpp"
+#include "pushed_frame.hpp"
+#include "upload_call.hpp"
 
 namespace meniscus::client {
 
+/// Two threads of its own: one sends the frames that were pushed, the other receives their answers and, when the call
+/// breaks, opens the next one, over which all that is unanswered is sent again.
 class Stream::Impl {
 public:
     Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options);
@@ -28,28 +34,63 @@ public:
     void push(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
     void finish();
     std::optional<ReceivedFrame> next();
+    std::uint64_t dropped() const;
 
 private:
-    void read();
-    void wait_for_room();
-    void send(const v1::StreamRequest& request);
-    void send_chunks(std::span<const std::byte> bytes);
+    using Clock = std::chrono::steady_clock;
+
+    std::shared_ptr<UploadCall> open_call() const;
+    bool resumes() const { return options_.reconnect.count() > 0; }
+
+    // The sending thread.
+    void send();
+    /// Whether a frame, or that none will follow, can be sent. With the lock held.
+    bool may_send() const;
+
+    // The receiving thread.
+    void receive(std::shared_ptr<UploadCall> call);
+    /// Returns with what the call ended. Throws ServerError for answers that make no sense.
+    grpc::Status read_answers(UploadCall& call);
+    void take(ReceivedFrame frame);
+    void take(const v1::FrameDropped& dropped);
+    /// Forgets the frame, which has been answered. False if it was answered before. With the lock held.
+    bool settle(std::uint64_t index);
+    bool is_worth_another_call(const grpc::Status& status) const;
+    /// The next call. None once the stream is left. Throws what becomes of the stream without another call.
+    std::shared_ptr<UploadCall> reopen(grpc::Status status);
+    grpc::Status create_session();
+    void end(std::exception_ptr error);
 
     const std::shared_ptr<Connection> connection_;
     const StreamOptions options_;
-    grpc::ClientContext context_;
-    std::unique_ptr<grpc::ClientReaderWriter<v1::StreamRequest, v1::StreamResponse>> call_;
-    v1::StreamRequest chunk_;  ///< reused
-    bool finished_ = false;    ///< no more frames will be pushed
+    const std::shared_ptr<BytePool> pool_ = std::make_shared<BytePool>();
+    v1::StreamOpen open_;
+    v1::CreateSessionRequest session_;  ///< for a server that has lost it
 
-    std::mutex mutex_;  ///< for what follows
+    // Of the receiving thread.
+    Backoff backoff_;
+    std::optional<Clock::time_point> broken_at_;  ///< none: answers have come since
+
+    mutable std::mutex mutex_;  ///< for what follows
     std::condition_variable changed_;
+    std::shared_ptr<UploadCall> call_;                      ///< none while it is broken
+    std::shared_ptr<grpc::ClientContext> creating_;         ///< of the call that creates the session again
+    std::deque<std::shared_ptr<PushedFrame>> unanswered_;
+    std::size_t sent_ = 0;       ///< of those, on this call
+    std::optional<std::uint64_t> last_answered_;  ///< index
+    bool finished_ = false;      ///< no more frames will be pushed
+    bool half_closed_ = false;   ///< the server knows
+    bool draining_ = false;      ///< the server takes no more over this call
     std::deque<ReceivedFrame> waiting_;
-    std::size_t outstanding_ = 0;  ///< frames pushed and not yet returned by next()
+    std::vector<DroppedFrame> dropped_since_;  ///< the frame received last
+    std::uint64_t dropped_ = 0;
+    std::size_t outstanding_ = 0;  ///< frames pushed and neither returned by next() nor dropped
+    bool left_ = false;            ///< by the caller
     bool ended_ = false;           ///< the server has answered all it will
     std::exception_ptr error_;
 
-    std::thread reader_;
+    std::thread receiver_;
+    std::thread sender_;
 };
 
 }  // namespace meniscus::client

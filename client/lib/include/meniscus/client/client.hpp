@@ -60,6 +60,11 @@ struct ServerInfo {
     std::uint64_t max_particles_per_frame = 0;
     std::uint64_t max_bytes_per_session = 0;
     std::uint64_t max_device_bytes_per_session = 0;
+    std::uint64_t max_bytes_in_flight = 0;      ///< of all sessions' frames
+    std::uint32_t max_frames_per_second = 0;    ///< of one session
+    std::uint32_t max_chunks_per_frame = 0;
+    double max_idle_seconds = 0.0;
+    std::uint64_t max_message_bytes = 0;
 };
 
 struct SessionInfo {
@@ -69,6 +74,7 @@ struct SessionInfo {
     unsigned watchers = 0;
     std::uint64_t frames = 0;
     std::optional<std::uint64_t> last_frame_index;
+    std::uint64_t frames_dropped = 0;
 };
 
 /// The server's figures of one frame, beside the reconstruction's own.
@@ -76,6 +82,24 @@ struct FrameStatistics : Statistics {
     double encode_seconds = 0.0;
     double latency_seconds = 0.0;      ///< from the frame's last byte to the end of its encoding
     std::uint64_t encoded_bytes = 0;
+};
+
+/// What happens to frames that come faster than the server reconstructs them.
+enum class UploadPolicy {
+    every_frame,  ///< none is lost: push() waits
+    latest,       ///< the newest one replaces the one that waits
+    every_nth,    ///< of every n pushed the first is reconstructed; of those none is lost
+};
+
+enum class DropReason {
+    replaced,  ///< UploadPolicy::latest
+    not_nth,   ///< UploadPolicy::every_nth
+};
+
+/// A frame that the server left out, as the policy says.
+struct DroppedFrame {
+    std::uint64_t index = 0;
+    DropReason reason = DropReason::replaced;
 };
 
 /// One received frame. Bricks stay encoded until they are asked for.
@@ -93,6 +117,7 @@ struct ReceivedFrame {
     std::vector<std::array<std::int32_t, 3>> changed;
     std::vector<std::array<std::int32_t, 3>> vanished;
     FrameStatistics statistics;  ///< of the frame as reconstructed, whatever a watcher wishes to have of it
+    std::vector<DroppedFrame> dropped;  ///< from a Stream: between the frame received before and this one, in order
 
     /// Decodes and welds the bricks. Throws InvalidInput if they are not a mesh.
     Mesh mesh() const;
@@ -104,6 +129,13 @@ struct StreamOptions {
     /// Received frames that wait for next() at most; push() waits beyond that many frames in flight or waiting.
     /// 0: no limit, for a caller that pushes everything first; frames then wait encoded, in memory.
     std::size_t waiting_limit = 0;
+    UploadPolicy policy = UploadPolicy::every_frame;
+    std::uint32_t nth = 1;  ///< of UploadPolicy::every_nth, at least 1
+    /// For how long the server may be out of reach. A connection that breaks, or a server that goes down, is then tried
+    /// again; the session is created again if the server has lost it, and frames without an answer are sent again: next()
+    /// returns every frame once, in order. For this their particles are kept here, no more frames than the server itself has
+    /// taken and not answered, and one. 0: a broken connection ends the stream, and no frame is kept.
+    std::chrono::milliseconds reconnect{0};
 };
 
 /// Uploads frames and receives their meshes, in order. Reads on a thread of its own, so that a caller that only pushes
@@ -114,13 +146,15 @@ public:
     Stream& operator=(Stream&&) noexcept;
     ~Stream();  ///< cancels what is in flight
 
-    /// Sends one frame; blocks while the server does not take more. `index` is greater than the one before.
+    /// Sends one frame; blocks while the server does not take more, or is out of reach. `index` is greater than the one before.
     /// Throws InvalidInput, LimitExceeded (as the server answered) or ServerError.
     void push(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
     /// No more frames will come; next() then ends after the last one.
     void finish();
     /// Waits for the next received frame; none when the stream has ended well. Throws as push() does.
     std::optional<ReceivedFrame> next();
+    /// Frames dropped by the policy so far.
+    std::uint64_t dropped() const;
 
 private:
     friend class Client;

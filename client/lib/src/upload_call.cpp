@@ -1,0 +1,97 @@
+#include "upload_call.hpp"
+
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/wire_format_lite.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+
+namespace meniscus::client {
+
+namespace {
+
+using google::protobuf::internal::WireFormatLite;
+using google::protobuf::io::CodedOutputStream;
+
+/// The largest that the server takes.
+constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
+
+/// gRPC's generated code has no stub that sends bytes as they are; this is what its stubs consist of.
+std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, v1::StreamResponse>> start(Connection& connection,
+                                                                                      grpc::ClientContext& context) {
+    const grpc::internal::RpcMethod method("/meniscus.v1.SurfaceService/Stream", grpc::internal::RpcMethod::BIDI_STREAMING,
+                                           connection.channel);
+    return std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, v1::StreamResponse>>(
+        grpc::internal::ClientReaderWriterFactory<grpc::ByteBuffer, v1::StreamResponse>::Create(connection.channel.get(),
+                                                                                                method, &context));
+}
+
+std::uint8_t* write_length(int field, std::size_t length, std::uint8_t* at) {
+    at = WireFormatLite::WriteTagToArray(field, WireFormatLite::WIRETYPE_LENGTH_DELIMITED, at);
+    return CodedOutputStream::WriteVarint32ToArray(static_cast<std::uint32_t>(length), at);
+}
+
+/// A StreamRequest with a FrameChunk whose data is not copied but referred to, and kept alive.
+grpc::ByteBuffer chunk_message(const std::shared_ptr<Bytes>& bytes, std::size_t first, std::size_t size) {
+    std::array<std::uint8_t, 12> data_head{};
+    const auto data_head_size = static_cast<std::size_t>(write_length(v1::FrameChunk::kDataFieldNumber, size, data_head.data()) - data_head.data());
+    std::array<std::uint8_t, 24> head{};
+    std::uint8_t* end = write_length(v1::StreamRequest::kFrameChunkFieldNumber, data_head_size + size, head.data());
+    end = std::copy_n(data_head.data(), data_head_size, end);
+    auto reference = std::make_unique<std::shared_ptr<Bytes>>(bytes);
+    const std::array<grpc::Slice, 2> slices{
+        grpc::Slice(head.data(), static_cast<std::size_t>(end - head.data())),
+        grpc::Slice(bytes->data() + first, size, [](void* kept) { delete static_cast<std::shared_ptr<Bytes>*>(kept); },
+                    reference.release())};
+    return {slices.data(), slices.size()};
+}
+
+}  // namespace
+
+UploadCall::UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id, const v1::StreamOpen& open)
+    : connection_(std::move(connection)) {
+    connection_->add_metadata(context_, session_id);
+    call_ = start(*connection_, context_);
+    v1::StreamRequest request;
+    *request.mutable_open() = open;
+    // A refusal arrives as the call's status.
+    send(request, {});
+}
+
+bool UploadCall::send(const PushedFrame& frame) {
+    v1::StreamRequest request;
+    *request.mutable_frame_begin() = frame.begin;
+    if (!send(request, grpc::WriteOptions().set_buffer_hint())) return false;
+    for (std::size_t first = 0; first < frame.bytes->size(); first += chunk_bytes) {
+        const std::size_t size = std::min(chunk_bytes, frame.bytes->size() - first);
+        if (!call_->Write(chunk_message(frame.bytes, first, size))) return false;
+    }
+    request.mutable_frame_end();
+    return send(request, {});
+}
+
+bool UploadCall::send(const v1::StreamRequest& request, grpc::WriteOptions options) {
+    const std::string text = request.SerializeAsString();
+    const grpc::Slice slice(text);
+    return call_->Write(grpc::ByteBuffer(&slice, 1), options);
+}
+
+void UploadCall::no_more_frames() {
+    call_->WritesDone();
+}
+
+bool UploadCall::read(v1::StreamResponse& response) {
+    return call_->Read(&response);
+}
+
+grpc::Status UploadCall::finish() {
+    return call_->Finish();
+}
+
+void UploadCall::cancel() {
+    context_.TryCancel();
+}
+
+}  // namespace meniscus::client

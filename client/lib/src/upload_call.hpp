@@ -1,0 +1,41 @@
+// One Stream call: frames out, responses in.
+#pragma once
+
+#include <grpcpp/client_context.h>
+#include <grpcpp/support/byte_buffer.h>
+#include <grpcpp/support/sync_stream.h>
+
+#include <memory>
+#include <string>
+
+#include "connection.hpp"
+#include "pushed_frame.hpp"
+
+namespace meniscus::client {
+
+/// One thread may send while another reads.
+class UploadCall {
+public:
+    UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id, const v1::StreamOpen& open);
+
+    /// False once the call has ended: read() and then finish() tell why. Copies no particles: gRPC refers to the frame's
+    /// bytes, and keeps them, until they are on the wire.
+    bool send(const PushedFrame& frame);
+    void no_more_frames();
+
+    /// False once there is nothing more to read.
+    bool read(v1::StreamResponse& response);
+    grpc::Status finish();
+
+    /// From any thread.
+    void cancel();
+
+private:
+    bool send(const v1::StreamRequest& request, grpc::WriteOptions options);
+
+    const std::shared_ptr<Connection> connection_;
+    grpc::ClientContext context_;
+    std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, v1::StreamResponse>> call_;
+};
+
+}  // namespace meniscus::client
