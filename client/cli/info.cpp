@@ -1,6 +1,7 @@
 // meniscus info and meniscus sessions: what a server, or this process, says about itself.
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <sstream>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -13,6 +14,12 @@ namespace {
 
 std::string limit(std::uint64_t value) {
     return value == 0 ? "no limit" : std::to_string(value);
+}
+
+std::string seconds_limit(double value) {
+    std::ostringstream text;
+    text << value;
+    return value == 0.0 ? "no limit" : text.str();
 }
 
 /// Those of a server and of this process alike.
@@ -35,7 +42,7 @@ void print_server(const ServerFlags& server) {
               << "frames per second      " << limit(info.max_frames_per_second) << '\n'
               << "chunks per frame       " << limit(info.max_chunks_per_frame) << '\n'
               << "bytes per message      " << info.max_message_bytes << '\n'
-              << "idle seconds           " << limit(info.max_idle_seconds) << '\n';
+              << "idle seconds           " << seconds_limit(info.max_idle_seconds) << '\n';
 }
 
 void print_this_process(Backend choice) {

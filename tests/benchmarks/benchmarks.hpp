@@ -11,5 +11,6 @@ void add_experiment(CLI::App& app);
 void add_scaling(CLI::App& app);
 void add_encoding(CLI::App& app);
 void add_goals(CLI::App& app);
+void add_upload(CLI::App& app);
 
 }  // namespace meniscus::benchmarks

@@ -17,12 +17,13 @@ int report_failure(const std::exception& e, int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Measures what reconstruction and encoding cost", "meniscus-bench");
+    CLI::App app("Measures what reconstruction, encoding and uploads cost", "meniscus-bench");
     app.require_subcommand(1);
     meniscus::benchmarks::add_experiment(app);
     meniscus::benchmarks::add_scaling(app);
     meniscus::benchmarks::add_encoding(app);
     meniscus::benchmarks::add_goals(app);
+    meniscus::benchmarks::add_upload(app);
     try {
         meniscus::benchmarks::remember_command(argc, argv);
         app.parse(argc, argv);
