@@ -10,10 +10,10 @@
 
 namespace meniscus::server {
 
-void require_protected(std::string_view flag, const std::string& address, bool tls, bool insecure) {
-    if (tls || insecure || conversion::is_loopback(address)) return;
-    throw InvalidInput(fmt::format("{} {} can be reached from other machines, without TLS: give --tls-cert and --tls-key, a "
-                                   "loopback address, or --insecure if this is meant",
+void require_loopback(std::string_view flag, const std::string& address) {
+    if (conversion::is_loopback(address)) return;
+    throw InvalidInput(fmt::format("{} {} can be reached from other machines, without TLS: give a loopback address, or --insecure "
+                                   "if this is meant (--tls-cert and --tls-key give --listen TLS)",
                                    flag, address));
 }
 

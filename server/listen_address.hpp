@@ -6,9 +6,8 @@
 
 namespace meniscus::server {
 
-/// Throws InvalidInput if the address, of this flag, can be reached from other machines without TLS, and --insecure does
-/// not say that this is meant.
-void require_protected(std::string_view flag, const std::string& address, bool tls, bool insecure);
+/// Throws InvalidInput if the address, of this flag, whose port has no TLS, can be reached from other machines.
+void require_loopback(std::string_view flag, const std::string& address);
 
 /// Throws InvalidInput if the address is a Unix socket whose path cannot be one, or that another server listens on: gRPC
 /// would take it over.

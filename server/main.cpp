@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "log.hpp"
 #include "meniscus/error.hpp"
 #include "options.hpp"
 #include "server.hpp"
@@ -49,7 +50,12 @@ int check(const meniscus::server::ServerOptions& options) {
     return problems.empty() ? 0 : 2;
 }
 
-/// gRPC's errors are failed handshakes and the like, and why it aborts. The rest has no reader but a developer.
+/// A developer's.
+void log_grpc_for_debugging(gpr_log_func_args* message) {
+    spdlog::debug("gRPC: {}", message->message);
+}
+
+/// Of a server that listens, an operator wants to know which handshakes fail.
 void log_grpc(gpr_log_func_args* message) {
     const bool is_error = message->severity == GPR_LOG_SEVERITY_ERROR;
     spdlog::log(is_error ? spdlog::level::warn : spdlog::level::debug, "gRPC: {}", message->message);
@@ -58,14 +64,15 @@ void log_grpc(gpr_log_func_args* message) {
 int run(const meniscus::server::CommandLine& command_line) {
     const sigset_t signals = block_signals();
     spdlog::set_default_logger(spdlog::stderr_color_mt("meniscusd"));
-    spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
+    meniscus::server::use_log_format(command_line.log_format);
     spdlog::set_level(command_line.log_level);
     spdlog::flush_on(spdlog::level::debug);
-    gpr_set_log_function(log_grpc);
+    gpr_set_log_function(log_grpc_for_debugging);
     // What protobuf would print of messages that do not parse is their senders' to choose.
     google::protobuf::SetLogHandler(nullptr);
 
     meniscus::server::Server server(command_line.server);
+    gpr_set_log_function(log_grpc);
     const meniscus::BackendDescription& backend = server.backend();
     spdlog::info("meniscusd {} listening on {}, backend {} on {}: {}", meniscus::version(), server.address(), backend.name,
                  backend.device, backend.reason);

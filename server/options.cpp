@@ -85,7 +85,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.add_option("--tokens", server.tokens,
                    "Lines ROLE NAME TOKEN, the role being uploader, watcher or admin: calls need one of these tokens")
         ->type_name("FILE");
-    app.add_flag("--insecure", server.insecure, "Let other machines connect without TLS");
+    app.add_flag("--insecure", server.insecure, "Let other machines connect without TLS, also to --http");
     app.add_option("--http", server.http, "HOST:PORT (port 0: a free one, which is logged) of /metrics, /healthz and /readyz");
     app.add_flag("--reflection", server.standard_services.reflection, "Let clients ask for the contract, as grpcurl does");
     app.add_flag("--channelz", server.standard_services.channelz, "Let clients ask for connections and their traffic");
@@ -144,6 +144,14 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
            "debug, info, warning, error or off")
         ->type_name("NAME")
         ->default_str("info");
+
+    app.add_option_function<std::string>(
+           "--log-format",
+           [&](const std::string& name) { command_line.log_format = name == "json" ? LogFormat::json : LogFormat::text; },
+           "text, or json: one object a line")
+        ->check(CLI::IsMember({"text", "json"}).description(""))
+        ->type_name("NAME")
+        ->default_str("text");
 
     try {
         app.parse(argc, argv);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "log.hpp"
 #include "server.hpp"
 
 namespace meniscus::server {
@@ -13,6 +14,7 @@ namespace meniscus::server {
 struct CommandLine {
     ServerOptions server;
     spdlog::level::level_enum log_level = spdlog::level::info;
+    LogFormat log_format = LogFormat::text;
     bool check_config = false;  ///< only say whether the settings can be used
 };
 

@@ -66,6 +66,16 @@ void keep_alive(grpc::ServerBuilder& builder) {
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20'000);
 }
 
+/// Throws InvalidInput if others could connect without TLS, or call without a token, where that is not meant.
+void require_closed_to_others(const ServerOptions& options) {
+    if (!options.insecure && !options.tls.any()) require_loopback("--listen", options.listen);
+    if (!options.insecure && !options.http.empty()) require_loopback("--http", options.http);
+    const StandardServices& services = options.standard_services;
+    if (!options.tokens.empty() && (services.reflection || services.channelz))
+        throw InvalidInput(fmt::format("{} cannot be had with --tokens: gRPC answers it without asking for one",
+                                       services.reflection ? "--reflection" : "--channelz"));
+}
+
 std::string with_port(const std::string& listen, int port) {
     if (listen.starts_with("unix:")) return listen;
     return fmt::format("{}:{}", listen.substr(0, listen.rfind(':')), port);
@@ -75,7 +85,7 @@ std::string with_port(const std::string& listen, int port) {
 
 std::vector<std::string> problems_of(const ServerOptions& options) {
     const std::vector<std::function<void()>> steps{
-        [&] { require_protected("--listen", options.listen, options.tls.any(), options.insecure); },
+        [&] { require_closed_to_others(options); },
         [&] { require_unused_unix_socket(options.listen); },
         [&] { if (options.tls.any()) load_certificates(options.tls); },
         [&] { if (!options.tokens.empty()) Tokens::load(options.tokens); },
@@ -103,7 +113,7 @@ Server::Server(const ServerOptions& options)
       server_service_(access_.authorizer(), backend_, threads_or_processors(options.backend.threads), options.limits),
       session_service_(registry_, access_.authorizer()),
       surface_service_(registry_, access_.authorizer(), calls_) {
-    require_protected("--listen", options.listen, options.tls.any(), options.insecure);
+    require_closed_to_others(options);
     require_unused_unix_socket(options.listen);
     int port = 0;
     load_standard_services();

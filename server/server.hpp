@@ -36,7 +36,8 @@ struct ServerOptions {
     std::chrono::milliseconds shutdown_grace = std::chrono::seconds(10);
 };
 
-/// What keeps a server from starting with these options, a line each; an address that is in use may be missed.
+/// What keeps a server from starting with these options, a line each; an address that is in use, or a folder that
+/// cannot be written to, is not noticed.
 std::vector<std::string> problems_of(const ServerOptions& options);
 
 class Server {

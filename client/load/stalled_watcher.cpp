@@ -6,8 +6,8 @@ namespace meniscus::load {
 
 class StalledWatcher::Impl {
 public:
-    Impl(const std::string& server, const std::string& session) : connection_(server, std::chrono::seconds(5)) {
-        client::add_session_id(context_, session);
+    Impl(const std::string& server, const std::string& session) : connection_(server) {
+        connection_.add_metadata(context_, session);
         v1::WatchRequest request;
         request.set_session_id(session);
         call_ = connection_.surfaces->Watch(&context_, request);

@@ -1,7 +1,6 @@
 #include "recording/recording_writer.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "conversion/recording_format.hpp"
+#include "log.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::server {
@@ -105,8 +105,8 @@ void RecordingWriter::perform(Job& job) {
     } catch (const std::exception& error) {
         session.stopped = true;
         ++stopped_;
-        spdlog::error("session {}: its recording stops at frame {}, the session goes on: {}", session.id, job.frame_index,
-                      error.what());
+        log_error({.session = session.id, .frame = job.frame_index}, "its recording stops here, the session goes on: {}",
+                  error.what());
     }
 }
 
@@ -121,7 +121,7 @@ void RecordingWriter::append(RecordedRun& run, const RecordingBytes& bytes) {
         run.file->append(begin);
         used_ += begin.size();
         bytes_ += begin.size();
-        spdlog::info("session {}: recorded in {}", session.id, run.file->path().string());
+        log_info({.session = session.id}, "recorded in {}", run.file->path().string());
     }
     admit(bytes.size());
     run.file->append(bytes.entry);

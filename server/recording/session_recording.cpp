@@ -1,10 +1,10 @@
 #include "recording/session_recording.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <exception>
 #include <utility>
+
+#include "log.hpp"
 
 namespace meniscus::server {
 
@@ -82,7 +82,7 @@ std::shared_ptr<RecordedRun> SessionRecording::run_of(const InputFrame& frame) {
 
 void SessionRecording::left_out(std::uint64_t index, const char* what) {
     if (said_so_.exchange(true)) return;
-    spdlog::warn("session {}: frame {}, or its mesh, is not recorded, and others may not be: {}", session_->id, index, what);
+    log_warning({.session = session_->id, .frame = index}, "the frame or its mesh is not recorded, and others may not be: {}", what);
 }
 
 }  // namespace meniscus::server

@@ -1,7 +1,6 @@
 #include "rpc/stream_handler.hpp"
 
 #include <grpcpp/support/proto_buffer_reader.h>
-#include <spdlog/spdlog.h>
 
 #include <exception>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "log.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "rpc/caller.hpp"
@@ -89,7 +89,7 @@ public:
         if (!upload_) return;
         // For a call that ended before its upload: nobody reads, and the session is free for the next stream.
         session_->cancel_upload(upload_);
-        spdlog::info("session {}: stream from {} closed: {}", session_id_, peer_, outcome_);
+        log_info({.session = session_id_}, "stream from {} closed: {}", peer_, outcome_);
     }
 
 private:
@@ -182,7 +182,7 @@ private:
             if (const auto reactor = self.lock()) reactor->drain();
         };
         auto upload = session->open_upload(options, wake, drain);
-        spdlog::info("session {}: stream from {} opened", session_id_, peer_);
+        log_info({.session = session_id_}, "stream from {} opened", peer_);
         {
             const std::lock_guard lock(mutex_);
             session_ = session;

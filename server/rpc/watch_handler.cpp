@@ -1,7 +1,6 @@
 #include "rpc/watch_handler.hpp"
 
 #include <grpcpp/alarm.h>
-#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <exception>
@@ -10,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "log.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "rpc/caller.hpp"
 #include "rpc/session_id.hpp"
@@ -48,7 +48,7 @@ public:
             finish(to_status(std::current_exception()));
             return;
         }
-        spdlog::info("session {}: watcher from {} connected", session_id_, peer_);
+        log_info({.session = session_id_}, "watcher from {} connected", peer_);
         // At once: the client knows from here on that it misses no mesh. With metadata, as a refusal has none.
         context.AddInitialMetadata("x-session-id", session_id_);
         StartSendInitialMetadata();
@@ -75,7 +75,7 @@ public:
     void OnDone() override {
         if (watch_) {
             session_->close_watch(watch_);
-            spdlog::info("session {}: watcher from {} gone", session_id_, peer_);
+            log_info({.session = session_id_}, "watcher from {} gone", peer_);
         }
         const auto self = std::move(self_);
     }

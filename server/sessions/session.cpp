@@ -1,11 +1,11 @@
 #include "sessions/session.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "log.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/refusal.hpp"
@@ -313,7 +313,7 @@ bool Session::reconstruct_next(Received received) {
     try {
         reconstruct(received, *next_mesh_);
     } catch (const DeviceError& error) {
-        spdlog::error("session {} ends with frame {}: {}", id_, input.index, error.what());
+        log_error({.session = id_, .frame = input.index}, "the session ends: {}", error.what());
         tasks_.put(EndSession{std::current_exception()});
         return false;
     } catch (...) {
@@ -369,7 +369,7 @@ void Session::cap_levels_again(int max_level) {
     try {
         if (emit_capped(max_level, task.mesh)) tasks_.put(std::move(task));
     } catch (const DeviceError& error) {
-        spdlog::error("session {} ends: {}", id_, error.what());
+        log_error({.session = id_}, "the session ends: {}", error.what());
         tasks_.put(EndSession{std::current_exception()});
     }
 }
@@ -381,8 +381,8 @@ bool Session::emit_capped(int max_level, Mesh& mesh) {
     } catch (const DeviceError&) {
         throw;
     } catch (const std::exception& error) {
-        spdlog::error("session {}: no mesh of levels up to {} for its watchers, who keep the one before: {}", id_, max_level,
-                      error.what());
+        log_error({.session = id_}, "no mesh of levels up to {} for its watchers, who keep the one before: {}", max_level,
+                  error.what());
         return false;
     }
 }
@@ -522,8 +522,8 @@ void Session::encode_for_watchers() {
     try {
         while (const auto format = unpublished_format()) publish(*format, encode_newest(*format, nullptr));
     } catch (const std::exception& error) {
-        spdlog::error("session {}: frame {} could not be encoded for its watchers, who keep the one before: {}", id_,
-                      newest_->index, error.what());
+        log_error({.session = id_, .frame = newest_->index},
+                  "not encoded for its watchers, who keep the frame before: {}", error.what());
     }
 }
 
@@ -537,7 +537,7 @@ void Session::encode_for_observer() {
     try {
         if (!frame) publish(format, frame = encode_newest(format, nullptr));
     } catch (const std::exception& error) {
-        spdlog::error("session {}: frame {} could not be encoded for its recording: {}", id_, newest_->index, error.what());
+        log_error({.session = id_, .frame = newest_->index}, "not encoded for its recording: {}", error.what());
         return;
     }
     observer_->encoded(std::move(frame));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "log.hpp"
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
@@ -89,7 +90,7 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
                                              std::move(functions.emit_capped), observe_ ? observe_(id, settings) : nullptr,
                                              shared_on(backend));
     sessions_.emplace(id, session);
-    spdlog::info("session {} created on {} ({} open)", id, place_name(backend), sessions_.size());
+    log_info({.session = id}, "created on {} ({} open)", place_name(backend), sessions_.size());
     return session;
 }
 
@@ -124,7 +125,7 @@ void SessionRegistry::remove(const std::string& id) {
         left = sessions_.size();
     }
     session->close();
-    spdlog::info("session {} deleted ({} open)", id, left);
+    log_info({.session = id}, "deleted ({} open)", left);
     removed_.put(std::move(session));
 }
 

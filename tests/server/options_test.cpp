@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "meniscus/error.hpp"
-#include "test_certificates.hpp"
+#include "test_folder.hpp"
 
 namespace meniscus::server {
 namespace {

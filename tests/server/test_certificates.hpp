@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -10,6 +9,7 @@
 #include <string>
 
 #include "security/certificates.hpp"
+#include "test_folder.hpp"
 
 namespace meniscus::server::test {
 
@@ -21,31 +21,6 @@ inline std::string output_of(const std::string& command) {
     if (::pclose(pipe) != 0) throw std::runtime_error("failed: " + command + "\n" + text);
     return text;
 }
-
-/// A folder of files, which goes with it.
-class TestFolder {
-public:
-    TestFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "meniscus-test-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
-        path_ = name;
-    }
-    ~TestFolder() { std::filesystem::remove_all(path_); }
-    TestFolder(const TestFolder&) = delete;
-    TestFolder& operator=(const TestFolder&) = delete;
-
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-    /// Readable for this user alone, unless told otherwise.
-    std::string write(const std::string& name, const std::string& text, int mode = 0600) const {
-        const std::string path = *this / name;
-        std::ofstream(path) << text;
-        std::filesystem::permissions(path, static_cast<std::filesystem::perms>(mode));
-        return path;
-    }
-
-private:
-    std::filesystem::path path_;
-};
 
 /// Certificates in files NAME.pem, with keys in NAME.key.
 class TestCertificates {

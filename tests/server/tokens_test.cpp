@@ -307,6 +307,18 @@ TEST(Server, RefusesOtherMachinesWithoutTlsUnlessThatIsMeant) {
     EXPECT_NO_THROW(Server{options});
 }
 
+TEST(Server, OffersNothingBesideItsTokensThatDoesNotAskForOne) {
+    const TestFolder folder;
+    for (const StandardServices& services : {StandardServices{.reflection = true}, StandardServices{.channelz = true}}) {
+        ServerOptions options = test_options();
+        options.standard_services = services;
+        EXPECT_TRUE(problems_of(options).empty());
+        options.tokens = folder.write("tokens", file_text);
+        EXPECT_EQ(problems_of(options).size(), 1U);
+        EXPECT_THROW(Server{options}, InvalidInput);
+    }
+}
+
 TEST(Client, SendsNoTokenToAnotherMachineWithoutTlsUnlessThatIsMeant) {
     // An address for documentation: there is no such host.
     client::ConnectionOptions options{.token = ada, .timeout = std::chrono::milliseconds(1)};
