@@ -37,12 +37,16 @@ CLI::Option* ServerFlags::add_to(CLI::App& command, const std::string& descripti
     return server;
 }
 
-client::Client ServerFlags::connect() const {
+client::ConnectionOptions ServerFlags::connection() const {
     client::ConnectionOptions connection = options;
     connection.token = read_token(token_file);
     connection.wait = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(wait_seconds));
+    return connection;
+}
+
+client::Client ServerFlags::connect() const {
     try {
-        return client::Client(address, connection);
+        return client::Client(address, connection());
     } catch (const client::ServerError& e) {
         throw InvalidInput(e.what());
     }

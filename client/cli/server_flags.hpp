@@ -21,7 +21,9 @@ struct ServerFlags {
 
     /// Returns --server, for what else it excludes or requires.
     CLI::Option* add_to(CLI::App& command, const std::string& description);
-    /// With the token of --token-file or, without that, of MENISCUS_TOKEN. Throws InvalidInput if there is no server.
+    /// With the token of --token-file or, without that, of MENISCUS_TOKEN. Throws InvalidInput for a file that cannot be read.
+    client::ConnectionOptions connection() const;
+    /// By it. Throws InvalidInput if there is no server.
     client::Client connect() const;
 };
 

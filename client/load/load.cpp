@@ -21,11 +21,12 @@ constexpr auto head_start = std::chrono::milliseconds(200);
 /// A session with its clients, each on a connection of its own.
 class Party {
 public:
-    explicit Party(const LoadOptions& options) : options_(options), client_(options.server) {
+    explicit Party(const LoadOptions& options)
+        : options_(options), connection_(options.server.connection()), client_(options.server.address, connection_) {
         client_.create_session(session_, options.settings.build(options.particle_radius));
-        for (unsigned i = 0; i < options.stalled; ++i) stalled_.emplace_back(options.server, session_);
+        for (unsigned i = 0; i < options.stalled; ++i) stalled_.emplace_back(options.server.address, connection_, session_);
         for (unsigned i = 0; i < options.watchers + options.slow; ++i) {
-            watching_.emplace_back(options.server);
+            watching_.emplace_back(options.server.address, connection_);
             watchers_.push_back(watching_.back().watch(session_));
         }
     }
@@ -42,7 +43,8 @@ public:
         }
         for (unsigned i = 0; i < options_.vanishing; ++i)
             vanishing_.push_back(std::async(std::launch::async, [this, &schedule] {
-                return watch_and_vanish(options_.server, session_, schedule, options_.vanish_after, over_);
+                return watch_and_vanish(options_.server.address, connection_, session_, schedule, options_.vanish_after,
+                                        over_);
             }));
     }
 
@@ -63,6 +65,7 @@ public:
 
 private:
     const LoadOptions& options_;
+    const client::ConnectionOptions connection_;
     const std::string session_ = client::new_session_id();
     client::Client client_;
     std::list<client::Client> watching_;
@@ -80,7 +83,7 @@ LoadResult run_load(const LoadOptions& options) {
     const Frames frames = options.files.empty() ? Frames::moving_water(options.particles, options.particle_radius)
                                                 : Frames::read(options.files);
     LoadResult result;
-    result.server = client::Client(options.server).server_info();
+    result.server = options.server.connect().server_info();
     std::list<Party> parties;
     for (unsigned i = 0; i < options.simulators; ++i) parties.emplace_back(options);
     result.schedule = {.start = Clock::now() + head_start,

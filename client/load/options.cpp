@@ -10,7 +10,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, L
     CLI::App app("Simulators and watchers for a meniscusd, at a rate that does not wait for it", "meniscus-load");
     app.option_defaults()->always_capture_default();
     app.set_version_flag("--version", std::string("meniscus-load ") + std::string(version()));
-    app.add_option("--server", options.server, "HOST:PORT or unix:PATH");
+    options.server.add_to(app, "HOST:PORT or unix:PATH of the meniscusd")->required();
     app.add_option("--simulators", options.simulators, "Simulators, each with a session of its own")->check(CLI::Range(1, 10000));
     app.add_option("--watchers", options.watchers, "Watchers of each session that read as fast as they can");
     app.add_option("--slow-watchers", options.slow, "Watchers of each session that take --slow-seconds over each frame");

@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "cli/server_flags.hpp"
 #include "cli/settings_options.hpp"
 
 namespace meniscus::load {
 
 struct LoadOptions {
-    std::string server = "127.0.0.1:50051";  ///< "HOST:PORT" or "unix:PATH"
-    unsigned simulators = 1;                 ///< each with a session of its own
+    cli::ServerFlags server;
+    unsigned simulators = 1;  ///< each with a session of its own
 
     // Watchers, of each simulator.
     unsigned watchers = 1;      ///< that read as fast as they can

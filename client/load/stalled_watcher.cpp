@@ -6,7 +6,8 @@ namespace meniscus::load {
 
 class StalledWatcher::Impl {
 public:
-    Impl(const std::string& server, const std::string& session) : connection_(server) {
+    Impl(const std::string& server, const client::ConnectionOptions& connection, const std::string& session)
+        : connection_(server, connection) {
         connection_.add_metadata(context_, session);
         v1::WatchRequest request;
         request.set_session_id(session);
@@ -29,8 +30,9 @@ private:
     std::unique_ptr<grpc::ClientReader<v1::WatchResponse>> call_;
 };
 
-StalledWatcher::StalledWatcher(const std::string& server, const std::string& session)
-    : impl_(std::make_unique<Impl>(server, session)) {}
+StalledWatcher::StalledWatcher(const std::string& server, const client::ConnectionOptions& connection,
+                               const std::string& session)
+    : impl_(std::make_unique<Impl>(server, connection, session)) {}
 StalledWatcher::~StalledWatcher() = default;
 
 }  // namespace meniscus::load

@@ -4,12 +4,14 @@
 #include <memory>
 #include <string>
 
+#include "meniscus/client/client.hpp"
+
 namespace meniscus::load {
 
 class StalledWatcher {
 public:
     /// Returns when the server has accepted it. Throws ServerError.
-    StalledWatcher(const std::string& server, const std::string& session);
+    StalledWatcher(const std::string& server, const client::ConnectionOptions& connection, const std::string& session);
     ~StalledWatcher();
     StalledWatcher(const StalledWatcher&) = delete;
     StalledWatcher& operator=(const StalledWatcher&) = delete;

@@ -47,12 +47,13 @@ WatchOutcome watch(client::Watcher& watcher, const Schedule& schedule, double pa
     return outcome;
 }
 
-WatchOutcome watch_and_vanish(const std::string& server, const std::string& session, const Schedule& schedule,
-                              std::uint64_t frames, const std::atomic<bool>& over) {
+WatchOutcome watch_and_vanish(const std::string& server, const client::ConnectionOptions& connection,
+                              const std::string& session, const Schedule& schedule, std::uint64_t frames,
+                              const std::atomic<bool>& over) {
     WatchOutcome outcome;
     while (!over) {
         try {
-            client::Client client(server);
+            client::Client client(server, connection);
             client::Watcher watcher = client.watch(session);
             Reading reading(schedule, outcome);
             for (std::uint64_t i = 0; i < frames; ++i)

@@ -15,7 +15,8 @@ WatchOutcome watch(client::Watcher& watcher, const Schedule& schedule, double pa
 
 /// Connects, reads so many frames and breaks the connection, again and again until the session ends. over: the end is due, so that
 /// a session that is gone is no error.
-WatchOutcome watch_and_vanish(const std::string& server, const std::string& session, const Schedule& schedule,
-                              std::uint64_t frames, const std::atomic<bool>& over);
+WatchOutcome watch_and_vanish(const std::string& server, const client::ConnectionOptions& connection,
+                              const std::string& session, const Schedule& schedule, std::uint64_t frames,
+                              const std::atomic<bool>& over);
 
 }  // namespace meniscus::load

@@ -9,6 +9,7 @@ const std::vector<Target>& targets() {
         {"watch_responses", watch_responses, watch_response_seeds},
         {"settings", settings, settings_seeds},
         {"brick", brick, brick_seeds},
+        {"http", http, http_seeds},
         {"vtk", vtk, vtk_seeds},
         {"particle_ply", particle_ply, particle_ply_seeds},
         {"xyz", xyz, xyz_seeds},

@@ -29,6 +29,10 @@ Seeds settings_seeds();
 void brick(Bytes bytes);
 Seeds brick_seeds();
 
+/// What a client sends to the HTTP port, on one connection.
+void http(Bytes bytes);
+Seeds http_seeds();
+
 // Files.
 void vtk(Bytes bytes);
 Seeds vtk_seeds();

@@ -17,7 +17,7 @@ using server::test::Process;
 
 LoadOptions small(const std::string& server) {
     LoadOptions options;
-    options.server = server;
+    options.server.address = server;
     options.particles = 200;
     options.rate = 50.0;
     options.seconds = 0.6;
