@@ -15,6 +15,7 @@ v1::Session session_message(const Session& session) {
     message.set_frames(state.frames);
     if (state.last_frame_index) message.set_last_frame_index(*state.last_frame_index);
     message.set_frames_dropped(state.frames_dropped_replaced + state.frames_dropped_not_nth);
+    message.set_frames_skipped(state.frames_skipped);
     if (state.last_frame) *message.mutable_last_frame() = *state.last_frame;
     return message;
 }

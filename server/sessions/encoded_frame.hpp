@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,7 @@ struct EncodedFrame {
     std::uint64_t index = 0;
     std::uint64_t run_id = 0;
     double simulation_time = 0.0;
+    std::chrono::steady_clock::time_point received_at;  ///< the last byte of its particles
     double cell_size = 0.0;
     std::uint32_t offset_bits = 0;
     SharedMessage begin;              ///< announces the whole mesh

@@ -88,6 +88,7 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
     encoded->index = frame.index;
     encoded->run_id = frame.run_id;
     encoded->simulation_time = frame.simulation_time;
+    encoded->received_at = frame.received_at;
     encoded->cell_size = mesh.cell_size;
     encoded->offset_bits = encoded_offset_bits(mesh, coding);
     const auto emit = [&](const SharedMessage& message) {

@@ -179,7 +179,7 @@ void Session::cancel_upload(const std::shared_ptr<Upload>& upload) {
 }
 
 std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::function<void()> wake) {
-    auto watch = std::make_shared<Watch>(wishes, std::move(wake));
+    auto watch = std::make_shared<Watch>(wishes, std::move(wake), metrics_);
     const std::lock_guard lock(mutex_);
     if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id_));
     if (draining_) throw shutting_down();

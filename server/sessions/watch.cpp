@@ -4,31 +4,35 @@
 
 namespace meniscus::server {
 
-Watch::Watch(WatchWishes wishes, std::function<void()> wake) : wishes_(std::move(wishes)), wake_(std::move(wake)) {
+Watch::Watch(WatchWishes wishes, std::function<void()> wake, std::shared_ptr<Metrics> metrics)
+    : wishes_(std::move(wishes)), wake_(std::move(wake)), metrics_(std::move(metrics)) {
     if (wishes_.bytes_per_second != 0) bucket_.emplace(wishes_.bytes_per_second, Clock::now());
 }
 
 void Watch::put(std::shared_ptr<const EncodedFrame> frame, Clock::time_point now) {
     bool wake = false;
+    std::uint64_t skipped = 0;
     std::deque<SharedMessage> given_up;  // destroyed outside of the lock, as is the frame that was replaced
     {
         const std::lock_guard lock(mutex_);
         if (finished_) return;
         if (newest_)
-            ++skipped_;
+            ++skipped;
         else
             newest_since_ = now;
         newest_.swap(frame);
         if (!behind_since_) behind_since_ = now;
         if (!update_.messages.empty() && writing_since_ && now - *writing_since_ > stalled_after) {
             given_up.swap(update_.messages);
-            ++skipped_;
+            ++skipped;
         }
+        skipped_ += skipped;
         if (waits_ == Waits::for_a_frame) {
             waits_ = Waits::no;
             wake = true;
         }
     }
+    for (; skipped > 0; --skipped) metrics_->frame_skipped();
     if (wake) wake_();
 }
 
@@ -67,6 +71,7 @@ Watch::Next Watch::take(Clock::time_point now) {
     const std::lock_guard lock(mutex_);
     waits_ = Waits::no;
     writing_since_.reset();
+    if (std::exchange(ending_, false)) metrics_->watcher_lag(std::chrono::duration<double>(now - received_at_).count());
     if (draining_) {
         writing_since_ = now;
         return std::exchange(draining_, nullptr);
@@ -85,6 +90,7 @@ Watch::Next Watch::take(Clock::time_point now) {
         }
     }
     update_ = update_mesh(*newest_, wishes_, sent_ ? &*sent_ : nullptr);
+    received_at_ = newest_->received_at;
     newest_.reset();
     if (bucket_) bucket_->spend(update_.bytes, now);
     return next_message(now);
@@ -96,6 +102,7 @@ SharedMessage Watch::next_message(Clock::time_point now) {
     update_.messages.pop_front();
     writing_since_ = now;
     if (update_.messages.empty()) {
+        ending_ = true;
         sent_ = std::move(update_.result);
         behind_since_.reset();
         if (newest_) behind_since_ = newest_since_;

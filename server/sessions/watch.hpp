@@ -12,6 +12,7 @@
 #include <utility>
 #include <variant>
 
+#include "metrics/metrics.hpp"
 #include "sessions/encoded_frame.hpp"
 #include "sessions/mesh_update.hpp"
 #include "sessions/token_bucket.hpp"
@@ -44,7 +45,7 @@ public:
     };
 
     /// wake: called once, by a producing thread, after take() has found nothing and there is something again.
-    Watch(WatchWishes wishes, std::function<void()> wake);
+    Watch(WatchWishes wishes, std::function<void()> wake, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>());
 
     const WatchWishes& wishes() const noexcept { return wishes_; }
 
@@ -70,6 +71,7 @@ private:
 
     const WatchWishes wishes_;
     const std::function<void()> wake_;
+    const std::shared_ptr<Metrics> metrics_;
 
     mutable std::mutex mutex_;  ///< for what follows
     std::shared_ptr<const EncodedFrame> newest_;  ///< not begun yet
@@ -77,6 +79,8 @@ private:
     MeshUpdate update_;                           ///< what is left of the frame that is being sent
     std::optional<WatcherMesh> sent_;             ///< the last frame that went out whole
     std::optional<TokenBucket> bucket_;
+    Clock::time_point received_at_;               ///< that frame's particles
+    bool ending_ = false;                         ///< its last message is being written
     std::optional<Clock::time_point> writing_since_;
     std::optional<Clock::time_point> behind_since_;
     std::uint64_t skipped_ = 0;

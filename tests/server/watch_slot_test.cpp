@@ -99,6 +99,28 @@ TEST_F(WatchSlot, MeasuresHowLongTheWatcherHasNotHadTheNewestFrame) {
     EXPECT_EQ(watch.progress(now + 3s).lag, 0s);
 }
 
+TEST(WatchMetrics, CountSkippedFramesAndTheTimeUntilTheEndOfAFrameHasBeenWritten) {
+    struct Counted : Metrics {
+        void frame_skipped() override { ++skipped; }
+        void watcher_lag(double seconds) override { lags.push_back(seconds); }
+        int skipped = 0;
+        std::vector<double> lags;
+    };
+    const auto metrics = std::make_shared<Counted>();
+    Watch watch({}, [] {}, metrics);
+    const auto now = Watch::Clock::now();
+    watch.put(test::made_frame(0, {}), now);
+    const auto frame = test::made_frame(1, {});
+    frame->received_at = now;
+    watch.put(frame, now);
+    EXPECT_EQ(metrics->skipped, 1);
+    watch.take(now);
+    watch.take(now + 1s);
+    EXPECT_TRUE(metrics->lags.empty());
+    watch.take(now + 3s);
+    EXPECT_EQ(metrics->lags, (std::vector<double>{3.0}));
+}
+
 TEST_F(WatchSlot, GivesUpTheRestOfAFrameForANewerOneOnceItsWatcherHasStoppedReading) {
     const test::Versions versions{{{0, 0, 0}, 1}, {{1, 0, 0}, 2}, {{2, 0, 0}, 3}};
     watch.put(test::made_frame(0, versions), now);
