@@ -359,6 +359,7 @@ void Session::cap_levels(ReconstructedFrame& frame) {
     for (const int max_level : {1, 2}) {
         auto& capped = frame.capped_at(max_level);
         capped.made = is_wished_for(max_level) && emit_capped(max_level, capped.mesh);
+        if (!capped.made) capped.mesh = {};  // nobody's memory
     }
 }
 
