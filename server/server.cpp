@@ -14,6 +14,7 @@
 #include "meniscus/error.hpp"
 #include "metrics/limit_gauges.hpp"
 #include "metrics/process_metrics.hpp"
+#include "metrics/recording_metrics.hpp"
 #include "metrics/session_gauges.hpp"
 #include "recording/session_recording.hpp"
 #include "rpc/call_counter.hpp"
@@ -89,6 +90,7 @@ std::vector<std::string> problems_of(const ServerOptions& options) {
         [&] { require_unused_unix_socket(options.listen); },
         [&] { if (options.tls.any()) load_certificates(options.tls); },
         [&] { if (!options.tokens.empty()) Tokens::load(options.tokens); },
+        [&] { require_recordable(options.recording); },
         [&] { describe(options); },
     };
     std::vector<std::string> problems;
@@ -164,6 +166,7 @@ std::vector<prometheus::MetricFamily> Server::metrics() {
     };
     add(session_gauges(registry_));
     add(limit_gauges(options_.limits, backend_));
+    if (recordings_) add(recording_metrics(recordings_->counters()));
     add(process_metrics());
     return all;
 }

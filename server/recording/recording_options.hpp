@@ -14,4 +14,7 @@ struct RecordingOptions {
     std::size_t waiting_limit = std::size_t{256} << 20;
 };
 
+/// Throws InvalidInput if the directory is not one that can be written to, or made. Makes nothing.
+void require_recordable(const RecordingOptions& options);
+
 }  // namespace meniscus::server

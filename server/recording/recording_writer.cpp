@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
@@ -18,15 +17,10 @@ namespace meniscus::server {
 
 namespace {
 
-void require_directory(const std::filesystem::path& directory) {
-    if (::mkdir(directory.c_str(), S_IRWXU) != 0 && errno != EEXIST)
-        throw InvalidInput(fmt::format("--record {}: cannot be created: {}", directory.string(),
-                                       std::generic_category().message(errno)));
-    std::error_code ignored;
-    if (!std::filesystem::is_directory(directory, ignored))
-        throw InvalidInput(fmt::format("--record {}: not a directory", directory.string()));
-    if (::access(directory.c_str(), W_OK | X_OK) != 0)
-        throw InvalidInput(fmt::format("--record {}: cannot be written to: {}", directory.string(),
+void make_directory(const RecordingOptions& options) {
+    require_recordable(options);
+    if (::mkdir(options.directory.c_str(), S_IRWXU) != 0 && errno != EEXIST)
+        throw InvalidInput(fmt::format("--record {}: cannot be created: {}", options.directory.string(),
                                        std::generic_category().message(errno)));
 }
 
@@ -46,7 +40,7 @@ std::uint64_t bytes_of_recordings(const std::filesystem::path& directory) {
 }  // namespace
 
 RecordingWriter::RecordingWriter(const RecordingOptions& options) : options_(options), queue_(options.waiting_limit) {
-    require_directory(options_.directory);
+    make_directory(options_);
     thread_ = std::thread([this] { write_jobs(); });
 }
 

@@ -12,6 +12,7 @@
 #include "formats/particles.hpp"
 #include "formats/recording.hpp"
 #include "meniscus/error.hpp"
+#include "observation/metrics.hpp"
 #include "running_server.hpp"
 #include "sample_files.hpp"
 
@@ -195,6 +196,7 @@ TEST_F(RecordedSession, OfTwoStreamsWithTheSameIndicesIsTwoRecordings) {
 TEST_F(RecordedSession, GoesOnPastTheLimit) {
     ServerOptions options = recorded_in(folder("recorded"));
     options.recording.limit = 10'000;
+    options.http = "127.0.0.1:0";
     RunningServer running(options);
     auto stream = running.client.stream(running.session());
     for (std::uint64_t i = 0; i < 8; ++i) {
@@ -204,6 +206,9 @@ TEST_F(RecordedSession, GoesOnPastTheLimit) {
     while (running.server.recordings()->counters().stopped == 0) {
     }
     EXPECT_LE(running.server.recordings()->counters().bytes, options.recording.limit);
+    const Samples samples = scrape_until(running.server.http_address(), "meniscus_recordings_stopped_total", 1);
+    EXPECT_EQ(samples.at("meniscus_recorded_frames_total"), 1);
+    EXPECT_EQ(samples.at("meniscus_recorded_bytes_total"), static_cast<double>(running.server.recordings()->counters().bytes));
 }
 
 TEST_F(RecordedSession, DoesNotHoldFramesThatCouldNotBeUsed) {

@@ -1,0 +1,14 @@
+// What the recordings have come to.
+#pragma once
+
+#include <prometheus/metric_family.h>
+
+#include <vector>
+
+#include "recording/recording_writer.hpp"
+
+namespace meniscus::server {
+
+std::vector<prometheus::MetricFamily> recording_metrics(const RecordingCounters& counters);
+
+}  // namespace meniscus::server
