@@ -193,6 +193,50 @@ TEST_F(RecordedSession, OfTwoStreamsWithTheSameIndicesIsTwoRecordings) {
     EXPECT_NE(meniscus({"convert", (directory_ / "recorded" / id).string(), "-o", folder("meshes")}), 0);
 }
 
+std::vector<std::uint64_t> indices(const std::filesystem::path& recording) {
+    std::vector<std::uint64_t> indices;
+    for (const formats::RecordedFrame& frame : Recording(recording).frames()) indices.push_back(frame.index);
+    return indices;
+}
+
+TEST_F(RecordedSession, DoesNotHoldFramesThatThePolicyDropped) {
+    std::string id;
+    {
+        RunningServer running(recorded_in(folder("recorded")));
+        id = running.session();
+        auto stream = running.client.stream(id, {.policy = client::UploadPolicy::every_nth, .nth = 3});
+        for (std::uint64_t i = 0; i < 8; ++i) stream.push(wave(6, 0.0).view(), i, 0.0);
+        stream.finish();
+        while (stream.next()) {
+        }
+    }
+    EXPECT_EQ(indices(directory_ / "recorded" / id / "000001.recording"), (std::vector<std::uint64_t>{0, 3, 6}));
+}
+
+TEST_F(RecordedSession, HoldsTheFramesOfARunThatWasResumedOnce) {
+    std::string id;
+    {
+        RunningServer running(recorded_in(folder("recorded")));
+        id = running.session();
+        for (const std::uint64_t frames : {2, 4}) {
+            RawStream stream(running.server.address(), id, false);
+            v1::StreamRequest open;
+            open.mutable_open()->set_session_id(id);
+            open.mutable_open()->set_run_id(7);
+            stream.call->Write(open);
+            for (std::uint64_t i = 0; i < frames; ++i) {
+                stream.send_begin(i, 0);
+                stream.send_end();
+            }
+            stream.call->WritesDone();
+            EXPECT_TRUE(stream.finish().ok());
+            EXPECT_EQ(stream.answered, static_cast<int>(frames));
+        }
+    }
+    EXPECT_EQ(indices(directory_ / "recorded" / id / "000001.recording"), (std::vector<std::uint64_t>{0, 1, 2, 3}));
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "recorded" / id / "000002.recording"));
+}
+
 TEST_F(RecordedSession, GoesOnPastTheLimit) {
     ServerOptions options = recorded_in(folder("recorded"));
     options.recording.limit = 10'000;
