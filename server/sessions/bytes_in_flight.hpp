@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <cstddef>
+#include <memory>
+#include <utility>
 
 namespace meniscus::server {
 
@@ -28,6 +30,31 @@ public:
 private:
     const std::size_t limit_;
     std::atomic<std::size_t> bytes_{0};
+};
+
+/// One frame's part of them, until it is released.
+class ShareInFlight {
+public:
+    explicit ShareInFlight(std::shared_ptr<BytesInFlight> all) : all_(std::move(all)) {}
+    ~ShareInFlight() { release(); }
+    ShareInFlight(ShareInFlight&& other) noexcept : all_(other.all_), bytes_(std::exchange(other.bytes_, 0)) {}
+    ShareInFlight(const ShareInFlight&) = delete;
+    ShareInFlight& operator=(const ShareInFlight&) = delete;
+    ShareInFlight& operator=(ShareInFlight&&) = delete;
+
+    /// In place of what it had. False, with nothing left, where that is too much.
+    bool take(std::size_t bytes) noexcept {
+        release();
+        if (!all_->add(bytes)) return false;
+        bytes_ = bytes;
+        return true;
+    }
+    void release() noexcept { all_->remove(std::exchange(bytes_, 0)); }
+    const BytesInFlight& all() const noexcept { return *all_; }
+
+private:
+    const std::shared_ptr<BytesInFlight> all_;
+    std::size_t bytes_ = 0;
 };
 
 }  // namespace meniscus::server

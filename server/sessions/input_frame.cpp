@@ -11,23 +11,17 @@ namespace meniscus::server {
 static_assert(std::endian::native == std::endian::little, "the wire's numbers are used in place");
 
 void InputFrame::allocate(std::size_t size) {
-    land();
-    if (!in_flight_->add(size))
+    if (!in_flight_.take(size))
         throw LimitExceeded(
             fmt::format("a frame of {} bytes beside the {} bytes of frames in flight; the server takes at most {} bytes "
                         "over all sessions: try again later, or with fewer particles",
-                        size, in_flight_->bytes(), in_flight_->limit()));
-    bytes_in_flight_ = size;
+                        size, in_flight_.all().bytes(), in_flight_.all().limit()));
     if (bytes.capacity() < size) {
         // A fresh array: growing the old one would hold both for a moment, and copy what nobody needs.
         Array<std::byte>(bytes.get_allocator()).swap(bytes);
         bytes.reserve(size);
     }
     bytes.resize(size);
-}
-
-void InputFrame::land() noexcept {
-    in_flight_->remove(std::exchange(bytes_in_flight_, 0));
 }
 
 ParticleFrame InputFrame::view() const {

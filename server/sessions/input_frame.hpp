@@ -17,15 +17,12 @@ struct InputFrame {
     explicit InputFrame(const std::shared_ptr<MemoryAccount>& account,
                         std::shared_ptr<BytesInFlight> all_sessions = std::make_shared<BytesInFlight>())
         : bytes(AccountAllocator<std::byte>(account)), in_flight_(std::move(all_sessions)) {}
-    ~InputFrame() { land(); }
-    InputFrame(const InputFrame&) = delete;
-    InputFrame& operator=(const InputFrame&) = delete;
 
     /// Makes `bytes` of this size, which are then in flight; keeps its memory if that suffices. Throws LimitExceeded or
     /// std::bad_alloc.
     void allocate(std::size_t size);
     /// Its bytes are no longer in flight. Its memory stays for the next frame.
-    void land() noexcept;
+    void land() noexcept { in_flight_.release(); }
     /// The particles, in place.
     ParticleFrame view() const;
 
@@ -39,8 +36,7 @@ struct InputFrame {
     std::chrono::steady_clock::time_point received_at;
 
 private:
-    std::shared_ptr<BytesInFlight> in_flight_;
-    std::size_t bytes_in_flight_ = 0;
+    ShareInFlight in_flight_;
 };
 
 }  // namespace meniscus::server
