@@ -194,8 +194,9 @@ TEST_F(RecordedSession, OfTwoStreamsWithTheSameIndicesIsTwoRecordings) {
 }
 
 std::vector<std::uint64_t> indices(const std::filesystem::path& recording) {
+    const Recording opened(recording);
     std::vector<std::uint64_t> indices;
-    for (const formats::RecordedFrame& frame : Recording(recording).frames()) indices.push_back(frame.index);
+    for (const formats::RecordedFrame& frame : opened.frames()) indices.push_back(frame.index);
     return indices;
 }
 
