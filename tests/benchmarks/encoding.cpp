@@ -108,7 +108,7 @@ void run_encoding(const EncodingOptions& options) {
         if (mesh.triangles.empty()) throw InvalidInput("there is no surface to encode: " + std::to_string(frame.count()) + " particles");
         for (const int speed : options.speeds)
             for (const int bits : options.normal_bits) {
-                rows.push_back(measure(mesh, mode == Mode::uniform ? "uniform" : "adaptive", {bits, speed}, options.repeats));
+                rows.push_back(measure(mesh, mode == Mode::uniform ? "uniform" : "adaptive", {.normal_bits = bits, .speed = speed}, options.repeats));
                 print(rows.back());
             }
     }

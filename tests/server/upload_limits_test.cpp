@@ -92,21 +92,22 @@ TEST_F(UploadLimits, BytesInFlightOverAllSessions) {
 }
 
 TEST_F(UploadLimits, MessageBytes) {
-    options.limits.message_bytes = chunk_bytes + 1024;
+    constexpr std::size_t chunk = 16384;
+    options.limits.message_bytes = chunk + 1024;
     RunningServer running(options);
     const std::string id = running.session();
-    for (const std::size_t bytes : {chunk_bytes, chunk_bytes + 2000}) {
+    for (const std::size_t bytes : {chunk, chunk + 2000}) {
         RawStream stream(running.server.address(), id);
-        stream.send_begin(0, chunk_bytes / 4);
+        stream.send_begin(0, chunk / 4);
         stream.send_chunk(bytes);
-        if (bytes == chunk_bytes) {
-            stream.send_chunk(chunk_bytes);
-            stream.send_chunk(chunk_bytes);
+        if (bytes == chunk) {
+            stream.send_chunk(chunk);
+            stream.send_chunk(chunk);
             stream.send_end();
         }
         const Outcome result = outcome(stream);
-        EXPECT_EQ(result.answered, bytes == chunk_bytes ? 1 : 0);
-        EXPECT_EQ(result.status.ok(), bytes == chunk_bytes) << result.status.error_message();
+        EXPECT_EQ(result.answered, bytes == chunk ? 1 : 0);
+        EXPECT_EQ(result.status.ok(), bytes == chunk) << result.status.error_message();
     }
 }
 
