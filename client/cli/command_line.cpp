@@ -33,6 +33,7 @@ int run(int argc, const char* const* argv) {
     add_compare(app);
     add_info(app);
     add_sessions(app);
+    add_top(app);
     add_recordings(app);
     add_replay(app);
     add_convert(app);

@@ -14,6 +14,7 @@ void add_picture(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_info(CLI::App& app);
 void add_sessions(CLI::App& app);
+void add_top(CLI::App& app);
 void add_recordings(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_convert(CLI::App& app);

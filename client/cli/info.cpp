@@ -1,4 +1,4 @@
-// meniscus info and meniscus sessions: what a server, or this process, says about itself.
+// meniscus info: what a server, or this process, says about itself.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <sstream>
@@ -30,9 +30,11 @@ void print_backend(const std::string& version, const std::string& name, const st
 }
 
 void print_server(const ServerFlags& server) {
-    const client::ServerInfo info = server.connect().server_info();
+    client::Client client = server.connect();
+    const client::ServerInfo info = client.server_info();
     print_backend(info.version, info.backend, info.backend_reason, info.device);
-    std::cout << "threads                " << info.threads << '\n'
+    std::cout << "health                 " << (client.serving() ? "serving" : "shutting down") << '\n'
+              << "threads                " << info.threads << '\n'
               << "sessions               " << limit(info.max_sessions) << '\n'
               << "watchers per session   " << limit(info.max_watchers_per_session) << '\n'
               << "particles per frame    " << limit(info.max_particles_per_frame) << '\n'
@@ -48,12 +50,6 @@ void print_server(const ServerFlags& server) {
 void print_this_process(Backend choice) {
     const BackendDescription backend = describe_backend(choice);
     print_backend(std::string(version()), backend.name, backend.reason, backend.device);
-}
-
-void print_sessions(const ServerFlags& server) {
-    for (const client::SessionInfo& session : server.connect().sessions())
-        std::cout << session.id << "  " << session.frames << " frames, " << session.watchers << " watchers, "
-                  << (session.uploading ? "uploading" : "idle") << '\n';
 }
 
 struct InfoOptions {
@@ -74,13 +70,6 @@ void add_info(CLI::App& app) {
         else
             print_server(options->server);
     });
-}
-
-void add_sessions(CLI::App& app) {
-    auto server = std::make_shared<ServerFlags>();
-    CLI::App& command = *app.add_subcommand("sessions", "List a server's sessions");
-    server->add_to(command, "Whose")->required();
-    command.callback([server] { print_sessions(*server); });
 }
 
 }  // namespace meniscus::cli

@@ -78,7 +78,7 @@ TEST_F(Cli, TellsItsVersion) {
 }
 
 TEST_F(Cli, HelpOfEveryCommandSucceeds) {
-    for (const char* command : {"reconstruct", "simulate", "watch", "picture", "compare", "info", "sessions"})
+    for (const char* command : {"reconstruct", "simulate", "watch", "picture", "compare", "info", "sessions", "top"})
         EXPECT_EQ(run_meniscus({command, "--help"}).exit_code, 0) << command;
 }
 

@@ -5,6 +5,8 @@
 #include "connection.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "error_mapping.hpp"
+#include "frame_statistics.hpp"
+#include "grpc/health/v1/health.grpc.pb.h"
 #include "stream_impl.hpp"
 #include "watcher_impl.hpp"
 
@@ -20,7 +22,10 @@ SessionInfo from_wire(const v1::Session& wire) {
     info.watchers = wire.watchers();
     info.frames = wire.frames();
     if (wire.has_last_frame_index()) info.last_frame_index = wire.last_frame_index();
+    info.owner = wire.owner();
     info.frames_dropped = wire.frames_dropped();
+    info.frames_skipped = wire.frames_skipped();
+    if (wire.has_last_frame()) info.last_frame = frame_statistics(wire.last_frame());
     return info;
 }
 
@@ -72,6 +77,13 @@ ServerInfo Client::server_info() {
     info.max_idle_seconds = response.limits().idle_seconds();
     info.max_message_bytes = response.limits().message_bytes();
     return info;
+}
+
+bool Client::serving() {
+    const auto health = grpc::health::v1::Health::NewStub(impl_->connection()->channel);
+    grpc::health::v1::HealthCheckResponse response;
+    impl_->call(*health, &grpc::health::v1::Health::Stub::Check, {}, {}, response);
+    return response.status() == grpc::health::v1::HealthCheckResponse::SERVING;
 }
 
 void Client::create_session(const std::string& id, const Settings& settings) {

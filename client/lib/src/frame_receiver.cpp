@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "conversion/statistics_conversion.hpp"
+#include "frame_statistics.hpp"
 
 namespace meniscus::client {
 
@@ -149,10 +149,7 @@ ReceivedFrame FrameReceiver::end(const v1::FrameStatistics& message) {
         frame.index = message.frame_index();
         frame.simulation_time = message.simulation_time();
     }
-    static_cast<Statistics&>(frame.statistics) = conversion::from_wire(message);
-    frame.statistics.encode_seconds = message.encode_seconds();
-    frame.statistics.latency_seconds = message.latency_seconds();
-    frame.statistics.encoded_bytes = message.encoded_bytes();
+    frame.statistics = frame_statistics(message);
     return frame;
 }
 

@@ -67,21 +67,24 @@ struct ServerInfo {
     std::uint64_t max_message_bytes = 0;
 };
 
-struct SessionInfo {
-    std::string id;
-    Settings settings;
-    bool uploading = false;
-    unsigned watchers = 0;
-    std::uint64_t frames = 0;
-    std::optional<std::uint64_t> last_frame_index;
-    std::uint64_t frames_dropped = 0;
-};
-
 /// The server's figures of one frame, beside the reconstruction's own.
 struct FrameStatistics : Statistics {
     double encode_seconds = 0.0;
     double latency_seconds = 0.0;      ///< from the frame's last byte to the end of its encoding
     std::uint64_t encoded_bytes = 0;
+};
+
+struct SessionInfo {
+    std::string id;
+    std::string owner;  ///< who made it; empty where nobody is asked
+    Settings settings;
+    bool uploading = false;
+    unsigned watchers = 0;
+    std::uint64_t frames = 0;
+    std::uint64_t frames_dropped = 0;  ///< by the policies of its streams
+    std::uint64_t frames_skipped = 0;  ///< replaced before a watcher had taken them, over all watchers
+    std::optional<std::uint64_t> last_frame_index;
+    std::optional<FrameStatistics> last_frame;  ///< of the frame answered last
 };
 
 /// What happens to frames that come faster than the server reconstructs them.
@@ -207,6 +210,8 @@ public:
     ~Client();
 
     ServerInfo server_info();
+    /// Whether the server takes calls: false once it shuts down.
+    bool serving();
     /// Creates the session, or joins it if it exists with equal settings.
     void create_session(const std::string& id, const Settings& settings);
     SessionInfo session(const std::string& id);

@@ -1,0 +1,92 @@
+#include "cli/session_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace meniscus::cli {
+namespace {
+
+constexpr std::size_t column_count = 12;
+using Line = std::array<std::string, column_count>;
+
+std::string fixed(double value, int digits) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+    return text.data();
+}
+
+const Line header{"SESSION",   "OWNER",     "STATE",    "FRAMES",  "FRAMES/S", "LATENCY MS",
+                  "PARTICLES", "TRIANGLES", "WATCHERS", "DROPPED", "SKIPPED",  "GPU BYTES"};
+
+/// Columns of words; the others are numbers, and end where their column ends.
+constexpr std::size_t words = 3;
+
+Line line_of(const SessionRow& row) {
+    const client::SessionInfo& session = row.session;
+    Line line{session.id, session.owner.empty() ? "-" : session.owner, session.uploading ? "uploading" : "idle",
+              short_count(session.frames)};
+    line[4] = row.frames_per_second ? fixed(*row.frames_per_second, 1) : "-";
+    const auto& last = session.last_frame;
+    line[5] = last ? fixed(last->latency_seconds * 1e3, 1) : "-";
+    line[6] = last ? short_count(last->particles) : "-";
+    line[7] = last ? short_count(last->triangles) : "-";
+    line[8] = short_count(session.watchers);
+    line[9] = short_count(session.frames_dropped);
+    line[10] = short_count(session.frames_skipped);
+    line[11] = last ? short_count(last->device_bytes) : "-";
+    return line;
+}
+
+}  // namespace
+
+std::vector<SessionRow> FrameRates::update(const std::vector<client::SessionInfo>& sessions,
+                                           std::chrono::steady_clock::time_point now) {
+    std::map<std::string, Seen> seen;
+    std::vector<SessionRow> rows;
+    for (const client::SessionInfo& session : sessions) {
+        SessionRow row{.session = session, .frames_per_second = std::nullopt};
+        const auto before = seen_.find(session.id);
+        // A session that was deleted and created again has fewer frames than before.
+        if (before != seen_.end() && now > before->second.at && session.frames >= before->second.frames)
+            row.frames_per_second = static_cast<double>(session.frames - before->second.frames) /
+                                    std::chrono::duration<double>(now - before->second.at).count();
+        seen[session.id] = {.frames = session.frames, .at = now};
+        rows.push_back(std::move(row));
+    }
+    seen_ = std::move(seen);
+    return rows;
+}
+
+std::string session_table(const std::vector<SessionRow>& rows) {
+    std::vector<Line> lines{header};
+    for (const SessionRow& row : rows) lines.push_back(line_of(row));
+    std::array<std::size_t, column_count> widths{};
+    for (const Line& line : lines)
+        for (std::size_t i = 0; i < column_count; ++i) widths[i] = std::max(widths[i], line[i].size());
+    std::string table;
+    for (const Line& line : lines) {
+        for (std::size_t i = 0; i < column_count; ++i) {
+            const std::string padding(widths[i] - line[i].size(), ' ');
+            table += i < words ? line[i] + padding : padding + line[i];
+            table += i + 1 < column_count ? "  " : "\n";
+        }
+    }
+    return table;
+}
+
+std::string short_count(std::uint64_t count) {
+    if (count < 10'000) return std::to_string(count);
+    auto value = static_cast<double>(count);
+    std::size_t suffix = 0;
+    constexpr std::string_view suffixes = " kMGTPE";
+    // 999.5 would be written as 1000.
+    while (value >= 999.5 && suffix + 1 < suffixes.size()) {
+        value /= 1000;
+        ++suffix;
+    }
+    const int digits = value < 9.995 ? 2 : value < 99.95 ? 1 : 0;
+    return fixed(value, digits) + suffixes[suffix];
+}
+
+}  // namespace meniscus::cli

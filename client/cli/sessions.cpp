@@ -1,0 +1,62 @@
+// meniscus sessions: what a server works on.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/server_flags.hpp"
+#include "cli/session_table.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+struct SessionsOptions {
+    ServerFlags server;
+    bool json = false;
+};
+
+nlohmann::ordered_json to_json(const client::SessionInfo& session) {
+    nlohmann::ordered_json out;
+    out["id"] = session.id;
+    out["owner"] = session.owner;
+    out["uploading"] = session.uploading;
+    out["watchers"] = session.watchers;
+    out["frames"] = session.frames;
+    out["frames_dropped"] = session.frames_dropped;
+    out["frames_skipped"] = session.frames_skipped;
+    if (session.last_frame_index) out["last_frame_index"] = *session.last_frame_index;
+    if (!session.last_frame) return out;
+    const client::FrameStatistics& last = *session.last_frame;
+    out["last_frame"] = {{"particles", last.particles},           {"vertices", last.vertices},
+                         {"triangles", last.triangles},           {"total_seconds", last.total_seconds},
+                         {"encode_seconds", last.encode_seconds}, {"latency_seconds", last.latency_seconds},
+                         {"encoded_bytes", last.encoded_bytes},   {"peak_bytes", last.peak_bytes},
+                         {"device_bytes", last.device_bytes},     {"backend", last.backend}};
+    return out;
+}
+
+void print_sessions(const SessionsOptions& options) {
+    const std::vector<client::SessionInfo> sessions = options.server.connect().sessions();
+    if (options.json) {
+        auto all = nlohmann::ordered_json::array();
+        for (const client::SessionInfo& session : sessions) all.push_back(to_json(session));
+        std::cout << all.dump(2) << '\n';
+        return;
+    }
+    std::vector<SessionRow> rows;
+    for (const client::SessionInfo& session : sessions) rows.push_back({session, std::nullopt});
+    std::cout << session_table(rows);
+}
+
+}  // namespace
+
+void add_sessions(CLI::App& app) {
+    auto options = std::make_shared<SessionsOptions>();
+    CLI::App& command = *app.add_subcommand("sessions", "List a server's sessions");
+    options->server.add_to(command, "Whose")->required();
+    command.add_flag("--json", options->json, "As JSON, exact");
+    command.callback([options] { print_sessions(*options); });
+}
+
+}  // namespace meniscus::cli

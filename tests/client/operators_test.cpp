@@ -1,0 +1,172 @@
+// meniscus info, sessions and top against a real server; top in a terminal.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "meniscus/client/client.hpp"
+#include "process.hpp"
+#include "sample_files.hpp"
+#include "server.hpp"
+
+namespace meniscus::test {
+namespace {
+
+/// With one session that has finished two frames.
+class Operators : public testing::Test {
+protected:
+    Operators() {
+        Settings settings;
+        settings.particle_radius = 0.1;
+        client.create_session(id, settings);
+        auto stream = client.stream(id);
+        ParticleFrame frame;
+        const std::vector<float> positions{0.0F, 0.0F, 0.0F, 0.1F, 0.0F, 0.0F};
+        frame.positions = positions;
+        for (std::uint64_t i = 0; i < 2; ++i) {
+            stream.push(frame, i, 0.0);
+            stream.next();
+        }
+        stream.finish();
+        stream.next();
+        while (!client.session(id).last_frame || client.session(id).last_frame_index != 1) {
+        }
+    }
+
+    ProcessResult run(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin() + 1, {"--server", server.address()});
+        return run_process(MENISCUS_CLI, arguments);
+    }
+
+    server::ServerOptions options() const {
+        server::ServerOptions options;
+        options.listen = "unix:" + (directory / "socket").string();
+        options.backend.threads = 1;
+        return options;
+    }
+
+    TemporaryDirectory directory;
+    server::Server server{options()};
+    client::Client client{server.address()};
+    const std::string id = client::new_session_id();
+};
+
+TEST_F(Operators, SeeHealthAndLimits) {
+    const ProcessResult result = run({"info"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.out.find("health                 serving\n"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("sessions               16\n"), std::string::npos) << result.out;
+}
+
+TEST_F(Operators, ListSessionsForPeopleAndForPrograms) {
+    const ProcessResult table = run({"sessions"});
+    EXPECT_EQ(table.exit_code, 0) << table.err;
+    EXPECT_NE(table.out.find(id), std::string::npos) << table.out;
+    const auto json = nlohmann::json::parse(run({"sessions", "--json"}).out);
+    ASSERT_EQ(json.size(), 1U);
+    EXPECT_EQ(json[0]["id"], id);
+    EXPECT_EQ(json[0]["frames"], 2);
+    EXPECT_EQ(json[0]["last_frame"]["particles"], 2);
+    EXPECT_GT(json[0]["last_frame"]["latency_seconds"], 0);
+}
+
+TEST_F(Operators, GetOneTableOfTopWhereThereIsNoTerminal) {
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, std::vector<std::string>{"--once"}}) {
+        std::vector<std::string> arguments{"top", "--interval", "0.1"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProcessResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_NE(result.out.find(id), std::string::npos) << result.out;
+        EXPECT_EQ(result.out.find('\x1b'), std::string::npos) << "control sequences in a file";
+    }
+}
+
+/// meniscus top, and what it draws.
+class Top {
+public:
+    explicit Top(const std::string& address) {
+        const winsize size{.ws_row = 10, .ws_col = 120, .ws_xpixel = 0, .ws_ypixel = 0};
+        pid_ = ::forkpty(&terminal_, nullptr, nullptr, &size);
+        if (pid_ == 0) {
+            ::execl(MENISCUS_CLI, MENISCUS_CLI, "top", "--server", address.c_str(), "--interval", "0.1", nullptr);
+            ::_exit(127);
+        }
+    }
+    ~Top() {
+        ::kill(pid_, SIGKILL);
+        ::close(terminal_);
+    }
+    Top(const Top&) = delete;
+    Top& operator=(const Top&) = delete;
+
+    /// What has been drawn when this text is there for the n-th time, or the process has ended.
+    std::string read_until(const std::string& text, int times) {
+        std::string all;
+        for (;;) {
+            int found = 0;
+            for (std::size_t at = all.find(text); at != std::string::npos; at = all.find(text, at + 1)) ++found;
+            pollfd watched{.fd = terminal_, .events = POLLIN, .revents = 0};
+            char bytes[4096];
+            if (found >= times || ::poll(&watched, 1, 30'000) <= 0) return all;
+            const ssize_t count = ::read(terminal_, bytes, sizeof bytes);
+            if (count <= 0) return all;
+            all.append(bytes, static_cast<std::size_t>(count));
+        }
+    }
+    void press(char key) const { EXPECT_EQ(::write(terminal_, &key, 1), 1); }
+    void signal(int number) const { ::kill(pid_, number); }
+    bool echoes() const {
+        termios settings{};
+        ::tcgetattr(terminal_, &settings);
+        return (settings.c_lflag & ECHO) != 0;
+    }
+    int exit_code() const {
+        int status = 0;
+        ::waitpid(pid_, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+
+private:
+    int terminal_ = -1;
+    pid_t pid_ = -1;
+};
+
+TEST_F(Operators, WatchTopUntilTheyLeaveAndFindTheTerminalAsItWas) {
+    const auto leave_by = [&](const auto& end) {
+        Top top(server.address());
+        const std::string drawn = top.read_until(id, 3);
+        EXPECT_NE(drawn.find(id), std::string::npos) << drawn;
+        EXPECT_FALSE(top.echoes());
+        // Lines are replaced in place: a screen that is cleared first would flicker.
+        EXPECT_EQ(drawn.find("\x1b[2J"), std::string::npos);
+        end(top);
+        const std::string rest = top.read_until("never drawn", 1);
+        EXPECT_TRUE(rest.ends_with("\x1b[?25h\x1b[?1049l")) << "the first screen and its cursor are not back";
+        EXPECT_EQ(top.exit_code(), 0);
+    };
+    leave_by([](const Top& top) { top.press('q'); });
+    leave_by([](const Top& top) { top.press('\x03'); });
+    leave_by([](const Top& top) { top.signal(SIGTERM); });
+}
+
+TEST_F(Operators, AreToldByTopThatTheServerHasGone) {
+    Top top(server.address());
+    top.read_until(id, 1);
+    server.shutdown();
+    const std::string drawn = top.read_until("is not available", 2);
+    EXPECT_NE(drawn.find("is not available"), std::string::npos) << drawn;
+    top.press('q');
+    top.read_until("never drawn", 1);
+    EXPECT_EQ(top.exit_code(), 0);
+}
+
+}  // namespace
+}  // namespace meniscus::test
