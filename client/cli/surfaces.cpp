@@ -2,11 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <limits>
-#include <map>
 #include <utility>
 
 #include "cli/local_surfaces.hpp"
+#include "cli/policy_options.hpp"
 #include "cli/server_surfaces.hpp"
 #include "formats/brick_file.hpp"
 #include "meniscus/error.hpp"
@@ -45,21 +44,7 @@ CLI::Option* add_backend_option(CLI::App& command, Backend& backend) {
 namespace {
 
 void add_stream_options(CLI::App& command, client::StreamOptions& stream, CLI::Option& server) {
-    static const std::map<std::string, client::UploadPolicy> policies{{"every-frame", client::UploadPolicy::every_frame},
-                                                                      {"latest", client::UploadPolicy::latest},
-                                                                      {"every-nth", client::UploadPolicy::every_nth}};
-    auto* policy = command
-                       .add_option("--policy", stream.policy,
-                                   "With --server: what happens to frames that come faster than they are reconstructed: "
-                                   "every-frame (they wait), latest (newer ones replace them), every-nth (see --nth)")
-                       ->transform(CLI::CheckedTransformer(policies).description(""))
-                       ->type_name("NAME")
-                       ->default_str("every-frame")
-                       ->needs(&server);
-    command.add_option("--nth", stream.nth, "With --policy every-nth: of so many frames one is reconstructed")
-        ->check(CLI::Range(1U, std::numeric_limits<std::uint32_t>::max()))
-        ->needs(policy)
-        ->capture_default_str();
+    add_policy_options(command, stream)->needs(&server);
     stream.reconnect = std::chrono::seconds(30);
     command
         .add_option_function<double>(

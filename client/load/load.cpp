@@ -33,7 +33,7 @@ public:
 
     void start(const Frames& frames, const Schedule& schedule) {
         uploads_ = std::async(std::launch::async, [this, &frames, &schedule] {
-            return simulate(client_, session_, {.receive_meshes = options_.meshes}, frames, schedule);
+            return simulate(client_, session_, options_.stream, frames, schedule);
         });
         for (std::size_t i = 0; i < watchers_.size(); ++i) {
             const double pause = i < options_.watchers ? 0.0 : options_.slow_seconds;

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/policy_options.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::load {
@@ -23,7 +24,8 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, L
     app.add_option("--seconds", options.seconds, "How long simulators send")->check(CLI::Range(0.001, 1e7));
     app.add_option("--warm-up", options.warm_up, "Seconds at the beginning whose latencies do not count")
         ->check(CLI::Range(0.0, 1e7));
-    app.add_flag("--meshes,!--no-meshes", options.meshes, "Whether simulators want their meshes back")->default_str("true");
+    app.add_flag("--meshes,!--no-meshes", options.stream.receive_meshes, "Whether simulators want their meshes back")->default_str("true");
+    cli::add_policy_options(app, options.stream);
     auto* particles = app.add_option("--particles", options.particles, "Particles of a frame of generated, moving water")
                           ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
     app.add_option("--input", options.files, "Particle files to send in its place, one after the other and over again")

@@ -9,6 +9,7 @@
 
 #include "cli/server_flags.hpp"
 #include "cli/settings_options.hpp"
+#include "meniscus/client/client.hpp"
 
 namespace meniscus::load {
 
@@ -27,7 +28,7 @@ struct LoadOptions {
     double rate = 10.0;     ///< frames per second of each simulator
     double seconds = 10.0;  ///< how long they send
     double warm_up = 1.0;   ///< seconds at the beginning that are not measured
-    bool meshes = true;     ///< whether simulators want their meshes back
+    client::StreamOptions stream;
 
     std::size_t particles = 16000;   ///< of a frame of moving water
     std::vector<std::string> files;  ///< sent in place of moving water, one after the other and over again

@@ -43,7 +43,7 @@ Json to_json(const LoadOptions& options) {
             {"rate", options.rate},
             {"seconds", options.seconds},
             {"warm_up", options.warm_up},
-            {"meshes", options.meshes},
+            {"meshes", options.stream.receive_meshes},
             {"particles", options.files.empty() ? Json(options.particles) : Json()},
             {"input", options.files}};
 }

@@ -49,6 +49,7 @@ UploadOutcome receive(client::Stream& stream, const Schedule& schedule) {
     } catch (...) {
         count_error(outcome.errors, std::current_exception());
     }
+    outcome.dropped = stream.dropped();
     return outcome;
 }
 

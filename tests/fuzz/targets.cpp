@@ -5,6 +5,8 @@ namespace meniscus::fuzz {
 const std::vector<Target>& targets() {
     static const std::vector<Target> all{
         {"stream_requests", stream_requests, stream_request_seeds},
+        {"frame_chunks", frame_chunks, frame_chunk_seeds},
+        {"watch_requests", watch_requests, watch_request_seeds},
         {"stream_responses", stream_responses, stream_response_seeds},
         {"watch_responses", watch_responses, watch_response_seeds},
         {"settings", settings, settings_seeds},

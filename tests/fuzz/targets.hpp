@@ -15,6 +15,15 @@ using Seeds = std::vector<std::string>;
 void stream_requests(Bytes bytes);
 Seeds stream_request_seeds();
 
+/// The piece size in which a message lies in memory (1 byte), and a message of a Stream call: what the reader of particle bytes
+/// takes for a chunk, protobuf takes for the same.
+void frame_chunks(Bytes bytes);
+Seeds frame_chunk_seeds();
+
+/// The request of a Watch call.
+void watch_requests(Bytes bytes);
+Seeds watch_request_seeds();
+
 /// Answers of a Stream and of a Watch call, as the client reads them, and their meshes: a list of messages.
 void stream_responses(Bytes bytes);
 Seeds stream_response_seeds();

@@ -66,6 +66,17 @@ TEST(Load, MeasuresFromWhenAFrameWasDueAlsoOnAServerThatStalls) {
     EXPECT_EQ(result.uploads.lost(), 0U);
 }
 
+TEST(Load, CountsWhatAPolicyDrops) {
+    Process process(on_free_port());
+    LoadOptions options = small(process.address());
+    options.stream.policy = client::UploadPolicy::every_nth;
+    options.stream.nth = 3;
+    const LoadResult result = run_load(options);
+    EXPECT_EQ(result.uploads.answered, (result.uploads.sent + 2) / 3);
+    EXPECT_EQ(result.uploads.dropped, result.uploads.sent - result.uploads.answered);
+    EXPECT_FALSE(has_failures(result)) << to_table(result);
+}
+
 TEST(Load, ReportsFailuresByStatus) {
     Process process(on_free_port({"--max-particles", "199"}));
     const LoadOptions options = small(process.address());

@@ -12,6 +12,7 @@ ServerOptions bad_input_options() {
     options.limits.watchers_per_session = 2;
     options.limits.particles_per_frame = 1'000'000;
     options.limits.bytes_per_session = 12'000'000;
+    options.limits.chunks_per_frame = 1000;
     return options;
 }
 

@@ -30,6 +30,14 @@ std::function<grpc::Status(RunningServer&)> ten_particles_in(std::vector<std::si
     });
 }
 
+/// A frame of one particle that never gets to its bytes.
+std::function<grpc::Status(RunningServer&)> empty_chunks(int chunks) {
+    return after_a_good_frame([=](RawStream& s) {
+        s.send_begin(11, 1);
+        for (int i = 0; i < chunks; ++i) s.send_chunk(0);
+    });
+}
+
 std::function<grpc::Status(RunningServer&)> index(std::uint64_t frame_index) {
     return after_a_good_frame([=](RawStream& s) {
         s.send_begin(frame_index, 0);
@@ -82,6 +90,9 @@ std::vector<BadInputCase> frame_cases() {
              s.send_begin(11, 100'000);
              s.send_chunk(chunk_bytes + 1);
          })},
+        {"AsManyChunksAsTheLimit", invalid, "the stream ended within frame 11, after 0 of 12 bytes", empty_chunks(1000)},
+        {"OneChunkPastTheLimit", exhausted, "frame 11: more than 1000 chunks; the server takes at most 1000 per frame",
+         empty_chunks(1001)},
         {"AsManyParticlesAsTheLimit", invalid, "the stream ended within frame 11, after 0 of 12000000 bytes",
          announces(1'000'000)},
         {"OneParticlePastTheLimit", exhausted, "frame 11: 1000001 particles; the server takes at most 1000000 per frame",

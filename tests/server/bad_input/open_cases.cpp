@@ -76,6 +76,12 @@ std::vector<BadInputCase> open_cases() {
     const auto normal_bits = [](std::uint32_t bits) {
         return open_with([=](v1::StreamOpen& open) { open.set_normal_bits(bits); });
     };
+    const auto every_nth = [](std::uint32_t nth) {
+        return open_with([=](v1::StreamOpen& open) {
+            open.set_policy(v1::UPLOAD_POLICY_EVERY_NTH);
+            open.set_nth(nth);
+        });
+    };
     return {
         {"NoNormals", ok, "", normal_bits(0)},
         {"OneNormalBit", invalid, "normal_bits is 1; it must be 0 (no normals) or 2 to 16", normal_bits(1)},
@@ -83,6 +89,10 @@ std::vector<BadInputCase> open_cases() {
         {"SixteenNormalBits", ok, "", normal_bits(16)},
         {"SeventeenNormalBits", invalid, "normal_bits is 17; it must be 0 (no normals) or 2 to 16", normal_bits(17)},
         {"MoreNormalBitsThanAnIntHolds", invalid, "normal_bits is 4294967295", normal_bits(0xFFFFFFFFU)},
+        {"APolicyOfTheFuture", invalid, "policy has the value 4, which this version does not know",
+         open_with([](v1::StreamOpen& open) { open.set_policy(static_cast<v1::UploadPolicy>(4)); })},
+        {"EveryFrameOfOne", ok, "", every_nth(1)},
+        {"EveryFrameOfNone", invalid, "nth is 0; with UPLOAD_POLICY_EVERY_NTH it must be at least 1", every_nth(0)},
         {"NoSessionIdInTheMetadata", invalid, "the call has no metadata x-session-id",
          [](RunningServer& running) {
              RawStream stream(running.server.address());

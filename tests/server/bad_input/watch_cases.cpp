@@ -60,30 +60,49 @@ std::vector<BadInputCase> watch_cases() {
     const auto normal_bits = [](std::uint32_t bits) {
         return wish([=](v1::WatchRequest& request) { request.set_normal_bits(bits); });
     };
+    const auto position_bits = [](std::uint32_t bits) {
+        return wish([=](v1::WatchRequest& request) { request.set_position_bits(bits); });
+    };
+    const auto max_level = [](std::uint32_t level) {
+        return wish([=](v1::WatchRequest& request) { request.set_max_level(level); });
+    };
+    const auto region = [](double low, double high) {
+        return wish([=](v1::WatchRequest& request) {
+            request.mutable_region()->mutable_min()->set_y(low);
+            request.mutable_region()->mutable_max()->set_x(1.0);
+            request.mutable_region()->mutable_max()->set_y(high);
+            request.mutable_region()->mutable_max()->set_z(1.0);
+        });
+    };
     return {
+        {"TheCoarsestPositions", ok, "", position_bits(2)},
+        {"PositionsTooCoarse", invalid, "position_bits is 1; it must be 2 to 6, the session's, or not set", position_bits(1)},
+        {"TheFinestPositions", ok, "", position_bits(6)},
+        {"PositionsFinerThanTheMesh", invalid, "position_bits is 7; it must be 2 to 6", position_bits(7)},
+        {"TheCoarsestLevelOfGrid", ok, "", max_level(1)},
+        {"TheLevelZeroOfGrid", invalid, "max_level is 0; it must be 1 to 3, or not set", max_level(0)},
+        {"TheFinestLevelOfGrid", ok, "", max_level(3)},
+        {"ALevelOfGridPastTheFinest", invalid, "max_level is 4; it must be 1 to 3, or not set", max_level(4)},
+        {"AHugeRegion", ok, "", region(-1e300, 1e300)},
+        {"AFlatRegion", invalid, "region runs from 1 to 1 on the y axis; it must be finite, its min less than its max",
+         region(1.0, 1.0)},
+        {"AnEndlessRegion", invalid, "region runs from 0 to inf on the y axis",
+         region(0.0, std::numeric_limits<double>::infinity())},
+        {"ARegionThatIsNoNumber", invalid, "region runs from nan to 1 on the y axis",
+         region(std::numeric_limits<double>::quiet_NaN(), 1.0)},
+        {"ARegionWithoutACorner", invalid, "region needs both its corners, min and max",
+         wish([](v1::WatchRequest& request) { request.mutable_region()->mutable_min(); })},
+        {"AViewpointThatIsNoNumber", invalid, "viewpoint is (0, 0, nan); it must be finite",
+         wish([](v1::WatchRequest& request) {
+             request.mutable_viewpoint()->set_z(std::numeric_limits<double>::quiet_NaN());
+         })},
+        {"OneBytePerSecond", ok, "", wish([](v1::WatchRequest& request) { request.set_bytes_per_second(1); })},
+        {"MoreBytesPerSecondThanThereAre", ok, "", wish([](v1::WatchRequest& request) {
+             request.set_bytes_per_second(std::numeric_limits<std::uint64_t>::max());
+         })},
         {"AWatcherWithSixteenNormalBits", ok, "", normal_bits(16)},
         {"AWatcherWithSeventeenNormalBits", invalid, "normal_bits is 17; it must be 0 (no normals) or 2 to 16", normal_bits(17)},
         {"AWatcherWithOneNormalBit", invalid, "normal_bits is 1; it must be 0 (no normals) or 2 to 16", normal_bits(1)},
-        {"AWatcherWithTwoPositionBits", ok, "", wish([](v1::WatchRequest& request) { request.set_position_bits(2); })},
-        {"AWatcherWithOnePositionBit", invalid, "position_bits is 1; it must be 2 to 6",
-         wish([](v1::WatchRequest& request) { request.set_position_bits(1); })},
-        {"AWatcherWithMorePositionBitsThanTheMeshHas", invalid, "position_bits is 7; it must be 2 to 6",
-         wish([](v1::WatchRequest& request) { request.set_position_bits(7); })},
-        {"AWatcherOfTheCoarsestLevelAlone", ok, "", wish([](v1::WatchRequest& request) { request.set_max_level(1); })},
-        {"AWatcherOfLevelZero", invalid, "max_level is 0; it must be 1 to 3",
-         wish([](v1::WatchRequest& request) { request.set_max_level(0); })},
-        {"AWatcherOfLevelFour", invalid, "max_level is 4; it must be 1 to 3",
-         wish([](v1::WatchRequest& request) { request.set_max_level(4); })},
-        {"AWatcherOfARegionWithoutCorners", invalid, "region", wish([](v1::WatchRequest& request) { request.mutable_region(); })},
-        {"AWatcherOfAnEmptyRegion", invalid, "region runs from 0 to 0 on the x axis",
-         wish([](v1::WatchRequest& request) {
-             request.mutable_region()->mutable_min();
-             request.mutable_region()->mutable_max();
-         })},
-        {"AWatcherWhoseViewpointIsNotFinite", invalid, "viewpoint is (nan, 0, 0); it must be finite",
-         wish([](v1::WatchRequest& request) {
-             request.mutable_viewpoint()->set_x(std::numeric_limits<double>::quiet_NaN());
-         })},
         {"AWatcherWithoutSessionId", invalid, "the message's session id is \"\"; it must be a UUID",
          wish([](v1::WatchRequest& request) { request.clear_session_id(); })},
         {"AWatcherOfAnotherSessionThanItsMetadataSays", invalid, "but the message's session id is " + no_session,

@@ -1,0 +1,16 @@
+// The flags --policy and --nth, of whatever uploads.
+#pragma once
+
+#include "meniscus/client/client.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}
+
+namespace meniscus::cli {
+
+/// Returns --policy, for what it requires.
+CLI::Option* add_policy_options(CLI::App& command, client::StreamOptions& stream);
+
+}  // namespace meniscus::cli
