@@ -144,7 +144,7 @@ private:
                 if (enter_frame(false))
                     request_input();
                 else
-                    end_reading(shutting_down());
+                    end_reading(std::make_exception_ptr(shutting_down()));
                 return false;
             case v1::StreamRequest::MESSAGE_NOT_SET:
                 break;
@@ -254,11 +254,7 @@ private:
             draining_ = true;
             if (in_frame_) return;
         }
-        stop_reading(shutting_down());
-    }
-
-    static std::exception_ptr shutting_down() {
-        return std::make_exception_ptr(Refusal(Refusal::Kind::unavailable, "the server is shutting down"));
+        stop_reading(std::make_exception_ptr(shutting_down()));
     }
 
     /// Ends a call that never had an upload.

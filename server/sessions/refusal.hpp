@@ -17,4 +17,8 @@ private:
     Kind kind_;
 };
 
+inline Refusal shutting_down() {
+    return {Refusal::Kind::unavailable, "the server is shutting down"};
+}
+
 }  // namespace meniscus::server

@@ -15,23 +15,19 @@
 #include <vector>
 
 #include "meniscus/mesh.hpp"
-#include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
-#include "meniscus/statistics.hpp"
-#include "metrics/metrics.hpp"
-#include "sessions/bytes_in_flight.hpp"
 #include "sessions/channel.hpp"
 #include "sessions/frame_encoder.hpp"
 #include "sessions/frame_queue.hpp"
 #include "sessions/frame_rate.hpp"
 #include "sessions/input_frame.hpp"
 #include "sessions/limits.hpp"
+#include "sessions/reconstruct_functions.hpp"
 #include "sessions/session_observer.hpp"
+#include "sessions/shared_resources.hpp"
 #include "sessions/slot_pool.hpp"
-#include "sessions/turns.hpp"
 #include "sessions/upload.hpp"
 #include "sessions/watch.hpp"
-#include "sessions/worker_pool.hpp"
 
 namespace meniscus::server {
 
@@ -47,17 +43,9 @@ struct SessionState {
     std::chrono::duration<double> watcher_lag{0.0};   ///< of the watcher that lags most
 };
 
-/// Replaces the mesh by the frame's surface; throws what Reconstructor::reconstruct throws.
-using Reconstruct = std::function<Statistics(const ParticleFrame& frame, Mesh& mesh)>;
-
-/// Replaces the mesh by the last frame's surface with its levels capped; throws what Reconstructor::emit_capped throws.
-using EmitCapped = std::function<void(int max_level, Mesh& mesh)>;
-
-/// What sessions share.
-struct SharedResources {
-    /// On the device that the session reconstructs on.
-    std::shared_ptr<Turns> turns = std::make_shared<Turns>();
-    std::shared_ptr<BytesInFlight> bytes_in_flight = std::make_shared<BytesInFlight>();
+struct SessionIdentity {
+    std::string id;
+    std::string owner{};  ///< who made it; empty where nobody is asked
 };
 
 /// A pipeline of three steps that overlap: a frame is received (by its stream, into one of two input slots) while the
@@ -68,18 +56,15 @@ struct SharedResources {
 /// join() must have returned before the last reference goes, unless no other thread has one.
 class Session {
 public:
-    /// owner: who made it; empty where nobody is asked. emit_capped: called by the thread that calls reconstruct; none if no
-    /// watcher will wish for a level cap. observer: may be none.
-    Session(std::string id, const Settings& settings, const Limits& limits, Reconstruct reconstruct,
-            std::shared_ptr<WorkerPool> workers, std::string owner = {},
-            std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>(), EmitCapped emit_capped = nullptr,
-            std::shared_ptr<SessionObserver> observer = nullptr, SharedResources shared = {});
+    /// observer: may be none.
+    Session(SessionIdentity identity, const Settings& settings, const Limits& limits, ReconstructFunctions functions,
+            SharedResources shared, std::shared_ptr<SessionObserver> observer = nullptr);
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    const std::string& id() const noexcept { return id_; }
-    const std::string& owner() const noexcept { return owner_; }
+    const std::string& id() const noexcept { return identity_.id; }
+    const std::string& owner() const noexcept { return identity_.owner; }
     const Settings& settings() const noexcept { return settings_; }
     const Limits& limits() const noexcept { return limits_; }
     SessionState state() const;
@@ -192,16 +177,12 @@ private:
     void encode_for_observer();
     std::optional<MeshFormat> unpublished_format() const;
 
-    const std::string id_;
-    const std::string owner_;
+    const SessionIdentity identity_;
     const Settings settings_;
     const Limits limits_;
-    const std::shared_ptr<WorkerPool> workers_;
-    const Reconstruct reconstruct_;
-    const std::shared_ptr<Metrics> metrics_;
-    const EmitCapped emit_capped_;
-    const std::shared_ptr<SessionObserver> observer_;
+    const ReconstructFunctions functions_;
     const SharedResources shared_;
+    const std::shared_ptr<SessionObserver> observer_;
 
     std::array<InputFrame, 3> inputs_;  ///< the last one for UploadPolicy::latest
     std::array<ReconstructedFrame, 2> frames_;

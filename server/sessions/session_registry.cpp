@@ -72,7 +72,7 @@ SessionRegistry::~SessionRegistry() {
 std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Settings& settings,
                                                  const std::string& owner) {
     const std::lock_guard lock(mutex_);
-    if (draining_) throw Refusal(Refusal::Kind::unavailable, "the server is shutting down");
+    if (draining_) throw shutting_down();
     remove_ended();
     if (const auto found = sessions_.find(id); found != sessions_.end()) {
         if (found->second->settings() == settings) {
@@ -85,10 +85,9 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
         throw LimitExceeded(
             fmt::format("{} sessions are open; the server holds at most {}", sessions_.size(), limits_.sessions));
     const BackendOptions backend = place_session();
-    ReconstructFunctions functions = make_reconstruct_(settings, backend);
-    auto session = std::make_shared<Session>(id, settings, limits_, std::move(functions.reconstruct), workers_, owner, metrics_,
-                                             std::move(functions.emit_capped), observe_ ? observe_(id, settings) : nullptr,
-                                             shared_on(backend));
+    auto session = std::make_shared<Session>(SessionIdentity{.id = id, .owner = owner}, settings, limits_,
+                                             make_reconstruct_(settings, backend), shared_on(backend),
+                                             observe_ ? observe_(id, settings) : nullptr);
     sessions_.emplace(id, session);
     log_info({.session = id}, "created on {} ({} open)", place_name(backend), sessions_.size());
     return session;
@@ -148,7 +147,7 @@ SharedResources SessionRegistry::shared_on(const BackendOptions& place) {
     constexpr int cpu = -1;
     auto& turns = turns_[place.backend == Backend::cuda ? place.device : cpu];
     if (!turns) turns = std::make_shared<Turns>();
-    return {.turns = turns, .bytes_in_flight = bytes_in_flight_};
+    return {.workers = workers_, .metrics = metrics_, .turns = turns, .bytes_in_flight = bytes_in_flight_};
 }
 
 void SessionRegistry::drain(std::chrono::duration<double> grace) {
@@ -170,8 +169,8 @@ void SessionRegistry::end_idle(std::chrono::steady_clock::time_point now) {
             sessions_.erase(found);
         }
         session->close();
-        spdlog::info("session {} removed: nobody has used it for {:.3g} s", session->id(),
-                     std::chrono::duration<double>(limits_.idle_time).count());
+        log_info({.session = session->id()}, "removed: nobody has used it for {:.3g} s",
+                 std::chrono::duration<double>(limits_.idle_time).count());
         removed_.put(session);
     }
 }

@@ -16,7 +16,6 @@
 #include "sessions/limits.hpp"
 #include "sessions/periodic.hpp"
 #include "sessions/session.hpp"
-#include "sessions/worker_pool.hpp"
 
 namespace meniscus::server {
 
@@ -24,10 +23,6 @@ namespace meniscus::server {
 using Observe = std::function<std::shared_ptr<SessionObserver>(const std::string& id, const Settings& settings)>;
 
 /// What a new session reconstructs with.
-struct ReconstructFunctions {
-    Reconstruct reconstruct;
-    EmitCapped emit_capped;
-};
 using MakeReconstruct = std::function<ReconstructFunctions(const Settings& settings, const BackendOptions& backend)>;
 
 /// Those of a Reconstructor.

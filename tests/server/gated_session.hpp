@@ -20,13 +20,16 @@ struct GatedSession {
 
     std::counting_semaphore<> gate{0};  ///< one reconstruction for each
     std::atomic<int> begun{0};
-    Session session{id, settings(), Limits{},
-                    [this, cpu = reconstruct_on_the_cpu()](const ParticleFrame& frame, Mesh& mesh) {
-                        ++begun;
-                        gate.acquire();
-                        return cpu(frame, mesh);
-                    },
-                    std::make_shared<WorkerPool>(1)};
+    Session session{{.id = id},
+                    settings(),
+                    Limits{},
+                    {.reconstruct =
+                         [this, cpu = reconstruct_on_the_cpu()](const ParticleFrame& frame, Mesh& mesh) {
+                             ++begun;
+                             gate.acquire();
+                             return cpu(frame, mesh);
+                         }},
+                    {.workers = std::make_shared<WorkerPool>(1)}};
     const Particles particles = wave(4, 0.0);
 };
 

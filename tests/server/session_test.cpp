@@ -87,11 +87,16 @@ struct SessionPipeline : testing::Test {
     Limits limits{.watchers_per_session = 3};
     std::shared_ptr<WorkerPool> workers = std::make_shared<WorkerPool>(2);
     std::atomic<int> caps_emitted{0};
-    Session session{id,      test::settings(), limits, reconstruct_on_the_cpu(),
-                    workers, {},               std::make_shared<Metrics>(), [this](int max_level, Mesh& mesh) {
-                        ++caps_emitted;
-                        emit_capped(max_level, mesh);
-                    }};
+    Session session{{.id = id},
+                    test::settings(),
+                    limits,
+                    {.reconstruct = reconstruct_on_the_cpu(),
+                     .emit_capped =
+                         [this](int max_level, Mesh& mesh) {
+                             ++caps_emitted;
+                             emit_capped(max_level, mesh);
+                         }},
+                    {.workers = workers}};
     const test::Particles particles = test::wave(6, 0.0);
 };
 
@@ -269,7 +274,7 @@ TEST(SessionOnADevice, AnswersWhatCameBeforeTheDeviceFailedThenEndsItsUploadsAnd
         if (++frames == 2) throw DeviceError("cudaStreamSynchronize", "unspecified launch failure", 1);
         return cpu(frame, mesh);
     };
-    Session session(id, test::settings(), {}, fails_second, std::make_shared<WorkerPool>(1));
+    Session session({.id = id}, test::settings(), {}, {.reconstruct = fails_second}, {.workers = std::make_shared<WorkerPool>(1)});
     const auto particles = test::wave(6, 0.0);
     Spectator watcher(session);
     Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});

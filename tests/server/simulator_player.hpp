@@ -94,7 +94,7 @@ struct Simulator {
     std::exception_ptr error;
 };
 
-inline Reconstruct reconstruct_on_the_cpu() {
+inline decltype(ReconstructFunctions::reconstruct) reconstruct_on_the_cpu() {
     return [reconstructor = std::make_shared<Reconstructor>(settings(), BackendOptions{.threads = 2})](
                const ParticleFrame& frame, Mesh& mesh) {
         reconstructor->reconstruct(frame, mesh);

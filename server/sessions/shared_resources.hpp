@@ -1,0 +1,20 @@
+// What a server's sessions share.
+#pragma once
+
+#include <memory>
+
+#include "metrics/metrics.hpp"
+#include "sessions/bytes_in_flight.hpp"
+#include "sessions/turns.hpp"
+#include "sessions/worker_pool.hpp"
+
+namespace meniscus::server {
+
+struct SharedResources {
+    std::shared_ptr<WorkerPool> workers;  ///< encode
+    std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>();
+    std::shared_ptr<Turns> turns = std::make_shared<Turns>();  ///< on the device that the session reconstructs on
+    std::shared_ptr<BytesInFlight> bytes_in_flight = std::make_shared<BytesInFlight>();
+};
+
+}  // namespace meniscus::server
