@@ -12,5 +12,6 @@ void add_scaling(CLI::App& app);
 void add_encoding(CLI::App& app);
 void add_goals(CLI::App& app);
 void add_upload(CLI::App& app);
+void add_service(CLI::App& app);
 
 }  // namespace meniscus::benchmarks

@@ -17,13 +17,14 @@ int report_failure(const std::exception& e, int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Measures what reconstruction, encoding and uploads cost", "meniscus-bench");
+    CLI::App app("Measures what reconstruction, encoding, uploads and the service cost", "meniscus-bench");
     app.require_subcommand(1);
     meniscus::benchmarks::add_experiment(app);
     meniscus::benchmarks::add_scaling(app);
     meniscus::benchmarks::add_encoding(app);
     meniscus::benchmarks::add_goals(app);
     meniscus::benchmarks::add_upload(app);
+    meniscus::benchmarks::add_service(app);
     try {
         meniscus::benchmarks::remember_command(argc, argv);
         app.parse(argc, argv);

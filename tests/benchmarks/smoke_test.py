@@ -1,4 +1,4 @@
-"""Runs every subcommand of meniscus-bench at a tiny size: smoke_test.py MENISCUS-BENCH."""
+"""Runs every subcommand of meniscus-bench at a tiny size: smoke_test.py MENISCUS-BENCH MENISCUSD."""
 
 import csv
 import json
@@ -47,6 +47,16 @@ def check_goals(bench):
             check(found == (expected if backend == "cuda" else [(None, None)] * 6), f"goals: {backend} gives {found}")
 
 
+def check_service(bench, meniscusd, folder):
+    """Serving frames takes at least the processor time of reconstructing and encoding them; a server that is not there is named."""
+    tiny = ["--particles", "16000", "--frames", "3", "--repeats", "1", "--out", folder]
+    subprocess.run([bench, "service", "--meniscusd", meniscusd, *tiny], check=True)
+    (row,) = read_rows(folder, "service")
+    check(float(row["here_processor_seconds"]) > 0 and float(row["served_over_here"]) > 0.5, f"service: {row}")
+    missing = subprocess.run([bench, "service", "--meniscusd", folder / "nowhere", *tiny], capture_output=True, text=True)
+    check(missing.returncode == 1 and "nowhere" in missing.stderr, f"service: a missing program gives {missing}")
+
+
 def main():
     bench = sys.argv[1]
     with tempfile.TemporaryDirectory() as temporary:
@@ -65,6 +75,7 @@ def main():
         check(len(plots) == 4, f"experiment: {len(plots)} plots, should be 4")
         lines = [len(xml.etree.ElementTree.parse(p).findall("{http://www.w3.org/2000/svg}polyline")) for p in plots]
         check(lines == [2, 2, 8, 4], f"experiment: lines in the plots are {lines}")
+        check_service(bench, sys.argv[2], folder)
     check_goals(bench)
     check(subprocess.run([bench, "encoding", "--water", "ice"], capture_output=True).returncode == 2, "wrong input is refused")
     for name in ("experiment", "scaling"):

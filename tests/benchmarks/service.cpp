@@ -1,0 +1,154 @@
+// meniscus-bench service: processor time of meniscusd, against that of reconstructing and encoding the same frames here.
+#include <CLI/CLI.hpp>
+#include <array>
+#include <future>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+#include "backend_options.hpp"
+#include "benchmarks.hpp"
+#include "meniscus/brick_coding.hpp"
+#include "meniscus/client/client.hpp"
+#include "meniscus/reconstructor.hpp"
+#include "report.hpp"
+#include "server_program.hpp"
+#include "warm_runs.hpp"
+#include "water.hpp"
+
+namespace meniscus::benchmarks {
+namespace {
+
+struct ServiceOptions {
+    std::vector<std::size_t> particles{basin_particles, 16 * basin_particles};
+    double cell_size = 1.0;
+    unsigned frames = 20;
+    unsigned repeats = 5;
+    int normal_bits = 8;
+    std::string program = "meniscusd";
+    std::string out = "tests/benchmarks/results";
+};
+
+using Frames = std::vector<std::vector<float>>;
+
+/// The water moves by a fraction of a cell from frame to frame, so that no brick is ever the same again.
+Frames moving_water(std::size_t particles, const Settings& settings, unsigned count) {
+    Frames frames(count, make_water(WaterKind::splashing, particles, static_cast<float>(settings.particle_radius)));
+    const double step = 0.37 * settings.cell_size * settings.particle_radius;
+    for (unsigned i = 0; i < count; ++i)
+        for (float& coordinate : frames[i]) coordinate += static_cast<float>(i * step);
+    return frames;
+}
+
+ParticleFrame frame_of(const std::vector<float>& positions) {
+    ParticleFrame frame;
+    frame.positions = positions;
+    return frame;
+}
+
+/// Of one frame, in this process: one thread reconstructs while another one encodes the frame before. Two cores may be one
+/// core's two threads, and each then takes more processor time than alone: as in the server, so that the two compare.
+double processor_seconds_here(const Frames& frames, const Settings& settings, const CodingOptions& coding) {
+    Reconstructor reconstructor(settings, one_cpu_thread);
+    std::array<Mesh, 2> meshes;
+    const auto run = [&] {
+        std::future<void> encoding;
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            Mesh& mesh = meshes[i % 2];
+            reconstructor.reconstruct(frame_of(frames[i]), mesh);
+            if (encoding.valid()) encoding.get();
+            encoding = std::async(std::launch::async, [&mesh, &coding] {
+                for (std::size_t brick = 0; brick < mesh.bricks.size(); ++brick) encode_brick(mesh, brick, coding);
+            });
+        }
+        encoding.get();
+    };
+    run();  // warm
+    const double before = processor_seconds();
+    run();
+    return (processor_seconds() - before) / static_cast<double>(frames.size());
+}
+
+void stream_frames(client::Client& client, const std::string& session, const Frames& frames, int normal_bits) {
+    client::StreamOptions wishes;
+    wishes.normal_bits = normal_bits;
+    auto stream = client.stream(session, wishes);
+    for (std::size_t i = 0; i < frames.size(); ++i) stream.push(frame_of(frames[i]), i, 0.0);
+    stream.finish();
+    while (stream.next()) {
+    }
+}
+
+/// Of one frame, in meniscusd.
+double processor_seconds_served(const Frames& frames, const Settings& settings, const ServiceOptions& options) {
+    const ServerProgram server(options.program, {"--threads", "1", "--backend", "cpu", "--log-level", "warning"});
+    client::Client client(server.address());
+    const std::string session = client::new_session_id();
+    client.create_session(session, settings);
+    stream_frames(client, session, frames, options.normal_bits);  // warm
+    const double before = server.processor_seconds();
+    stream_frames(client, session, frames, options.normal_bits);
+    return (server.processor_seconds() - before) / static_cast<double>(frames.size());
+}
+
+Row measure(std::size_t particles, const ServiceOptions& options) {
+    Settings settings;
+    settings.particle_radius = 0.025;
+    settings.cell_size = options.cell_size;
+    const Frames frames = moving_water(particles, settings, options.frames);
+    std::vector<double> here;
+    std::vector<double> served;
+    std::vector<double> ratios;
+    for (unsigned i = 0; i < options.repeats; ++i) {  // in turn, so that both see the same machine
+        here.push_back(processor_seconds_here(frames, settings, {.normal_bits = options.normal_bits}));
+        served.push_back(processor_seconds_served(frames, settings, options));
+        ratios.push_back(served.back() / here.back());
+    }
+    Row row;
+    row["particles"] = frames.front().size() / 3;
+    row["here_processor_seconds"] = median(here);
+    row["served_processor_seconds"] = median(served);
+    row["served_over_here"] = median(ratios);
+    return row;
+}
+
+void run_service(const ServiceOptions& options) {
+    std::cout << "particles  reconstruct + encode ms  meniscusd ms   ratio\n" << std::fixed;
+    Rows rows = Rows::array();
+    for (const std::size_t particles : options.particles) {
+        const Row row = measure(particles, options);
+        const auto number = [&row](const char* name) { return row[name].get<double>(); };
+        std::cout << std::setw(9) << row["particles"].get<std::size_t>() << std::setprecision(2) << std::setw(25)
+                  << 1e3 * number("here_processor_seconds") << std::setw(14) << 1e3 * number("served_processor_seconds")
+                  << std::setprecision(3) << std::setw(8) << number("served_over_here") << std::endl;
+        rows.push_back(row);
+    }
+    nlohmann::ordered_json summary;
+    summary["runs"] = "processor time per frame, frames overlapping, one thread reconstructs and one encodes; median of " +
+                      std::to_string(options.repeats) + " pairs";
+    summary["frames"] = options.frames;
+    summary["cell_size"] = options.cell_size;
+    summary["normal_bits"] = options.normal_bits;
+    write_report(options.out, "service", summary, rows);
+}
+
+}  // namespace
+
+void add_service(CLI::App& app) {
+    auto options = std::make_shared<ServiceOptions>();
+    CLI::App& command = *app.add_subcommand("service", "Processor time that meniscusd adds to reconstruct and encode");
+    command.add_option("--meniscusd", options->program, "The program; looked for in PATH if it is a name alone")->capture_default_str();
+    command.add_option("--particles", options->particles, "Of a frame of splashing water")->capture_default_str();
+    command.add_option("--cell-size", options->cell_size, "In particle radii")->capture_default_str();
+    command.add_option("--frames", options->frames, "Of a run, after as many that do not count")
+        ->check(CLI::Range(1U, 100'000U))
+        ->capture_default_str();
+    command.add_option("--normal-bits", options->normal_bits, "Per component of a normal; 0: no normals")->capture_default_str();
+    command.add_option("--repeats", options->repeats, "Pairs of runs, of which the median counts")
+        ->check(CLI::Range(1U, 1000U))
+        ->capture_default_str();
+    command.add_option("--out", options->out, "Folder for the results")->capture_default_str();
+    command.callback([options] { run_service(*options); });
+}
+
+}  // namespace meniscus::benchmarks
