@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "exit_deadline.hpp"
 #include "log.hpp"
 #include "meniscus/error.hpp"
 #include "options.hpp"
@@ -71,6 +72,7 @@ int run(const meniscus::server::CommandLine& command_line) {
     // What protobuf would print of messages that do not parse is their senders' to choose.
     google::protobuf::SetLogHandler(nullptr);
 
+    meniscus::server::ExitDeadline exit_deadline;
     meniscus::server::Server server(command_line.server);
     gpr_set_log_function(log_grpc);
     const meniscus::BackendDescription& backend = server.backend();
@@ -78,6 +80,7 @@ int run(const meniscus::server::CommandLine& command_line) {
                  backend.device, backend.reason);
     if (!server.http_address().empty()) spdlog::info("metrics and probes at http://{}", server.http_address());
     const int signal = wait_for_stop(signals, server);
+    exit_deadline.start(command_line.server.shutdown_grace);
     spdlog::info("{}: finishing the frames in flight", strsignal(signal));
     server.shutdown();
     spdlog::info("stopped");

@@ -147,10 +147,11 @@ Server::~Server() {
 
 void Server::shutdown() {
     if (!grpc_) return;
-    const auto deadline = std::chrono::system_clock::now() + options_.shutdown_grace - canceling_time(options_.shutdown_grace);
+    const auto time = options_.shutdown_grace - canceling_time(options_.shutdown_grace);
+    const auto deadline = std::chrono::system_clock::now() + time;
     draining_ = true;
     set_serving(*grpc_, false);
-    registry_.drain(options_.shutdown_grace);
+    registry_.drain(time);
     // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection once
     // the client has confirmed the goodbye, or loses what the client has not read. Idle clients confirm late or never.
     calls_.wait_until_none(deadline);

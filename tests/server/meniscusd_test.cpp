@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "meniscus/client/client.hpp"
+#include "observation/metrics.hpp"
 #include "process.hpp"
 #include "test_frames.hpp"
 
@@ -91,6 +92,23 @@ TEST(Meniscusd, EndsWellWithAClientThatNeverReads) {
     }
     process.signal(SIGTERM);
     process.rest();
+    EXPECT_EQ(process.exit_code(), 0);
+}
+
+TEST(Meniscusd, DoesNotWaitForAReconstructionThatOutlivesTheGracePeriod) {
+    Process process(on_free_port({"--shutdown-grace", "0.2", "--http", "127.0.0.1:0"}));
+    client::Client client(process.address());
+    const std::string http = process.http_address();
+    const std::string id = client::new_session_id();
+    Settings fine = settings();
+    fine.cell_size = 0.1;
+    client.create_session(id, fine);
+    auto stream = client.stream(id);
+    const Particles minutes = spray(60);
+    stream.push(minutes.view(), 0, 0.0);
+    scrape_until(http, "meniscus_upload_bytes_total", 12.0 * static_cast<double>(minutes.view().count()));
+    process.signal(SIGTERM);
+    EXPECT_NE(process.rest().find("left unfinished"), std::string::npos);
     EXPECT_EQ(process.exit_code(), 0);
 }
 

@@ -61,16 +61,9 @@ public:
         return text;
     }
     /// From the line that says so.
-    std::string address() {
-        const std::string words = "listening on ";
-        while (const auto next = line()) {
-            const std::size_t found = next->find(words);
-            if (found == std::string::npos) continue;
-            const std::size_t first = found + words.size();
-            return next->substr(first, next->find(',', first) - first);
-        }
-        throw std::runtime_error("meniscusd does not listen");
-    }
+    std::string address() { return after("listening on "); }
+    /// Likewise; after address().
+    std::string http_address() { return after("metrics and probes at http://"); }
     void signal(int number) const { ::kill(pid_, number); }
     /// Of the process, which ends.
     int exit_code() {
@@ -80,6 +73,17 @@ public:
     }
 
 private:
+    /// The word up to a comma or the line's end.
+    std::string after(const std::string& words) {
+        while (const auto next = line()) {
+            const std::size_t found = next->find(words);
+            if (found == std::string::npos) continue;
+            const std::size_t first = found + words.size();
+            return next->substr(first, next->find(',', first) - first);
+        }
+        throw std::runtime_error("meniscusd does not listen");
+    }
+
     pid_t pid_ = -1;
     int output_ = -1;
 };
