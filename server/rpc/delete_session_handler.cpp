@@ -4,8 +4,9 @@ namespace meniscus::server {
 
 v1::DeleteSessionResponse delete_session(SessionRegistry& registry, const Caller& caller,
                                          const v1::DeleteSessionRequest& request) {
-    Authorizer::require_access(caller, Action::delete_session, request.id(), registry.find(request.id())->owner());
-    registry.remove(request.id());
+    const auto session = registry.find(request.id());
+    Authorizer::require_access(caller, Action::delete_session, request.id(), session->owner());
+    registry.remove(session);
     return {};
 }
 

@@ -111,21 +111,20 @@ std::vector<std::shared_ptr<Session>> SessionRegistry::list() {
     return sessions;
 }
 
-void SessionRegistry::remove(const std::string& id) {
-    std::shared_ptr<Session> session;
+void SessionRegistry::remove(const std::shared_ptr<Session>& session) {
     std::size_t left = 0;
     {
         const std::lock_guard lock(mutex_);
         remove_ended();
-        const auto found = sessions_.find(id);
-        if (found == sessions_.end()) throw Refusal(Refusal::Kind::not_found, fmt::format("no session {}", id));
-        session = std::move(found->second);
+        const auto found = sessions_.find(session->id());
+        if (found == sessions_.end() || found->second != session)
+            throw Refusal(Refusal::Kind::not_found, fmt::format("no session {}", session->id()));
         sessions_.erase(found);
         left = sessions_.size();
     }
     session->close();
-    log_info({.session = id}, "deleted ({} open)", left);
-    removed_.put(std::move(session));
+    log_info({.session = session->id()}, "deleted ({} open)", left);
+    removed_.put(session);
 }
 
 void SessionRegistry::remove_ended() {

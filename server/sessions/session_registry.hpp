@@ -45,8 +45,9 @@ public:
     std::shared_ptr<Session> find(const std::string& id);
     /// Ordered by id.
     std::vector<std::shared_ptr<Session>> list();
-    /// Ends the session, its stream and its watchers; its threads end in the background. Throws Refusal if there is none.
-    void remove(const std::string& id);
+    /// Ends the session, its stream and its watchers; its threads end in the background. Throws Refusal if it has gone, also
+    /// where another one has its id by now.
+    void remove(const std::shared_ptr<Session>& session);
 
     /// No new sessions and uploads; those that run end after the frame on its way in. Returns at once.
     /// grace: what is left then is ended regardless.

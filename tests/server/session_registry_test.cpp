@@ -35,11 +35,11 @@ TEST_F(Registry, RefusesOtherSettingsUnderTheSameId) {
 }
 
 TEST_F(Registry, RefusesSessionsPastTheLimitUntilOneIsRemoved) {
-    registry.create(first_id, test::settings());
+    const auto first = registry.create(first_id, test::settings());
     registry.create(second_id, test::settings());
     EXPECT_THROW(registry.create(third_id, test::settings()), LimitExceeded);
     EXPECT_NO_THROW(registry.create(second_id, test::settings()));
-    registry.remove(first_id);
+    registry.remove(first);
     EXPECT_NO_THROW(registry.create(third_id, test::settings()));
 }
 
@@ -51,10 +51,18 @@ TEST_F(Registry, ListsSessionsInTheOrderOfTheirIds) {
 }
 
 TEST_F(Registry, KnowsNoSessionThatWasRemoved) {
-    registry.create(first_id, test::settings());
-    registry.remove(first_id);
+    const auto first = registry.create(first_id, test::settings());
+    registry.remove(first);
     EXPECT_THROW(registry.find(first_id), Refusal);
-    EXPECT_THROW(registry.remove(first_id), Refusal);
+    EXPECT_THROW(registry.remove(first), Refusal);
+}
+
+TEST_F(Registry, RemovesTheSessionThatWasMeantAndNotItsSuccessorOfTheSameId) {
+    const auto first = registry.create(first_id, test::settings());
+    registry.remove(first);
+    const auto successor = registry.create(first_id, test::settings());
+    EXPECT_THROW(registry.remove(first), Refusal);
+    EXPECT_EQ(registry.find(first_id), successor);
 }
 
 TEST_F(Registry, ForgetsASessionThatEndedByItself) {
