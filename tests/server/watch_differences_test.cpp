@@ -1,6 +1,7 @@
 // A watcher's mesh, merged from differences, is the session's, whatever it misses.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <optional>
 #include <random>
 #include <vector>
@@ -43,8 +44,23 @@ Versions received_versions(const client::ReceivedFrame& frame) {
     return versions;
 }
 
+struct Figures {
+    std::size_t states = 0;     ///< that the session's mesh was in
+    std::size_t completed = 0;  ///< frames that came through
+
+    Figures& operator+=(const Figures& other) {
+        states += other.states;
+        completed += other.completed;
+        return *this;
+    }
+    void print() const {
+        std::printf("%zu states of a mesh, %zu frames merged from differences: each equal to its state, none begun older than the newest\n",
+                    states, completed);
+    }
+};
+
 /// The session puts frames, the writer takes messages and sometimes stops for longer than a stalled one may.
-void run(std::uint32_t seed, const std::optional<Box>& region) {
+Figures run(std::uint32_t seed, const std::optional<Box>& region) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
     WatchWishes wishes;
@@ -89,14 +105,19 @@ void run(std::uint32_t seed, const std::optional<Box>& region) {
     }
     EXPECT_EQ(newest_at_begin, states.size() - 1);
     EXPECT_GT(completed, 10U);
+    return {.states = states.size(), .completed = completed};
 }
 
 TEST(WatchDifferences, GiveTheWholeMeshUnderRandomStallsAndDrops) {
-    for (std::uint32_t seed = 0; seed < 30; ++seed) run(seed, std::nullopt);
+    Figures figures;
+    for (std::uint32_t seed = 0; seed < 30; ++seed) figures += run(seed, std::nullopt);
+    figures.print();
 }
 
 TEST(WatchDifferences, GiveTheMeshWithinARegionUnderRandomStallsAndDrops) {
-    for (std::uint32_t seed = 100; seed < 115; ++seed) run(seed, Box{{-0.5, 0.5, 1.0}, {1.5, 0.6, 2.5}});
+    Figures figures;
+    for (std::uint32_t seed = 100; seed < 115; ++seed) figures += run(seed, Box{{-0.5, 0.5, 1.0}, {1.5, 0.6, 2.5}});
+    figures.print();
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdio>
 #include <random>
 #include <thread>
 
@@ -101,6 +102,7 @@ TEST(Watch, ReceivesOnlyWhatChangedAndHasTheWholeMeshOfEveryFrame) {
     });
     std::mt19937 random(1);
     std::size_t unchanged = 0;
+    std::size_t bricks = 0;
     for (bool first = true;; first = false) {
         const auto frame = watcher.next();
         ASSERT_TRUE(frame);
@@ -108,11 +110,13 @@ TEST(Watch, ReceivesOnlyWhatChangedAndHasTheWholeMeshOfEveryFrame) {
         if (!first) {
             for (const auto& place : frame->changed) EXPECT_LT(place[0], 2);
             unchanged += frame->bricks.size() - frame->changed.size();
+            bricks += frame->bricks.size();
         }
         if (frame->index == last) break;
         std::this_thread::sleep_for(std::chrono::milliseconds(random() % 20));
     }
     EXPECT_GT(unchanged, 0U);
+    std::printf("%zu of %zu bricks were not sent again\n", unchanged, bricks);
     simulator.join();
 }
 
