@@ -42,17 +42,17 @@ public:
     }
 
     void reconstruct(const ParticleFrame& frame, Mesh& mesh) {
-        mesh.clear();
-        begin(frame);
-        adopt(mesh);
-        try {
-            measure(frame, [&] { backend_->reconstruct(frame, mesh, statistics_); });
-        } catch (...) {
-            mesh = {};
-            throw;
-        }
-        statistics_.vertices = mesh.vertices.size();
-        count(mesh.triangles.size(), mesh.levels);
+        fill(frame, mesh, [&] {
+            const MeshDownload download = backend_->reconstruct(frame, mesh, statistics_);
+            download.finish();
+            statistics_.download_seconds = download.seconds();
+        });
+    }
+
+    MeshDownload reconstruct_for_download(const ParticleFrame& frame, Mesh& mesh) {
+        MeshDownload download;
+        fill(frame, mesh, [&] { download = backend_->reconstruct(frame, mesh, statistics_); });
+        return download;
     }
 
     void emit_capped(int max_level, Mesh& mesh) {
@@ -99,6 +99,22 @@ private:
         has_surface_ = false;
         validate(frame, settings_);
         if (!backend_) make_backend();
+    }
+
+    /// call: to the backend, with this mesh.
+    template <class Call>
+    void fill(const ParticleFrame& frame, Mesh& mesh, const Call& call) {
+        mesh.clear();
+        begin(frame);
+        adopt(mesh);
+        try {
+            measure(frame, call);
+        } catch (...) {
+            mesh = {};
+            throw;
+        }
+        statistics_.vertices = mesh.vertices.size();
+        count(mesh.triangles.size(), mesh.levels);
     }
 
     /// Times a call to the backend, and counts memory.
@@ -156,6 +172,7 @@ Reconstructor::Reconstructor(Reconstructor&&) noexcept = default;
 Reconstructor& Reconstructor::operator=(Reconstructor&&) noexcept = default;
 
 void Reconstructor::reconstruct(const ParticleFrame& frame, Mesh& mesh) { impl_->reconstruct(frame, mesh); }
+MeshDownload Reconstructor::reconstruct_for_download(const ParticleFrame& frame, Mesh& mesh) { return impl_->reconstruct_for_download(frame, mesh); }
 void Reconstructor::emit_capped(int max_level, Mesh& mesh) { impl_->emit_capped(max_level, mesh); }
 DeviceMesh Reconstructor::reconstruct_on_device(const ParticleFrame& frame) { return impl_->reconstruct_on_device(frame); }
 const Statistics& Reconstructor::statistics() const { return impl_->statistics(); }

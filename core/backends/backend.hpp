@@ -8,6 +8,7 @@
 #include "meniscus/device_mesh.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
+#include "meniscus/mesh_download.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
@@ -17,8 +18,9 @@ namespace meniscus {
 class BackendReconstruction {
 public:
     virtual ~BackendReconstruction() = default;
-    /// The frame is valid. Fills the mesh and every figure of the statistics but memory and total time.
-    virtual void reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) = 0;
+    /// The frame is valid. Fills every figure of the statistics but memory and times of the whole. The mesh has its final sizes, bricks
+    /// aside; its content is there once it has been downloaded.
+    virtual MeshDownload reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) = 0;
     /// The surface of the last frame once more, with no cell finer than max_level (1 to 3).
     virtual void emit_capped(int max_level, Mesh& mesh) = 0;
     /// As reconstruct(), but the mesh stays where it is until the next call.

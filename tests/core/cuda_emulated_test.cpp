@@ -26,7 +26,7 @@ public:
         mesh_.cell_size = expected.cell_size;
         mesh_.offset_bits = expected.offset_bits;
         statistics_ = {};
-        backend_->reconstruct(frame, mesh_, statistics_);
+        backend_->reconstruct(frame, mesh_, statistics_).finish();
         expect_equal(expected);
         Reconstructor cpu(settings_, {Backend::cpu, 1, 0});
         Mesh again;
@@ -41,7 +41,7 @@ public:
         }
     }
 
-    void expect_a_refusal(const ParticleFrame& frame) { EXPECT_THROW(backend_->reconstruct(frame, mesh_, statistics_), LimitExceeded); }
+    void expect_a_refusal(const ParticleFrame& frame) { EXPECT_THROW(static_cast<void>(backend_->reconstruct(frame, mesh_, statistics_)), LimitExceeded); }
 
     const MemoryAccount& device_account() const { return *device_account_; }
 
@@ -147,7 +147,7 @@ TEST(CudaEmulated, TheFirstFrameFindsItsRoomInFewRuns) {
     settings.cell_size = 1.0;
     EmulatedDevice device(settings);
     device.expect_the_cpus_mesh(test::splash(6, 20).frame());
-    EXPECT_LE(device.device_account().allocations(), 5U) << "for particles, blocks, samples, more samples, the mesh";
+    EXPECT_LE(device.device_account().allocations(), 6U) << "for particles and a least mesh, blocks, samples, more samples, the mesh";
 }
 
 TEST(CudaEmulated, AFrameBeyondTheMemoryLimitIsRefusedBeforeItIsAllocated) {
@@ -158,7 +158,7 @@ TEST(CudaEmulated, AFrameBeyondTheMemoryLimitIsRefusedBeforeItIsAllocated) {
     limited.expect_the_cpus_mesh(test::splash(6, 6).frame());
     limited.expect_a_refusal(test::splash(6, 16).frame());
     EXPECT_LE(limited.device_account().peak_bytes(), limit);
-    EXPECT_EQ(limited.device_account().bytes(), 0U) << "the room of the frame before is given back first";
+    EXPECT_LT(limited.device_account().bytes(), limit / 2) << "the room of the frame before, its mesh aside, is given back first";
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ public:
           counts_(make_array<std::uint32_t>(account)), reaches_(make_array<CellReach>(account)),
           bends_(make_array<CellBend>(account)), levels_(make_array<std::uint8_t>(account)) {}
 
-    void reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) override {
+    MeshDownload reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) override {
         StageClock clock(statistics);
         clock.enter(Stage::register_particles);
         register_particles(frame);
@@ -40,6 +40,7 @@ public:
         statistics.base_cells_by_level = count_band_cells(surface_);
         statistics.backend = "cpu";
         statistics.threads = workers_.count();
+        return {};
     }
 
     void emit_capped(int max_level, Mesh& mesh) override {

@@ -4,7 +4,7 @@
 namespace meniscus::cuda {
 namespace {
 
-/// One thread: nothing is counted from step 5 on.
+/// One thread: nothing is counted from step 5 on, and what was counted last may have found too little room for the mesh.
 __global__ void count_anew(const __grid_constant__ Frame f) {
     if (blockIdx.x != 0 || threadIdx.x != 0) return;
     Counts& counts = *f.counts;
@@ -12,6 +12,7 @@ __global__ void count_anew(const __grid_constant__ Frame f) {
     for (const List l : {List::vertices, List::band, List::cracks}) counts.listed[static_cast<int>(l)] = 0;
     for (std::size_t level = 0; level < triangle_level_count; ++level) counts.triangles[level] = 0;
     for (std::uint32_t& cells : counts.band_cells) cells = 0;
+    counts.overflow = 0;
 }
 
 /// The split criterion's levels are no longer needed: their array keeps those that the frame found.

@@ -34,6 +34,12 @@ struct Capacities {
         return grown;
     }
 
+    /// Whether all arrays have the same room, those of the mesh aside.
+    bool same_but_for_mesh(const Capacities& other) const {
+        static_assert(static_cast<std::size_t>(Resource::vertices) == resource_count - 2 && static_cast<std::size_t>(Resource::triangles) == resource_count - 1);
+        return particles == other.particles && std::equal(of.begin(), of.end() - 2, other.of.begin());
+    }
+
 private:
     /// What a frame will need that has not come so far as to tell: every time it finds too little room costs a run.
     static std::uint64_t expected(Resource r, std::uint64_t particles, const unsigned long long (&needed)[resource_count]) {

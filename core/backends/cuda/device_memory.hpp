@@ -1,4 +1,4 @@
-// Device memory of one reconstruction: one piece, allocated and freed in the order of its stream, charged to an account.
+// A piece of device memory, allocated and freed in the order of its stream, charged to an account.
 #pragma once
 
 #include <cstddef>
@@ -42,15 +42,17 @@ public:
         bytes_ = bytes;
         check(cudaMemsetAsync(memory_, 0, bytes, stream_), "cudaMemsetAsync");
     }
-    std::byte* get() const { return static_cast<std::byte*>(memory_); }
-
-private:
     void release() {
         if (memory_ == nullptr) return;
         cudaFreeAsync(memory_, stream_);
         account_->release(bytes_);
         memory_ = nullptr;
+        bytes_ = 0;
     }
+    std::byte* get() const { return static_cast<std::byte*>(memory_); }
+    std::size_t bytes() const { return bytes_; }
+
+private:
 
     cudaStream_t stream_;
     std::shared_ptr<MemoryAccount> account_;

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <memory>
 
-#include "backends/arrays.hpp"
 #include "backends/cuda/pinned_memory.hpp"
 #include "backends/cuda/stream.hpp"
 
@@ -17,13 +16,12 @@ class Download {
 public:
     explicit Download(const std::shared_ptr<MemoryAccount>& account) : staging_(account) { staging_.reserve(pieces_.size() * piece_bytes); }
 
-    /// Sizes `to` and copies as many elements into it; bytes may be on their way until finish().
+    /// Bytes may be on their way until finish().
     template <class T>
-    void fetch(const T* from, std::size_t count, Array<T>& to, cudaStream_t stream) {
-        resize_for_overwrite(to, count);
+    void fetch(const T* from, std::size_t count, T* to, cudaStream_t stream) {
         const auto* bytes = reinterpret_cast<const std::byte*>(from);
         for (std::size_t at = 0; at < count * sizeof(T); at += piece_bytes)
-            fetch_piece(bytes + at, std::min(piece_bytes, count * sizeof(T) - at), reinterpret_cast<std::byte*>(to.data()) + at, stream);
+            fetch_piece(bytes + at, std::min(piece_bytes, count * sizeof(T) - at), reinterpret_cast<std::byte*>(to) + at, stream);
     }
     void finish() {
         for (std::size_t i = 0; i < pieces_.size(); ++i) empty(i);

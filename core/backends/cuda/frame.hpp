@@ -57,6 +57,20 @@ struct Counts {
     std::uint32_t overflow;
 };
 
+/// Places arrays one after the other.
+struct Layout {
+    std::byte* memory;  ///< none: only counts
+    std::size_t bytes = 0;
+
+    template <class T>
+    void operator()(T*& array, std::uint64_t elements) {
+        constexpr std::size_t alignment = 256;
+        bytes = (bytes + alignment - 1) / alignment * alignment;
+        array = memory == nullptr ? nullptr : reinterpret_cast<T*>(memory + bytes);
+        bytes += static_cast<std::size_t>(elements) * sizeof(T);
+    }
+};
+
 struct Frame {
     // The user's choices.
     LatticeSettings settings;
@@ -98,7 +112,6 @@ struct Frame {
     std::uint64_t* base_deep = nullptr;
     std::uint64_t* at_least[4] = {};            ///< see LevelSets
     std::uint64_t* raised = nullptr;            ///< a set of cells too; empty between sweeps
-    MeshBrick* mesh_bricks = nullptr;
 
     // Of every block; BlocksView explains those that are not explained here.
     std::uint32_t* brick = nullptr;
@@ -122,15 +135,18 @@ struct Frame {
     std::uint32_t* cracked = nullptr;
 
     float* samples = nullptr;
+
+    // The mesh, in memory of its own: that of a frame before may be on its way to the host, from the other set of these arrays.
+    MeshBrick* mesh_bricks = nullptr;           ///< of every brick of base cells
     LatticePosition* vertices = nullptr;
     Normal* normals = nullptr;
     Triangle* triangles = nullptr;
 
     explicit Frame(const LatticeSettings& lattice_settings) : settings(lattice_settings) {}
 
-    /// Gives take(pointer, number of elements) every array.
+    /// Gives take(pointer, number of elements) every array but the mesh's.
     template <class Take>
-    void for_each_array(const Take& take) {
+    void for_each_array(Take& take) {
         const std::uint64_t n = capacity.particles;
         const std::uint64_t brick_count = capacity[Resource::bricks];
         const std::uint64_t blocks = capacity[Resource::blocks];
@@ -159,7 +175,6 @@ struct Frame {
         take(base_deep, brick_count * Brick::words);
         for (int l = 1; l <= 3; ++l) take(at_least[l], brick_count * Brick::words);
         take(raised, brick_count * Brick::words);
-        take(mesh_bricks, brick_count);
         take(brick, blocks);
         take(place, blocks);
         take(level, blocks);
@@ -180,6 +195,10 @@ struct Frame {
         take(band, blocks);
         take(cracked, blocks);
         take(samples, capacity[Resource::samples]);
+    }
+    template <class Take>
+    void for_each_mesh_array(Take& take) {
+        take(mesh_bricks, capacity[Resource::bricks]);
         take(vertices, capacity[Resource::vertices]);
         take(normals, has_normals ? capacity[Resource::vertices] : 0);
         take(triangles, capacity[Resource::triangles]);
@@ -187,15 +206,14 @@ struct Frame {
 
     /// Gives every array its place from `memory` on (none: only counts); returns the bytes that all of them take.
     std::size_t lay_out(std::byte* memory) {
-        std::size_t bytes = 0;
-        for_each_array([&](auto*& array, std::uint64_t elements) {
-            using Pointer = std::remove_reference_t<decltype(array)>;
-            constexpr std::size_t alignment = 256;
-            bytes = (bytes + alignment - 1) / alignment * alignment;
-            array = memory == nullptr ? nullptr : reinterpret_cast<Pointer>(memory + bytes);
-            bytes += static_cast<std::size_t>(elements) * sizeof(*array);
-        });
-        return bytes;
+        Layout layout{memory};
+        for_each_array(layout);
+        return layout.bytes;
+    }
+    std::size_t lay_out_mesh(std::byte* memory) {
+        Layout layout{memory};
+        for_each_mesh_array(layout);
+        return layout.bytes;
     }
 
     /// Where the positions' levels lie in the upload.

@@ -17,20 +17,22 @@
 //   place        count_vertices, scan, size_mesh, describe_bricks, place_listed
 //   emit, fill   emit_cells, fill_listed
 //   Counts       -> pinned memory; the host waits
-//   Download     the mesh -> pinned memory -> the caller's arrays           (reconstruct() only)
+//   PendingMesh  the mesh -> pinned memory -> the caller's arrays           (when they ask for it, on a stream of its own)
 //
-// What overlaps: pieces of the upload with copying into pinned memory, pieces of the download with copying out of it, and whole frames of
-// different sessions, each on a stream of its own. What does not: a session's download and its next frame's kernels. These write the
-// arrays that it reads; it would take a second set of them, and callers who ask for a frame's mesh when the next one is under way.
+// What overlaps: pieces of the upload with copying into pinned memory, pieces of the download with copying out of it, a frame's download with the
+// next one's kernels, and whole frames of different sessions, each on streams of its own. The mesh's arrays are there twice once a frame
+// begins while the one before is still to be downloaded; a caller who takes each mesh at once, or leaves it on the device, needs one set.
 // A first frame runs some times: each run ends where an array is too small, and what comes after it is only known to the next.
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "backends/arrays.hpp"
 #include "backends/backend.hpp"
 #include "backends/cuda/device_memory.hpp"
-#include "backends/cuda/download.hpp"
 #include "backends/cuda/graph.hpp"
+#include "backends/cuda/mesh_storage.hpp"
+#include "backends/cuda/pending_mesh.hpp"
 #include "backends/cuda/steps.hpp"
 #include "backends/cuda/upload.hpp"
 #include "backends/numbering.hpp"
@@ -42,8 +44,9 @@ namespace {
 class Reconstruction final : public BackendReconstruction {
 public:
     Reconstruction(const Settings& user, int device, const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account)
-        : user_(user), device_(device), upload_(account), download_(account), host_counts_(account), memory_(device, stream_.get(), device_account),
-          bricks_(make_array<MeshBrick>(account)), frame_(LatticeSettings(user)) {
+        : user_(user), device_(device), upload_(account), host_counts_(account),
+          storage_(std::make_shared<MeshStorage>(device, account, device_account)), memory_(device, stream_.get(), device_account),
+          frame_(LatticeSettings(user)) {
         frame_.bisects = user.edge_points == EdgePoints::bisect;
         frame_.bisection_steps = user.bisection_steps;
         frame_.has_normals = user.normals;
@@ -66,20 +69,22 @@ public:
         }
     }
 
-    void reconstruct(const ParticleFrame& particles, Mesh& mesh, Statistics& statistics) override {
-        download(reconstruct_on_device(particles, statistics), mesh);
+    MeshDownload reconstruct(const ParticleFrame& particles, Mesh& mesh, Statistics& statistics) override {
+        return download(reconstruct_on_device(particles, statistics), mesh);
     }
 
     void emit_capped(int max_level, Mesh& mesh) override {
-        {
-            const CurrentDevice current(device_);
+        const CurrentDevice current(device_);
+        take_set();
+        for (;;) {
             cap_levels(frame_, max_level, !capped_, launcher_);
             capped_ = true;
             emit(frame_, [] {});
             stream_.synchronize();
+            if (counts().overflow == 0) break;
+            make_more_room();
         }
-        if (counts().overflow != 0) throw DeviceError("emission with capped levels", "the coarser mesh needs more room than the finer one", device_);
-        download(mesh_on_device(), mesh);
+        download(mesh_on_device(), mesh).finish();
     }
 
     DeviceMesh reconstruct_on_device(const ParticleFrame& particles, Statistics& statistics) override {
@@ -107,18 +112,66 @@ private:
         return mesh;
     }
 
-    void download(const DeviceMesh& on_device, Mesh& mesh) {
-        const CurrentDevice current(device_);
-        download_.forget();
-        download_.fetch(frame_.mesh_bricks, counts().needed[static_cast<int>(Resource::bricks)], bricks_, stream_.get());
-        download_.fetch(on_device.vertices, on_device.vertex_count, mesh.vertices, stream_.get());
-        download_.fetch(on_device.normals, user_.normals ? on_device.vertex_count : 0, mesh.normals, stream_.get());
-        download_.fetch(on_device.triangles, on_device.triangle_count, mesh.triangles, stream_.get());
-        download_.finish();
+    /// Memory for it is taken here, so that none can be missing later.
+    MeshDownload download(const DeviceMesh& on_device, Mesh& mesh) {
+        resize_for_overwrite(mesh.vertices, on_device.vertex_count);
+        resize_for_overwrite(mesh.normals, user_.normals ? on_device.vertex_count : 0);
+        resize_for_overwrite(mesh.triangles, on_device.triangle_count);
+        resize_for_overwrite(mesh.bricks, counts().needed[static_cast<int>(Resource::bricks)]);
         mesh.levels = on_device.levels;
-        mesh.bricks.clear();
-        for (const MeshBrick& brick : bricks_)
-            if (brick.triangle_count() != 0) mesh.bricks.push_back(brick);
+        auto pending = std::make_shared<PendingMesh>(storage_, on_device, frame_.mesh_bricks, mesh);
+        pending_[set_] = pending;
+        return MeshDownload(std::move(pending));
+    }
+
+    /// The download that still reads a set of mesh arrays; none if nothing does.
+    std::shared_ptr<PendingMesh> reader(std::size_t set) const {
+        auto pending = pending_[set].lock();
+        return pending && !pending->is_done() ? pending : nullptr;
+    }
+
+    /// Chooses a set that nothing reads for the mesh that comes. What must come down for that comes down here: its owner may wait for this
+    /// very frame.
+    void take_set() {
+        if (const auto last = reader(set_)) {
+            set_ = 1 - set_;
+            if (const auto earlier = reader(set_)) earlier->finish();
+            try {
+                fit_set();
+                return;
+            } catch (const LimitExceeded&) {
+                // One set has to do.
+                last->finish();
+                set_ = 1 - set_;
+            }
+        }
+        with_room([&] { fit_set(); });
+    }
+
+    void fit_set() {
+        DeviceMemory& memory = storage_->sets[set_];
+        if (const std::size_t bytes = frame_.lay_out_mesh(nullptr); memory.bytes() != bytes) {
+            graphs_[set_].drop();
+            memory.assign(bytes);
+            storage_->stream.synchronize();
+        }
+        frame_.lay_out_mesh(memory.get());
+    }
+
+    /// allocate: once more without the other set if there is too little memory.
+    template <class Allocate>
+    void with_room(const Allocate& allocate) {
+        try {
+            allocate();
+        } catch (const LimitExceeded&) {
+            const std::size_t other = 1 - set_;
+            if (storage_->sets[other].bytes() == 0) throw;
+            if (const auto pending = reader(other)) pending->finish();
+            graphs_[other].drop();
+            storage_->sets[other].release();
+            storage_->stream.synchronize();
+            allocate();
+        }
     }
 
     /// The ends of the stages, in the order in which they run.
@@ -131,38 +184,54 @@ private:
 
     void run(const ParticleFrame& particles) {
         const bool has_levels = !particles.levels.empty();
-        if (has_levels != has_levels_) graph_.drop();
+        if (has_levels != has_levels_) drop_graphs();
         has_levels_ = has_levels;
-        bool grown = make_room(particles.count(), {});
+        particles_ = particles.count();
+        bool grown = make_room({});
+        take_set();
         for (;;) {
             start_.record(stream_.get());
             upload_.start(particles, frame_, stream_.get());
-            if (!grown && settled_ && !graph_.is_captured()) graph_.capture(stream_.get(), [&] { enqueue(true); });
-            if (graph_.is_captured()) graph_.launch(stream_.get());
+            Graph& graph = graphs_[set_];
+            if (!grown && settled_ && !graph.is_captured()) graph.capture(stream_.get(), [&] { enqueue(true); });
+            if (graph.is_captured()) graph.launch(stream_.get());
             else enqueue(false);
             stream_.synchronize();
             if (counts().overflow == 0) break;
             require_uncrowded(counts().crowd, particles.count(), frame_.settings);
-            require_room_for_numbers();
-            grown = make_room(particles.count(), counts().needed);
-            if (!grown) throw DeviceError("reconstruction", "the counts contradict each other", device_);
+            make_more_room();
+            grown = true;
         }
         settled_ = !grown;
     }
 
+    void drop_graphs() {
+        for (Graph& graph : graphs_) graph.drop();
+    }
+
     using Needed = decltype(Counts::needed);
 
-    bool make_room(std::uint64_t particles, const Needed& needed) {
-        if (!frame_.capacity.grow_to(particles, needed)) return false;
-        graph_.drop();
+    /// In the mesh's arrays by number only, see fit_set(). Returns whether there was too little.
+    bool make_room(const Needed& needed) {
+        const Capacities before = frame_.capacity;
+        if (!frame_.capacity.grow_to(particles_, needed)) return false;
+        drop_graphs();
+        if (frame_.capacity.same_but_for_mesh(before)) return true;
         const Capacities& room = frame_.capacity;
         const std::uint64_t sums = std::max({room.particles, room[Resource::reached_bricks], room[Resource::bricks], room[Resource::blocks]}) + 1;
         frame_.scratch_bytes = scratch_bytes(room.particles, room[Resource::reached_bricks], sums);
-        memory_.assign(frame_.lay_out(nullptr));
+        with_room([&] { memory_.assign(frame_.lay_out(nullptr)); });
         frame_.lay_out(memory_.get());
         check(cudaMemcpyAsync(const_cast<CubeCase*>(frame_.cube_table), cube_table.data(), sizeof(CubeTable), cudaMemcpyHostToDevice, stream_.get()), "cudaMemcpyAsync");
         check(cudaMemcpyAsync(const_cast<CrackCase*>(frame_.crack_table), crack_table.data(), sizeof(CrackTable), cudaMemcpyHostToDevice, stream_.get()), "cudaMemcpyAsync");
         return true;
+    }
+
+    /// After a run that has found too little. Where that was room for the mesh alone, all that the mesh is made of stays.
+    void make_more_room() {
+        require_room_for_numbers();
+        if (!make_room(counts().needed)) throw DeviceError("reconstruction", "the counts contradict each other", device_);
+        with_room([&] { fit_set(); });
     }
 
     void require_room_for_numbers() const {
@@ -223,16 +292,18 @@ private:
     std::optional<CurrentDevice> at_end_;  ///< while the members below end, in whatever thread
     // A frame that failed may have left copies under way: pinned memory outlives the stream, whose end waits for them.
     Upload upload_;
-    Download download_;
     PinnedMemory host_counts_;
+    std::shared_ptr<MeshStorage> storage_;
     Stream stream_;
     DeviceMemory memory_;
-    Array<MeshBrick> bricks_;
     Frame frame_;
     Launcher launcher_;
     Event start_;
     std::array<Event, order.size()> ends_;
-    Graph graph_;
+    std::array<Graph, 2> graphs_;                       ///< one for each set of mesh arrays
+    std::array<std::weak_ptr<PendingMesh>, 2> pending_;
+    std::size_t set_ = 0;                               ///< that the last mesh went into
+    std::uint64_t particles_ = 0;                       ///< of the last frame
     bool settled_ = false;     ///< whether the last frame needed no more room
     bool has_levels_ = false;
     bool capped_ = false;      ///< whether a mesh of the last frame was emitted with capped levels

@@ -6,6 +6,7 @@
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
+#include "meniscus/mesh_download.hpp"
 #include "meniscus/mesh_hash.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/reconstructor.hpp"

@@ -1,8 +1,10 @@
 // A device in software, so that the CUDA backend's kernels run where there is no GPU: this stands in for CUDA's own header when they are
 // compiled as C++. Every thread of a block is a fiber; fibers change where threads wait for each other, in an order of chance; blocks run one
-// after the other, but for cooperative kernels, which get a single one. It shows what a kernel computes; not races of memory, nor speed.
+// after the other, but for cooperative kernels, which get a single one. Work waits in its stream until the host waits for it, so that whoever does
+// not wait meets old bytes. It shows what a kernel computes; not races of memory, nor speed.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -20,6 +22,7 @@ struct float4 {
 struct dim3 {
     unsigned x = 1, y = 1, z = 1;
 };
+using cudaStream_t = struct EmulatedStream*;
 
 namespace emulated_device {
 
@@ -35,8 +38,10 @@ void wait_for_grid();
 /// Lets every lane see what the lanes of its warp have given, once all have.
 const std::uint64_t* exchange(std::uint64_t value, int place);
 
-/// Enqueues; runs at once unless a graph is being captured.
-void submit(const std::function<void()>& work);
+/// Into the stream, or the graph that it is being captured into.
+void submit(cudaStream_t stream, const std::function<void()>& work);
+/// Copies to the host that still succeed; all do if negative.
+extern std::atomic<int> copies_until_failure;
 void run_kernel(unsigned blocks, unsigned threads, const std::function<void()>& kernel);
 
 template <class T>
@@ -93,7 +98,7 @@ T atomicOr(T* at, T value) {
 
 // ---- the part of the runtime that the backend uses ------------------------------------------------------------------
 
-enum cudaError_t { cudaSuccess, cudaErrorMemoryAllocation };
+enum cudaError_t { cudaSuccess, cudaErrorMemoryAllocation, cudaErrorLaunchFailure };
 enum cudaDeviceAttr { cudaDevAttrMultiProcessorCount };
 enum cudaDriverEntryPointQueryResult { cudaDriverEntryPointSymbolNotFound };
 enum cudaMemcpyKind { cudaMemcpyHostToDevice, cudaMemcpyDeviceToHost };
@@ -105,7 +110,6 @@ constexpr unsigned cudaStreamNonBlocking = 1;
 constexpr unsigned cudaEventRecordExternal = 1;
 constexpr unsigned long long cudaEnableDefault = 0;
 
-using cudaStream_t = struct EmulatedStream*;
 using cudaMemPool_t = struct EmulatedPool*;
 using cudaEvent_t = struct EmulatedEvent*;
 using cudaGraph_t = struct EmulatedGraph*;
@@ -171,6 +175,6 @@ template <class... Parameters, class... Arguments>
 cudaError_t cudaLaunchKernelEx(const cudaLaunchConfig_t* configuration, void (*kernel)(Parameters...), const Arguments&... arguments) {
     const unsigned blocks = configuration->gridDim.x;
     const unsigned threads = configuration->blockDim.x;
-    emulated_device::submit([=] { emulated_device::run_kernel(blocks, threads, [=] { kernel(arguments...); }); });
+    emulated_device::submit(configuration->stream, [=] { emulated_device::run_kernel(blocks, threads, [=] { kernel(arguments...); }); });
     return cudaSuccess;
 }

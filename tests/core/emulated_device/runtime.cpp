@@ -1,6 +1,10 @@
-// The runtime of the device in software: work is done when it is enqueued.
+// The runtime of the device in software: work is done when the host waits for it, and no sooner.
+#include <malloc.h>
+
 #include <cstdlib>
 #include <cstring>
+#include <deque>
+#include <mutex>
 #include <vector>
 
 #include "cuda_runtime.h"
@@ -9,69 +13,122 @@ struct EmulatedGraph {
     std::vector<std::function<void()>> work;
     int owners = 1;
 };
+struct EmulatedStream {
+    std::deque<std::function<void()>> waiting;
+    std::size_t submitted = 0;
+    std::size_t done = 0;
+    EmulatedGraph* capturing = nullptr;
+};
+struct EmulatedEvent {
+    EmulatedStream* stream = nullptr;  ///< none before it is recorded
+    std::size_t after = 0;             ///< work of the stream
+};
 
 namespace {
-EmulatedGraph* capturing = nullptr;
+std::mutex device;  // its threads are one set of fibers: it works for one thread of the host at a time
 
 cudaError_t release(EmulatedGraph* graph) {
     if (--graph->owners == 0) delete graph;
     return cudaSuccess;
 }
-}  // namespace
 
-void emulated_device::submit(const std::function<void()>& work) {
-    if (capturing != nullptr) capturing->work.push_back(work);
-    else work();
+void enqueue(EmulatedStream& stream, const std::function<void()>& work) {
+    const std::lock_guard lock(device);
+    stream.waiting.push_back(work);
+    ++stream.submitted;
 }
 
-const char* cudaGetErrorString(cudaError_t) { return "out of memory"; }
+/// Works off the stream's first pieces of work, this many since its begin.
+void run_until(EmulatedStream& stream, std::size_t count) {
+    while (stream.done < count) {
+        stream.waiting.front()();
+        stream.waiting.pop_front();
+        ++stream.done;
+    }
+}
+}  // namespace
+
+std::atomic<int> emulated_device::copies_until_failure{-1};
+
+void emulated_device::submit(cudaStream_t stream, const std::function<void()>& work) {
+    if (stream->capturing != nullptr) stream->capturing->work.push_back(work);
+    else enqueue(*stream, work);
+}
+
+const char* cudaGetErrorString(cudaError_t status) { return status == cudaErrorMemoryAllocation ? "out of memory" : "launch failure"; }
 cudaError_t cudaGetLastError() { return cudaSuccess; }
 cudaError_t cudaGetDevice(int* device) { return *device = 0, cudaSuccess; }
 cudaError_t cudaSetDevice(int) { return cudaSuccess; }
 cudaError_t cudaGetDriverEntryPointByVersion(const char*, void**, unsigned, unsigned long long, cudaDriverEntryPointQueryResult*) { return cudaSuccess; }
 cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr, int) { return *value = 1, cudaSuccess; }
 
-cudaError_t cudaStreamCreateWithFlags(cudaStream_t*, unsigned) { return cudaSuccess; }
-cudaError_t cudaStreamSynchronize(cudaStream_t) { return cudaSuccess; }
-cudaError_t cudaStreamDestroy(cudaStream_t) { return cudaSuccess; }
-cudaError_t cudaStreamBeginCapture(cudaStream_t, cudaStreamCaptureMode) { return capturing = new EmulatedGraph, cudaSuccess; }
-cudaError_t cudaStreamEndCapture(cudaStream_t, cudaGraph_t* graph) {
-    *graph = capturing;
-    capturing = nullptr;
+cudaError_t cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned) { return *stream = new EmulatedStream, cudaSuccess; }
+cudaError_t cudaStreamSynchronize(cudaStream_t stream) {
+    const std::lock_guard lock(device);
+    run_until(*stream, stream->submitted);
+    return cudaSuccess;
+}
+cudaError_t cudaStreamDestroy(cudaStream_t stream) {
+    cudaStreamSynchronize(stream);
+    delete stream;
+    return cudaSuccess;
+}
+cudaError_t cudaStreamBeginCapture(cudaStream_t stream, cudaStreamCaptureMode) { return stream->capturing = new EmulatedGraph, cudaSuccess; }
+cudaError_t cudaStreamEndCapture(cudaStream_t stream, cudaGraph_t* graph) {
+    *graph = stream->capturing;
+    stream->capturing = nullptr;
     return cudaSuccess;
 }
 cudaError_t cudaGraphInstantiate(cudaGraphExec_t* executable, cudaGraph_t graph, unsigned long long) {
     ++graph->owners;
     return *executable = graph, cudaSuccess;
 }
-cudaError_t cudaGraphLaunch(cudaGraphExec_t graph, cudaStream_t) {
-    for (const auto& work : graph->work) work();
+cudaError_t cudaGraphLaunch(cudaGraphExec_t graph, cudaStream_t stream) {
+    for (const auto& work : graph->work) enqueue(*stream, work);
     return cudaSuccess;
 }
 cudaError_t cudaGraphDestroy(cudaGraph_t graph) { return release(graph); }
 cudaError_t cudaGraphExecDestroy(cudaGraphExec_t graph) { return release(graph); }
 
-cudaError_t cudaEventCreate(cudaEvent_t*) { return cudaSuccess; }
-cudaError_t cudaEventDestroy(cudaEvent_t) { return cudaSuccess; }
-cudaError_t cudaEventRecord(cudaEvent_t, cudaStream_t) { return cudaSuccess; }
+cudaError_t cudaEventCreate(cudaEvent_t* event) { return *event = new EmulatedEvent, cudaSuccess; }
+cudaError_t cudaEventDestroy(cudaEvent_t event) {
+    delete event;
+    return cudaSuccess;
+}
+cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t stream) {
+    const std::lock_guard lock(device);
+    *event = {stream, stream->submitted};
+    return cudaSuccess;
+}
 cudaError_t cudaEventRecordWithFlags(cudaEvent_t, cudaStream_t, unsigned) { return cudaSuccess; }
-cudaError_t cudaEventSynchronize(cudaEvent_t) { return cudaSuccess; }
+cudaError_t cudaEventSynchronize(cudaEvent_t event) {
+    const std::lock_guard lock(device);
+    if (event->stream != nullptr) run_until(*event->stream, event->after);
+    return cudaSuccess;
+}
 cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t, cudaEvent_t) { return *milliseconds = 0.0F, cudaSuccess; }
 
 cudaError_t cudaMemPoolCreate(cudaMemPool_t*, const cudaMemPoolProps*) { return cudaSuccess; }
 cudaError_t cudaMemPoolDestroy(cudaMemPool_t) { return cudaSuccess; }
 cudaError_t cudaMallocFromPoolAsync(void** memory, std::size_t bytes, cudaMemPool_t, cudaStream_t) { return cudaMallocHost(memory, bytes); }
-cudaError_t cudaFreeAsync(void* memory, cudaStream_t) { return cudaFreeHost(memory); }
+cudaError_t cudaFreeAsync(void* memory, cudaStream_t stream) {
+    emulated_device::submit(stream, [=] {
+        std::memset(memory, 0xDD, malloc_usable_size(memory));  // for whoever still reads it
+        cudaFreeHost(memory);
+    });
+    return cudaSuccess;
+}
 cudaError_t cudaMallocHost(void** memory, std::size_t bytes) {
     *memory = std::aligned_alloc(256, (bytes + 255) / 256 * 256);
     return *memory != nullptr ? cudaSuccess : cudaErrorMemoryAllocation;
 }
 cudaError_t cudaFreeHost(void* memory) { return std::free(memory), cudaSuccess; }
-cudaError_t cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStream_t) {
-    emulated_device::submit([=] { std::memset(memory, value, bytes); });
+cudaError_t cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStream_t stream) {
+    emulated_device::submit(stream, [=] { std::memset(memory, value, bytes); });
     return cudaSuccess;
 }
-cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaMemcpyKind, cudaStream_t) {
-    emulated_device::submit([=] { std::memcpy(to, from, bytes); });
+cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream) {
+    if (kind == cudaMemcpyDeviceToHost && emulated_device::copies_until_failure >= 0 && emulated_device::copies_until_failure-- == 0) return cudaErrorLaunchFailure;
+    emulated_device::submit(stream, [=] { std::memcpy(to, from, bytes); });
     return cudaSuccess;
 }

@@ -7,8 +7,8 @@ namespace meniscus::cuda {
 namespace {
 
 template <class T>
-void sum(T* values, std::size_t n) {
-    emulated_device::submit([=] {
+void sum(T* values, std::size_t n, cudaStream_t stream) {
+    emulated_device::submit(stream, [=] {
         T total{};
         for (std::size_t i = 0; i < n; ++i) {
             const T own = values[i];
@@ -19,9 +19,9 @@ void sum(T* values, std::size_t n) {
 }
 
 template <class Key>
-Key* sorted(Key* keys, Key* room, std::size_t n) {
+Key* sorted(Key* keys, Key* room, std::size_t n, cudaStream_t stream) {
     // In the other array, as CUB may have it too.
-    emulated_device::submit([=] {
+    emulated_device::submit(stream, [=] {
         std::copy(keys, keys + n, room);
         std::sort(room, room + n);
     });
@@ -31,10 +31,10 @@ Key* sorted(Key* keys, Key* room, std::size_t n) {
 }  // namespace
 
 std::size_t scratch_bytes(std::size_t, std::size_t, std::size_t) { return 256; }
-void exclusive_sum(const Scratch&, std::uint32_t* values, std::size_t n, cudaStream_t) { sum(values, n); }
-void exclusive_sum(const Scratch&, std::uint64_t* values, std::size_t n, cudaStream_t) { sum(values, n); }
-void exclusive_sum(const Scratch&, LevelCounts* values, std::size_t n, cudaStream_t) { sum(values, n); }
-SortKey* sort(const Scratch&, SortKey* keys, SortKey* room, std::size_t n, cudaStream_t) { return sorted(keys, room, n); }
-std::uint64_t* sort(const Scratch&, std::uint64_t* keys, std::uint64_t* room, std::size_t n, cudaStream_t) { return sorted(keys, room, n); }
+void exclusive_sum(const Scratch&, std::uint32_t* values, std::size_t n, cudaStream_t stream) { sum(values, n, stream); }
+void exclusive_sum(const Scratch&, std::uint64_t* values, std::size_t n, cudaStream_t stream) { sum(values, n, stream); }
+void exclusive_sum(const Scratch&, LevelCounts* values, std::size_t n, cudaStream_t stream) { sum(values, n, stream); }
+SortKey* sort(const Scratch&, SortKey* keys, SortKey* room, std::size_t n, cudaStream_t stream) { return sorted(keys, room, n, stream); }
+std::uint64_t* sort(const Scratch&, std::uint64_t* keys, std::uint64_t* room, std::size_t n, cudaStream_t stream) { return sorted(keys, room, n, stream); }
 
 }  // namespace meniscus::cuda
