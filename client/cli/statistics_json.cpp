@@ -27,6 +27,7 @@ nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::s
     out["field_evaluations"] = s.field_evaluations;
     for (std::size_t i = 0; i < stage_count; ++i)
         out["stage_seconds"][std::string(stage_names[i])] = s.stage_seconds[i];
+    out["download_seconds"] = s.download_seconds;
     out["total_seconds"] = s.total_seconds;
     out["first_seconds"] = runs.front().total_seconds;
     out["peak_bytes"] = s.peak_bytes;

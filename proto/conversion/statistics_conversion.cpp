@@ -32,6 +32,7 @@ void to_wire(const Statistics& statistics, v1::FrameStatistics& wire) {
     stages.set_fill_cracks(seconds(Stage::fill_cracks));
 
     wire.set_total_seconds(statistics.total_seconds);
+    wire.set_download_seconds(statistics.download_seconds);
     wire.set_peak_bytes(statistics.peak_bytes);
     wire.set_device_bytes(statistics.device_bytes);
     wire.set_device_peak_bytes(statistics.device_peak_bytes);
@@ -59,6 +60,7 @@ Statistics from_wire(const v1::FrameStatistics& wire) {
                                 stages.emit_triangles(),     stages.fill_cracks()};
 
     statistics.total_seconds = wire.total_seconds();
+    statistics.download_seconds = wire.download_seconds();
     statistics.peak_bytes = wire.peak_bytes();
     statistics.device_bytes = wire.device_bytes();
     statistics.device_peak_bytes = wire.device_peak_bytes();

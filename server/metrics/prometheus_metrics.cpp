@@ -59,8 +59,9 @@ struct PrometheusMetrics::Instruments {
         for (std::size_t i = 0; i < stage_count; ++i) all[i] = &stage(stage_names[i]);
         return all;
     }();
+    prometheus::Histogram& download = stage("download");
     prometheus::Histogram& encode = stage("encode");
-    prometheus::Histogram& reconstruction = seconds("meniscus_frame_reconstruction_seconds", "All steps of a frame but its encoding.");
+    prometheus::Histogram& reconstruction = seconds("meniscus_frame_reconstruction_seconds", "All steps of a frame but its download and encoding.");
     prometheus::Histogram& latency = seconds("meniscus_frame_latency_seconds", "From a frame's last byte to the end of its encoding.");
     prometheus::Histogram& lag =
         seconds("meniscus_watcher_lag_seconds", "From a frame's last byte until a watcher has taken the end of its mesh.");
@@ -88,6 +89,7 @@ void PrometheusMetrics::frame_finished(const v1::FrameStatistics& statistics) {
     const Statistics reconstruction = conversion::from_wire(statistics);
     for (std::size_t i = 0; i < stage_count; ++i) instruments_->stages[i]->Observe(reconstruction.stage_seconds[i]);
     instruments_->reconstruction.Observe(reconstruction.total_seconds);
+    if (statistics.download_seconds() != 0.0) instruments_->download.Observe(statistics.download_seconds());
     if (statistics.encoded_bytes() != 0) instruments_->encode.Observe(statistics.encode_seconds());
     instruments_->latency.Observe(statistics.latency_seconds());
 }

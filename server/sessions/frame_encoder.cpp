@@ -73,6 +73,7 @@ v1::StreamResponse statistics_response(const ReconstructedFrame& frame) {
     statistics.set_frame_index(frame.index);
     statistics.set_simulation_time(frame.simulation_time);
     conversion::to_wire(frame.statistics, statistics);
+    statistics.set_download_seconds(frame.download.seconds());
     statistics.set_latency_seconds(seconds_since(frame.received_at));
     return response;
 }
@@ -81,6 +82,8 @@ v1::StreamResponse statistics_response(const ReconstructedFrame& frame) {
 
 std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
                                                  const EncodedFrame* before, WorkerPool& workers, const MessageSink& sink) {
+    const MeshDownload& download = frame.download_at(format.max_level);
+    download.start();
     const auto start = Clock::now();
     const Mesh& mesh = *frame.mesh_at(format.max_level);
     const CodingOptions coding{.normal_bits = format.normal_bits, .position_bits = format.position_bits};
@@ -104,6 +107,7 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
     std::uint64_t bytes = 0;
     encoded->bricks.resize(mesh.bricks.size());
     workers.for_each(mesh.bricks.size(), [&](std::size_t i) {
+        download.bring(i);
         const BrickContent content = brick_content(mesh, i, coding);
         const std::uint64_t hash = content.hash();
         SharedBrick brick = find_brick(before, content.coordinate);

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "meniscus/mesh.hpp"
+#include "meniscus/mesh_download.hpp"
 #include "meniscus/statistics.hpp"
 #include "sessions/encoded_frame.hpp"
 #include "sessions/worker_pool.hpp"
@@ -28,6 +29,7 @@ struct ReconstructedFrame {
     double simulation_time = 0.0;
     std::chrono::steady_clock::time_point received_at;
     Mesh mesh;
+    MeshDownload download;             ///< of that mesh
     std::array<CappedMesh, 2> capped;  ///< at levels 1 and 2
     Statistics statistics;
 
@@ -38,13 +40,18 @@ struct ReconstructedFrame {
         const CappedMesh& cap = capped.at(static_cast<std::size_t>(max_level - 1));
         return cap.made ? &cap.mesh : nullptr;
     }
+    /// Of the mesh at this cap; those with their levels capped are complete.
+    const MeshDownload& download_at(int max_level) const {
+        static const MeshDownload complete;
+        return max_level == 3 ? download : complete;
+    }
 };
 
 /// Called with every message as soon as it is there, one call at a time. The parts of a brick follow one another.
 using MessageSink = std::function<void(const SharedMessage&)>;
 
-/// Encodes the bricks in parallel, but those whose content `before` has already: an earlier frame of the session in the same
-/// format, or none. The frame has the mesh of that format. sink may be empty.
+/// Brings the mesh down, and encodes the bricks in parallel, but those whose content `before` has already: an earlier frame of the session in the same
+/// format, or none. The frame has the mesh of that format. sink may be empty. Throws DeviceError if the mesh cannot come down.
 std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
                                                  const EncodedFrame* before, WorkerPool& workers, const MessageSink& sink);
 

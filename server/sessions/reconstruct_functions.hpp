@@ -2,17 +2,28 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
 #include "meniscus/mesh.hpp"
+#include "meniscus/mesh_download.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/statistics.hpp"
 
 namespace meniscus::server {
 
+struct Reconstructed {
+    /// Statistics alone are those of a mesh that is complete.
+    Reconstructed(Statistics s, MeshDownload d = {}) : statistics(std::move(s)), download(std::move(d)) {}
+
+    Statistics statistics;
+    MeshDownload download;
+};
+
 /// Called by one thread of the session.
 struct ReconstructFunctions {
-    /// Replaces the mesh by the frame's surface; throws what Reconstructor::reconstruct throws.
-    std::function<Statistics(const ParticleFrame& frame, Mesh& mesh)> reconstruct;
+    /// Replaces the mesh by the frame's surface, which is there once it has been downloaded; throws what
+    /// Reconstructor::reconstruct_for_download throws.
+    std::function<Reconstructed(const ParticleFrame& frame, Mesh& mesh)> reconstruct;
     /// Replaces the mesh by the last frame's surface with its levels capped; throws what Reconstructor::emit_capped throws.
     /// None if no watcher will wish for a level cap.
     std::function<void(int max_level, Mesh& mesh)> emit_capped{};

@@ -49,8 +49,8 @@ struct SessionIdentity {
 };
 
 /// A pipeline of three steps that overlap: a frame is received (by its stream, into one of two input slots) while the
-/// one before is reconstructed (first thread, into one of two meshes) and the one before that is encoded (second
-/// thread). A step waits for the next one only through these slots, which is also all the memory that frames take.
+/// one before is reconstructed (first thread, into one of two meshes) and the one before that comes down from the GPU and
+/// is encoded (second thread). A step waits for the next one only through these slots, which is also all the memory that frames take.
 /// UploadPolicy::latest has a third input slot: for the frame that waits, and is replaced once a newer one is complete.
 ///
 /// join() must have returned before the last reference goes, unless no other thread has one.
@@ -159,6 +159,7 @@ private:
     bool is_wished_for(int max_level) const;
 
     void encode_frames();
+    void give_back(ReconstructedFrame& frame);
     void perform(Encode& task);
     /// A frame of a resumed run that was finished before: for the simulator alone.
     void answer_again(Encode& task);

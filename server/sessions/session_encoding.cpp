@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "log.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/refusal.hpp"
 #include "sessions/session.hpp"
@@ -21,7 +22,20 @@ MeshFormat stream_format(const UploadOptions& options, const Settings& settings)
 }  // namespace
 
 void Session::encode_frames() {
-    while (auto task = tasks_.take()) std::visit([this](auto& t) { perform(t); }, *task);
+    while (auto task = tasks_.take()) {
+        try {
+            std::visit([this](auto& t) { perform(t); }, *task);
+        } catch (const DeviceError& error) {
+            log_error({.session = id()}, "the session ends: {}", error.what());
+            EndSession end{std::current_exception()};
+            perform(end);
+        }
+    }
+}
+
+void Session::give_back(ReconstructedFrame& frame) {
+    frame.download = {};  // of a mesh that nobody may have wanted
+    free_frames_.put(&frame);
 }
 
 void Session::perform(Encode& task) {
@@ -31,7 +45,7 @@ void Session::perform(Encode& task) {
     auto& last_finished = upload.run->last_finished;
     if (last_finished && task.frame->index <= *last_finished) return answer_again(task);
     last_finished = task.frame->index;
-    if (newest_ != nullptr) free_frames_.put(newest_);
+    if (newest_ != nullptr) give_back(*newest_);
     newest_ = task.frame;
     {
         const std::lock_guard lock(mutex_);
@@ -49,6 +63,8 @@ void Session::perform(Encode& task) {
             count_answer(statistics);
             upload.output.push(statistics);
         }
+    } catch (const DeviceError&) {
+        throw;
     } catch (...) {
         EndUpload end{.upload = task.upload, .error = std::current_exception()};
         perform(end);
@@ -67,12 +83,14 @@ void Session::answer_again(Encode& task) {
                          [&](const SharedMessage& message) { upload.output.push(message); });
         else
             upload.output.push(encode_statistics(*task.frame));
+    } catch (const DeviceError&) {
+        throw;
     } catch (...) {
         EndUpload end{.upload = task.upload, .error = std::current_exception()};
         perform(end);
     }
     answered(upload);
-    free_frames_.put(task.frame);
+    give_back(*task.frame);
 }
 
 void Session::answered(Upload& upload) {
@@ -149,6 +167,8 @@ void Session::encode_for_watchers() {
     if (newest_ == nullptr) return;
     try {
         while (const auto format = unpublished_format()) publish(*format, encode_newest(*format, nullptr));
+    } catch (const DeviceError&) {
+        throw;
     } catch (const std::exception& error) {
         log_error({.session = id(), .frame = newest_->index},
                   "not encoded for its watchers, who keep the frame before: {}", error.what());
@@ -164,6 +184,8 @@ void Session::encode_for_observer() {
     }
     try {
         if (!frame) publish(format, frame = encode_newest(format, nullptr));
+    } catch (const DeviceError&) {
+        throw;
     } catch (const std::exception& error) {
         log_error({.session = id(), .frame = newest_->index}, "not encoded for its recording: {}", error.what());
         return;

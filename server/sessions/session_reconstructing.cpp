@@ -65,7 +65,9 @@ bool Session::reconstruct_next(Received received) {
 void Session::reconstruct(const Received& received, ReconstructedFrame& frame) {
     const InputFrame& input = *received.input;
     try {
-        frame.statistics = functions_.reconstruct(input.view(), frame.mesh);
+        Reconstructed reconstructed = functions_.reconstruct(input.view(), frame.mesh);
+        frame.statistics = std::move(reconstructed.statistics);
+        frame.download = std::move(reconstructed.download);
     } catch (const InvalidInput& error) {
         throw InvalidInput(fmt::format("frame {}: {}", input.index, error.what()));
     } catch (const LimitExceeded& error) {

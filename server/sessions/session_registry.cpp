@@ -38,8 +38,8 @@ ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOpt
     const auto reconstructor = std::make_shared<Reconstructor>(settings, backend);
     return {.reconstruct =
                 [reconstructor](const ParticleFrame& frame, Mesh& mesh) {
-                    reconstructor->reconstruct(frame, mesh);
-                    return reconstructor->statistics();
+                    MeshDownload download = reconstructor->reconstruct_for_download(frame, mesh);
+                    return Reconstructed(reconstructor->statistics(), std::move(download));
                 },
             .emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); }};
 }

@@ -167,7 +167,6 @@ private:
             const std::size_t other = 1 - set_;
             if (storage_->sets[other].bytes() == 0) throw;
             if (const auto pending = reader(other)) pending->finish();
-            graphs_[other].drop();
             storage_->sets[other].release();
             storage_->stream.synchronize();
             allocate();
