@@ -1,0 +1,180 @@
+// The page: the list of sessions, or one of them.
+import { startDecodePool } from './decode/decode_pool';
+import { Server } from './rpc/server';
+import { writeGlb } from './save/glb';
+import { writePly } from './save/ply';
+import { SessionView } from './session_view';
+import type { WatchState } from './stream/watch_state';
+import { Banner } from './ui/banner';
+import { download } from './ui/download';
+import { readLink, writeLink, type PageState } from './ui/link';
+import { Overlay } from './ui/overlay';
+import { element } from './ui/page';
+import { SessionList } from './ui/session_list';
+import { followTheme } from './ui/theme';
+import { askToken, storedToken } from './ui/token_dialog';
+import type { UpAxis } from './view/up_axis';
+import { Viewer, type Look } from './view/viewer';
+
+export class App {
+  private readonly server = new Server({ base: '', fetch: (input, init) => fetch(input, init) });
+  private readonly banner = new Banner();
+  private readonly canvas = element('view', HTMLCanvasElement);
+  private readonly viewer: Viewer;
+  private readonly view: SessionView;
+  private readonly list: SessionList;
+  private session: string | undefined;
+  private look: Look = 'water';
+  private up: UpAxis = 'y';
+  /** From the link, for the first picture. */
+  private linked: PageState = {};
+
+  /** Throws if there is no WebGL 2. */
+  constructor() {
+    this.server.token = storedToken();
+    this.viewer = new Viewer(this.canvas, {
+      drawn: (frame, triangles) => {
+        // For those who look from outside: tests, and assistive tools.
+        this.canvas.dataset.frame = String(frame.index);
+        this.canvas.dataset.triangles = String(triangles);
+        this.view.frameDrawn(frame);
+      },
+      moving: (moving) => {
+        this.view.cameraMoving(moving);
+        if (!moving) this.writeAddress();
+      },
+    });
+    this.view = new SessionView(this.server, startDecodePool(), this.viewer, new Overlay(), {
+      state: (state) => { this.watchState(state); },
+      failed: (reason) => { this.banner.say(`A mesh could not be shown: ${reason}.`); },
+      firstFrame: () => { this.firstFrame(); },
+    });
+    this.list = new SessionList(this.server, this.banner, {
+      chosen: (session) => { this.go({ session }); },
+      tokenNeeded: (reason) => void this.tokenNeeded(reason),
+    });
+    followTheme((theme) => { this.viewer.setTheme(theme); });
+    this.bindControls();
+    addEventListener('popstate', () => { this.open(readLink(location.hash)); });
+    this.open(readLink(location.hash));
+  }
+
+  private go(state: PageState): void {
+    history.pushState(null, '', writeLink(state));
+    this.open(state);
+  }
+
+  private open(state: PageState): void {
+    this.linked = state;
+    this.session = state.session;
+    this.view.stop();
+    this.banner.say('');
+    const watching = state.session !== undefined;
+    element('watch', HTMLElement).hidden = !watching;
+    element('leave', HTMLButtonElement).hidden = !watching;
+    element('title', HTMLElement).textContent = state.session ?? '';
+    if (state.session === undefined) {
+      this.list.show();
+      return;
+    }
+    this.list.hide();
+    this.setLook(state.look ?? 'water');
+    this.setUp(state.up ?? 'y');
+    this.view.start(state.session);
+  }
+
+  private firstFrame(): void {
+    if (this.linked.camera) this.viewer.cameraPlace = this.linked.camera;
+    else this.viewer.fit();
+  }
+
+  private watchState(state: WatchState): void {
+    this.canvas.dataset.state = state.kind;
+    this.banner.watching(state);
+    if (state.kind === 'token') void this.tokenNeeded(state.reason);
+  }
+
+  private async tokenNeeded(reason: string): Promise<void> {
+    this.banner.say(reason);
+    const token = await askToken(reason);
+    if (token === undefined) return;
+    this.server.token = token;
+    this.banner.say('');
+    if (this.session === undefined) this.list.show();
+    else this.view.restart();
+  }
+
+  private bindControls(): void {
+    const actions: Record<string, () => void> = {
+      leave: () => { this.go({}); },
+      look: () => { this.setLook(this.look === 'water' ? 'levels' : 'water'); },
+      up: () => { this.setUp(this.up === 'y' ? 'z' : 'y'); },
+      fit: () => { this.viewer.fit(); },
+      full: () => void toggleFullScreen(element('watch', HTMLElement)),
+      measure: () => { this.toggleOverlay(); },
+      glb: () => { this.save('glb', 'model/gltf-binary'); },
+      ply: () => { this.save('ply', 'application/octet-stream'); },
+      link: () => void this.copyLink(),
+    };
+    for (const [id, action] of Object.entries(actions)) element(id, HTMLButtonElement).addEventListener('click', action);
+    const keys: Record<string, () => void> = {
+      ' ': () => { this.view.togglePause(); },
+      ',': () => { this.view.step(-1); },
+      '.': () => { this.view.step(1); },
+      f: () => { this.viewer.fit(); },
+      w: () => { actions.look!(); },
+      m: () => { this.toggleOverlay(); },
+    };
+    this.canvas.addEventListener('keydown', (event) => {
+      const action = event.ctrlKey || event.metaKey || event.altKey ? undefined : keys[event.key];
+      if (!action) return;
+      event.preventDefault();
+      action();
+    });
+  }
+
+  private setLook(look: Look): void {
+    this.look = look;
+    this.viewer.setLook(look);
+    element('look', HTMLButtonElement).setAttribute('aria-pressed', String(look === 'levels'));
+    this.writeAddress();
+  }
+
+  private setUp(up: UpAxis): void {
+    this.up = up;
+    this.viewer.setUp(up);
+    element('up', HTMLButtonElement).setAttribute('aria-pressed', String(up === 'z'));
+    this.writeAddress();
+  }
+
+  private toggleOverlay(): void {
+    const overlay = element('overlay', HTMLElement);
+    overlay.hidden = !overlay.hidden;
+    element('measure', HTMLButtonElement).setAttribute('aria-pressed', String(!overlay.hidden));
+  }
+
+  private save(kind: 'glb' | 'ply', type: string): void {
+    const shown = this.view.shown;
+    if (!shown) return;
+    download(`meniscus-${shown.frame.index}.${kind}`, type, kind === 'glb' ? writeGlb(shown, this.up) : writePly(shown));
+  }
+
+  private writeAddress(): void {
+    if (!this.view.shown || this.session === undefined) return;
+    history.replaceState(null, '', writeLink({ session: this.session, camera: this.viewer.cameraPlace, look: this.look, up: this.up }));
+  }
+
+  private async copyLink(): Promise<void> {
+    this.writeAddress();
+    const button = element('link', HTMLButtonElement);
+    // The clipboard is closed to pages that came without TLS from another machine; the address bar has the same link.
+    const copied = await navigator.clipboard.writeText(location.href).then(() => true, () => false);
+    button.textContent = copied ? 'Copied' : 'See the address bar';
+    setTimeout(() => { button.textContent = 'Copy link'; }, 2000);
+  }
+}
+
+async function toggleFullScreen(part: HTMLElement): Promise<void> {
+  if (document.fullscreenElement) await document.exitFullscreen();
+  else await part.requestFullscreen();
+}

@@ -1,0 +1,155 @@
+// Puts one call's messages together to whole frames, and believes none of them.
+import type { FrameStatistics, MeshBegin, MeshBrick } from '../gen/meniscus/v1/mesh_pb';
+import type { WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
+import { brickKey, type BrickKey, type EncodedBrick, type Frame } from './frame';
+
+/** The server contradicts itself or this version. */
+export class ProtocolError extends Error {
+  override name = 'ProtocolError';
+}
+
+const knownBrickCells = 64;
+const minOffsetBits = 2;
+const maxOffsetBits = 9;
+/** More than any mesh has that a browser could show. */
+const maxBricks = 1 << 20;
+
+interface Arriving {
+  readonly begin: MeshBegin;
+  readonly beganAt: number;
+  readonly bricks: Map<BrickKey, EncodedBrick>;
+  readonly arrived: Set<BrickKey>;
+  bytes: number;
+}
+
+interface PartialBrick {
+  readonly first: MeshBrick;
+  readonly parts: Uint8Array[];
+}
+
+export class FrameReceiver {
+  private last: Frame | undefined;
+  private arriving: Arriving | undefined;
+  private partial: PartialBrick | undefined;
+
+  /** Returns the frame that the message completes. Throws ProtocolError. */
+  take(response: WatchResponse, bytes: number, now: number): Frame | undefined {
+    const { message } = response;
+    if (this.arriving) this.arriving.bytes += bytes;
+    switch (message.case) {
+      case 'meshBegin':
+        this.begin(message.value, bytes, now);
+        return undefined;
+      case 'meshBrick':
+        this.add(message.value);
+        return undefined;
+      case 'frameStatistics':
+        return this.end(message.value, now);
+      default:
+        return undefined;
+    }
+  }
+
+  /** One that comes before the end of the frame before abandons that frame. */
+  private begin(begin: MeshBegin, bytes: number, now: number): void {
+    const name = `frame ${begin.frameIndex}`;
+    this.partial = undefined;
+    this.arriving = undefined;
+    if (begin.brickCells !== knownBrickCells)
+      throw new ProtocolError(`${name} has bricks of ${begin.brickCells} cells; this viewer knows ${knownBrickCells}`);
+    if (begin.offsetBits < minOffsetBits || begin.offsetBits > maxOffsetBits)
+      throw new ProtocolError(`${name} has offset_bits ${begin.offsetBits}; allowed are ${minOffsetBits} to ${maxOffsetBits}`);
+    if (!Number.isFinite(begin.cellSize) || begin.cellSize <= 0) throw new ProtocolError(`${name} has cell_size ${begin.cellSize}`);
+    if (begin.brickCount > maxBricks) throw new ProtocolError(`${name} has ${begin.brickCount} bricks; at most ${maxBricks} are taken`);
+    this.arriving = { begin, beganAt: now, bricks: this.baseBricks(begin, name), arrived: new Set(), bytes };
+  }
+
+  /** What stays of the base. */
+  private baseBricks(begin: MeshBegin, name: string): Map<BrickKey, EncodedBrick> {
+    if (begin.baseFrameIndex === undefined) {
+      if (begin.vanished.length > 0) throw new ProtocolError(`${name} has bricks that vanished, but no base`);
+      return new Map();
+    }
+    if (this.last?.index !== begin.baseFrameIndex)
+      throw new ProtocolError(
+        `${name} is the difference to frame ${begin.baseFrameIndex}; the last one was ${this.last?.index ?? 'none'}`,
+      );
+    if (this.last.offsetBits !== begin.offsetBits || this.last.cellSize !== begin.cellSize)
+      throw new ProtocolError(`${name} is the difference to a frame on another lattice`);
+    const bricks = new Map(this.last.bricks);
+    for (const { x, y, z } of begin.vanished)
+      if (!bricks.delete(brickKey(x, y, z))) throw new ProtocolError(`${name}: brick (${x}, ${y}, ${z}) vanished without having been`);
+    return bricks;
+  }
+
+  private add(brick: MeshBrick): void {
+    const { arriving } = this;
+    if (!arriving) throw new ProtocolError('a brick came outside of a frame');
+    const name = `frame ${arriving.begin.frameIndex}, brick (${brick.x}, ${brick.y}, ${brick.z})`;
+    if (!this.partial) {
+      if (brick.partIndex !== 0 || brick.partCount === 0)
+        throw new ProtocolError(`${name} begins with part ${brick.partIndex} of ${brick.partCount}`);
+      if (arriving.arrived.size === arriving.begin.brickCount)
+        throw new ProtocolError(`${name} is one more than the ${arriving.begin.brickCount} that were announced`);
+      this.partial = { first: brick, parts: [] };
+    }
+    const { first, parts } = this.partial;
+    if (brick.x !== first.x || brick.y !== first.y || brick.z !== first.z || brick.partIndex !== parts.length || brick.partCount !== first.partCount)
+      throw new ProtocolError(
+        `${name}, part ${brick.partIndex} of ${brick.partCount}, came in place of part ${parts.length} of (${first.x}, ${first.y}, ${first.z})`,
+      );
+    parts.push(brick.draco);
+    if (parts.length < first.partCount) return;
+    this.partial = undefined;
+    const key = brickKey(first.x, first.y, first.z);
+    if (arriving.arrived.has(key)) throw new ProtocolError(`${name} came twice`);
+    arriving.arrived.add(key);
+    arriving.bricks.set(key, {
+      place: [first.x, first.y, first.z],
+      vertexCount: first.vertexCount,
+      triangleCount: first.triangleCount,
+      cellLevels: first.cellLevels.slice(),
+      draco: concatenate(parts),
+    });
+  }
+
+  private end(statistics: FrameStatistics, now: number): Frame {
+    const { arriving } = this;
+    if (arriving?.begin.frameIndex !== statistics.frameIndex)
+      throw new ProtocolError(`statistics of frame ${statistics.frameIndex} came without its mesh`);
+    const { begin, bricks } = arriving;
+    if (this.partial || arriving.arrived.size !== begin.brickCount)
+      throw new ProtocolError(`frame ${begin.frameIndex} ended after ${arriving.arrived.size} of ${begin.brickCount} bricks`);
+    let triangleCount = 0;
+    for (const brick of bricks.values()) triangleCount += brick.triangleCount;
+    if (BigInt(triangleCount) !== begin.triangleCount)
+      throw new ProtocolError(`frame ${begin.frameIndex} has bricks of ${triangleCount} triangles; announced were ${begin.triangleCount}`);
+    this.arriving = undefined;
+    this.last = {
+      index: begin.frameIndex,
+      runId: begin.runId,
+      simulationTime: begin.simulationTime,
+      cellSize: begin.cellSize,
+      offsetBits: begin.offsetBits,
+      brickCells: begin.brickCells,
+      bricks,
+      triangleCount,
+      statistics,
+      bytes: arriving.bytes,
+      beganAt: arriving.beganAt,
+      arrivedAt: now,
+    };
+    return this.last;
+  }
+}
+
+/** A copy: what came over the wire shares large buffers, which are not to be kept, nor sent to workers. */
+function concatenate(parts: Uint8Array[]): Uint8Array {
+  const whole = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
+  let at = 0;
+  for (const part of parts) {
+    whole.set(part, at);
+    at += part.length;
+  }
+  return whole;
+}

@@ -1,0 +1,96 @@
+// One brick from its Draco bytes. Draco's own checks are not enough: what it decodes is checked against what was announced.
+import type { DracoAttribute, DracoMesh, DracoModule } from 'draco3d/draco_decoder_nodejs.js';
+import type { EncodedBrick } from '../bricks/frame';
+import type { Bounds, DecodedBrick } from './decoded_brick';
+import { requirePlausible } from './draco_header';
+import { groupTriangles } from './group_triangles';
+import { triangleGroups } from './triangle_levels';
+
+const brickCells = 64;
+
+/** Throws an Error that names the brick. */
+export function decodeBrick(draco: DracoModule, brick: EncodedBrick, offsetBits: number): DecodedBrick {
+  const decoder = new draco.Decoder();
+  const mesh = new draco.Mesh();
+  try {
+    requirePlausible(brick);
+    const status = decoder.DecodeArrayToMesh(brick.draco, brick.draco.length, mesh);
+    if (!status.ok()) throw new Error(`its bytes are not a Draco mesh (${status.error_msg()})`);
+    if (mesh.num_faces() !== brick.triangleCount)
+      throw new Error(`it has ${mesh.num_faces()} triangles; announced were ${brick.triangleCount}`);
+    const points = mesh.num_points();
+    const attribute = (type: number): DracoAttribute | undefined => {
+      const id = decoder.GetAttributeId(mesh, type);
+      return id < 0 ? undefined : decoder.GetAttribute(mesh, id);
+    };
+    const read = (from: DracoAttribute, type: number, bytes: number): ArrayBuffer =>
+      copyOut(draco, bytes, (to) => decoder.GetAttributeDataArrayForAllPoints(mesh, from, type, bytes, to));
+
+    const position = attribute(draco.POSITION);
+    if (position?.data_type() !== draco.DT_UINT16 || position.num_components() !== 3)
+      throw new Error('it has no positions of three uint16');
+    const positions = paddedPositions(new Uint16Array(read(position, draco.DT_UINT16, points * 6)), brickCells << offsetBits);
+    const normal = attribute(draco.NORMAL);
+    const normals = normal?.num_components() === 3 ? shortNormals(new Float32Array(read(normal, draco.DT_FLOAT32, points * 12))) : undefined;
+    const triangles = readTriangles(draco, mesh, (bytes, to) => decoder.GetTrianglesUInt32Array(mesh, bytes, to));
+    const groups = triangleGroups(positions, 4, triangles, brick.cellLevels, offsetBits);
+    return { positions, normals, bounds: boundsOf(positions), ...groupTriangles(triangles, groups, points) };
+  } catch (error) {
+    throw new Error(`brick (${brick.place.join(', ')}): ${error instanceof Error ? error.message : String(error)}`);
+  } finally {
+    draco.destroy(mesh);
+    draco.destroy(decoder);
+  }
+}
+
+/** What `fill` has written to the decoder's memory, copied out of it. */
+function copyOut(draco: DracoModule, bytes: number, fill: (to: number) => boolean): ArrayBuffer {
+  const address = draco._malloc(bytes);
+  try {
+    if (!fill(address)) throw new Error('an attribute could not be read');
+    return draco.HEAPU8.slice(address, address + bytes).buffer;
+  } finally {
+    draco._free(address);
+  }
+}
+
+function readTriangles(draco: DracoModule, mesh: DracoMesh, fill: (bytes: number, to: number) => boolean): Uint32Array {
+  const bytes = mesh.num_faces() * 12;
+  const triangles = new Uint32Array(copyOut(draco, bytes, (to) => fill(bytes, to)));
+  const points = mesh.num_points();
+  if (triangles.some((point) => point >= points)) throw new Error('a triangle names a point that is not there');
+  return triangles;
+}
+
+/** To four shorts a point, as graphics hardware reads them. */
+function paddedPositions(packed: Uint16Array, last: number): Uint16Array {
+  const padded = new Uint16Array((packed.length / 3) * 4);
+  for (let from = 0, to = 0; from < packed.length; from += 3, to += 4)
+    for (let axis = 0; axis < 3; ++axis) {
+      const value = packed[from + axis]!;
+      if (value > last) throw new Error('a vertex lies outside of it');
+      padded[to + axis] = value;
+    }
+  return padded;
+}
+
+function boundsOf(positions: Uint16Array): Bounds {
+  const min: [number, number, number] = [0xffff, 0xffff, 0xffff];
+  const max: [number, number, number] = [0, 0, 0];
+  for (let at = 0; at < positions.length; at += 4)
+    for (let axis = 0; axis < 3; ++axis) {
+      const value = positions[at + axis]!;
+      if (value < min[axis]!) min[axis] = value;
+      if (value > max[axis]!) max[axis] = value;
+    }
+  return { min, max };
+}
+
+function shortNormals(normals: Float32Array): Int16Array {
+  const short = new Int16Array((normals.length / 3) * 4);
+  for (let from = 0, to = 0; from < normals.length; from += 3, to += 4) {
+    const length = Math.hypot(normals[from]!, normals[from + 1]!, normals[from + 2]!);
+    for (let axis = 0; axis < 3; ++axis) short[to + axis] = length > 0 ? Math.round((normals[from + axis]! / length) * 32767) : 0;
+  }
+  return short;
+}

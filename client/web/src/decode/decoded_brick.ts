@@ -1,0 +1,26 @@
+// A brick as the screen wants it.
+
+export const triangleLevels = ['level 1', 'level 2', 'level 3', 'crack filling'] as const;
+export const levelCount = 4;
+
+export interface DecodedBrick {
+  /** Brick-local, in steps of cellSize / 2^offsetBits: x y z and a padding per point. */
+  readonly positions: Uint16Array;
+  /** Unit vectors times 32767: x y z and a padding per point; none if the mesh has none. */
+  readonly normals: Int16Array | undefined;
+  /** Three points per triangle, ordered by level: 1, 2, 3, crack filling. */
+  readonly indices: Uint16Array | Uint32Array;
+  /** Triangles of each level, in that order. */
+  readonly levelTriangles: readonly [number, number, number, number];
+  /** Smallest and largest position on each axis. */
+  readonly bounds: Bounds;
+}
+
+export interface Bounds {
+  readonly min: readonly [number, number, number];
+  readonly max: readonly [number, number, number];
+}
+
+export function pointCount(brick: DecodedBrick): number {
+  return brick.positions.length / 4;
+}

@@ -1,0 +1,131 @@
+// One session on the screen: its watch, its bricks, its picture.
+import { BrickStore, type Shown } from './bricks/brick_store';
+import type { Frame } from './bricks/frame';
+import { History } from './bricks/history';
+import { levelCount } from './decode/decoded_brick';
+import type { DecodePool } from './decode/decode_pool';
+import type { Server } from './rpc/server';
+import { LinkSpeed } from './stream/link_speed';
+import { chooseQuality, wishesOf, type Quality } from './stream/quality';
+import { SessionWatch } from './stream/session_watch';
+import type { WatchState } from './stream/watch_state';
+import type { Overlay } from './ui/overlay';
+import { Playback } from './ui/playback';
+import type { Viewer } from './view/viewer';
+
+/** Some ten seconds at 30 frames a second. */
+const historyLimits = { frames: 300, bytes: 192 << 20 };
+
+export interface SessionViewEvents {
+  state(state: WatchState): void;
+  failed(reason: string): void;
+  firstFrame(): void;
+}
+
+export class SessionView {
+  private readonly history = new History(historyLimits);
+  private readonly playback: Playback;
+  private readonly store: BrickStore;
+  private readonly link = new LinkSpeed();
+  private watch: SessionWatch | undefined;
+  private quality: Quality = 'full';
+  private moving = false;
+  private lastDrawn: Frame | undefined;
+
+  constructor(
+    private readonly server: Server,
+    pool: DecodePool,
+    private readonly viewer: Viewer,
+    private readonly overlay: Overlay,
+    private readonly events: SessionViewEvents,
+  ) {
+    this.store = new BrickStore((brick, bits) => pool.decode(brick, bits), {
+      shown: (shown) => { this.viewer.show(shown); },
+      failed: (error) => { this.events.failed(error instanceof Error ? error.message : String(error)); },
+    });
+    this.playback = new Playback(this.history, {
+      paused: () => { this.pauseOrResume(); },
+      chosen: (frame) => { this.store.show(frame); },
+    });
+    document.addEventListener('visibilitychange', () => { this.pauseOrResume(); });
+  }
+
+  get shown(): Shown | undefined {
+    return this.store.shown;
+  }
+
+  start(session: string): void {
+    this.stop();
+    this.history.clear();
+    this.watch = new SessionWatch(this.server, session, {}, {
+      frame: (frame) => { this.take(frame); },
+      state: (state) => { this.events.state(state); },
+      received: (bytes) => { this.overlay.receivedBytes(bytes); },
+    });
+    this.setQuality('full');
+    this.playback.setPaused(false);
+    this.watch.start();
+  }
+
+  /** With another token, or once more. */
+  restart(): void {
+    this.watch?.start();
+  }
+
+  stop(): void {
+    this.watch?.stop();
+    this.watch = undefined;
+  }
+
+  togglePause(): void {
+    this.playback.toggle();
+  }
+
+  step(by: number): void {
+    this.playback.step(by);
+  }
+
+  cameraMoving(moving: boolean): void {
+    this.moving = moving;
+    this.adjustQuality();
+  }
+
+  /** A picture of the frame has been drawn. */
+  frameDrawn(frame: Frame): void {
+    if (frame === this.lastDrawn) return;
+    if (!this.lastDrawn) this.events.firstFrame();
+    this.lastDrawn = frame;
+    this.overlay.frameDrawn(frame, this.levels(), this.store.skipped, this.server.roundTrip);
+  }
+
+  private take(frame: Frame): void {
+    this.link.add(frame, this.quality === 'full');
+    this.history.add(frame);
+    this.playback.frameAdded();
+    this.store.show(frame);
+    this.adjustQuality();
+  }
+
+  private adjustQuality(): void {
+    const quality = chooseQuality(this.moving, this.link.secondsPerFullMesh);
+    if (quality === this.quality || !this.watch || this.playback.paused) return;
+    this.setQuality(quality);
+    this.watch.setWishes(wishesOf(quality, this.link.offsetBits));
+  }
+
+  private setQuality(quality: Quality): void {
+    this.quality = quality;
+    this.overlay.setQuality({ full: 'full', light: 'fewer bits', coarse: 'fewer bits, level 2' }[quality]);
+  }
+
+  private pauseOrResume(): void {
+    this.watch?.setPaused(this.playback.paused || document.hidden);
+  }
+
+  private levels(): number[] {
+    const levels = new Array<number>(levelCount).fill(0);
+    for (const { decoded } of this.store.shown?.bricks.values() ?? [])
+      decoded.levelTriangles.forEach((count, level) => { levels[level]! += count; });
+    return levels;
+  }
+}

@@ -1,0 +1,36 @@
+// How fast whole meshes come over this link.
+import type { Frame } from '../bricks/frame';
+
+/** Weight of the newest frame. */
+const weight = 0.3;
+/** Below this a frame tells more of timers than of the link. */
+const smallestBytes = 16 << 10;
+
+export class LinkSpeed {
+  private bytesPerMs: number | undefined;
+  private fullBytes = 0;
+  private fullOffsetBits = 0;
+
+  /** full: whether the frame is of full quality. */
+  add(frame: Frame, full: boolean): void {
+    const ms = frame.arrivedAt - frame.beganAt;
+    if (frame.bytes >= smallestBytes && ms > 0) {
+      const speed = frame.bytes / ms;
+      this.bytesPerMs = this.bytesPerMs === undefined ? speed : this.bytesPerMs * (1 - weight) + speed * weight;
+    }
+    if (!full) return;
+    this.fullBytes = 0;
+    for (const brick of frame.bricks.values()) this.fullBytes += brick.draco.length;
+    this.fullOffsetBits = frame.offsetBits;
+  }
+
+  /** 0 while nothing is known. */
+  get secondsPerFullMesh(): number {
+    return this.bytesPerMs === undefined ? 0 : this.fullBytes / this.bytesPerMs / 1000;
+  }
+
+  /** Of the mesh as reconstructed; the largest there is while nothing is known. */
+  get offsetBits(): number {
+    return this.fullOffsetBits === 0 ? 8 : this.fullOffsetBits;
+  }
+}

@@ -1,0 +1,136 @@
+// Watches one session for as long as it is wanted: connects, reconnects, changes its wishes, pauses.
+import { FrameReceiver } from '../bricks/frame_receiver';
+import type { Frame } from '../bricks/frame';
+import { Code, explain, RpcError } from '../rpc/status';
+import type { Received } from '../rpc/call';
+import type { WatchRequestInit } from '../rpc/server';
+import type { WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
+import { Backoff } from './backoff';
+import { FrameOrder } from './frame_order';
+import type { WatchState } from './watch_state';
+
+export type Wishes = Omit<WatchRequestInit, 'sessionId'>;
+
+export interface WatchServer {
+  watch(request: Wishes & { sessionId: string }, signal: AbortSignal): AsyncIterable<Received<WatchResponse>>;
+}
+
+export interface WatchEvents {
+  frame(frame: Frame): void;
+  state(state: WatchState): void;
+  /** Of every message, as it comes. */
+  received(bytes: number): void;
+}
+
+/** Tried again, with what the viewer shows kept: the server may come back, its simulator make the session again. */
+const passing: ReadonlySet<Code> = new Set([Code.unavailable, Code.notFound, Code.resourceExhausted, Code.deadlineExceeded]);
+
+export class SessionWatch {
+  private readonly backoff = new Backoff({ first: 500, longest: 8000 });
+  private readonly order = new FrameOrder();
+  private call: AbortController | undefined;
+  private retry: ReturnType<typeof setTimeout> | undefined;
+  private wishes: Wishes;
+  private paused = false;
+  /** Whether nothing is tried any more. */
+  private over = false;
+  /** Whether the session has ended: its simulator may make it again. */
+  private ended = false;
+
+  constructor(
+    private readonly server: WatchServer,
+    private readonly sessionId: string,
+    wishes: Wishes,
+    private readonly events: WatchEvents,
+  ) {
+    this.wishes = wishes;
+  }
+
+  start(): void {
+    this.stop();
+    this.over = false;
+    if (this.paused) {
+      this.events.state({ kind: 'paused' });
+      return;
+    }
+    const call = new AbortController();
+    this.call = call;
+    if (!this.ended) this.events.state({ kind: 'connecting' });
+    void this.run(call.signal);
+  }
+
+  /** Takes effect at once: the meshes that follow are as wished. */
+  setWishes(wishes: Wishes): void {
+    this.wishes = wishes;
+    if (this.call) this.start();
+  }
+
+  setPaused(paused: boolean): void {
+    if (paused === this.paused) return;
+    this.paused = paused;
+    if (!this.over) this.start();
+  }
+
+  /** Nothing is reported any more. */
+  stop(): void {
+    clearTimeout(this.retry);
+    this.retry = undefined;
+    this.call?.abort();
+    this.call = undefined;
+  }
+
+  private async run(signal: AbortSignal): Promise<void> {
+    const receiver = new FrameReceiver();
+    try {
+      for await (const { message, bytes } of this.server.watch({ ...this.wishes, sessionId: this.sessionId }, signal)) {
+        if (signal.aborted) return;
+        this.take(receiver, message, bytes);
+      }
+      if (signal.aborted) return;
+      this.ended = true;
+      this.events.state({ kind: 'ended' });
+      this.scheduleRetry();
+    } catch (error) {
+      if (!signal.aborted) this.fail(error);
+    }
+  }
+
+  private take(receiver: FrameReceiver, message: WatchResponse, bytes: number): void {
+    this.events.received(bytes);
+    if (message.message.case === 'draining') {
+      this.events.state({ kind: 'draining', seconds: message.message.value.seconds });
+      return;
+    }
+    if (message.message.case === 'meshBegin') {
+      this.ended = false;
+      this.events.state({ kind: 'live' });
+    }
+    const frame = receiver.take(message, bytes, performance.now());
+    if (!frame) return;
+    this.backoff.reset();
+    if (this.order.admits(frame)) this.events.frame(frame);
+  }
+
+  private fail(error: unknown): void {
+    const reason = explain(error);
+    if (!(error instanceof RpcError)) this.end({ kind: 'refused', reason: `The server sent something that this viewer does not understand: ${reason}.` });
+    else if (error.code === Code.unauthenticated || error.code === Code.permissionDenied) this.end({ kind: 'token', reason });
+    else if (error.code === Code.notFound && this.ended) this.scheduleRetry();
+    else if (passing.has(error.code)) this.events.state({ kind: 'waiting', retryAt: this.scheduleRetry(), reason });
+    else this.end({ kind: 'refused', reason });
+  }
+
+  /** When: on the page's clock, ms. */
+  private scheduleRetry(): number {
+    this.call = undefined;
+    const wait = this.backoff.next();
+    this.retry = setTimeout(() => { this.start(); }, wait);
+    return performance.now() + wait;
+  }
+
+  private end(state: WatchState): void {
+    this.call = undefined;
+    this.over = true;
+    this.events.state(state);
+  }
+}

@@ -1,0 +1,15 @@
+// Where a watch stands.
+
+export type WatchState =
+  | { readonly kind: 'connecting' }
+  /** Connected; meshes come as the simulator makes them. */
+  | { readonly kind: 'live' }
+  /** Paused by the viewer, or hidden. */
+  | { readonly kind: 'paused' }
+  /** The server goes down and has said so. */
+  | { readonly kind: 'draining'; readonly seconds: number }
+  /** Tries again at that time of the page's clock, ms. */
+  | { readonly kind: 'waiting'; readonly retryAt: number; readonly reason: string }
+  | { readonly kind: 'ended' }
+  | { readonly kind: 'token'; readonly reason: string }
+  | { readonly kind: 'refused'; readonly reason: string };

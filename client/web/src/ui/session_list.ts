@@ -1,0 +1,94 @@
+// The sessions of the server, to choose one from. Follows by itself while it is shown.
+import type { Session } from '../gen/meniscus/v1/session_service_pb';
+import type { Server } from '../rpc/server';
+import { Code, explain, RpcError } from '../rpc/status';
+import type { Banner } from './banner';
+import { element } from './page';
+import { countText } from './texts';
+
+/** ms */
+const refreshEvery = 2000;
+
+export class SessionList {
+  private readonly list = element('sessions', HTMLUListElement);
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private shown = false;
+
+  constructor(
+    private readonly server: Server,
+    private readonly banner: Banner,
+    private readonly events: { chosen(session: string): void; tokenNeeded(reason: string): void },
+  ) {
+    document.addEventListener('visibilitychange', () => { if (this.shown && !document.hidden) this.show(); });
+  }
+
+  show(): void {
+    this.hide();
+    this.shown = true;
+    element('list', HTMLElement).hidden = false;
+    void this.refresh();
+  }
+
+  hide(): void {
+    this.shown = false;
+    clearTimeout(this.timer);
+    element('list', HTMLElement).hidden = true;
+  }
+
+  private async refresh(): Promise<void> {
+    try {
+      const [info, sessions] = await Promise.all([this.server.info(), this.server.sessions()]);
+      if (!this.shown) return;
+      element('server', HTMLElement).textContent = `meniscusd ${info.version}, ${info.backend} on ${info.device}`;
+      this.fill(sessions);
+      this.banner.say('');
+    } catch (error) {
+      if (!this.shown) return;
+      if (error instanceof RpcError && (error.code === Code.unauthenticated || error.code === Code.permissionDenied)) {
+        this.events.tokenNeeded(explain(error));
+        return;
+      }
+      this.banner.countDown(explain(error), performance.now() + refreshEvery);
+    }
+    if (!document.hidden) this.timer = setTimeout(() => void this.refresh(), refreshEvery);
+  }
+
+  /** Entries that stay keep their buttons, and with them the keyboard's focus. */
+  private fill(sessions: Session[]): void {
+    element('no-sessions', HTMLElement).hidden = sessions.length > 0;
+    const buttons = new Map([...this.list.querySelectorAll('button')].map((button) => [button.dataset.session, button]));
+    this.list.replaceChildren(
+      ...sessions.map((session) => {
+        const button = buttons.get(session.id) ?? this.button(session.id);
+        button.querySelector('.about')!.textContent = about(session);
+        const item = document.createElement('li');
+        item.append(button);
+        return item;
+      }),
+    );
+  }
+
+  private button(id: string): HTMLButtonElement {
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.dataset.session = id;
+    const name = document.createElement('code');
+    name.textContent = id;
+    const text = document.createElement('span');
+    text.className = 'about';
+    button.append(name, text);
+    button.addEventListener('click', () => { this.events.chosen(id); });
+    return button;
+  }
+}
+
+function about(session: Session): string {
+  const parts = [
+    session.uploading ? 'streaming' : 'idle',
+    `${countText(session.frames)} ${session.frames === 1n ? 'frame' : 'frames'}`,
+    `${session.watchers} ${session.watchers === 1 ? 'watcher' : 'watchers'}`,
+  ];
+  if (session.lastFrame) parts.push(`${countText(session.lastFrame.particles)} particles`, `${countText(session.lastFrame.triangles)} triangles`);
+  if (session.owner !== '') parts.push(`of ${session.owner}`);
+  return parts.join(', ');
+}

@@ -1,0 +1,33 @@
+// Asks for the token that the server wants; kept for this tab only.
+import { element } from './page';
+
+const storageKey = 'meniscus-token';
+
+export function storedToken(): string {
+  return sessionStorage.getItem(storageKey) ?? '';
+}
+
+/** Resolves with what was entered; with undefined when the dialog is closed without. */
+export function askToken(reason: string): Promise<string | undefined> {
+  const dialog = element('token-dialog', HTMLDialogElement);
+  const input = element('token', HTMLInputElement);
+  element('token-reason', HTMLElement).textContent = reason;
+  input.value = '';
+  dialog.returnValue = '';
+  if (!dialog.open) dialog.showModal();
+  return new Promise((resolve) => {
+    dialog.addEventListener(
+      'close',
+      () => {
+        const token = input.value.trim();
+        if (dialog.returnValue !== 'use' || token === '') {
+          resolve(undefined);
+          return;
+        }
+        sessionStorage.setItem(storageKey, token);
+        resolve(token);
+      },
+      { once: true },
+    );
+  });
+}

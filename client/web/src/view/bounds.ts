@@ -1,0 +1,34 @@
+// The box around what is shown, world units.
+import type { Shown } from '../bricks/brick_store';
+import { brickEdge } from '../bricks/frame';
+
+export type Point = [number, number, number];
+
+export interface WorldBox {
+  readonly min: Point;
+  readonly max: Point;
+}
+
+/** None for an empty mesh. */
+export function worldBox({ frame, bricks }: Shown): WorldBox | undefined {
+  const min: Point = [Infinity, Infinity, Infinity];
+  const max: Point = [-Infinity, -Infinity, -Infinity];
+  const edge = brickEdge(frame);
+  const step = frame.cellSize / 2 ** frame.offsetBits;
+  for (const { encoded, decoded } of bricks.values())
+    for (let axis = 0; axis < 3; ++axis) {
+      const low = encoded.place[axis]! * edge;
+      min[axis] = Math.min(min[axis]!, low + decoded.bounds.min[axis]! * step);
+      max[axis] = Math.max(max[axis]!, low + decoded.bounds.max[axis]! * step);
+    }
+  return min[0] <= max[0] ? { min, max } : undefined;
+}
+
+export function center({ min, max }: WorldBox): Point {
+  return [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
+}
+
+/** Its diagonal. */
+export function size({ min, max }: WorldBox): number {
+  return Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
+}

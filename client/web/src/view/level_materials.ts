@@ -1,0 +1,34 @@
+// The mesh as the paper's Figure 7 shows it: wires colored by level over a dim surface.
+import { LineBasicMaterial, ShaderMaterial } from 'three';
+
+/** Level 1 blue, 2 green, 3 red, crack filling purple. */
+export const levelColors = [0x3b82f6, 0x22a55b, 0xe5484d, 0xb05be6] as const;
+
+export function levelLineMaterials(): LineBasicMaterial[] {
+  return levelColors.map((color) => new LineBasicMaterial({ color, toneMapped: false }));
+}
+
+/** What the wires lie on, and what hides those behind. */
+export function levelSurfaceMaterial(): ShaderMaterial {
+  return new ShaderMaterial({
+    uniforms: { surfaceColor: { value: [0, 0, 0] } },
+    // Behind the wires that lie in it.
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+    vertexShader: /* glsl */ `
+      varying vec3 view;
+      void main() {
+        vec4 place = modelViewMatrix * vec4(position, 1.0);
+        view = place.xyz;
+        gl_Position = projectionMatrix * place;
+      }`,
+    fragmentShader: /* glsl */ `
+      uniform vec3 surfaceColor;
+      varying vec3 view;
+      void main() {
+        vec3 n = normalize(cross(dFdx(view), dFdy(view)));
+        gl_FragColor = vec4(surfaceColor * (0.65 + 0.35 * abs(n.z)), 1.0);
+      }`,
+  });
+}

@@ -1,0 +1,171 @@
+// The picture: scene, camera and looks. Drawn when something has changed, not otherwise.
+import { Scene, Vector3, WebGLRenderer } from 'three';
+import type { Shown } from '../bricks/brick_store';
+import type { Frame } from '../bricks/frame';
+import { Background } from './background';
+import { center, size, worldBox, type Point, type WorldBox } from './bounds';
+import { BrickMeshes } from './brick_meshes';
+import { CameraControls } from './camera_controls';
+import { environmentUniforms, setTheme, type Theme } from './environment';
+import { levelLineMaterials, levelSurfaceMaterial } from './level_materials';
+import { ThicknessPass } from './thickness_pass';
+import { toScene, toWorld, turnUp, type UpAxis } from './up_axis';
+import { waterMaterial } from './water_material';
+
+export type Look = 'water' | 'levels';
+
+export interface CameraPlace {
+  readonly position: Point;
+  readonly target: Point;
+}
+
+export interface ViewerEvents {
+  /** A picture of the frame has been drawn, with so many triangles. */
+  drawn(frame: Frame, triangles: number): void;
+  moving(moving: boolean): void;
+}
+
+/** From the mesh to a camera that looks at all of it. */
+const fitDirection = new Vector3(0.55, 0.4, 1).normalize();
+
+export class Viewer {
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly environment = environmentUniforms();
+  private readonly water = waterMaterial(this.environment);
+  private readonly levelSurface = levelSurfaceMaterial();
+  private readonly background = new Background(this.environment);
+  private readonly thickness = new ThicknessPass(this.environment);
+  private readonly bricks = new BrickMeshes(this.water, levelLineMaterials());
+  private readonly controls: CameraControls;
+  /** What the scene's coordinates are relative to, so that they stay small wherever the water is. */
+  private origin: Point = [0, 0, 0];
+  private shown: Shown | undefined;
+  private look: Look = 'water';
+  private up: UpAxis = 'y';
+  private scheduled = false;
+
+  /** Throws if there is no WebGL 2. */
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly events: ViewerEvents,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    this.renderer.autoClear = false;
+    this.renderer.info.autoReset = false;
+    this.water.uniforms.thickness.value = this.thickness.texture;
+    this.scene.add(this.background.mesh, this.bricks.group);
+    this.controls = new CameraControls(canvas, {
+      changed: () => { this.draw(); },
+      moving: (moving) => { this.events.moving(moving); },
+    });
+    new ResizeObserver(() => { this.resize(); }).observe(canvas);
+    canvas.addEventListener('webglcontextrestored', () => { this.draw(); });
+  }
+
+  show(shown: Shown): void {
+    const first = this.shown === undefined || this.shown.bricks.size === 0;
+    this.shown = shown;
+    if (first) this.adopt(worldBox(shown));
+    this.water.uniforms.hasNormals.value = [...shown.bricks.values()].every(({ decoded }) => decoded.normals !== undefined);
+    this.bricks.show(shown, this.origin);
+    this.draw();
+  }
+
+  setLook(look: Look): void {
+    this.look = look;
+    this.bricks.setLook(look === 'water' ? this.water : this.levelSurface, look === 'levels');
+    this.draw();
+  }
+
+  setTheme(theme: Theme): void {
+    setTheme(this.environment, theme);
+    this.levelSurface.uniforms.surfaceColor!.value = theme === 'light' ? [0.93, 0.94, 0.95] : [0.1, 0.12, 0.14];
+    this.draw();
+  }
+
+  setUp(up: UpAxis): void {
+    if (up === this.up) return;
+    this.up = up;
+    turnUp(this.bricks.group, up);
+    if (this.shown) this.adopt(worldBox(this.shown));
+    this.fit();
+  }
+
+  /** Looks at all of the mesh. */
+  fit(): void {
+    const box = this.shown && worldBox(this.shown);
+    if (!box) return;
+    const target = this.inScene(center(box));
+    // A box's sphere just fits the narrower of the two angles of view.
+    const { fov, aspect } = this.controls.camera;
+    const half = Math.atan(Math.tan((fov * Math.PI) / 360) * Math.min(1, aspect));
+    const distance = size(box) / 2 / Math.sin(half);
+    this.controls.place(target.clone().addScaledVector(fitDirection, distance), target);
+    this.draw();
+  }
+
+  get cameraPlace(): CameraPlace {
+    return { position: this.inWorld(this.controls.camera.position), target: this.inWorld(this.controls.target) };
+  }
+
+  set cameraPlace({ position, target }: CameraPlace) {
+    this.controls.place(this.inScene(position), this.inScene(target));
+    this.draw();
+  }
+
+  /** Origin, reach and floor from the first mesh: they stay, so that nothing jumps while the water moves. */
+  private adopt(box: WorldBox | undefined): void {
+    if (!box) return;
+    const place = this.cameraPlace;
+    this.origin = center(box);
+    this.cameraPlace = place;
+    this.environment.sceneSize.value = size(box);
+    this.controls.setReach(size(box));
+    // Under the lowest corner, whichever axis is up.
+    this.environment.floorCenter.value.set(0, this.inScene(box.min).y, 0);
+  }
+
+  private inScene(point: Point): Vector3 {
+    return toScene(point, this.origin, this.up);
+  }
+
+  private inWorld(place: Vector3): Point {
+    return toWorld(place, this.origin, this.up);
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.renderer.getDrawingBufferSize(this.water.uniforms.screenSize.value);
+    this.thickness.setSize(this.canvas.width, this.canvas.height);
+    this.controls.resize(clientWidth / clientHeight);
+    this.draw();
+  }
+
+  private draw(): void {
+    if (this.scheduled) return;
+    this.scheduled = true;
+    requestAnimationFrame(() => {
+      this.scheduled = false;
+      this.render();
+    });
+  }
+
+  private render(): void {
+    const { camera } = this.controls;
+    camera.updateMatrixWorld();
+    this.background.update(camera);
+    if (this.look === 'water') {
+      this.background.mesh.visible = false;
+      this.thickness.render(this.renderer, this.scene, camera);
+      this.background.mesh.visible = true;
+    }
+    this.renderer.info.reset();
+    this.renderer.clear();
+    this.renderer.render(this.scene, camera);
+    if (this.shown) this.events.drawn(this.shown.frame, this.renderer.info.render.triangles - 1);
+  }
+}

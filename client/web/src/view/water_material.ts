@@ -1,0 +1,70 @@
+// Water as a dielectric: Fresnel reflection and refraction of the environment, absorption along the ray's way through it, and the sun.
+import { ShaderMaterial, Vector2, type Texture } from 'three';
+import { environmentGlsl, type EnvironmentUniforms } from './environment';
+
+export interface WaterUniforms {
+  [name: string]: { value: unknown };
+  thickness: { value: Texture | null };
+  screenSize: { value: Vector2 };
+  hasNormals: { value: boolean };
+}
+
+export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial & { uniforms: WaterUniforms } {
+  const water: WaterUniforms = {
+    thickness: { value: null },
+    screenSize: { value: new Vector2(1, 1) },
+    hasNormals: { value: true },
+  };
+  const material = new ShaderMaterial({
+    uniforms: { ...environment, ...water },
+    vertexShader: /* glsl */ `
+      varying vec3 place;
+      varying vec3 outward;
+      void main() {
+        vec4 world = modelMatrix * vec4(position, 1.0);
+        place = world.xyz;
+        // Bricks are scaled alike on all axes.
+        outward = mat3(modelMatrix) * normal;
+        gl_Position = projectionMatrix * viewMatrix * world;
+      }`,
+    fragmentShader: /* glsl */ `
+      ${environmentGlsl}
+      uniform sampler2D thickness;
+      uniform vec2 screenSize;
+      uniform bool hasNormals;
+      varying vec3 place;
+      varying vec3 outward;
+
+      const float indexRatio = 1.0 / 1.333;
+      const float normalReflectance = 0.02;
+      const float roughness = 0.12;
+
+      // GGX, for the sun alone: the environment is smooth already.
+      float sunHighlight(vec3 n, vec3 v) {
+        vec3 h = normalize(v + sunDirection);
+        float a2 = roughness * roughness * roughness * roughness;
+        float nh = max(dot(n, h), 0.0);
+        float d = nh * nh * (a2 - 1.0) + 1.0;
+        return a2 / (3.14159 * d * d) * max(dot(n, sunDirection), 0.0);
+      }
+
+      void main() {
+        vec3 v = normalize(cameraPosition - place);
+        vec3 n = normalize(hasNormals ? outward : cross(dFdx(place), dFdy(place)));
+        if (dot(n, v) < 0.0) n = normalize(n - 1.02 * dot(n, v) * v);
+        float facing = clamp(dot(n, v), 0.0, 1.0);
+        float fresnel = normalReflectance + (1.0 - normalReflectance) * pow(1.0 - facing, 5.0);
+
+        float depth = max(texture2D(thickness, gl_FragCoord.xy / screenSize).r, 0.0);
+        vec3 absorbed = exp(-vec3(7.0, 1.9, 1.1) * depth);
+        vec3 scattered = vec3(0.005, 0.11, 0.16) * (1.0 - exp(-3.0 * depth)) * (0.4 + horizonColor);
+
+        vec3 bent = refract(-v, n, indexRatio);
+        vec3 through = environment(place + bent * depth * sceneSize, bent) * absorbed + scattered;
+        vec3 mirrored = environment(place, reflect(-v, n));
+        vec3 color = mix(through, mirrored, fresnel) + sunColor * fresnel * sunHighlight(n, v);
+        gl_FragColor = vec4(displayed(color), 1.0);
+      }`,
+  });
+  return material as unknown as ShaderMaterial & { uniforms: WaterUniforms };
+}

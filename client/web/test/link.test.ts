@@ -1,0 +1,23 @@
+import { describe, expect, it } from 'vitest';
+import { readLink, writeLink } from '../src/ui/link';
+
+describe('the link', () => {
+  const state = {
+    session: '01234567-89ab-cdef-0123-456789abcdef',
+    camera: { position: [1.5, -2, 3e5] as [number, number, number], target: [0, 0.25, 0] as [number, number, number] },
+    look: 'levels' as const,
+    up: 'z' as const,
+  };
+
+  it('reopens what it was made of', () => {
+    expect(readLink(writeLink(state))).toEqual(state);
+    expect(readLink(writeLink({ session: state.session }))).toEqual({ session: state.session });
+    expect(readLink('')).toEqual({});
+  });
+
+  it('leaves out what it does not understand', () => {
+    expect(readLink('#session=../../etc&camera=1,2,3&look=x&up=w')).toEqual({});
+    expect(readLink('#camera=1,2,3,4,5,x')).toEqual({});
+    expect(readLink('#camera=1,,3,4,5,6')).toEqual({});
+  });
+});

@@ -1,0 +1,130 @@
+import { validateBytes } from 'gltf-validator';
+import { beforeAll, describe, expect, it } from 'vitest';
+import type { DracoModule } from 'draco3d/draco_decoder_nodejs.js';
+import type { ShownBrick, Shown } from '../src/bricks/brick_store';
+import { brickKey, type EncodedBrick } from '../src/bricks/frame';
+import { decodeBrick } from '../src/decode/decode_brick';
+import { writeGlb } from '../src/save/glb';
+import { writePly } from '../src/save/ply';
+import { weld } from '../src/save/weld';
+import { dracoDecoder, encodeBrick, tetrahedron } from './support/draco';
+
+const offsetBits = 6;
+let draco: DracoModule;
+
+beforeAll(async () => {
+  draco = await dracoDecoder();
+});
+
+function shownOf(...bricks: EncodedBrick[]): Shown {
+  const shown = new Map<string, ShownBrick>();
+  for (const encoded of bricks) shown.set(brickKey(...encoded.place), { encoded, decoded: decodeBrick(draco, encoded, offsetBits) });
+  return { frame: { index: 12n, simulationTime: 0.5, cellSize: 0.25, offsetBits, brickCells: 64 } as Shown['frame'], bricks: shown };
+}
+
+interface Gltf {
+  nodes: { mesh?: number; translation: number[]; scale?: number[]; rotation?: number[]; children?: number[] }[];
+  meshes: { primitives: { attributes: Record<string, number>; extensions: { KHR_draco_mesh_compression: { bufferView: number; attributes: Record<string, number> } } }[] }[];
+  bufferViews: { byteOffset: number; byteLength: number }[];
+  accessors: { count: number }[];
+}
+
+function read(file: Uint8Array): { json: Gltf; binary: Uint8Array } {
+  const view = new DataView(file.buffer);
+  const textBytes = view.getUint32(12, true);
+  const json = JSON.parse(new TextDecoder().decode(file.subarray(20, 20 + textBytes))) as Gltf;
+  return { json, binary: file.subarray(28 + textBytes) };
+}
+
+describe('writeGlb', () => {
+  it.each(['y', 'z'] as const)('passes the Khronos validator, %s up', async (up) => {
+    const file = writeGlb(shownOf(await tetrahedron([0, 0, 0], 1), await tetrahedron([3, 3, 3], 3, [-2, 0, 1])), up);
+    const { issues } = await validateBytes(file);
+    expect(issues.messages.filter(({ severity }) => severity < 2)).toEqual([]);
+  });
+
+  it('passes the validator without normals and without any mesh', async () => {
+    const plain = await encodeBrick({ positions: [[1, 1, 1], [9, 1, 2], [1, 9, 3]], triangles: [[0, 1, 2]], levels: [1] });
+    for (const shown of [shownOf(plain), shownOf()]) {
+      const { issues } = await validateBytes(writeGlb(shown, 'y'));
+      expect(issues.messages.filter(({ severity }) => severity < 2)).toEqual([]);
+    }
+  });
+
+  it('reloads to the bricks that it was made of, each in its place', async () => {
+    const shown = shownOf(await tetrahedron([0, 0, 0], 1), await tetrahedron([3, 3, 3], 3, [-2, 0, 1]));
+    const { json, binary } = read(writeGlb(shown, 'y'));
+    const root = json.nodes[0]!;
+    const bricks = [...shown.bricks.values()];
+    expect(root.children).toHaveLength(2);
+    root.children!.forEach((child, i) => {
+      const node = json.nodes[child]!;
+      const primitive = json.meshes[node.mesh!]!.primitives[0]!;
+      const { bufferView, attributes } = primitive.extensions.KHR_draco_mesh_compression;
+      const { byteOffset, byteLength } = json.bufferViews[bufferView]!;
+      const bytes = binary.slice(byteOffset, byteOffset + byteLength);
+      expect(bytes).toEqual(bricks[i]!.encoded.draco);
+      const place = node.translation.map((t, axis) => (t + root.translation[axis]!) / (64 * 0.25));
+      expect(place).toEqual(bricks[i]!.encoded.place);
+      expect(node.scale).toEqual([0.25 / 64, 0.25 / 64, 0.25 / 64]);
+      const decoder = new draco.Decoder();
+      const mesh = new draco.Mesh();
+      expect(decoder.DecodeArrayToMesh(bytes, bytes.length, mesh).ok()).toBe(true);
+      expect(decoder.GetAttributeByUniqueId(mesh, attributes.POSITION!).data_type()).toBe(draco.DT_UINT16);
+      expect(decoder.GetAttributeByUniqueId(mesh, attributes.NORMAL!).data_type()).toBe(draco.DT_FLOAT32);
+      expect(json.accessors[primitive.attributes.POSITION!]!.count).toBe(mesh.num_points());
+    });
+  });
+});
+
+/** Two bricks with one triangle pair that meets at the face between them. */
+async function twoBricks(): Promise<Shown> {
+  const edge = 64 << offsetBits;
+  const left = await encodeBrick({ place: [-1, 0, 0], positions: [[edge, 10, 10], [edge, 90, 10], [edge - 50, 40, 20]], triangles: [[0, 1, 2]], levels: [2] });
+  const right = await encodeBrick({ place: [0, 0, 0], positions: [[0, 90, 10], [0, 10, 10], [50, 40, 20]], triangles: [[0, 1, 2]], levels: [3] });
+  return shownOf(left, right);
+}
+
+describe('weld', () => {
+  it('makes one vertex of those at the same place, in one brick or in two', async () => {
+    const mesh = weld(await twoBricks());
+    expect(mesh.vertices).toHaveLength(3 * 4);
+    expect(mesh.levels).toEqual([2, 3]);
+    const points = mesh.triangles.map((v) => mesh.vertices.slice(3 * v, 3 * v + 3).join(' '));
+    expect(new Set(points)).toEqual(new Set(['0 10 10', '0 90 10', '-50 40 20', '50 40 20']));
+  });
+
+  it('keeps a closed brick closed', async () => {
+    const { triangles } = weld(shownOf(await tetrahedron([0, 0, 0], 1)));
+    const edges = new Map<string, number>();
+    for (let t = 0; t < triangles.length; t += 3)
+      for (let i = 0; i < 3; ++i) {
+        const [a, b] = [triangles[t + i]!, triangles[t + ((i + 1) % 3)]!];
+        const key = a < b ? `${a} ${b}` : `${b} ${a}`;
+        edges.set(key, (edges.get(key) ?? 0) + (a < b ? 1 : -1));
+      }
+    expect([...edges.values()].every((balance) => balance === 0)).toBe(true);
+  });
+});
+
+describe('writePly', () => {
+  it('says what it holds, in world units', async () => {
+    const file = writePly(await twoBricks());
+    const text = new TextDecoder('latin1').decode(file);
+    const headerBytes = text.indexOf('end_header\n') + 'end_header\n'.length;
+    expect(text.slice(0, headerBytes)).toContain('element vertex 4\nproperty float x\n');
+    expect(text.slice(0, headerBytes)).toContain('element face 2\nproperty list uchar uint vertex_indices\nproperty uchar level\n');
+    expect(file.length).toBe(headerBytes + 4 * 12 + 2 * 14);
+    const view = new DataView(file.buffer, headerBytes);
+    const x = [0, 1, 2, 3].map((v) => view.getFloat32(12 * v, true)).sort((a, b) => a - b);
+    expect(x).toEqual([-50, 0, 0, 50].map((steps) => (steps * 0.25) / 64));
+    expect([view.getUint8(4 * 12 + 13), view.getUint8(4 * 12 + 14 + 13)]).toEqual([2, 3]);
+  });
+
+  it('has normals where the mesh has, and doubles far from the origin', async () => {
+    const near = new TextDecoder('latin1').decode(writePly(shownOf(await tetrahedron([0, 0, 0], 1))));
+    expect(near).toContain('property float nx');
+    const far = new TextDecoder('latin1').decode(writePly(shownOf(await tetrahedron([0, 0, 0], 1, [5000, 0, 0]))));
+    expect(far).toContain('property double x');
+  });
+});

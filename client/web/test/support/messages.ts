@@ -1,0 +1,61 @@
+// Watch responses as a server would send them.
+import { create } from '@bufbuild/protobuf';
+import { WatchResponseSchema, type WatchResponse } from '../../src/gen/meniscus/v1/surface_service_pb';
+
+export type Place = [number, number, number];
+
+export interface FrameOptions {
+  index: number;
+  bricks?: { place: Place; triangles?: number; parts?: number[][] }[];
+  base?: number;
+  vanished?: Place[];
+  /** Of the whole mesh as the receiver then has it. */
+  triangles?: number;
+  runId?: bigint;
+}
+
+export function begin({ index, bricks = [], base, vanished = [], triangles, runId = 7n }: FrameOptions): WatchResponse {
+  return create(WatchResponseSchema, {
+    message: {
+      case: 'meshBegin',
+      value: {
+        frameIndex: BigInt(index),
+        simulationTime: index / 100,
+        cellSize: 0.5,
+        offsetBits: 6,
+        brickCells: 64,
+        brickCount: bricks.length,
+        ...(base === undefined ? {} : { baseFrameIndex: BigInt(base) }),
+        vanished: vanished.map(([x, y, z]) => ({ x, y, z })),
+        triangleCount: BigInt(triangles ?? bricks.reduce((sum, brick) => sum + (brick.triangles ?? 1), 0)),
+        runId,
+      },
+    },
+  });
+}
+
+export function brick(place: Place, triangles = 1, draco: number[] = [1, 2, 3], partIndex = 0, partCount = 1): WatchResponse {
+  const [x, y, z] = place;
+  return create(WatchResponseSchema, {
+    message: {
+      case: 'meshBrick',
+      value: { x, y, z, vertexCount: 3, triangleCount: triangles, draco: new Uint8Array(draco), partIndex, partCount },
+    },
+  });
+}
+
+export function statistics(index: number): WatchResponse {
+  return create(WatchResponseSchema, { message: { case: 'frameStatistics', value: { frameIndex: BigInt(index) } } });
+}
+
+export function draining(seconds: number): WatchResponse {
+  return create(WatchResponseSchema, { message: { case: 'draining', value: { seconds } } });
+}
+
+/** All messages of a frame. */
+export function frame(options: FrameOptions): WatchResponse[] {
+  const bricks = (options.bricks ?? []).flatMap(({ place, triangles, parts = [[options.index]] }) =>
+    parts.map((bytes, part) => brick(place, triangles, bytes, part, parts.length)),
+  );
+  return [begin(options), ...bricks, statistics(options.index)];
+}
