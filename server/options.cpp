@@ -86,7 +86,12 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
                    "Lines ROLE NAME TOKEN, the role being uploader, watcher or admin: calls need one of these tokens")
         ->type_name("FILE");
     app.add_flag("--insecure", server.insecure, "Let other machines connect without TLS, also to --http");
-    app.add_option("--http", server.http, "HOST:PORT (port 0: a free one, which is logged) of /metrics, /healthz and /readyz");
+    app.add_option("--http", server.http, "HOST:PORT (port 0: a free one, which is logged) of the viewer, /metrics, /healthz and /readyz");
+    app.add_option("--web-origin", server.web_origins,
+                   "Page, as https://example.org, that may call over the HTTP port; those of this machine may")
+        ->allow_extra_args(false)
+        ->type_name("ORIGIN")
+        ->default_str("");
     app.add_flag("--reflection", server.standard_services.reflection, "Let clients ask for the contract, as grpcurl does");
     app.add_flag("--channelz", server.standard_services.channelz, "Let clients ask for connections and their traffic");
 

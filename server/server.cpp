@@ -19,6 +19,7 @@
 #include "recording/session_recording.hpp"
 #include "rpc/call_counter.hpp"
 #include "web/observation_pages.hpp"
+#include "web/viewer_pages.hpp"
 
 namespace meniscus::server {
 
@@ -87,6 +88,7 @@ std::string with_port(const std::string& listen, int port) {
 std::vector<std::string> problems_of(const ServerOptions& options) {
     const std::vector<std::function<void()>> steps{
         [&] { require_closed_to_others(options); },
+        [&] { AllowedOrigins(options.web_origins); },
         [&] { require_unused_unix_socket(options.listen); },
         [&] { if (options.tls.any()) load_certificates(options.tls); },
         [&] { if (!options.tokens.empty()) Tokens::load(options.tokens); },
@@ -116,6 +118,7 @@ Server::Server(const ServerOptions& options)
       session_service_(registry_, access_.authorizer()),
       surface_service_(registry_, access_.authorizer(), calls_) {
     require_closed_to_others(options);
+    const AllowedOrigins origins(options.web_origins);
     require_unused_unix_socket(options.listen);
     int port = 0;
     load_standard_services();
@@ -138,7 +141,7 @@ Server::Server(const ServerOptions& options)
             fmt::format("cannot listen on {}: the address is in use or not one of this machine", options.listen));
     address_ = with_port(options.listen, port);
     set_serving(*grpc_, true);
-    if (!options.http.empty()) http_ = std::make_unique<HttpServer>(options.http, pages());
+    if (!options.http.empty()) http_ = std::make_unique<HttpServer>(options.http, pages(), GrpcWeb{grpc_->InProcessChannel({}), origins});
 }
 
 Server::~Server() {
@@ -155,9 +158,10 @@ void Server::shutdown() {
     // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection once
     // the client has confirmed the goodbye, or loses what the client has not read. Idle clients confirm late or never.
     calls_.wait_until_none(deadline);
+    // Its calls go to the server in this process.
+    http_.reset();
     grpc_->Shutdown(std::min(deadline, std::chrono::system_clock::now() + goodbye_time));
     grpc_.reset();
-    http_.reset();
 }
 
 std::vector<prometheus::MetricFamily> Server::metrics() {
@@ -174,6 +178,7 @@ std::vector<prometheus::MetricFamily> Server::metrics() {
 
 Router Server::pages() {
     Router router;
+    add_viewer_pages(router);
     add_observation_pages(router, [this] { return metrics(); }, [this] { return !draining_; });
     return router;
 }

@@ -26,7 +26,8 @@ struct ServerOptions {
     TlsFiles tls;                            ///< none: no TLS
     std::string tokens;                      ///< file of tokens; empty: everyone may do everything
     bool insecure = false;                   ///< whether other machines may connect without TLS
-    std::string http;                        ///< "HOST:PORT" for metrics and probes, port 0 for a free one; empty: none
+    std::string http;                        ///< "HOST:PORT" for viewer, metrics and probes, port 0 for a free one; empty: none
+    std::vector<std::string> web_origins;    ///< pages of other machines that may call over the HTTP port
     StandardServices standard_services;
     BackendOptions backend;                  ///< backend and threads; limits and devices have the rest
     std::vector<int> devices;                ///< the GPUs to use; empty: all that can reconstruct

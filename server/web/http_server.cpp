@@ -1,7 +1,9 @@
 #include "web/http_server.hpp"
 
 #include <fmt/format.h>
+#include <netinet/tcp.h>
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 
 #include <boost/asio/post.hpp>
 #include <chrono>
@@ -18,6 +20,7 @@ using boost::asio::ip::tcp;
 
 /// After an accept that failed, for want of descriptors most likely.
 constexpr auto accept_pause = std::chrono::milliseconds(100);
+constexpr int unsent_bytes = 256 << 10;
 
 /// Of "HOST:PORT" or "[IPv6]:PORT".
 tcp::endpoint resolve(boost::asio::io_context& context, const std::string& listen) {
@@ -34,8 +37,8 @@ tcp::endpoint resolve(boost::asio::io_context& context, const std::string& liste
 
 }  // namespace
 
-HttpServer::HttpServer(const std::string& listen, Router router, const HttpLimits& limits)
-    : router_(std::move(router)), limits_(limits) {
+HttpServer::HttpServer(const std::string& listen, Router router, GrpcWeb grpc_web, const HttpLimits& limits)
+    : router_(std::move(router)), grpc_web_(std::move(grpc_web)), limits_(limits) {
     const tcp::endpoint endpoint = resolve(context_, listen);
     try {
         acceptor_.open(endpoint.protocol());
@@ -90,13 +93,16 @@ void HttpServer::accepted(boost::beast::error_code error, tcp::socket socket) {
 }
 
 void HttpServer::welcome(tcp::socket socket) {
+    // What waits in the kernel for a slow viewer is old by the time it is shown: little of it, and newer frames take its place.
+    const int unsent = unsent_bytes;
+    ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
     if (connections_.size() >= limits_.connections) {
         HttpConnection* silent = connections_.front();
         connections_.pop_front();
         silent->close();
     }
     const auto connection = std::make_shared<HttpConnection>(
-        std::move(socket), router_, limits_,
+        std::move(socket), context_.get_executor(), router_, grpc_web_, limits_,
         HttpConnection::Observer{
             .answered =
                 [this](HttpConnection& active) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "web/grpc_web.hpp"
 #include "web/http_connection.hpp"
 #include "web/http_limits.hpp"
 #include "web/router.hpp"
@@ -18,7 +19,7 @@ namespace meniscus::server {
 class HttpServer {
 public:
     /// listen: "HOST:PORT", port 0 for a free one. Listens when it returns. Throws InvalidInput if it cannot.
-    HttpServer(const std::string& listen, Router router, const HttpLimits& limits = {});
+    HttpServer(const std::string& listen, Router router, GrpcWeb grpc_web = {}, const HttpLimits& limits = {});
     /// Cuts the connections off.
     ~HttpServer();
     HttpServer(const HttpServer&) = delete;
@@ -34,6 +35,7 @@ private:
     void welcome(boost::asio::ip::tcp::socket socket);
 
     const Router router_;
+    const GrpcWeb grpc_web_;
     const HttpLimits limits_;
     std::list<HttpConnection*> connections_;  ///< the one that has been silent longest first
     boost::asio::io_context context_{1};      ///< after them: its handlers own the connections

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace meniscus::server {
 
 struct Page {
     unsigned status = 200;
     std::string content_type = "text/plain; charset=utf-8";
-    std::string body;
+    std::string body{};
+    std::string cache_control = "no-store";
+    std::vector<std::pair<std::string, std::string>> headers{};  ///< more of them
 };
 
 }  // namespace meniscus::server

@@ -24,6 +24,7 @@ server::Router pages() {
 
 void http(Bytes bytes) {
     static const server::Router router = pages();
+    static const server::GrpcWeb grpc_web;
     static boost::asio::io_context context(1);
     static tcp::acceptor acceptor(context, {boost::asio::ip::address_v4::loopback(), 0});
     // More would fill the sockets between the two ends of this one thread.
@@ -32,7 +33,7 @@ void http(Bytes bytes) {
     client.connect(acceptor.local_endpoint());
     bool gone = false;
     std::make_shared<server::HttpConnection>(
-        acceptor.accept(), router, server::HttpLimits{},
+        acceptor.accept(), context.get_executor(), router, grpc_web, server::HttpLimits{},
         server::HttpConnection::Observer{.answered = [](auto&) {}, .gone = [&gone](auto&) { gone = true; }})
         ->start();
     boost::system::error_code ignored;

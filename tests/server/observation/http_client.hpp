@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace meniscus::server::test {
 
@@ -68,6 +69,12 @@ public:
     HttpAnswer get(const std::string& target) {
         send("GET " + target + " HTTP/1.1\r\nHost: test\r\n\r\n");
         return receive();
+    }
+
+    /// What comes next, as it is on the wire; nothing at the connection's end.
+    std::string take() {
+        if (received_.empty()) receive_more();
+        return std::exchange(received_, {});
     }
 
     /// Whether the server ends the connection, once all that it sent has been read.

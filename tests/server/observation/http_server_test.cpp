@@ -82,7 +82,7 @@ TEST(HttpServer, AnswersPipelinedRequestsInOrder) {
 }
 
 TEST(HttpServer, RefusesAHeaderPastItsLimit) {
-    const HttpServer server("127.0.0.1:0", router(), impatient());
+    const HttpServer server("127.0.0.1:0", router(), {}, impatient());
     const auto answer_to_header_of = [&](std::size_t bytes) {
         const std::string start = "GET /one HTTP/1.1\r\nX: ";
         const std::string end = "\r\n\r\n";
@@ -98,7 +98,7 @@ TEST(HttpServer, RefusesAHeaderPastItsLimit) {
 }
 
 TEST(HttpServer, CutsOffWhoSendsHalfARequestOrByteByByte) {
-    const HttpServer server("127.0.0.1:0", router(), impatient());
+    const HttpServer server("127.0.0.1:0", router(), {}, impatient());
     HttpClient half(server.address());
     half.send("GET /one HT");
     HttpClient silent(server.address());
@@ -117,7 +117,7 @@ TEST(HttpServer, CutsOffWhoSendsHalfARequestOrByteByByte) {
 }
 
 TEST(HttpServer, CutsOffWhoDoesNotTakeTheAnswer) {
-    const HttpServer server("127.0.0.1:0", router(), impatient());
+    const HttpServer server("127.0.0.1:0", router(), {}, impatient());
     HttpClient deaf(server.address());
     deaf.send("GET /large HTTP/1.1\r\n\r\n");
     EXPECT_EQ(http_get(server.address(), "/one").status, 200);
@@ -129,7 +129,7 @@ TEST(HttpServer, CutsOffWhoDoesNotTakeTheAnswer) {
 TEST(HttpServer, AnswersWhoeverAsksWhileManyHoldConnections) {
     HttpLimits limits = impatient();
     limits.patience = std::chrono::hours(1);
-    const HttpServer server("127.0.0.1:0", router(), limits);
+    const HttpServer server("127.0.0.1:0", router(), {}, limits);
     HttpClient regular(server.address());
     EXPECT_EQ(regular.get("/one").status, 200);
     std::vector<std::unique_ptr<HttpClient>> idle;

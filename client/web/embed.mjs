@@ -1,0 +1,40 @@
+// Writes a folder's files as C++: node embed.mjs FOLDER FILE.cpp. Each is compressed once, here.
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { extname, join } from 'node:path';
+import { gzipSync } from 'node:zlib';
+
+const types = {
+  '.html': 'text/html; charset=utf-8',
+  '.js': 'text/javascript; charset=utf-8',
+  '.css': 'text/css; charset=utf-8',
+  '.wasm': 'application/wasm',
+  '.svg': 'image/svg+xml',
+};
+
+const [folder, output] = process.argv.slice(2);
+const paths = readdirSync(folder, { recursive: true, withFileTypes: true })
+  .filter((entry) => entry.isFile())
+  .map((entry) => join(entry.path, entry.name).slice(join(folder, '/').length))
+  .sort();
+
+let arrays = '';
+let table = '';
+let scriptBytes = 0;
+let decoderBytes = 0;
+paths.forEach((path, i) => {
+  const type = types[extname(path)];
+  if (!type) throw new Error(`${path}: no content type is known for ${extname(path)}`);
+  const gzip = gzipSync(readFileSync(join(folder, path)), { level: 9 });
+  arrays += `constexpr unsigned char file${i}[] = {${gzip.join(',')}};\n`;
+  const name = path === 'index.html' ? '/' : `/${path}`;
+  table += `    {"${name}", "${type}", ${path.startsWith('assets/')}, true, file${i}},\n`;
+  if (/worker|draco/.test(path)) decoderBytes += gzip.length;
+  else if (extname(path) === '.js') scriptBytes += gzip.length;
+});
+writeFileSync(
+  output,
+  `#include "web/viewer_files.hpp"\n\nnamespace meniscus::server {\n\nnamespace {\n\n${arrays}\nconstexpr ViewerFile files[] = {\n${table}};\n\n}  // namespace\n\n` +
+    'std::span<const ViewerFile> viewer_files() {\n    return files;\n}\n\n}  // namespace meniscus::server\n',
+);
+const kilobytes = (bytes) => `${(bytes / 1000).toFixed(0)} kB`;
+console.log(`viewer: ${kilobytes(scriptBytes)} of script compressed, decoder ${kilobytes(decoderBytes)} apart`);

@@ -1,0 +1,61 @@
+// A call from a browser to the handlers of native gRPC, over a channel within the process: the same errors, limits, tokens and
+// metrics, and the same bytes.
+#pragma once
+
+#include <grpcpp/channel.h>
+#include <grpcpp/client_context.h>
+#include <grpcpp/support/byte_buffer.h>
+#include <grpcpp/support/client_callback.h>
+#include <grpcpp/support/status.h>
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace meniscus::server {
+
+/// Used and answered on the context's one thread. Lives until its end has been reported.
+class BridgedCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
+                          public std::enable_shared_from_this<BridgedCall> {
+public:
+    /// One of these answers start() and each read(): a message, or the end, which comes once.
+    struct Receiver {
+        std::function<void(grpc::ByteBuffer message)> message;
+        std::function<void(const grpc::Status& status)> end;
+    };
+    using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+    BridgedCall(boost::asio::io_context::executor_type executor, Receiver receiver);
+
+    /// method: as "/package.Service/Method". Metadata must be what gRPC takes: lower-case names, values in printable ASCII.
+    void start(const std::shared_ptr<grpc::Channel>& channel, const std::string& method, const Metadata& metadata,
+               grpc::ByteBuffer request);
+    /// Only once the one before was answered: a client that does not take its messages holds the handler up, as in native gRPC.
+    void read();
+    /// The end follows, as canceled.
+    void cancel();
+
+    // Of the reactor; on threads of gRPC.
+    void OnReadDone(bool ok) override;
+    void OnDone(const grpc::Status& status) override;
+
+private:
+    void was_read(bool ok);
+
+    const boost::asio::io_context::executor_type executor_;
+    const boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_;
+    const Receiver receiver_;
+    grpc::ClientContext context_;
+    grpc::ByteBuffer request_;
+    grpc::ByteBuffer message_;
+    std::shared_ptr<BridgedCall> self_;  ///< until OnDone
+    bool reading_ = false;
+    bool held_ = false;  ///< OnDone waits until nothing is read any more
+    bool canceled_ = false;
+};
+
+}  // namespace meniscus::server

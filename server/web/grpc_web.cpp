@@ -1,0 +1,28 @@
+#include "web/grpc_web.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace meniscus::server {
+
+namespace {
+
+constexpr std::string_view watch = "/meniscus.v1.SurfaceService/Watch";
+constexpr std::array<std::string_view, 4> methods{
+    "/meniscus.v1.ServerService/GetServerInfo",
+    "/meniscus.v1.SessionService/GetSession",
+    "/meniscus.v1.SessionService/ListSessions",
+    watch,
+};
+
+}  // namespace
+
+bool GrpcWeb::serves(std::string_view target) const {
+    return channel && std::ranges::find(methods, target) != methods.end();
+}
+
+bool is_stream(std::string_view target) {
+    return target == watch;
+}
+
+}  // namespace meniscus::server

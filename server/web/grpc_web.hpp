@@ -1,0 +1,24 @@
+// What browsers may call: the read-only methods, from allowed pages.
+#pragma once
+
+#include <grpcpp/channel.h>
+
+#include <memory>
+#include <string_view>
+
+#include "web/origins.hpp"
+
+namespace meniscus::server {
+
+struct GrpcWeb {
+    std::shared_ptr<grpc::Channel> channel;  ///< to the server in this process; none: nothing can be called
+    AllowedOrigins origins;
+
+    /// target: as in the request line.
+    bool serves(std::string_view target) const;
+};
+
+/// Whether the answer is a stream.
+bool is_stream(std::string_view target);
+
+}  // namespace meniscus::server

@@ -1,0 +1,25 @@
+// gRPC-Web on the wire: a byte of flags, four of length (big-endian), and a message; the last one carries the status.
+#pragma once
+
+#include <grpcpp/support/byte_buffer.h>
+#include <grpcpp/support/status.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace meniscus::server {
+
+using GrpcWebHeader = std::array<unsigned char, 5>;
+
+/// Of a message of so many bytes.
+GrpcWebHeader grpc_web_header(std::size_t bytes);
+
+/// The one message of a request's body. Throws InvalidInput for anything else.
+grpc::ByteBuffer grpc_web_request(std::string_view body);
+
+/// The message that ends an answer, with its header.
+std::string grpc_web_trailers(const grpc::Status& status);
+
+}  // namespace meniscus::server

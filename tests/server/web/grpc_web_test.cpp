@@ -1,0 +1,297 @@
+// Browsers' calls: the same answers as native gRPC gives, and what a browser would never send.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "meniscus/error.hpp"
+#include "meniscus/reconstructor.hpp"
+#include "meniscus/v1/server_service.pb.h"
+#include "meniscus/v1/session_service.pb.h"
+#include "meniscus/v1/surface_service.pb.h"
+#include "running_server.hpp"
+#include "test_certificates.hpp"
+#include "web/origins.hpp"
+#include "web/web_call.hpp"
+
+namespace meniscus::server::test {
+namespace {
+
+const std::string info = "/meniscus.v1.ServerService/GetServerInfo";
+const std::string get = "/meniscus.v1.SessionService/GetSession";
+const std::string watch = "/meniscus.v1.SurfaceService/Watch";
+
+ServerOptions web_options() {
+    ServerOptions options = test_options();
+    options.http = "127.0.0.1:0";
+    return options;
+}
+
+v1::WatchRequest watch_request(const std::string& id) {
+    v1::WatchRequest request;
+    request.set_session_id(id);
+    return request;
+}
+
+v1::GetSessionRequest get_request(const std::string& id) {
+    v1::GetSessionRequest request;
+    request.set_id(id);
+    return request;
+}
+
+void push_one(client::Client& client, const std::string& id, const Particles& particles) {
+    auto stream = client.stream(id, {.receive_meshes = false});
+    stream.push(particles.view(), 0, 0.0);
+    stream.finish();
+    while (stream.next()) {
+    }
+}
+
+/// The messages of the session's newest frame by native gRPC.
+std::vector<std::string> native_frame(const std::string& address, const std::string& id) {
+    const client::Connection connection(address);
+    grpc::ClientContext context;
+    client::add_session_id(context, id);
+    const auto call = connection.surfaces->Watch(&context, watch_request(id));
+    std::vector<std::string> messages;
+    v1::WatchResponse response;
+    while (call->Read(&response)) {
+        messages.push_back(response.SerializeAsString());
+        if (response.has_frame_statistics()) break;
+    }
+    context.TryCancel();
+    return messages;
+}
+
+std::vector<std::string> web_frame(WebCall& call) {
+    std::vector<std::string> messages;
+    while (auto message = call.next()) {
+        messages.push_back(*message);
+        v1::WatchResponse response;
+        response.ParseFromString(*message);
+        if (response.has_frame_statistics()) break;
+    }
+    return messages;
+}
+
+/// Waits for the session to have so many watchers; a hang guard bounds it.
+bool becomes(client::Client& client, const std::string& id, std::uint32_t watchers) {
+    const auto guard = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (client.session(id).watchers != watchers) {
+        if (std::chrono::steady_clock::now() > guard) return false;
+        std::this_thread::yield();
+    }
+    return true;
+}
+
+class GrpcWebCalls : public testing::Test {
+protected:
+    RunningServer running{web_options()};
+    const std::string id = running.session();
+    const std::string http = running.server.http_address();
+
+    WebCall::Headers about_session() const { return {{"x-session-id", id}}; }
+};
+
+TEST_F(GrpcWebCalls, GiveTheSameBytesAsNativeGrpc) {
+    push_one(running.client, id, spray(6));
+    WebCall call(http, watch, watch_request(id), about_session());
+    std::vector<std::string> web = web_frame(call);
+    std::vector<std::string> native = native_frame(running.server.address(), id);
+    ASSERT_GT(web.size(), 2U);
+    EXPECT_EQ(web.front(), native.front());
+    std::ranges::sort(web);
+    std::ranges::sort(native);
+    EXPECT_TRUE(web == native);
+}
+
+TEST_F(GrpcWebCalls, AnswerUnaryCalls) {
+    WebCall call(http, get, get_request(id), about_session());
+    v1::GetSessionResponse response;
+    ASSERT_TRUE(response.ParseFromString(call.next().value_or("")));
+    EXPECT_EQ(response.session().id(), id);
+    EXPECT_FALSE(call.next());
+    EXPECT_EQ(call.status, 0);
+}
+
+TEST_F(GrpcWebCalls, FollowOneAnotherOnOneConnection) {
+    HttpClient client(http);
+    for (int i = 0; i < 3; ++i) {
+        const std::string body = web_message("");
+        client.send("POST " + info + " HTTP/1.1\r\nHost: test\r\nContent-Type: application/grpc-web\r\nContent-Length: 5\r\n\r\n" + body);
+        std::string answer;
+        while (!answer.ends_with("\r\n0\r\n\r\n")) {
+            const std::string more = client.take();
+            ASSERT_FALSE(more.empty()) << answer;
+            answer += more;
+        }
+        EXPECT_NE(answer.find(std::string(version())), std::string::npos) << "no message";
+        EXPECT_NE(answer.find("grpc-status: 0"), std::string::npos);
+    }
+    EXPECT_EQ(client.get("/healthz").status, 200);
+}
+
+TEST_F(GrpcWebCalls, EndWithTheStatusOfTheHandler) {
+    const std::string unknown = client::new_session_id();
+    WebCall missing(http, watch, watch_request(unknown), {{"x-session-id", unknown}});
+    EXPECT_FALSE(missing.next());
+    EXPECT_EQ(missing.status, static_cast<int>(grpc::StatusCode::NOT_FOUND));
+    EXPECT_NE(missing.message.find(unknown), std::string::npos);
+
+    WebCall without(http, watch, watch_request(id));
+    EXPECT_FALSE(without.next());
+    EXPECT_EQ(without.status, static_cast<int>(grpc::StatusCode::INVALID_ARGUMENT));
+
+    WebCall twice(http, watch, watch_request(id), {{"x-session-id", id}, {"X-Session-Id", id}});
+    EXPECT_FALSE(twice.next());
+    EXPECT_NE(twice.message.find("more than once"), std::string::npos);
+}
+
+TEST_F(GrpcWebCalls, ReachOldProxiesThatSpeakHttp10) {
+    WebCall call(http, info, v1::GetServerInfoRequest(), {}, "1.0");
+    EXPECT_EQ(call.header.find("chunked"), std::string::npos);
+    v1::GetServerInfoResponse response;
+    ASSERT_TRUE(response.ParseFromString(call.next().value_or("")));
+    EXPECT_FALSE(call.next());
+    EXPECT_EQ(call.status, 0);
+}
+
+TEST_F(GrpcWebCalls, EndWhenTheBrowserLeaves) {
+    {
+        WebCall call(http, watch, watch_request(id), about_session());
+        ASSERT_TRUE(becomes(running.client, id, 1));
+    }
+    EXPECT_TRUE(becomes(running.client, id, 0));
+}
+
+TEST_F(GrpcWebCalls, EndWithTheirSession) {
+    WebCall call(http, watch, watch_request(id), about_session());
+    ASSERT_TRUE(becomes(running.client, id, 1));
+    running.client.delete_session(id);
+    while (call.next()) {
+    }
+    EXPECT_EQ(call.status, 0);
+}
+
+TEST_F(GrpcWebCalls, ThatAreNotReadDoNotHoldTheServerUp) {
+    ServerOptions options = web_options();
+    options.shutdown_grace = std::chrono::seconds(2);
+    RunningServer hasty(options);
+    const std::string session = hasty.session();
+    std::vector<std::unique_ptr<WebCall>> calls;
+    for (int i = 0; i < 8; ++i)
+        calls.push_back(std::make_unique<WebCall>(hasty.server.http_address(), watch, watch_request(session),
+                                                  WebCall::Headers{{"x-session-id", session}}));
+    auto stream = hasty.client.stream(session, {.receive_meshes = false});
+    for (std::uint64_t i = 0; i < 40; ++i) stream.push(spray(12).view(), i, 0.0);
+    stream.finish();
+    while (stream.next()) {
+    }
+    const auto start = std::chrono::steady_clock::now();
+    hasty.server.shutdown();
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+}
+
+TEST_F(GrpcWebCalls, AreReadOnly) {
+    for (const char* method : {"/meniscus.v1.SessionService/CreateSession", "/meniscus.v1.SessionService/DeleteSession",
+                               "/meniscus.v1.SurfaceService/Stream", "/meniscus.v1.SurfaceService/watch"}) {
+        HttpClient client(http);
+        client.send(WebCall::request(method, web_message(""), {}));
+        EXPECT_EQ(client.receive().status, 405) << method;
+    }
+}
+
+TEST_F(GrpcWebCalls, NeedATokenWhereOneIsNeeded) {
+    const TestFolder folder;
+    ServerOptions options = web_options();
+    options.tokens = folder.write("tokens", "watcher eve token-of-eve-0123456789\n");
+    const Server server(options);
+    WebCall without(server.http_address(), info, v1::GetServerInfoRequest());
+    EXPECT_FALSE(without.next());
+    EXPECT_EQ(without.status, static_cast<int>(grpc::StatusCode::UNAUTHENTICATED));
+    WebCall with(server.http_address(), info, v1::GetServerInfoRequest(), {{"Authorization", "Bearer token-of-eve-0123456789"}});
+    EXPECT_TRUE(with.next());
+}
+
+struct BadRequest {
+    std::string name;
+    std::string request;
+    int status;
+    std::string words;
+};
+
+std::vector<BadRequest> bad_requests() {
+    const auto post = [](const std::string& fields, const std::string& body) {
+        return "POST " + info + " HTTP/1.1\r\nHost: test\r\n" + fields + "\r\n" + body;
+    };
+    const std::string type = "Content-Type: application/grpc-web+proto\r\n";
+    const auto sized = [&](const std::string& body) { return post(type + "Content-Length: " + std::to_string(body.size()) + "\r\n", body); };
+    std::string chunks;
+    for (int i = 0; i < 65; ++i) chunks += "1\r\nx\r\n";
+    return {
+        {"no content type", post("Content-Length: 5\r\n", web_message("")), 415, "application/grpc-web+proto is taken"},
+        {"text", post("Content-Type: application/grpc-web-text\r\nContent-Length: 5\r\n", web_message("")), 415, "grpc-web-text"},
+        {"no body", post(type, ""), 400, "0 bytes"},
+        {"half a header", sized(std::string(3, '\0')), 400, "at least 5"},
+        {"compressed", sized(web_message("", 1)), 400, "flags 1"},
+        {"trailers", sized(web_message("", '\x80')), 400, "flags 128"},
+        {"less than announced", sized(web_message("abc").substr(0, 6)), 400, "announces 3 bytes, but 1 follow"},
+        {"two messages", sized(web_message("") + web_message("")), 400, "announces 0 bytes, but 5 follow"},
+        {"too large", post(type + "Content-Length: 65537\r\n", ""), 413, "65537"},
+        {"too many chunks", post(type + "Transfer-Encoding: chunked\r\n", chunks), 413, "64 chunks"},
+        {"no chunk", post(type + "Transfer-Encoding: chunked\r\n", "zz\r\n"), 400, "no HTTP body"},
+        {"control character", post(type + "Authorization: Bearer \x80\r\nContent-Length: 5\r\n", web_message("")), 400, "printable ASCII"},
+        {"foreign page", post(type + "Origin: https://evil.example\r\nContent-Length: 5\r\n", web_message("")), 403, "https://evil.example"},
+    };
+}
+
+TEST_F(GrpcWebCalls, AreRefusedInWordsWhenTheyAreWrongAndHarmNobody) {
+    WebCall healthy(http, watch, watch_request(id), about_session());
+    for (const BadRequest& bad : bad_requests()) {
+        HttpClient client(http);
+        client.send(bad.request);
+        const HttpAnswer answer = client.receive();
+        EXPECT_EQ(answer.status, bad.status) << bad.name;
+        EXPECT_NE(answer.body.find(bad.words), std::string::npos) << bad.name << ": " << answer.body;
+    }
+    push_one(running.client, id, wave(6, 0.0));
+    EXPECT_GT(web_frame(healthy).size(), 2U);
+}
+
+TEST_F(GrpcWebCalls, AreTakenInChunks) {
+    HttpClient client(http);
+    client.send("POST " + info + " HTTP/1.1\r\nHost: test\r\nConnection: close\r\nContent-Type: application/grpc-web+proto\r\n"
+                "Transfer-Encoding: chunked\r\n\r\n2\r\n" + std::string(2, '\0') + "\r\n3\r\n" + std::string(3, '\0') + "\r\n0\r\n\r\n");
+    EXPECT_EQ(client.receive().status, 200);
+}
+
+TEST(Origins, OfThisMachineOfTheServerItselfAndOfTheListMayCall) {
+    const AllowedOrigins origins({"https://viewer.example"});
+    for (const char* origin : {"", "http://localhost:5173", "http://127.0.0.1", "https://[::1]:8443", "https://viewer.example", "http://host:9464"})
+        EXPECT_TRUE(origins.admits(origin, "host:9464")) << origin;
+    for (const char* origin : {"null", "https://evil.example", "http://localhost.evil.example", "http://127.0.0.1.evil.example",
+                               "https://viewer.example.evil", "http://host:9465", "ftp://localhost"})
+        EXPECT_FALSE(origins.admits(origin, "host:9464")) << origin;
+    for (const char* wrong : {"", "*", "viewer.example", "https://viewer.example/"}) EXPECT_THROW(AllowedOrigins({wrong}), InvalidInput) << wrong;
+}
+
+TEST_F(GrpcWebCalls, AreAnnouncedToPagesThatMayMakeThem) {
+    HttpClient client(http);
+    client.send("OPTIONS " + watch + " HTTP/1.1\r\nHost: test\r\nOrigin: http://localhost:5173\r\nAccess-Control-Request-Method: POST\r\n\r\n");
+    const HttpAnswer answer = client.receive();
+    EXPECT_EQ(answer.status, 204);
+    EXPECT_NE(answer.header.find("Access-Control-Allow-Origin: http://localhost:5173"), std::string::npos);
+    EXPECT_NE(answer.header.find("x-session-id"), std::string::npos);
+}
+
+TEST_F(GrpcWebCalls, AreMadeByAPageThatTheServerHasItself) {
+    HttpClient client(http);
+    const HttpAnswer plain = client.get("/");
+    EXPECT_EQ(plain.status, 200);
+    EXPECT_NE(plain.header.find("Content-Security-Policy: default-src 'none'"), std::string::npos);
+    EXPECT_NE(plain.body.find("<title>Meniscus</title>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace meniscus::server::test

@@ -1,0 +1,108 @@
+// A real nginx in front of the HTTP port, with no more in its configuration than the address.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "meniscus/v1/server_service.pb.h"
+#include "meniscus/v1/surface_service.pb.h"
+#include "running_server.hpp"
+#include "test_certificates.hpp"
+#include "web/web_call.hpp"
+
+namespace meniscus::server::test {
+namespace {
+
+constexpr const char* program = "/usr/sbin/nginx";
+
+class Nginx {
+public:
+    explicit Nginx(const std::string& target) {
+        const std::string config =
+            "daemon off; master_process off; error_log stderr crit; pid " + (folder_ / "pid") + ";\nevents {}\nhttp { access_log off; " +
+            "client_body_temp_path " + (folder_ / "body") + "; proxy_temp_path " + (folder_ / "proxy") + "; fastcgi_temp_path " + (folder_ / "f") +
+            "; uwsgi_temp_path " + (folder_ / "u") + "; scgi_temp_path " + (folder_ / "s") + ";\n  server {" +
+            " listen " + address + "; location / { proxy_pass http://" + target + "; proxy_read_timeout 1h; } } }\n";
+        const std::string file = folder_.write("nginx.conf", config);
+        pid_ = ::fork();
+        if (pid_ == 0) {
+            ::execl(program, program, "-c", file.c_str(), nullptr);
+            ::_exit(127);
+        }
+        const auto guard = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        while (std::chrono::steady_clock::now() < guard) try {
+                const HttpClient probe(address);
+                return;
+            } catch (const std::runtime_error&) {
+                std::this_thread::yield();
+            }
+    }
+    ~Nginx() {
+        ::kill(pid_, SIGTERM);
+        ::waitpid(pid_, nullptr, 0);
+    }
+    Nginx(const Nginx&) = delete;
+    Nginx& operator=(const Nginx&) = delete;
+
+    const std::string address = "127.0.0.1:" + std::to_string(free_port());
+
+private:
+    static int free_port() {
+        const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        sockaddr_in any{};
+        any.sin_family = AF_INET;
+        any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof any;
+        ::bind(listener, reinterpret_cast<const sockaddr*>(&any), size);
+        ::getsockname(listener, reinterpret_cast<sockaddr*>(&any), &size);
+        ::close(listener);
+        return ntohs(any.sin_port);
+    }
+
+    TestFolder folder_;
+    pid_t pid_ = -1;
+};
+
+std::vector<std::string> first_frame(const std::string& http, const std::string& id) {
+    v1::WatchRequest request;
+    request.set_session_id(id);
+    WebCall call(http, "/meniscus.v1.SurfaceService/Watch", request, {{"x-session-id", id}});
+    std::vector<std::string> messages;
+    while (auto message = call.next()) {
+        messages.push_back(*message);
+        v1::WatchResponse response;
+        response.ParseFromString(*message);
+        if (response.has_frame_statistics()) break;
+    }
+    std::ranges::sort(messages);
+    return messages;
+}
+
+TEST(Nginx, PassesCallsAndStreamsOnUnchanged) {
+    if (::access(program, X_OK) != 0) GTEST_SKIP() << program << " is not there";
+    ServerOptions options = test_options();
+    options.http = "127.0.0.1:0";
+    RunningServer running(options);
+    const Nginx nginx(running.server.http_address());
+    const std::string id = running.session();
+    auto stream = running.client.stream(id, {.receive_meshes = false});
+    // The stream goes on while the frame is received through the proxy: nothing waits there for its end.
+    stream.push(spray(6).view(), 0, 0.0);
+    ASSERT_TRUE(stream.next());
+    const std::vector<std::string> direct = first_frame(running.server.http_address(), id);
+    ASSERT_GT(direct.size(), 2U);
+    EXPECT_TRUE(first_frame(nginx.address, id) == direct);
+
+    WebCall info(nginx.address, "/meniscus.v1.ServerService/GetServerInfo", v1::GetServerInfoRequest());
+    EXPECT_TRUE(info.next());
+    EXPECT_FALSE(info.next());
+    EXPECT_EQ(info.status, 0);
+    EXPECT_EQ(http_get(nginx.address, "/").status, 200);
+}
+
+}  // namespace
+}  // namespace meniscus::server::test

@@ -1,0 +1,68 @@
+// The real programs, as processes of the test.
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { randomUUID } from 'node:crypto';
+
+const meniscusd = process.env.MENISCUSD;
+const meniscus = process.env.MENISCUS;
+if (!meniscusd || !meniscus) throw new Error('MENISCUSD and MENISCUS name the programs to test');
+
+const running = new Set();
+
+function start(program, args) {
+  const child = spawn(program, args, { stdio: ['ignore', 'pipe', 'pipe'] });
+  child.output = '';
+  for (const stream of [child.stdout, child.stderr]) stream.on('data', (bytes) => (child.output += bytes));
+  running.add(child);
+  child.ended = once(child, 'exit').then(() => running.delete(child));
+  return child;
+}
+
+export async function stopAll() {
+  for (const child of running) child.kill('SIGKILL');
+  await Promise.all([...running].map((child) => child.ended));
+}
+
+/** Resolves with the first match of what the process prints. */
+async function printed(child, pattern) {
+  const guard = AbortSignal.timeout(60_000);
+  for (;;) {
+    const match = pattern.exec(child.output);
+    if (match) return match;
+    if (child.exitCode !== null) throw new Error(`${child.spawnfile} ended: ${child.output}`);
+    await Promise.race([once(child.stderr, 'data', { signal: guard }), once(child, 'exit', { signal: guard })]);
+  }
+}
+
+/** ports: of a server before it, which it takes the place of. */
+export async function startServer({ ports = { grpc: 0, http: 0 }, args = [] } = {}) {
+  const child = start(meniscusd, ['--listen', `127.0.0.1:${ports.grpc}`, '--http', `127.0.0.1:${ports.http}`, '--threads', '2', '--shutdown-grace', '2', ...args]);
+  const [, grpc] = await printed(child, /listening on 127\.0\.0\.1:(\d+)/);
+  const [, http] = await printed(child, /http:\/\/127\.0\.0\.1:(\d+)/);
+  return {
+    ports: { grpc, http },
+    address: `127.0.0.1:${grpc}`,
+    url: `http://127.0.0.1:${http}/`,
+    kill: async (signal = 'SIGKILL') => {
+      child.kill(signal);
+      await child.ended;
+    },
+  };
+}
+
+/** Streams a dam break. Its session goes when it ends, and stays when it is killed. */
+export function startSimulator(server, { session = randomUUID(), particles = 2000, frames = 100_000, stats, token } = {}) {
+  const args = ['simulate', '--scene', 'dam-break', '--particles', `${particles}`, '--frames', `${frames}`, '--session', session, '--server', server.address];
+  if (stats) args.push('--stats', stats);
+  if (token) args.push('--token', token);
+  const child = start(meniscus, args);
+  return {
+    session,
+    ended: child.ended,
+    output: () => child.output,
+    kill: async () => {
+      child.kill('SIGKILL');
+      await child.ended;
+    },
+  };
+}
