@@ -71,7 +71,7 @@ void keep_alive(grpc::ServerBuilder& builder) {
 /// Throws InvalidInput if others could connect without TLS, or call without a token, where that is not meant.
 void require_closed_to_others(const ServerOptions& options) {
     if (!options.insecure && !options.tls.any()) require_loopback("--listen", options.listen);
-    if (!options.insecure && !options.http.empty()) require_loopback("--http", options.http);
+    if (!options.insecure && !options.tls.any() && !options.http.empty()) require_loopback("--http", options.http);
     const StandardServices& services = options.standard_services;
     if (!options.tokens.empty() && (services.reflection || services.channelz))
         throw InvalidInput(fmt::format("{} cannot be had with --tokens: gRPC answers it without asking for one",
@@ -88,7 +88,7 @@ std::string with_port(const std::string& listen, int port) {
 std::vector<std::string> problems_of(const ServerOptions& options) {
     const std::vector<std::function<void()>> steps{
         [&] { require_closed_to_others(options); },
-        [&] { AllowedOrigins(options.web_origins); },
+        [&] { AllowedOrigins(options.web_origins, options.http); },
         [&] { require_unused_unix_socket(options.listen); },
         [&] { if (options.tls.any()) load_certificates(options.tls); },
         [&] { if (!options.tokens.empty()) Tokens::load(options.tokens); },
@@ -118,7 +118,7 @@ Server::Server(const ServerOptions& options)
       session_service_(registry_, access_.authorizer()),
       surface_service_(registry_, access_.authorizer(), calls_) {
     require_closed_to_others(options);
-    const AllowedOrigins origins(options.web_origins);
+    const AllowedOrigins origins(options.web_origins, options.http);
     require_unused_unix_socket(options.listen);
     int port = 0;
     load_standard_services();
@@ -141,7 +141,7 @@ Server::Server(const ServerOptions& options)
             fmt::format("cannot listen on {}: the address is in use or not one of this machine", options.listen));
     address_ = with_port(options.listen, port);
     set_serving(*grpc_, true);
-    if (!options.http.empty()) http_ = std::make_unique<HttpServer>(options.http, pages(), GrpcWeb{grpc_->InProcessChannel({}), origins});
+    if (!options.http.empty()) serve_http(origins);
 }
 
 Server::~Server() {
@@ -158,10 +158,17 @@ void Server::shutdown() {
     // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection once
     // the client has confirmed the goodbye, or loses what the client has not read. Idle clients confirm late or never.
     calls_.wait_until_none(deadline);
-    // Its calls go to the server in this process.
+    // First: its calls go to the server in this process, and what they ended with is still to be taken.
+    if (http_) http_->finish(deadline);
     http_.reset();
     grpc_->Shutdown(std::min(deadline, std::chrono::system_clock::now() + goodbye_time));
     grpc_.reset();
+}
+
+void Server::serve_http(const AllowedOrigins& origins) {
+    const std::shared_ptr<const TlsContext> tls = access_.http_tls();
+    const GrpcWeb calls{.channel = grpc_->InProcessChannel({}), .origins = origins, .needs_certificate = tls && tls->mutual()};
+    http_ = std::make_unique<HttpServer>(options_.http, pages(), calls, HttpLimits{}, tls);
 }
 
 std::vector<prometheus::MetricFamily> Server::metrics() {

@@ -67,6 +67,7 @@ public:
 private:
     std::vector<prometheus::MetricFamily> metrics();
     Router pages();
+    void serve_http(const AllowedOrigins& origins);
 
     const ServerOptions options_;
     Access access_;

@@ -14,7 +14,7 @@ const types = {
 const [folder, output] = process.argv.slice(2);
 const paths = readdirSync(folder, { recursive: true, withFileTypes: true })
   .filter((entry) => entry.isFile())
-  .map((entry) => join(entry.path, entry.name).slice(join(folder, '/').length))
+  .map((entry) => join(entry.parentPath ?? entry.path, entry.name).slice(join(folder, '/').length))
   .sort();
 
 let arrays = '';

@@ -15,6 +15,7 @@ Access::Access(const TlsFiles& tls, const std::string& tokens) : tls_files_(tls)
     if (tls.any()) {
         certificates_ = load_certificates(tls);
         tls_ = std::make_shared<TlsCredentials>(certificates_);
+        http_tls_ = std::make_shared<TlsContext>(certificates_);
         spdlog::info("TLS certificate: {}", describe(certificates_));
     }
     if (!tokens.empty()) {
@@ -49,6 +50,7 @@ void Access::reload() {
 void Access::reload_certificates() {
     Certificates certificates = load_certificates(tls_files_);
     if (certificates == certificates_) return;
+    http_tls_->replace(certificates);
     tls_->replace(certificates);
     certificates_ = std::move(certificates);
     spdlog::info("new TLS certificate: {}", describe(certificates_));

@@ -8,6 +8,7 @@
 
 #include "security/authorizer.hpp"
 #include "security/certificates.hpp"
+#include "security/tls_context.hpp"
 #include "security/tls_credentials.hpp"
 #include "security/tokens.hpp"
 
@@ -19,8 +20,10 @@ public:
     Access(const TlsFiles& tls, const std::string& tokens);
 
     const Authorizer& authorizer() const noexcept { return authorizer_; }
-    /// For one port.
+    /// For the gRPC port.
     std::shared_ptr<grpc::ServerCredentials> credentials() const;
+    /// For the HTTP port; none without TLS.
+    std::shared_ptr<const TlsContext> http_tls() const { return http_tls_; }
 
     /// Takes over what has changed in the files. Where one cannot be used, that is logged, and what was there before stays.
     /// One thread at a time.
@@ -36,6 +39,7 @@ private:
     Tokens tokens_;
     Authorizer authorizer_;
     std::shared_ptr<TlsCredentials> tls_;  ///< none without TLS
+    std::shared_ptr<TlsContext> http_tls_; ///< likewise
     std::string problems_;                 ///< logged already
 };
 

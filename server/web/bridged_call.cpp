@@ -6,15 +6,17 @@
 
 namespace meniscus::server {
 
-BridgedCall::BridgedCall(boost::asio::io_context::executor_type executor, Receiver receiver)
-    : executor_(executor), work_(executor), receiver_(std::move(receiver)) {}
+BridgedCall::BridgedCall(std::shared_ptr<boost::asio::io_context> context, Receiver receiver)
+    : io_(std::move(context)), work_(io_->get_executor()), receiver_(std::move(receiver)) {}
 
-void BridgedCall::start(const std::shared_ptr<grpc::Channel>& channel, const std::string& method, const Metadata& metadata,
-                        grpc::ByteBuffer request) {
+void BridgedCall::start(const std::shared_ptr<grpc::Channel>& channel, Request request) {
     self_ = shared_from_this();
-    for (const auto& [name, value] : metadata) context_.AddMetadata(name, value);
-    request_.Swap(&request);
-    grpc::GenericStub(channel).PrepareBidiStreamingCall(&context_, method, {}, this);
+    for (const auto& [name, value] : request.metadata) context_.AddMetadata(name, value);
+    if (request.timeout)
+        context_.set_deadline(std::chrono::system_clock::now() +
+                              std::chrono::duration_cast<std::chrono::system_clock::duration>(*request.timeout));
+    request_.Swap(&request.message);
+    grpc::GenericStub(channel).PrepareBidiStreamingCall(&context_, request.method, {}, this);
     AddHold();
     held_ = true;
     // Before the request: within the process gRPC drops the answer of a unary handler that nobody waits for yet.
@@ -37,8 +39,12 @@ void BridgedCall::cancel() {
     }
 }
 
+void BridgedCall::OnReadInitialMetadataDone(bool ok) {
+    if (ok) boost::asio::post(*io_, [self = shared_from_this()] { self->receiver_.admitted(); });
+}
+
 void BridgedCall::OnReadDone(bool ok) {
-    boost::asio::post(executor_, [self = shared_from_this(), ok] { self->was_read(ok); });
+    boost::asio::post(*io_, [self = shared_from_this(), ok] { self->was_read(ok); });
 }
 
 void BridgedCall::was_read(bool ok) {
@@ -52,7 +58,9 @@ void BridgedCall::was_read(bool ok) {
 }
 
 void BridgedCall::OnDone(const grpc::Status& status) {
-    boost::asio::post(executor_, [self = std::move(self_), status] { self->receiver_.end(status); });
+    // The context outlives post(), though this may be the last that its thread waits for.
+    const auto io = io_;
+    boost::asio::post(*io, [self = std::move(self_), status] { self->receiver_.end(status); });
 }
 
 }  // namespace meniscus::server

@@ -10,8 +10,10 @@
 
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
+#include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,29 +26,35 @@ class BridgedCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc:
 public:
     /// One of these answers start() and each read(): a message, or the end, which comes once.
     struct Receiver {
+        std::function<void()> admitted;  ///< by the handler; once, or never
         std::function<void(grpc::ByteBuffer message)> message;
         std::function<void(const grpc::Status& status)> end;
     };
-    using Metadata = std::vector<std::pair<std::string, std::string>>;
+    struct Request {
+        std::string method;  ///< as "/package.Service/Method"
+        /// Must be what gRPC takes: lower-case names, values in printable ASCII.
+        std::vector<std::pair<std::string, std::string>> metadata;
+        std::optional<std::chrono::nanoseconds> timeout;
+        grpc::ByteBuffer message;
+    };
 
-    BridgedCall(boost::asio::io_context::executor_type executor, Receiver receiver);
+    BridgedCall(std::shared_ptr<boost::asio::io_context> context, Receiver receiver);
 
-    /// method: as "/package.Service/Method". Metadata must be what gRPC takes: lower-case names, values in printable ASCII.
-    void start(const std::shared_ptr<grpc::Channel>& channel, const std::string& method, const Metadata& metadata,
-               grpc::ByteBuffer request);
+    void start(const std::shared_ptr<grpc::Channel>& channel, Request request);
     /// Only once the one before was answered: a client that does not take its messages holds the handler up, as in native gRPC.
     void read();
     /// The end follows, as canceled.
     void cancel();
 
     // Of the reactor; on threads of gRPC.
+    void OnReadInitialMetadataDone(bool ok) override;
     void OnReadDone(bool ok) override;
     void OnDone(const grpc::Status& status) override;
 
 private:
     void was_read(bool ok);
 
-    const boost::asio::io_context::executor_type executor_;
+    const std::shared_ptr<boost::asio::io_context> io_;
     const boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_;
     const Receiver receiver_;
     grpc::ClientContext context_;

@@ -21,6 +21,10 @@ bool GrpcWeb::serves(std::string_view target) const {
     return channel && std::ranges::find(methods, target) != methods.end();
 }
 
+bool is_method(std::string_view target) {
+    return target.starts_with("/meniscus.v1.");
+}
+
 bool is_stream(std::string_view target) {
     return target == watch;
 }

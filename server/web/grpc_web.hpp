@@ -13,10 +13,14 @@ namespace meniscus::server {
 struct GrpcWeb {
     std::shared_ptr<grpc::Channel> channel;  ///< to the server in this process; none: nothing can be called
     AllowedOrigins origins;
+    bool needs_certificate = false;  ///< a client's, by TLS
 
     /// target: as in the request line.
     bool serves(std::string_view target) const;
 };
+
+/// Whether it is a method of ours at all, served here or not.
+bool is_method(std::string_view target);
 
 /// Whether the answer is a stream.
 bool is_stream(std::string_view target);

@@ -10,13 +10,21 @@
 #include <utility>
 
 #include "meniscus/error.hpp"
+#include "web/origins.hpp"
 
 namespace meniscus::server {
 
 namespace http = boost::beast::http;
 
-BridgedCall::Metadata call_metadata(const GrpcWebRequest& request) {
-    BridgedCall::Metadata metadata;
+namespace {
+
+std::string_view view(boost::beast::string_view text) {
+    return {text.data(), text.size()};
+}
+
+/// Throws InvalidInput for what gRPC cannot carry.
+std::vector<std::pair<std::string, std::string>> metadata_of(const GrpcWebRequest& request) {
+    std::vector<std::pair<std::string, std::string>> metadata;
     for (const std::string_view name : {"authorization", "x-session-id"}) {
         const auto [first, last] = request.equal_range(boost::beast::string_view(name.data(), name.size()));
         for (auto field = first; field != last; ++field) {
@@ -29,24 +37,43 @@ BridgedCall::Metadata call_metadata(const GrpcWebRequest& request) {
     return metadata;
 }
 
-GrpcWebExchange::GrpcWebExchange(boost::beast::tcp_stream& stream, boost::asio::io_context::executor_type executor,
-                                 std::chrono::milliseconds patience, std::function<void(Ending)> ended)
-    : stream_(stream), executor_(executor), patience_(patience), ended_(std::move(ended)) {}
+}  // namespace
 
-void GrpcWebExchange::start(const GrpcWeb& service, const GrpcWebRequest& request) {
-    const std::string target(request.target());
-    grpc::ByteBuffer message = grpc_web_request(request.body());
-    const BridgedCall::Metadata metadata = call_metadata(request);
+bool is_grpc_web(const http::fields& request) {
+    const std::string_view type = view(request[http::field::content_type]);
+    return type == "application/grpc-web+proto" || type == "application/grpc-web";
+}
+
+grpc::Status bridged_request(const GrpcWebRequest& request, BridgedCall::Request& call) {
+    call.method = std::string(request.target());
+    try {
+        call.metadata = metadata_of(request);
+        if (const auto timeout = request.find("grpc-timeout"); timeout != request.end())
+            call.timeout = grpc_timeout(view(timeout->value()));
+    } catch (const InvalidInput& refusal) {
+        return {grpc::StatusCode::INVALID_ARGUMENT, refusal.what()};
+    }
+    return grpc_web_request(request.body(), call.message);
+}
+
+GrpcWebExchange::GrpcWebExchange(HttpStream& stream, std::shared_ptr<boost::asio::io_context> context,
+                                 std::chrono::milliseconds patience, std::function<void(Ending)> ended)
+    : stream_(stream), context_(std::move(context)), patience_(patience), ended_(std::move(ended)) {}
+
+void GrpcWebExchange::start(const std::shared_ptr<grpc::Channel>& channel, const GrpcWebRequest& request,
+                            BridgedCall::Request call) {
+    const bool stream = is_stream(call.method);
     chunked_ = request.version() >= 11;
-    keep_alive_ = chunked_ && request.keep_alive() && !is_stream(target);
+    keep_alive_ = chunked_ && request.keep_alive() && !stream;
+    header_.emplace(header_for(request));
     call_ = std::make_shared<BridgedCall>(
-        executor_, BridgedCall::Receiver{
-                       .message = [self = shared_from_this()](grpc::ByteBuffer received) { self->receive(std::move(received)); },
-                       .end = [self = shared_from_this()](const grpc::Status& status) { self->finish(status); },
-                   });
-    call_->start(service.channel, target, metadata, std::move(message));
-    if (is_stream(target)) watch_for_departure();
-    write_header(request);
+        context_, BridgedCall::Receiver{
+                      .admitted = [self = shared_from_this()] { self->write_header(); },
+                      .message = [self = shared_from_this()](grpc::ByteBuffer received) { self->receive(std::move(received)); },
+                      .end = [self = shared_from_this()](const grpc::Status& status) { self->finish(status); },
+                  });
+    call_->start(channel, std::move(call));
+    if (stream) watch_for_departure();
 }
 
 void GrpcWebExchange::cancel() {
@@ -54,22 +81,24 @@ void GrpcWebExchange::cancel() {
     if (call_ && !call_ended_) call_->cancel();
 }
 
-void GrpcWebExchange::write_header(const GrpcWebRequest& request) {
-    header_.emplace(http::status::ok, request.version());
-    header_->set(http::field::content_type, "application/grpc-web+proto");
-    header_->set(http::field::cache_control, "no-store");
-    header_->set("X-Content-Type-Options", "nosniff");
+GrpcWebExchange::Header GrpcWebExchange::header_for(const GrpcWebRequest& request) const {
+    Header header(http::status::ok, request.version());
+    header.set(http::field::content_type, "application/grpc-web+proto");
+    header.set(http::field::cache_control, "no-store");
+    header.set("X-Content-Type-Options", "nosniff");
     // Proxies must pass each message on as it comes.
-    header_->set("X-Accel-Buffering", "no");
-    if (const auto origin = request[http::field::origin]; !origin.empty()) {
-        header_->set(http::field::access_control_allow_origin, origin);
-        header_->set(http::field::vary, "Origin");
-    }
-    header_->keep_alive(keep_alive_);
-    if (chunked_) header_->chunked(true);
+    header.set("X-Accel-Buffering", "no");
+    for (const auto& [name, value] : cross_origin_headers(view(request[http::field::origin]))) header.set(name, value);
+    header.keep_alive(keep_alive_);
+    if (chunked_) header.chunked(true);
+    return header;
+}
+
+void GrpcWebExchange::write_header() {
+    if (serializer_ || departed_) return;
     serializer_.emplace(*header_);
     writing_ = true;
-    stream_.expires_after(patience_);
+    stream_.tcp().expires_after(patience_);
     http::async_write_header(stream_, *serializer_, [self = shared_from_this()](boost::beast::error_code error, std::size_t) {
         self->written(error, &GrpcWebExchange::header_written);
     });
@@ -93,7 +122,10 @@ void GrpcWebExchange::receive(grpc::ByteBuffer message) {
     message_header_ = grpc_web_header(message.Length());
     buffers_.assign(1, boost::asio::buffer(message_header_));
     for (const grpc::Slice& slice : slices_) buffers_.emplace_back(slice.begin(), slice.size());
-    if (header_sent_) write(&GrpcWebExchange::await_message);
+    if (header_sent_)
+        write(&GrpcWebExchange::await_message);
+    else
+        write_header();
 }
 
 void GrpcWebExchange::finish(const grpc::Status& status) {
@@ -101,12 +133,15 @@ void GrpcWebExchange::finish(const grpc::Status& status) {
     if (departed_) return depart();
     trailers_ = grpc_web_trailers(status);
     buffers_.assign(1, boost::asio::buffer(trailers_));
-    if (!writing_) write(&GrpcWebExchange::finished);
+    if (!header_sent_)
+        write_header();
+    else if (!writing_)
+        write(&GrpcWebExchange::finished);
 }
 
 void GrpcWebExchange::write(Handler next) {
     writing_ = true;
-    stream_.expires_after(patience_);
+    stream_.tcp().expires_after(patience_);
     const auto done = [self = shared_from_this(), next](boost::beast::error_code error, std::size_t) { self->written(error, next); };
     if (chunked_)
         boost::asio::async_write(stream_, http::make_chunk(buffers_), done);
@@ -127,7 +162,7 @@ void GrpcWebExchange::finished() {
     if (chunked_ && !answered_) {
         answered_ = true;
         writing_ = true;
-        stream_.expires_after(patience_);
+        stream_.tcp().expires_after(patience_);
         boost::asio::async_write(stream_, http::make_chunk_last(), [self = shared_from_this()](boost::beast::error_code error, std::size_t) {
             self->written(error, &GrpcWebExchange::finished);
         });
@@ -140,19 +175,19 @@ void GrpcWebExchange::finished() {
 
 void GrpcWebExchange::watch_for_departure() {
     watching_ = true;
-    stream_.expires_never();
-    stream_.async_read_some(boost::asio::buffer(discarded_), [self = shared_from_this()](boost::beast::error_code error, std::size_t) {
+    stream_.tcp().expires_never();
+    // Whoever sends more, to a stream that is the connection's last answer, is cut off as well: it could not be watched any more.
+    stream_.async_read_some(boost::asio::buffer(unexpected_), [self = shared_from_this()](boost::beast::error_code, std::size_t) {
         self->watching_ = false;
-        // More than the request is not taken from a client that receives a stream: its connection ends with the answer.
-        if (error) self->departed_ = true;
-        if (self->departed_) self->depart();
+        self->departed_ = true;
+        self->depart();
     });
 }
 
 /// Once nothing of the exchange is under way any more, the connection is given back.
 void GrpcWebExchange::depart() {
     if (!call_ended_) cancel();
-    if (watching_ || writing_) stream_.cancel();
+    if (watching_ || writing_) stream_.tcp().cancel();
     if (!call_ended_ || watching_ || writing_ || !call_) return;
     call_.reset();
     ended_({.answered = answered_, .keep_alive = keep_alive_});

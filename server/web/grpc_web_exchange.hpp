@@ -7,7 +7,6 @@
 #include <array>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/serializer.hpp>
@@ -22,13 +21,17 @@
 #include "web/bridged_call.hpp"
 #include "web/grpc_web.hpp"
 #include "web/grpc_web_messages.hpp"
+#include "web/http_stream.hpp"
 
 namespace meniscus::server {
 
 using GrpcWebRequest = boost::beast::http::request<boost::beast::http::string_body>;
 
-/// The call's metadata out of a request's headers. Throws InvalidInput for what gRPC cannot carry.
-BridgedCall::Metadata call_metadata(const GrpcWebRequest& request);
+/// Whether a request is one of gRPC-Web, by its content type.
+bool is_grpc_web(const boost::beast::http::fields& request);
+
+/// What the request asks of the handler, into `call`; otherwise the status to answer with.
+grpc::Status bridged_request(const GrpcWebRequest& request, BridgedCall::Request& call);
 
 class GrpcWebExchange : public std::enable_shared_from_this<GrpcWebExchange> {
 public:
@@ -38,11 +41,10 @@ public:
     };
 
     /// patience: for one message to be taken. The stream stays in use until `ended` is called, which is the last that happens.
-    GrpcWebExchange(boost::beast::tcp_stream& stream, boost::asio::io_context::executor_type executor,
-                    std::chrono::milliseconds patience, std::function<void(Ending)> ended);
+    GrpcWebExchange(HttpStream& stream, std::shared_ptr<boost::asio::io_context> context, std::chrono::milliseconds patience,
+                    std::function<void(Ending)> ended);
 
-    /// Throws InvalidInput, before anything is sent, if the request cannot be understood.
-    void start(const GrpcWeb& service, const GrpcWebRequest& request);
+    void start(const std::shared_ptr<grpc::Channel>& channel, const GrpcWebRequest& request, BridgedCall::Request call);
     /// Ends the call; `ended` follows.
     void cancel();
 
@@ -50,7 +52,9 @@ private:
     using Header = boost::beast::http::response<boost::beast::http::empty_body>;
     using Handler = void (GrpcWebExchange::*)();
 
-    void write_header(const GrpcWebRequest& request);
+    Header header_for(const GrpcWebRequest& request) const;
+    /// Once the handler has admitted the call, or ended it: whoever sees the header misses nothing from then on.
+    void write_header();
     void header_written();
     void await_message();
     void receive(grpc::ByteBuffer message);
@@ -63,8 +67,8 @@ private:
     void watch_for_departure();
     void depart();
 
-    boost::beast::tcp_stream& stream_;
-    const boost::asio::io_context::executor_type executor_;
+    HttpStream& stream_;
+    const std::shared_ptr<boost::asio::io_context> context_;
     const std::chrono::milliseconds patience_;
     const std::function<void(Ending)> ended_;
     std::shared_ptr<BridgedCall> call_;
@@ -74,7 +78,7 @@ private:
     std::vector<grpc::Slice> slices_;  ///< of the message under way
     std::string trailers_;
     std::vector<boost::asio::const_buffer> buffers_;
-    std::array<char, 64> discarded_{};
+    std::array<char, 1> unexpected_{};
     bool chunked_ = true;
     bool keep_alive_ = false;
     bool watching_ = false;     ///< a read is pending

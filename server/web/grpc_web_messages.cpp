@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <grpcpp/support/slice.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cstdint>
+#include <system_error>
+#include <utility>
 
 #include "meniscus/error.hpp"
 
@@ -11,6 +15,7 @@ namespace meniscus::server {
 
 namespace {
 
+constexpr unsigned char compressed_flag = 0x01;
 constexpr unsigned char trailers_flag = 0x80;
 
 /// As gRPC wants messages of a status: printable ASCII, the rest and the percent sign as %XX.
@@ -33,18 +38,40 @@ GrpcWebHeader grpc_web_header(std::size_t bytes) {
             static_cast<unsigned char>(n >> 8 & 0xff), static_cast<unsigned char>(n & 0xff)};
 }
 
-grpc::ByteBuffer grpc_web_request(std::string_view body) {
+grpc::Status grpc_web_request(std::string_view body, grpc::ByteBuffer& message) {
+    const auto malformed = [](std::string text) { return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, std::move(text)); };
     constexpr std::size_t header_bytes = GrpcWebHeader{}.size();
     if (body.size() < header_bytes)
-        throw InvalidInput(fmt::format("the body has {} bytes; a gRPC-Web message has at least {}", body.size(), header_bytes));
+        return malformed(fmt::format("the body has {} bytes; a gRPC-Web message has at least {}", body.size(), header_bytes));
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(body[i]); };
-    if (byte(0) != 0) throw InvalidInput(fmt::format("the message has the flags {}; only 0 is taken, no compression", byte(0)));
+    if (byte(0) == compressed_flag) return {grpc::StatusCode::UNIMPLEMENTED, "the message is compressed; send it as it is"};
+    if (byte(0) != 0) return malformed(fmt::format("the message has the flags {}; only 0 is taken", byte(0)));
     const std::uint32_t length = std::uint32_t{byte(1)} << 24 | std::uint32_t{byte(2)} << 16 | std::uint32_t{byte(3)} << 8 | byte(4);
-    const std::string_view message = body.substr(header_bytes);
-    if (message.size() != length)
-        throw InvalidInput(fmt::format("the message announces {} bytes, but {} follow", length, message.size()));
-    const grpc::Slice slice(message.data(), message.size());
-    return {&slice, 1};
+    const std::string_view bytes = body.substr(header_bytes);
+    if (bytes.size() != length) return malformed(fmt::format("the message announces {} bytes, but {} follow", length, bytes.size()));
+    const grpc::Slice slice(bytes.data(), bytes.size());
+    message = grpc::ByteBuffer(&slice, 1);
+    return grpc::Status::OK;
+}
+
+std::chrono::nanoseconds grpc_timeout(std::string_view text) {
+    using std::chrono::nanoseconds;
+    static constexpr std::array<std::pair<char, nanoseconds>, 6> units{{{'H', std::chrono::hours(1)},
+                                                                        {'M', std::chrono::minutes(1)},
+                                                                        {'S', std::chrono::seconds(1)},
+                                                                        {'m', std::chrono::milliseconds(1)},
+                                                                        {'u', std::chrono::microseconds(1)},
+                                                                        {'n', nanoseconds(1)}}};
+    constexpr std::size_t most_digits = 8;
+    const std::size_t digits = text.empty() ? 0 : text.size() - 1;
+    const auto* unit = std::ranges::find(units, digits == 0 ? '\0' : text.back(), &std::pair<char, nanoseconds>::first);
+    std::int64_t count = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + digits, count);
+    if (unit == units.end() || digits > most_digits || error != std::errc() || end != text.data() + digits || count < 0)
+        throw InvalidInput("grpc-timeout must be 1 to 8 digits and one of H, M, S, m, u, n");
+    // Longer than a day is as good as none, and cannot overflow.
+    constexpr nanoseconds most = std::chrono::hours(24);
+    return count > most / unit->second ? most : count * unit->second;
 }
 
 std::string grpc_web_trailers(const grpc::Status& status) {

@@ -5,6 +5,7 @@
 #include <grpcpp/support/status.h>
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -16,8 +17,12 @@ using GrpcWebHeader = std::array<unsigned char, 5>;
 /// Of a message of so many bytes.
 GrpcWebHeader grpc_web_header(std::size_t bytes);
 
-/// The one message of a request's body. Throws InvalidInput for anything else.
-grpc::ByteBuffer grpc_web_request(std::string_view body);
+/// The one message of a request's body, into `message`. Otherwise the status to answer with: INVALID_ARGUMENT, or UNIMPLEMENTED
+/// for a compressed message.
+grpc::Status grpc_web_request(std::string_view body, grpc::ByteBuffer& message);
+
+/// The time that a client gives its call, as gRPC writes it: "100m" is 100 ms. Throws InvalidInput for anything else.
+std::chrono::nanoseconds grpc_timeout(std::string_view text);
 
 /// The message that ends an answer, with its header.
 std::string grpc_web_trailers(const grpc::Status& status);

@@ -1,8 +1,11 @@
 #include "web/http_connection.hpp"
 
 #include <fmt/format.h>
+#include <openssl/err.h>
+#include <openssl/sslerr.h>
 
 #include <boost/asio/buffer.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/http/error.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
@@ -13,7 +16,7 @@
 #include <string_view>
 #include <utility>
 
-#include "meniscus/error.hpp"
+#include "web/grpc_web_messages.hpp"
 
 namespace meniscus::server {
 
@@ -31,24 +34,27 @@ std::string_view view(boost::beast::string_view text) {
     return {text.data(), text.size()};
 }
 
+constexpr std::string_view not_tls =
+    "HTTP/1.1 400 Bad Request\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: 49\r\nConnection: close\r\n\r\n"
+    "This port speaks TLS: the address is https://...\n";
+
 /// To a browser that asks whether a page may make a call.
 Page preflight_page(std::string_view origin) {
-    return {.status = 204,
-            .headers = {{"Access-Control-Allow-Origin", std::string(origin)},
-                        {"Access-Control-Allow-Methods", "POST"},
-                        {"Access-Control-Allow-Headers", "authorization, content-type, x-grpc-web, x-session-id"},
-                        {"Access-Control-Max-Age", "600"},
-                        {"Vary", "Origin"}}};
+    Page page{.status = 204, .headers = cross_origin_headers(origin)};
+    page.headers.emplace_back("Access-Control-Allow-Methods", "POST");
+    page.headers.emplace_back("Access-Control-Allow-Headers", "authorization, content-type, grpc-timeout, x-grpc-web, x-session-id, x-user-agent");
+    page.headers.emplace_back("Access-Control-Max-Age", "600");
+    return page;
 }
 
 }  // namespace
 
-HttpConnection::HttpConnection(boost::asio::ip::tcp::socket socket, boost::asio::io_context::executor_type executor,
-                               const Router& router, const GrpcWeb& grpc_web, const HttpLimits& limits, Observer observer)
-    : stream_(std::move(socket)),
-      executor_(executor),
-      router_(router),
-      grpc_web_(grpc_web),
+HttpConnection::HttpConnection(boost::asio::ip::tcp::socket socket, std::shared_ptr<boost::asio::ssl::context> tls,
+                               std::shared_ptr<boost::asio::io_context> context, Content content, const HttpLimits& limits,
+                               Observer observer)
+    : stream_(std::move(socket), std::move(tls)),
+      context_(std::move(context)),
+      content_(content),
       limits_(limits),
       observer_(std::move(observer)),
       // Room for one header and for what a client sends ahead; more of that stays in the socket.
@@ -59,21 +65,46 @@ HttpConnection::~HttpConnection() {
 }
 
 void HttpConnection::start() {
-    read();
+    if (stream_.has_tls())
+        shake_hands();
+    else
+        read();
+}
+
+void HttpConnection::leave() {
+    leaving_ = true;
+    if (!busy_) stream_.tcp().close();
 }
 
 void HttpConnection::close() {
     if (exchange_) exchange_->cancel();
-    stream_.close();
+    stream_.tcp().close();
+}
+
+void HttpConnection::shake_hands() {
+    stream_.tcp().expires_after(limits_.patience);
+    stream_.async_handshake([self = shared_from_this()](boost::beast::error_code error) {
+        if (!error) return self->read();
+        if (error.category() == boost::asio::error::get_ssl_category() && ERR_GET_REASON(static_cast<unsigned long>(error.value())) == SSL_R_HTTP_REQUEST)
+            self->name_tls();
+    });
+}
+
+void HttpConnection::name_tls() {
+    stream_.tcp().expires_after(limits_.patience);
+    boost::asio::async_write(stream_.tcp(), boost::asio::buffer(not_tls),
+                             [self = shared_from_this()](boost::beast::error_code, std::size_t) {});
 }
 
 void HttpConnection::read() {
+    busy_ = false;
+    if (leaving_) return end_connection();
     call_parser_.reset();
     parser_.emplace();
     parser_->header_limit(limits_.header_bytes);
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // none is read: answer() refuses them
     // For the whole header: who sends it byte by byte gains nothing.
-    stream_.expires_after(limits_.patience);
+    stream_.tcp().expires_after(limits_.patience);
     http::async_read_header(stream_, buffer_, *parser_,
                             [self = shared_from_this()](boost::beast::error_code error, std::size_t) { self->receive(error); });
 }
@@ -90,26 +121,49 @@ void HttpConnection::receive(boost::beast::error_code error) {
 
 void HttpConnection::answer() {
     const auto& request = parser_->get();
-    const std::string_view path(request.target().data(), request.target().size());
-    if (grpc_web_.serves(path)) {
+    const std::string_view path = view(request.target());
+    const std::string_view host = view(request[http::field::host]);
+    const AllowedOrigins& origins = content_.grpc_web.origins;
+    busy_ = true;
+    if (request.count(http::field::host) > 1) return refuse(400, "The request names more than one host.\n");
+    const bool is_call = content_.grpc_web.channel && is_method(path);
+    if ((is_call || content_.router.is_for_browsers(path)) && !origins.knows_host(host))
+        return refuse(421, fmt::format("This server is not known as {0}; use its address, or start it with --web-origin http://{0}\n",
+                                       host.substr(0, shown_bytes)));
+    if (is_call) {
         const std::string_view origin = view(request[http::field::origin]);
-        if (!grpc_web_.origins.admits(origin, view(request[http::field::host])))
+        if (!origins.admits(origin, host))
             return refuse(403, fmt::format("Pages of {} may not call this server; --web-origin allows them.\n", origin.substr(0, shown_bytes)));
         if (request.method() == http::verb::post) return receive_call();
         if (request.method() == http::verb::options) return write(preflight_page(origin), request.keep_alive());
+        return refuse(405, fmt::format("{} is not allowed here; POST is.\n", std::string(request.method_string())));
     }
     if (request.method() != http::verb::get && request.method() != http::verb::head)
         return refuse(405, fmt::format("{} is not allowed here; GET and HEAD are.\n", std::string(request.method_string())));
     if (!parser_->is_done()) return refuse(413, "A body is not taken here.\n");
-    write(router_.answer(path, view(request[http::field::accept_encoding])), request.keep_alive());
+    write(content_.router.answer(path, {.accept_encoding = view(request[http::field::accept_encoding]),
+                                        .if_none_match = view(request[http::field::if_none_match])}),
+          request.keep_alive());
+}
+
+grpc::Status HttpConnection::call_refusal(std::string_view path) {
+    if (!content_.grpc_web.serves(path))
+        return {grpc::StatusCode::UNIMPLEMENTED, fmt::format("{} is not served to browsers, only what reads", path.substr(0, shown_bytes))};
+    if (content_.grpc_web.needs_certificate && !stream_.has_client_certificate())
+        return {grpc::StatusCode::UNAUTHENTICATED, "calls need a client's certificate"};
+    if (is_stream(path) && !observer_.may_stream())
+        return {grpc::StatusCode::RESOURCE_EXHAUSTED, fmt::format("the HTTP port carries {} streams, its limit; watch by gRPC", limits_.streams)};
+    if (const auto bytes = parser_->content_length().value_or(0); bytes > limits_.body_bytes)
+        return {grpc::StatusCode::RESOURCE_EXHAUSTED, fmt::format("the request has {} bytes; at most {} are taken", bytes, limits_.body_bytes)};
+    return grpc::Status::OK;
 }
 
 void HttpConnection::receive_call() {
     const auto& request = parser_->get();
-    if (const auto type = view(request[http::field::content_type]); type != "application/grpc-web+proto" && type != "application/grpc-web")
-        return refuse(415, fmt::format("The content type is \"{}\"; application/grpc-web+proto is taken.\n", type.substr(0, shown_bytes)));
-    if (parser_->content_length().value_or(0) > limits_.body_bytes)
-        return refuse(413, fmt::format("The body has {} bytes; at most {} are taken.\n", *parser_->content_length(), limits_.body_bytes));
+    if (!is_grpc_web(request))
+        return refuse(415, fmt::format("The content type is \"{}\"; application/grpc-web+proto is taken.\n",
+                                       view(request[http::field::content_type]).substr(0, shown_bytes)));
+    if (const grpc::Status refusal = call_refusal(view(request.target())); !refusal.ok()) return refuse_call(refusal);
     call_parser_.emplace(std::move(*parser_));
     call_parser_->body_limit(limits_.body_bytes);
     chunks_ = 0;
@@ -123,22 +177,22 @@ void HttpConnection::receive_call() {
 
 void HttpConnection::answer_call(boost::beast::error_code error) {
     if (error == http::error::body_limit)
-        return refuse(413, fmt::format("The body has more than {} bytes or {} chunks.\n", limits_.body_bytes, limits_.body_chunks));
+        return refuse_call({grpc::StatusCode::RESOURCE_EXHAUSTED,
+                            fmt::format("the request has more than {} bytes or {} chunks", limits_.body_bytes, limits_.body_chunks)});
     if (error.category() == http::make_error_code(http::error::bad_chunk).category() && error != http::error::partial_message)
         return refuse(400, fmt::format("This is no HTTP body: {}.\n", error.message()));
     if (error) return;  // gone, or too slow
-    const auto exchange = std::make_shared<GrpcWebExchange>(
-        stream_, executor_, limits_.patience, [self = shared_from_this()](GrpcWebExchange::Ending ending) { self->call_ended(ending); });
-    try {
-        exchange->start(grpc_web_, call_parser_->get());
-        exchange_ = exchange;
-    } catch (const InvalidInput& refusal) {
-        refuse(400, fmt::format("{}.\n", refusal.what()));
-    }
+    BridgedCall::Request call;
+    if (const grpc::Status refusal = bridged_request(call_parser_->get(), call); !refusal.ok()) return refuse_call(refusal);
+    streams_ = is_stream(call.method);
+    exchange_ = std::make_shared<GrpcWebExchange>(
+        stream_, context_, limits_.patience, [self = shared_from_this()](GrpcWebExchange::Ending ending) { self->call_ended(ending); });
+    exchange_->start(content_.grpc_web.channel, call_parser_->get(), std::move(call));
 }
 
 void HttpConnection::call_ended(GrpcWebExchange::Ending ending) {
     exchange_.reset();
+    streams_ = false;
     if (!ending.answered) return;
     if (!ending.keep_alive) return end_connection();
     observer_.answered(*this);
@@ -149,18 +203,26 @@ void HttpConnection::refuse(unsigned status, std::string sentence) {
     write({.status = status, .body = std::move(sentence)}, false);
 }
 
+void HttpConnection::refuse_call(const grpc::Status& status) {
+    const http::fields& request = call_parser_ ? static_cast<const http::fields&>(call_parser_->get()) : parser_->get();
+    write({.content_type = "application/grpc-web+proto", .body = grpc_web_trailers(status), .headers = cross_origin_headers(view(request[http::field::origin]))},
+          false);
+}
+
 void HttpConnection::write(Page page, bool keep_alive) {
-    response_.emplace(http::int_to_status(page.status), 11);
-    response_->set(http::field::content_type, page.content_type);
-    response_->set(http::field::cache_control, page.cache_control);
+    page_ = std::move(page);
+    response_.emplace(http::int_to_status(page_.status), 11);
+    response_->set(http::field::content_type, page_.content_type);
+    response_->set(http::field::cache_control, page_.cache_control);
     response_->set("X-Content-Type-Options", "nosniff");
-    for (const auto& [name, value] : page.headers) response_->set(name, value);
-    if (page.status == 405) response_->set(http::field::allow, "GET, HEAD");
-    response_->keep_alive(keep_alive);
-    response_->body() = std::move(page.body);
+    for (const auto& [name, value] : page_.headers) response_->set(name, value);
+    if (page_.status == 405) response_->set(http::field::allow, content_.grpc_web.serves(view(parser_->get().target())) ? "POST, OPTIONS" : "GET, HEAD");
+    response_->keep_alive(keep_alive && !leaving_);
+    const std::string_view body = page_.lasting_body.empty() ? std::string_view(page_.body) : page_.lasting_body;
+    response_->body() = {body.data(), body.size()};
     response_->prepare_payload();
     serializer_.emplace(*response_);
-    stream_.expires_after(limits_.patience);
+    stream_.tcp().expires_after(limits_.patience);
     const auto done = [self = shared_from_this()](boost::beast::error_code error, std::size_t) { self->written(error); };
     if (!call_parser_ && parser_->get().method() == http::verb::head)
         http::async_write_header(stream_, *serializer_, done);
@@ -176,10 +238,12 @@ void HttpConnection::written(boost::beast::error_code error) {
 }
 
 void HttpConnection::end_connection() {
+    busy_ = false;
+    stream_.tcp().expires_after(linger_time);
+    if (stream_.has_tls()) return stream_.async_shutdown([self = shared_from_this()](boost::beast::error_code) {});
     boost::beast::error_code ignored;
-    stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
-    stream_.expires_after(linger_time);
-    linger();
+    stream_.tcp().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+    if (!leaving_) linger();
 }
 
 void HttpConnection::linger() {

@@ -5,10 +5,10 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/serializer.hpp>
+#include <boost/beast/http/span_body.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +20,7 @@
 #include "web/grpc_web.hpp"
 #include "web/grpc_web_exchange.hpp"
 #include "web/http_limits.hpp"
+#include "web/http_stream.hpp"
 #include "web/router.hpp"
 
 namespace meniscus::server {
@@ -27,46 +28,63 @@ namespace meniscus::server {
 /// Lives while an operation of its socket is under way. Of one thread.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 public:
-    /// answered: called after each answer; gone: at the end.
+    /// answered: called after each answer; gone: at the end; may_stream: whether there is room for one more stream.
     struct Observer {
         std::function<void(HttpConnection&)> answered;
         std::function<void(HttpConnection&)> gone;
+        std::function<bool()> may_stream;
+    };
+    /// What is served. All of it outlives the connection.
+    struct Content {
+        const Router& router;
+        const GrpcWeb& grpc_web;
     };
 
-    HttpConnection(boost::asio::ip::tcp::socket socket, boost::asio::io_context::executor_type executor, const Router& router,
-                   const GrpcWeb& grpc_web, const HttpLimits& limits, Observer observer);
+    /// tls: none for HTTP alone.
+    HttpConnection(boost::asio::ip::tcp::socket socket, std::shared_ptr<boost::asio::ssl::context> tls,
+                   std::shared_ptr<boost::asio::io_context> context, Content content, const HttpLimits& limits, Observer observer);
     ~HttpConnection();
     HttpConnection(const HttpConnection&) = delete;
     HttpConnection& operator=(const HttpConnection&) = delete;
 
     void start();
+    /// Ends with the answer that is under way, or at once if there is none.
+    void leave();
     /// Ends what is under way; gone() follows.
     void close();
+    /// Whether a stream is under way.
+    bool streams() const noexcept { return streams_; }
 
 private:
     using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
     using CallParser = boost::beast::http::request_parser<boost::beast::http::string_body>;
-    using Response = boost::beast::http::response<boost::beast::http::string_body>;
+    using Response = boost::beast::http::response<boost::beast::http::span_body<const char>>;
 
+    void shake_hands();
+    /// To who speaks HTTP where TLS is spoken.
+    void name_tls();
     void read();
     void receive(boost::beast::error_code error);
     void answer();
     /// Of a gRPC-Web call: its body, then what it asks for.
     void receive_call();
+    /// Why the call cannot be made, whatever it asks for; OK otherwise.
+    grpc::Status call_refusal(std::string_view path);
     void answer_call(boost::beast::error_code error);
     void call_ended(GrpcWebExchange::Ending ending);
     /// Refuses what cannot be followed by another request on this connection.
     void refuse(unsigned status, std::string sentence);
+    /// Likewise, in the words of gRPC.
+    void refuse_call(const grpc::Status& status);
     void write(Page page, bool keep_alive);
     void written(boost::beast::error_code error);
     void end_connection();
     /// Ends the connection. Were it closed with bytes unread, the client might lose the answer.
     void linger();
 
-    boost::beast::tcp_stream stream_;
-    const boost::asio::io_context::executor_type executor_;
-    const Router& router_;
-    const GrpcWeb& grpc_web_;
+    HttpStream stream_;
+    const std::shared_ptr<boost::asio::io_context> context_;
+    const Content content_;
     const HttpLimits limits_;
     const Observer observer_;
     boost::beast::flat_buffer buffer_;
@@ -77,8 +95,12 @@ private:
     std::uint32_t chunks_ = 0;  ///< of the call's body
     std::function<void(std::uint64_t, boost::beast::string_view, boost::beast::error_code&)> on_chunk_;
     std::shared_ptr<GrpcWebExchange> exchange_;  ///< the call that is answered now
+    Page page_;  ///< whose body the response shows
     std::optional<Response> response_;
-    std::optional<boost::beast::http::response_serializer<boost::beast::http::string_body>> serializer_;
+    std::optional<boost::beast::http::response_serializer<boost::beast::http::span_body<const char>>> serializer_;
+    bool busy_ = false;     ///< from a request's last byte to its answer's
+    bool streams_ = false;
+    bool leaving_ = false;
 };
 
 }  // namespace meniscus::server

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <chrono>
 #include <exception>
@@ -21,6 +22,21 @@ using boost::asio::ip::tcp;
 /// After an accept that failed, for want of descriptors most likely.
 constexpr auto accept_pause = std::chrono::milliseconds(100);
 constexpr int unsent_bytes = 256 << 10;
+/// Seconds until a silent client is asked whether it is there, between two such questions, and how many may fail: as on the gRPC port.
+constexpr int silence = 30;
+constexpr int question_gap = 5;
+constexpr int questions = 4;
+
+void set_options(int socket) {
+    const auto set = [socket](int level, int name, int value) { ::setsockopt(socket, level, name, &value, sizeof value); };
+    // What waits in the kernel for a slow viewer is old by the time it is shown: little of it, and newer frames take its place.
+    set(IPPROTO_TCP, TCP_NOTSENT_LOWAT, unsent_bytes);
+    // A viewer that vanished without a goodbye is noticed, though its session may be still.
+    set(SOL_SOCKET, SO_KEEPALIVE, 1);
+    set(IPPROTO_TCP, TCP_KEEPIDLE, silence);
+    set(IPPROTO_TCP, TCP_KEEPINTVL, question_gap);
+    set(IPPROTO_TCP, TCP_KEEPCNT, questions);
+}
 
 /// Of "HOST:PORT" or "[IPv6]:PORT".
 tcp::endpoint resolve(boost::asio::io_context& context, const std::string& listen) {
@@ -37,9 +53,10 @@ tcp::endpoint resolve(boost::asio::io_context& context, const std::string& liste
 
 }  // namespace
 
-HttpServer::HttpServer(const std::string& listen, Router router, GrpcWeb grpc_web, const HttpLimits& limits)
-    : router_(std::move(router)), grpc_web_(std::move(grpc_web)), limits_(limits) {
-    const tcp::endpoint endpoint = resolve(context_, listen);
+HttpServer::HttpServer(const std::string& listen, Router router, GrpcWeb grpc_web, const HttpLimits& limits,
+                       std::shared_ptr<const TlsContext> tls)
+    : router_(std::move(router)), grpc_web_(std::move(grpc_web)), limits_(limits), tls_(std::move(tls)) {
+    const tcp::endpoint endpoint = resolve(*context_, listen);
     try {
         acceptor_.open(endpoint.protocol());
         acceptor_.set_option(tcp::acceptor::reuse_address(true));
@@ -54,7 +71,7 @@ HttpServer::HttpServer(const std::string& listen, Router router, GrpcWeb grpc_we
 }
 
 HttpServer::~HttpServer() {
-    boost::asio::post(context_, [this] {
+    boost::asio::post(*context_, [this] {
         acceptor_.close();
         retry_.cancel();
         for (HttpConnection* connection : connections_) connection->close();
@@ -62,10 +79,22 @@ HttpServer::~HttpServer() {
     thread_.join();
 }
 
+void HttpServer::finish(std::chrono::system_clock::time_point deadline) {
+    const std::future<void> none = none_.get_future();
+    boost::asio::post(*context_, [this] {
+        acceptor_.close();
+        retry_.cancel();
+        finishing_ = true;
+        for (HttpConnection* connection : connections_) connection->leave();
+        if (connections_.empty()) none_.set_value();
+    });
+    none.wait_until(deadline);
+}
+
 void HttpServer::serve() {
     for (;;) {
         try {
-            context_.run();
+            context_->run();
             return;
         } catch (const std::exception& error) {  // of one connection, which is gone with it
             spdlog::error("HTTP: internal error: {}", error.what());
@@ -93,25 +122,30 @@ void HttpServer::accepted(boost::beast::error_code error, tcp::socket socket) {
 }
 
 void HttpServer::welcome(tcp::socket socket) {
-    // What waits in the kernel for a slow viewer is old by the time it is shown: little of it, and newer frames take its place.
-    const int unsent = unsent_bytes;
-    ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
+    set_options(socket.native_handle());
     if (connections_.size() >= limits_.connections) {
-        HttpConnection* silent = connections_.front();
-        connections_.pop_front();
-        silent->close();
+        const auto silent = std::ranges::find_if_not(connections_, &HttpConnection::streams);
+        if (silent == connections_.end()) return;  // there are fewer streams than connections
+        HttpConnection& closed = **silent;
+        connections_.erase(silent);
+        closed.close();
     }
     const auto connection = std::make_shared<HttpConnection>(
-        std::move(socket), context_.get_executor(), router_, grpc_web_, limits_,
+        std::move(socket), tls_ ? tls_->current() : nullptr, context_, HttpConnection::Content{router_, grpc_web_}, limits_,
         HttpConnection::Observer{
             .answered =
                 [this](HttpConnection& active) {
                     connections_.remove(&active);
                     connections_.push_back(&active);
                 },
-            .gone = [this](HttpConnection& ended) { connections_.remove(&ended); }});
+            .gone = [this](HttpConnection& ended) { remove(ended); },
+            .may_stream = [this] { return std::cmp_less(std::ranges::count_if(connections_, &HttpConnection::streams), limits_.streams); }});
     connections_.push_back(connection.get());
     connection->start();
+}
+
+void HttpServer::remove(HttpConnection& connection) {
+    if (connections_.remove(&connection) != 0 && finishing_ && connections_.empty()) none_.set_value();
 }
 
 }  // namespace meniscus::server

@@ -4,11 +4,14 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <future>
 #include <list>
 #include <memory>
 #include <string>
 #include <thread>
 
+#include "security/tls_context.hpp"
 #include "web/grpc_web.hpp"
 #include "web/http_connection.hpp"
 #include "web/http_limits.hpp"
@@ -18,8 +21,10 @@ namespace meniscus::server {
 
 class HttpServer {
 public:
-    /// listen: "HOST:PORT", port 0 for a free one. Listens when it returns. Throws InvalidInput if it cannot.
-    HttpServer(const std::string& listen, Router router, GrpcWeb grpc_web = {}, const HttpLimits& limits = {});
+    /// listen: "HOST:PORT", port 0 for a free one. tls: none for HTTP alone. Listens when it returns. Throws InvalidInput if it
+    /// cannot.
+    HttpServer(const std::string& listen, Router router, GrpcWeb grpc_web = {}, const HttpLimits& limits = {},
+               std::shared_ptr<const TlsContext> tls = nullptr);
     /// Cuts the connections off.
     ~HttpServer();
     HttpServer(const HttpServer&) = delete;
@@ -27,6 +32,8 @@ public:
 
     /// As clients should give it, the port being the one chosen.
     const std::string& address() const noexcept { return address_; }
+    /// Takes no new connections, and returns when the answers under way have been taken, or at the deadline. Once.
+    void finish(std::chrono::system_clock::time_point deadline);
 
 private:
     void serve();
@@ -34,13 +41,19 @@ private:
     void accepted(boost::beast::error_code error, boost::asio::ip::tcp::socket socket);
     void welcome(boost::asio::ip::tcp::socket socket);
 
+    void remove(HttpConnection& connection);
+
     const Router router_;
     const GrpcWeb grpc_web_;
     const HttpLimits limits_;
+    const std::shared_ptr<const TlsContext> tls_;
     std::list<HttpConnection*> connections_;  ///< the one that has been silent longest first
-    boost::asio::io_context context_{1};      ///< after them: its handlers own the connections
-    boost::asio::ip::tcp::acceptor acceptor_{context_};
-    boost::asio::steady_timer retry_{context_};
+    bool finishing_ = false;
+    std::promise<void> none_;  ///< of the connections is left
+    /// After them: its handlers own the connections. Shared with calls, whose gRPC threads may be the last to leave it.
+    std::shared_ptr<boost::asio::io_context> context_ = std::make_shared<boost::asio::io_context>(1);
+    boost::asio::ip::tcp::acceptor acceptor_{*context_};
+    boost::asio::steady_timer retry_{*context_};
     std::string address_;
     std::thread thread_;
 };

@@ -1,6 +1,8 @@
 #include "web/origins.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
+#include <netinet/in.h>
 
 #include <algorithm>
 #include <utility>
@@ -18,23 +20,34 @@ std::string_view authority_of(std::string_view origin) {
     return {};
 }
 
+/// Without the port, in lower case; an IPv6 address without its brackets.
+std::string host_of(std::string_view authority) {
+    if (authority.starts_with('[')) return std::string(authority.substr(1, authority.find(']') - 1));
+    std::string host(authority.substr(0, authority.rfind(':')));
+    std::ranges::transform(host, host.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return host;
+}
+
+bool is_address(const std::string& host) {
+    in6_addr any{};
+    return ::inet_pton(AF_INET, host.c_str(), &any) == 1 || ::inet_pton(AF_INET6, host.c_str(), &any) == 1;
+}
+
 bool is_loopback(std::string_view authority) {
-    for (const std::string_view host : {"localhost", "127.0.0.1", "[::1]"}) {
-        if (!authority.starts_with(host)) continue;
-        const std::string_view rest = authority.substr(host.size());
-        if (rest.empty() || rest.front() == ':') return true;
-    }
-    return false;
+    const std::string host = host_of(authority);
+    return host == "localhost" || host == "127.0.0.1" || host == "::1";
 }
 
 }  // namespace
 
-AllowedOrigins::AllowedOrigins(std::vector<std::string> allowed) : allowed_(std::move(allowed)) {
+AllowedOrigins::AllowedOrigins(std::vector<std::string> allowed, std::string_view listen) : allowed_(std::move(allowed)) {
     for (const std::string& origin : allowed_) {
         const std::string_view authority = authority_of(origin);
         if (authority.empty() || authority.find_first_of("/*, ") != std::string_view::npos)
             throw InvalidInput(fmt::format("--web-origin is \"{}\"; it must be as https://example.org or https://example.org:8443", origin));
+        names_.push_back(host_of(authority));
     }
+    if (!listen.empty()) names_.push_back(host_of(listen));
 }
 
 bool AllowedOrigins::admits(std::string_view origin, std::string_view host) const {
@@ -42,6 +55,16 @@ bool AllowedOrigins::admits(std::string_view origin, std::string_view host) cons
     const std::string_view authority = authority_of(origin);
     if (authority.empty()) return false;
     return authority == host || is_loopback(authority) || std::ranges::find(allowed_, origin) != allowed_.end();
+}
+
+bool AllowedOrigins::knows_host(std::string_view host) const {
+    const std::string name = host_of(host);
+    return name.empty() || name == "localhost" || is_address(name) || std::ranges::find(names_, name) != names_.end();
+}
+
+std::vector<std::pair<std::string, std::string>> cross_origin_headers(std::string_view origin) {
+    if (origin.empty()) return {};
+    return {{"Access-Control-Allow-Origin", std::string(origin)}, {"Access-Control-Expose-Headers", "grpc-status, grpc-message"}, {"Vary", "Origin"}};
 }
 
 }  // namespace meniscus::server

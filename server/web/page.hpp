@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@ struct Page {
     unsigned status = 200;
     std::string content_type = "text/plain; charset=utf-8";
     std::string body{};
+    std::string_view lasting_body{};  ///< in place of `body`: what outlives the router
     std::string cache_control = "no-store";
     std::vector<std::pair<std::string, std::string>> headers{};  ///< more of them
 };

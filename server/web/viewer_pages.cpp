@@ -1,11 +1,15 @@
 #include "web/viewer_pages.hpp"
 
+#include <fmt/format.h>
+#include <openssl/sha.h>
 #include <zlib.h>
 
 #include <array>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "web/accepts_gzip.hpp"
 #include "web/viewer_files.hpp"
 
 namespace meniscus::server {
@@ -37,25 +41,54 @@ std::string inflated(std::span<const unsigned char> gzip) {
     return text;
 }
 
-Page page_of(const ViewerFile& file, std::string_view accept_encoding) {
-    Page page{.content_type = std::string(file.content_type),
-              .cache_control = file.hashed ? "public, max-age=31536000, immutable" : "no-cache",
-              .headers = {{"Vary", "Accept-Encoding"}, {"Content-Security-Policy", policy}, {"Referrer-Policy", "no-referrer"}}};
-    const bool as_it_is = !file.compressed || accept_encoding.find("gzip") != std::string_view::npos;
-    if (!as_it_is) {
-        page.body = inflated(file.bytes);
+/// Weak, for it stands for the bytes with and without compression.
+std::string entity_tag(std::span<const unsigned char> bytes) {
+    std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
+    SHA256(bytes.data(), bytes.size(), digest.data());
+    std::string tag = "W/\"";
+    constexpr std::size_t shown = 12;
+    for (std::size_t i = 0; i < shown; ++i) tag += fmt::format("{:02x}", digest[i]);
+    return tag + '"';
+}
+
+class ViewerPage {
+public:
+    explicit ViewerPage(const ViewerFile& file) : file_(file), tag_(entity_tag(file.bytes)) {}
+
+    Page answer(const PageRequest& request) {
+        Page page{.content_type = std::string(file_.content_type),
+                  .cache_control = file_.hashed ? "public, max-age=31536000, immutable" : "no-cache",
+                  .headers = {{"ETag", tag_},
+                              {"Vary", "Accept-Encoding"},
+                              {"Content-Security-Policy", policy},
+                              {"Cross-Origin-Opener-Policy", "same-origin"},
+                              {"Cross-Origin-Resource-Policy", "same-origin"},
+                              {"Referrer-Policy", "no-referrer"}}};
+        if (request.if_none_match == "*" || request.if_none_match.find(tag_) != std::string_view::npos) {
+            page.status = 304;
+        } else if (!file_.compressed || accepts_gzip(request.accept_encoding)) {
+            if (file_.compressed) page.headers.emplace_back("Content-Encoding", "gzip");
+            page.lasting_body = {reinterpret_cast<const char*>(file_.bytes.data()), file_.bytes.size()};
+        } else {
+            if (plain_.empty()) plain_ = inflated(file_.bytes);
+            page.lasting_body = plain_;
+        }
         return page;
     }
-    if (file.compressed) page.headers.emplace_back("Content-Encoding", "gzip");
-    page.body.assign(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
-    return page;
-}
+
+private:
+    const ViewerFile file_;
+    const std::string tag_;
+    std::string plain_;  ///< for the few that do not take gzip; empty until one asks
+};
 
 }  // namespace
 
 void add_viewer_pages(Router& router) {
     for (const ViewerFile& file : viewer_files())
-        router.add_encoded(std::string(file.path), [file](std::string_view accept_encoding) { return page_of(file, accept_encoding); });
+        router.add_for_browsers(std::string(file.path), [page = std::make_shared<ViewerPage>(file)](const PageRequest& request) {
+            return page->answer(request);
+        });
 }
 
 }  // namespace meniscus::server

@@ -1,3 +1,7 @@
+#include <grpcpp/generic/async_generic_service.h>
+#include <grpcpp/server.h>
+#include <grpcpp/server_builder.h>
+
 #include <algorithm>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
@@ -6,6 +10,7 @@
 #include <memory>
 
 #include "support.hpp"
+#include "web/accepts_gzip.hpp"
 #include "web/http_connection.hpp"
 
 namespace meniscus::fuzz {
@@ -17,37 +22,68 @@ using boost::asio::ip::tcp;
 server::Router pages() {
     server::Router router;
     router.add("/healthz", [] { return server::Page{.body = "well\n"}; });
+    router.add_for_browsers("/", [](const server::PageRequest& request) {
+        return server::Page{.body = server::accepts_gzip(request.accept_encoding) ? "small" : "large"};
+    });
     return router;
+}
+
+/// Answers every call with UNIMPLEMENTED.
+class Calls {
+public:
+    server::GrpcWeb web() { return {.channel = server_->InProcessChannel({}), .origins = {}}; }
+
+private:
+    static std::unique_ptr<grpc::Server> start(grpc::CallbackGenericService& service) {
+        grpc::ServerBuilder builder;
+        builder.RegisterCallbackGenericService(&service);
+        return builder.BuildAndStart();
+    }
+
+    grpc::CallbackGenericService service_;
+    std::unique_ptr<grpc::Server> server_ = start(service_);
+};
+
+std::string call(const std::string& fields, const std::string& body) {
+    return "POST /meniscus.v1.SurfaceService/Watch HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/grpc-web+proto\r\n" + fields +
+           "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
 }
 
 }  // namespace
 
 void http(Bytes bytes) {
     static const server::Router router = pages();
-    static const server::GrpcWeb grpc_web;
-    static boost::asio::io_context context(1);
-    static tcp::acceptor acceptor(context, {boost::asio::ip::address_v4::loopback(), 0});
+    static Calls calls;
+    static const server::GrpcWeb grpc_web = calls.web();
+    static const auto context = std::make_shared<boost::asio::io_context>(1);
+    static tcp::acceptor acceptor(*context, {boost::asio::ip::address_v4::loopback(), 0});
     // More would fill the sockets between the two ends of this one thread.
     constexpr std::size_t most = 32768;
-    tcp::socket client(context);
+    tcp::socket client(*context);
     client.connect(acceptor.local_endpoint());
     bool gone = false;
     std::make_shared<server::HttpConnection>(
-        acceptor.accept(), context.get_executor(), router, grpc_web, server::HttpLimits{},
-        server::HttpConnection::Observer{.answered = [](auto&) {}, .gone = [&gone](auto&) { gone = true; }})
+        acceptor.accept(), nullptr, context, server::HttpConnection::Content{router, grpc_web}, server::HttpLimits{},
+        server::HttpConnection::Observer{.answered = [](auto&) {}, .gone = [&gone](auto&) { gone = true; }, .may_stream = [] { return true; }})
         ->start();
     boost::system::error_code ignored;
     boost::asio::write(client, boost::asio::buffer(bytes.data(), std::min(bytes.size(), most)), ignored);
     client.close();
-    context.restart();
-    context.run();
+    context->restart();
+    context->run();
     require(gone, "a connection ends with its client");
 }
 
 Seeds http_seeds() {
     return {"GET /healthz HTTP/1.1\r\nHost: a\r\n\r\nHEAD /none?a=b HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n",
             "GET /none HTTP/1.0\r\n\r\n", "POST /healthz HTTP/1.1\r\nContent-Length: 3\r\n\r\nabc",
-            "GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n3\r\nabc\r\n0\r\n\r\n"};
+            "GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n3\r\nabc\r\n0\r\n\r\n",
+            "GET / HTTP/1.1\r\nHost: 10.0.0.1:9464\r\nAccept-Encoding: br, gzip;q=0.5\r\nIf-None-Match: W/\"1a\"\r\n\r\n",
+            "OPTIONS /meniscus.v1.SurfaceService/Watch HTTP/1.1\r\nHost: [::1]:9464\r\nOrigin: http://localhost:5173\r\n\r\n",
+            call("grpc-timeout: 100m\r\nX-Session-Id: a\r\n", std::string(5, '\0')),
+            call("Authorization: Bearer a\r\nOrigin: http://localhost\r\n", std::string("\0\0\0\0\3abc", 8)),
+            "POST /meniscus.v1.ServerService/GetServerInfo HTTP/1.1\r\nContent-Type: application/grpc-web\r\nTransfer-Encoding: chunked\r\n\r\n" +
+                std::string("5\r\n\0\0\0\0\0\r\n0\r\n\r\n", 15)};
 }
 
 }  // namespace meniscus::fuzz

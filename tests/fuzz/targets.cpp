@@ -12,6 +12,7 @@ const std::vector<Target>& targets() {
         {"settings", settings, settings_seeds},
         {"brick", brick, brick_seeds},
         {"http", http, http_seeds},
+        {"grpc_web", grpc_web, grpc_web_seeds},
         {"vtk", vtk, vtk_seeds},
         {"particle_ply", particle_ply, particle_ply_seeds},
         {"xyz", xyz, xyz_seeds},

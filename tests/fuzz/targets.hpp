@@ -42,6 +42,10 @@ Seeds brick_seeds();
 void http(Bytes bytes);
 Seeds http_seeds();
 
+/// A header's value (length: 1 byte) and a body of a gRPC-Web request.
+void grpc_web(Bytes bytes);
+Seeds grpc_web_seeds();
+
 // Files.
 void vtk(Bytes bytes);
 Seeds vtk_seeds();

@@ -28,7 +28,7 @@ public:
     static std::string request(const std::string& method, const std::string& body, const Headers& headers,
                                const std::string& version = "1.1") {
         std::string text = "POST " + method + " HTTP/" + version +
-                           "\r\nHost: test\r\nConnection: close\r\nContent-Type: application/grpc-web+proto\r\n";
+                           "\r\nHost: localhost\r\nConnection: close\r\nContent-Type: application/grpc-web+proto\r\n";
         for (const auto& [name, value] : headers) text += name + ": " + value + "\r\n";
         return text + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
     }

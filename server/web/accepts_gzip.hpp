@@ -1,0 +1,11 @@
+// What a client says that it can decompress.
+#pragma once
+
+#include <string_view>
+
+namespace meniscus::server {
+
+/// accept_encoding: the header's value, as "br, gzip;q=0.8"; empty: none was sent.
+bool accepts_gzip(std::string_view accept_encoding);
+
+}  // namespace meniscus::server

@@ -1,0 +1,101 @@
+// The viewer's files, as browsers ask for them.
+#include <gtest/gtest.h>
+
+#include "observation/http_client.hpp"
+#include "web/accepts_gzip.hpp"
+#include "web/http_server.hpp"
+#include "web/viewer_files.hpp"
+#include "web/viewer_pages.hpp"
+
+namespace meniscus::server::test {
+namespace {
+
+Router router() {
+    Router router;
+    add_viewer_pages(router);
+    return router;
+}
+
+class ViewerPages : public testing::Test {
+protected:
+    HttpAnswer ask(const std::string& target, const std::string& fields = "", const std::string& method = "GET") {
+        client.send(method + " " + target + " HTTP/1.1\r\nHost: localhost\r\n" + fields + "\r\n");
+        return client.receive(method == "HEAD");
+    }
+    static std::string field(const HttpAnswer& answer, const std::string& name) {
+        const std::size_t at = answer.header.find("\r\n" + name + ": ");
+        if (at == std::string::npos) return {};
+        const std::size_t first = at + name.size() + 4;
+        return answer.header.substr(first, answer.header.find("\r\n", first) - first);
+    }
+
+    const HttpServer server{"127.0.0.1:0", router()};
+    HttpClient client{server.address()};
+};
+
+TEST_F(ViewerPages, ThePageAllowsNothingButItsOwnFiles) {
+    const HttpAnswer page = ask("/");
+    EXPECT_EQ(page.status, 200);
+    EXPECT_NE(page.body.find("<title>Meniscus</title>"), std::string::npos);
+    EXPECT_TRUE(field(page, "Content-Security-Policy").starts_with("default-src 'none'; script-src 'self'"));
+    EXPECT_EQ(field(page, "X-Content-Type-Options"), "nosniff");
+    EXPECT_EQ(field(page, "Referrer-Policy"), "no-referrer");
+    EXPECT_EQ(field(page, "Cross-Origin-Opener-Policy"), "same-origin");
+    // Nothing is written into the page that the policy would forbid.
+    EXPECT_EQ(page.body.find(" style="), std::string::npos);
+    EXPECT_EQ(page.body.find("<style"), std::string::npos);
+    EXPECT_EQ(page.body.find("<script>"), std::string::npos);
+}
+
+TEST_F(ViewerPages, HaveTheirTypesAndAreKeptAsLongAsTheirNamesTell) {
+    for (const ViewerFile& file : viewer_files()) {
+        const HttpAnswer answer = ask(std::string(file.path));
+        EXPECT_EQ(answer.status, 200) << file.path;
+        EXPECT_EQ(field(answer, "Content-Type"), file.content_type);
+        EXPECT_EQ(field(answer, "Cache-Control"), file.hashed ? "public, max-age=31536000, immutable" : "no-cache") << file.path;
+    }
+    EXPECT_EQ(ask("/assets/none.js").status, 404);
+}
+
+TEST_F(ViewerPages, AreCompressedForThoseWhoTakeThat) {
+    for (const ViewerFile& file : viewer_files()) {
+        const std::string path(file.path);
+        const HttpAnswer small = ask(path, "Accept-Encoding: br, gzip;q=0.8\r\n");
+        EXPECT_EQ(field(small, "Content-Encoding"), file.compressed ? "gzip" : "");
+        EXPECT_EQ(small.body.size(), file.bytes.size());
+        const HttpAnswer large = ask(path, "Accept-Encoding: gzip;q=0\r\n");
+        EXPECT_EQ(field(large, "Content-Encoding"), "");
+        EXPECT_EQ(field(large, "Vary"), "Accept-Encoding");
+        EXPECT_TRUE(large.body == ask(path).body);
+        if (file.compressed) {
+            EXPECT_FALSE(large.body == small.body);
+        }
+    }
+}
+
+TEST_F(ViewerPages, AreNotSentAgainToThoseWhoHaveThem) {
+    const HttpAnswer first = ask("/");
+    const std::string tag = field(first, "ETag");
+    ASSERT_FALSE(tag.empty());
+    const HttpAnswer second = ask("/", "If-None-Match: \"other\", " + tag + "\r\n");
+    EXPECT_EQ(second.status, 304);
+    EXPECT_TRUE(second.body.empty());
+    EXPECT_EQ(field(second, "ETag"), tag);
+    EXPECT_EQ(ask("/", "If-None-Match: \"other\"\r\n").body, first.body);
+}
+
+TEST_F(ViewerPages, AnswerHeadWithTheHeaderAlone) {
+    const HttpAnswer whole = ask("/");
+    const HttpAnswer head = ask("/", "", "HEAD");
+    EXPECT_EQ(head.status, 200);
+    EXPECT_EQ(head.header, whole.header);
+    EXPECT_EQ(ask("/").body, whole.body);
+}
+
+TEST(AcceptsGzip, WhereItIsNamedWithAWeight) {
+    for (const char* yes : {"gzip", "br, gzip", "gzip;q=0.001", " gzip ; q=1", "deflate,gzip"}) EXPECT_TRUE(accepts_gzip(yes)) << yes;
+    for (const char* no : {"", "br", "gzip;q=0", "gzip; q=0.000", "xgzip", "identity, br", ",,;"}) EXPECT_FALSE(accepts_gzip(no)) << no;
+}
+
+}  // namespace
+}  // namespace meniscus::server::test
