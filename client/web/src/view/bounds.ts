@@ -28,6 +28,15 @@ export function center({ min, max }: WorldBox): Point {
   return [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
 }
 
+export function contains(outer: WorldBox, inner: WorldBox): boolean {
+  return [0, 1, 2].every((axis) => outer.min[axis]! <= inner.min[axis]! && inner.max[axis]! <= outer.max[axis]!);
+}
+
+export function union(a: WorldBox, b: WorldBox): WorldBox {
+  const each = (pick: (...values: number[]) => number, p: Point, q: Point): Point => [pick(p[0], q[0]), pick(p[1], q[1]), pick(p[2], q[2])];
+  return { min: each(Math.min, a.min, b.min), max: each(Math.max, a.max, b.max) };
+}
+
 /** Its diagonal. */
 export function size({ min, max }: WorldBox): number {
   return Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]);

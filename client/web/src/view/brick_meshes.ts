@@ -3,6 +3,7 @@ import { Group, LineSegments, Mesh, type LineBasicMaterial, type Material } from
 import type { ShownBrick, Shown } from '../bricks/brick_store';
 import { brickEdge, type BrickKey, type Frame } from '../bricks/frame';
 import { surfaceGeometry, wireGeometry } from './brick_geometry';
+import { pictureLayer } from './thickness_pass';
 
 interface BrickMesh {
   readonly shown: ShownBrick;
@@ -19,12 +20,6 @@ export class BrickMeshes {
     private surfaceMaterial: Material,
     private readonly wireMaterials: LineBasicMaterial[],
   ) {}
-
-  get triangles(): number {
-    let count = 0;
-    for (const { shown } of this.meshes.values()) count += shown.encoded.triangleCount;
-    return count;
-  }
 
   /** origin: of the scene, world units. */
   show({ frame, bricks }: Shown, origin: readonly [number, number, number]): void {
@@ -45,6 +40,11 @@ export class BrickMeshes {
     this.updateWires();
   }
 
+  clear(): void {
+    for (const mesh of this.meshes.values()) this.dispose(mesh);
+    this.meshes.clear();
+  }
+
   setLook(surfaceMaterial: Material, wired: boolean): void {
     this.surfaceMaterial = surfaceMaterial;
     this.wired = wired;
@@ -59,6 +59,7 @@ export class BrickMeshes {
       } else {
         if (!mesh.wires) {
           mesh.wires = new LineSegments(wireGeometry(mesh.shown.decoded, mesh.surface.geometry), this.wireMaterials);
+          mesh.wires.layers.set(pictureLayer);
           this.group.add(mesh.wires);
         }
         mesh.wires.position.copy(mesh.surface.position);

@@ -1,5 +1,5 @@
 // Sky, sun and floor, generated: what water reflects and what is seen through it. No file is loaded.
-import { Color, Vector3 } from 'three';
+import { Color, Matrix4, Vector3, type Texture } from 'three';
 
 export type Theme = 'light' | 'dark';
 
@@ -13,6 +13,19 @@ uniform vec3 sunColor;
 uniform vec3 sunDirection;
 uniform vec3 floorCenter;
 uniform float sceneSize;
+uniform mat4 sunMatrix;
+uniform sampler2D sunThickness;
+
+const vec3 absorption = vec3(8.0, 2.4, 1.0);
+
+// What is left of the sun's light where it has come through water.
+vec3 sunlightAt(vec3 place) {
+  vec2 at = (sunMatrix * vec4(place, 1.0)).xy;
+  if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)))) return vec3(1.0);
+  float depth = max(texture2D(sunThickness, at).r, 0.0);
+  // Some is reflected and scattered away, whatever its color.
+  return exp(-(absorption + 2.0) * depth) * (1.0 - 0.25 * smoothstep(0.0, 0.01, depth));
+}
 
 vec3 skyColor(vec3 direction) {
   float height = clamp(direction.y, 0.0, 1.0);
@@ -31,14 +44,14 @@ vec3 floorAt(vec3 place, float distance) {
   vec2 tile = (place.xz - floorCenter.xz) / (0.125 * sceneSize);
   float soft = 0.02 + 0.02 * distance / sceneSize;
   float line = max(gridLine(tile.x, soft), gridLine(tile.y, soft));
-  return mix(floorColor, lineColor, 0.6 * line);
+  return mix(floorColor, lineColor, 0.6 * line) * (0.4 + 0.6 * sunlightAt(place));
 }
 
 vec3 environment(vec3 origin, vec3 direction) {
   vec3 sky = skyColor(direction);
   if (direction.y > -1e-4) return sky;
-  float distance = (floorCenter.y - origin.y) / direction.y;
-  if (distance <= 0.0) return horizonColor;
+  // From water that lies on the floor, or a little in it, at once.
+  float distance = max((floorCenter.y - origin.y) / direction.y, 0.0);
   vec3 place = origin + distance * direction;
   float far = length(place.xz - floorCenter.xz) / sceneSize;
   return mix(floorAt(place, distance), horizonColor, smoothstep(0.8, 5.0, far));
@@ -61,6 +74,9 @@ export interface EnvironmentUniforms {
   sunDirection: { value: Vector3 };
   floorCenter: { value: Vector3 };
   sceneSize: { value: number };
+  /** To the place in the texture of how much water the sun's light has come through, in scene sizes. */
+  sunMatrix: { value: Matrix4 };
+  sunThickness: { value: Texture | null };
 }
 
 /** One set, shared by all materials. */
@@ -74,14 +90,16 @@ export function environmentUniforms(): EnvironmentUniforms {
     sunDirection: { value: new Vector3(-0.45, 0.72, 0.53).normalize() },
     floorCenter: { value: new Vector3() },
     sceneSize: { value: 1 },
+    sunMatrix: { value: new Matrix4() },
+    sunThickness: { value: null },
   };
 }
 
 export function setTheme(uniforms: EnvironmentUniforms, theme: Theme): void {
   const [zenith, horizon, floor, line, sun] =
     theme === 'light'
-      ? ([0x3d7fc4, 0xe9f1f7, 0xc9ced2, 0x8a949c, 0xfff1d8] as const)
-      : ([0x0a1626, 0x2b3a4a, 0x242b32, 0x4a5661, 0xbfd4ff] as const);
+      ? ([0x2f74c0, 0xdfeaf3, 0xd3d6d8, 0x98a1a8, 0xfff1d8] as const)
+      : ([0x0e2440, 0x33475c, 0x39434c, 0x5b6873, 0xd6e4ff] as const);
   uniforms.zenithColor.value.set(zenith);
   uniforms.horizonColor.value.set(horizon);
   uniforms.floorColor.value.set(floor);

@@ -17,8 +17,8 @@ import {
 } from 'three';
 import type { EnvironmentUniforms } from './environment';
 
-/** Pixels of the screen per pixel of thickness, on each axis. */
-const coarseness = 2;
+/** Of what is in the picture without being water. */
+export const pictureLayer = 1;
 
 export class ThicknessPass {
   private readonly target: WebGLRenderTarget;
@@ -52,7 +52,9 @@ export class ThicknessPass {
         uniform float sceneSize;
         varying vec3 fromCamera;
         void main() {
-          float distance = length(fromCamera) / sceneSize;
+          float distance = (isOrthographic ? -fromCamera.z : length(fromCamera)) / sceneSize;
+          // What all distances have in common cancels, and would only cost digits; not where the camera may be in the water.
+          distance -= max(length(viewMatrix[3].xyz) / sceneSize - 0.5, 0.0);
           gl_FragColor = vec4(gl_FrontFacing ? -distance : distance, 0.0, 0.0, 1.0);
         }`,
     });
@@ -64,17 +66,19 @@ export class ThicknessPass {
   }
 
   setSize(width: number, height: number): void {
-    this.target.setSize(Math.max(1, Math.ceil(width / coarseness)), Math.max(1, Math.ceil(height / coarseness)));
+    this.target.setSize(Math.max(1, Math.ceil(width)), Math.max(1, Math.ceil(height)));
   }
 
   render(renderer: WebGLRenderer, scene: Scene, camera: Camera): void {
-    const before = scene.overrideMaterial;
+    const { mask } = camera.layers;
+    camera.layers.disable(pictureLayer);
     scene.overrideMaterial = this.material;
     renderer.setRenderTarget(this.target);
     renderer.setClearColor(0x000000, 0);
     renderer.clear();
     renderer.render(scene, camera);
     renderer.setRenderTarget(null);
-    scene.overrideMaterial = before;
+    scene.overrideMaterial = null;
+    camera.layers.mask = mask;
   }
 }

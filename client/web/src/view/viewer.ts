@@ -3,12 +3,13 @@ import { Scene, Vector3, WebGLRenderer } from 'three';
 import type { Shown } from '../bricks/brick_store';
 import type { Frame } from '../bricks/frame';
 import { Background } from './background';
-import { center, size, worldBox, type Point, type WorldBox } from './bounds';
+import { center, contains, size, union, worldBox, type Point, type WorldBox } from './bounds';
 import { BrickMeshes } from './brick_meshes';
 import { CameraControls } from './camera_controls';
 import { environmentUniforms, setTheme, type Theme } from './environment';
 import { levelLineMaterials, levelSurfaceMaterial } from './level_materials';
-import { ThicknessPass } from './thickness_pass';
+import { Sunlight } from './sunlight';
+import { pictureLayer, ThicknessPass } from './thickness_pass';
 import { toScene, toWorld, turnUp, type UpAxis } from './up_axis';
 import { waterMaterial } from './water_material';
 
@@ -23,8 +24,12 @@ export interface ViewerEvents {
   /** A picture of the frame has been drawn, with so many triangles. */
   drawn(frame: Frame, triangles: number): void;
   moving(moving: boolean): void;
+  /** The browser has taken the graphics hardware away, or given it back. */
+  lost(lost: boolean): void;
 }
 
+/** Pixels of the screen per pixel of the water's thickness, on each axis. */
+const thicknessCoarseness = 2;
 /** From the mesh to a camera that looks at all of it. */
 const fitDirection = new Vector3(0.55, 0.4, 1).normalize();
 
@@ -36,6 +41,7 @@ export class Viewer {
   private readonly levelSurface = levelSurfaceMaterial();
   private readonly background = new Background(this.environment);
   private readonly thickness = new ThicknessPass(this.environment);
+  private readonly sunlight = new Sunlight(this.environment);
   private readonly bricks = new BrickMeshes(this.water, levelLineMaterials());
   private readonly controls: CameraControls;
   /** What the scene's coordinates are relative to, so that they stay small wherever the water is. */
@@ -44,6 +50,10 @@ export class Viewer {
   private look: Look = 'water';
   private up: UpAxis = 'y';
   private scheduled = false;
+  /** Since the last picture. */
+  private waterChanged = true;
+  /** What the camera was placed to show, until a person moves it. */
+  private following: WorldBox | undefined;
 
   /** Throws if there is no WebGL 2. */
   constructor(
@@ -55,20 +65,42 @@ export class Viewer {
     this.renderer.info.autoReset = false;
     this.water.uniforms.thickness.value = this.thickness.texture;
     this.scene.add(this.background.mesh, this.bricks.group);
+    this.background.mesh.layers.set(pictureLayer);
     this.controls = new CameraControls(canvas, {
       changed: () => { this.draw(); },
-      moving: (moving) => { this.events.moving(moving); },
+      moving: (moving) => {
+        this.following = undefined;
+        this.events.moving(moving);
+      },
     });
+    this.controls.camera.layers.enable(pictureLayer);
     new ResizeObserver(() => { this.resize(); }).observe(canvas);
-    canvas.addEventListener('webglcontextrestored', () => { this.draw(); });
+    canvas.addEventListener('webglcontextlost', () => { this.events.lost(true); });
+    canvas.addEventListener('webglcontextrestored', () => {
+      this.events.lost(false);
+      this.waterChanged = true;
+      this.draw();
+    });
+  }
+
+  /** Back to the empty environment. */
+  clear(): void {
+    this.shown = undefined;
+    this.following = undefined;
+    this.bricks.clear();
+    this.waterChanged = true;
+    this.draw();
   }
 
   show(shown: Shown): void {
     const first = this.shown === undefined || this.shown.bricks.size === 0;
     this.shown = shown;
-    if (first) this.adopt(worldBox(shown));
     this.water.uniforms.hasNormals.value = [...shown.bricks.values()].every(({ decoded }) => decoded.normals !== undefined);
-    this.bricks.show(shown, this.origin);
+    const box = worldBox(shown);
+    if (first) this.adopt(box);
+    else this.bricks.show(shown, this.origin);
+    this.waterChanged = true;
+    if (box && this.following && !contains(this.following, box)) this.lookAt(union(this.following, box));
     this.draw();
   }
 
@@ -88,14 +120,18 @@ export class Viewer {
     if (up === this.up) return;
     this.up = up;
     turnUp(this.bricks.group, up);
-    if (this.shown) this.adopt(worldBox(this.shown));
     this.fit();
   }
 
-  /** Looks at all of the mesh. */
+  /** Looks at all of the mesh, also as it spreads, until a person moves the camera. */
   fit(): void {
     const box = this.shown && worldBox(this.shown);
-    if (!box) return;
+    if (box) this.lookAt(box);
+  }
+
+  private lookAt(box: WorldBox): void {
+    this.following = box;
+    this.adopt(box);
     const target = this.inScene(center(box));
     // A box's sphere just fits the narrower of the two angles of view.
     const { fov, aspect } = this.controls.camera;
@@ -110,16 +146,19 @@ export class Viewer {
   }
 
   set cameraPlace({ position, target }: CameraPlace) {
+    this.following = undefined;
     this.controls.place(this.inScene(position), this.inScene(target));
     this.draw();
   }
 
-  /** Origin, reach and floor from the first mesh: they stay, so that nothing jumps while the water moves. */
+  /** Origin, reach and floor from this mesh: they stay, so that nothing jumps while the water moves. */
   private adopt(box: WorldBox | undefined): void {
-    if (!box) return;
-    const place = this.cameraPlace;
+    if (!this.shown || !box) return;
+    const { position, target } = this.cameraPlace;
     this.origin = center(box);
-    this.cameraPlace = place;
+    this.bricks.show(this.shown, this.origin);
+    this.waterChanged = true;
+    this.controls.place(this.inScene(position), this.inScene(target));
     this.environment.sceneSize.value = size(box);
     this.controls.setReach(size(box));
     // Under the lowest corner, whichever axis is up.
@@ -140,7 +179,7 @@ export class Viewer {
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.renderer.getDrawingBufferSize(this.water.uniforms.screenSize.value);
-    this.thickness.setSize(this.canvas.width, this.canvas.height);
+    this.thickness.setSize(this.canvas.width / thicknessCoarseness, this.canvas.height / thicknessCoarseness);
     this.controls.resize(clientWidth / clientHeight);
     this.draw();
   }
@@ -158,11 +197,9 @@ export class Viewer {
     const { camera } = this.controls;
     camera.updateMatrixWorld();
     this.background.update(camera);
-    if (this.look === 'water') {
-      this.background.mesh.visible = false;
-      this.thickness.render(this.renderer, this.scene, camera);
-      this.background.mesh.visible = true;
-    }
+    if (this.waterChanged) this.sunlight.render(this.renderer, this.scene);
+    this.waterChanged = false;
+    if (this.look === 'water') this.thickness.render(this.renderer, this.scene, camera);
     this.renderer.info.reset();
     this.renderer.clear();
     this.renderer.render(this.scene, camera);

@@ -37,7 +37,7 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
 
       const float indexRatio = 1.0 / 1.333;
       const float normalReflectance = 0.02;
-      const float roughness = 0.12;
+      const float roughness = 0.15;
 
       // GGX, for the sun alone: the environment is smooth already.
       float sunHighlight(vec3 n, vec3 v) {
@@ -56,11 +56,14 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
         float fresnel = normalReflectance + (1.0 - normalReflectance) * pow(1.0 - facing, 5.0);
 
         float depth = max(texture2D(thickness, gl_FragCoord.xy / screenSize).r, 0.0);
-        vec3 absorbed = exp(-vec3(7.0, 1.9, 1.1) * depth);
-        vec3 scattered = vec3(0.005, 0.11, 0.16) * (1.0 - exp(-3.0 * depth)) * (0.4 + horizonColor);
+        vec3 absorbed = exp(-absorption * depth);
+        // What comes back from within, more of it where the sun falls in.
+        float lit = 0.5 + 0.5 * dot(n, sunDirection);
+        vec3 scattered = vec3(0.008, 0.066, 0.115) * (1.0 - exp(-6.0 * depth)) * (0.2 + 0.7 * horizonColor + 0.25 * lit * lit * sunColor);
 
+        // Where the ray leaves the water it is bent again, on the whole halfway back.
         vec3 bent = refract(-v, n, indexRatio);
-        vec3 through = environment(place + bent * depth * sceneSize, bent) * absorbed + scattered;
+        vec3 through = environment(place + bent * depth * sceneSize, normalize(bent - v)) * absorbed + scattered;
         vec3 mirrored = environment(place, reflect(-v, n));
         vec3 color = mix(through, mirrored, fresnel) + sunColor * fresnel * sunHighlight(n, v);
         gl_FragColor = vec4(displayed(color), 1.0);
