@@ -29,7 +29,6 @@ export class App {
   /** From the link, for the first picture. */
   private linked: PageState = {};
 
-  /** Throws if there is no WebGL 2. */
   constructor() {
     this.server.token = storedToken();
     this.viewer = new Viewer(this.canvas, {
@@ -43,10 +42,14 @@ export class App {
         this.view.cameraMoving(moving);
         if (!moving) this.writeAddress();
       },
+      lost: (lost) => {
+        this.banner.say(lost ? 'The browser has taken the graphics away. The picture returns when it gives them back; loading the page again may help.' : '');
+      },
     });
     this.view = new SessionView(this.server, startDecodePool(), this.viewer, new Overlay(), {
       state: (state) => { this.watchState(state); },
       failed: (reason) => { this.banner.say(`A mesh could not be shown: ${reason}.`); },
+      recovered: () => { this.banner.say(''); },
       firstFrame: () => { this.firstFrame(); },
     });
     this.list = new SessionList(this.server, this.banner, {
@@ -62,6 +65,9 @@ export class App {
   private go(state: PageState): void {
     history.pushState(null, '', writeLink(state));
     this.open(state);
+    // What was chosen with the keyboard goes on with the keyboard.
+    if (state.session === undefined) element('list-heading', HTMLElement).focus();
+    else this.canvas.focus();
   }
 
   private open(state: PageState): void {
@@ -73,6 +79,7 @@ export class App {
     element('watch', HTMLElement).hidden = !watching;
     element('leave', HTMLButtonElement).hidden = !watching;
     element('title', HTMLElement).textContent = state.session ?? '';
+    element('nothing-yet', HTMLElement).hidden = !watching;
     if (state.session === undefined) {
       this.list.show();
       return;
@@ -84,6 +91,7 @@ export class App {
   }
 
   private firstFrame(): void {
+    element('nothing-yet', HTMLElement).hidden = true;
     if (this.linked.camera) this.viewer.cameraPlace = this.linked.camera;
     else this.viewer.fit();
   }
@@ -91,11 +99,13 @@ export class App {
   private watchState(state: WatchState): void {
     this.canvas.dataset.state = state.kind;
     this.banner.watching(state);
+    element('nothing-yet', HTMLElement).textContent =
+      state.kind === 'connecting' ? 'Connecting…' : state.kind === 'connected' ? 'Connected. No frame has come yet.' : '';
     if (state.kind === 'token') void this.tokenNeeded(state.reason);
   }
 
   private async tokenNeeded(reason: string): Promise<void> {
-    this.banner.say(reason);
+    this.banner.tokenNeeded(reason);
     const token = await askToken(reason);
     if (token === undefined) return;
     this.server.token = token;
@@ -110,13 +120,15 @@ export class App {
       look: () => { this.setLook(this.look === 'water' ? 'levels' : 'water'); },
       up: () => { this.setUp(this.up === 'y' ? 'z' : 'y'); },
       fit: () => { this.viewer.fit(); },
-      full: () => void toggleFullScreen(element('watch', HTMLElement)),
+      full: () => void toggleFullScreen().catch(() => undefined),
+      'ask-token': () => void this.tokenNeeded(''),
       measure: () => { this.toggleOverlay(); },
       glb: () => { this.save('glb', 'model/gltf-binary'); },
       ply: () => { this.save('ply', 'application/octet-stream'); },
       link: () => void this.copyLink(),
     };
     for (const [id, action] of Object.entries(actions)) element(id, HTMLButtonElement).addEventListener('click', action);
+    element('full', HTMLButtonElement).hidden = !document.fullscreenEnabled;
     const keys: Record<string, () => void> = {
       ' ': () => { this.view.togglePause(); },
       ',': () => { this.view.step(-1); },
@@ -167,14 +179,16 @@ export class App {
   private async copyLink(): Promise<void> {
     this.writeAddress();
     const button = element('link', HTMLButtonElement);
-    // The clipboard is closed to pages that came without TLS from another machine; the address bar has the same link.
-    const copied = await navigator.clipboard.writeText(location.href).then(() => true, () => false);
+    // There is no clipboard for pages that came without TLS from another machine; the address bar has the same link.
+    const clipboard = navigator.clipboard as Clipboard | undefined;
+    const copied = await clipboard?.writeText(location.href).then(() => true, () => false);
     button.textContent = copied ? 'Copied' : 'See the address bar';
     setTimeout(() => { button.textContent = 'Copy link'; }, 2000);
   }
 }
 
-async function toggleFullScreen(part: HTMLElement): Promise<void> {
+/** The whole page: what goes wrong is to be read in full screen too. */
+async function toggleFullScreen(): Promise<void> {
   if (document.fullscreenElement) await document.exitFullscreen();
-  else await part.requestFullscreen();
+  else await document.documentElement.requestFullscreen();
 }

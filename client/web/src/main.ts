@@ -1,14 +1,12 @@
 import { App } from './app';
+import { Banner } from './ui/banner';
 import { element } from './ui/page';
 
-try {
+if (document.createElement('canvas').getContext('webgl2')) {
   new App();
-} catch (error) {
-  const line = element('banner', HTMLElement);
-  line.hidden = false;
-  line.textContent =
-    'This browser does not offer WebGL 2, which the viewer draws with. ' +
-    'Try another browser, or turn on hardware acceleration in its settings.';
+} else {
   element('list', HTMLElement).hidden = true;
-  console.info(error);
+  new Banner().say(
+    'This browser does not offer WebGL 2, which the viewer draws with. Try another browser, or turn on hardware acceleration in its settings.',
+  );
 }

@@ -8,6 +8,7 @@ import type { Server } from './rpc/server';
 import { LinkSpeed } from './stream/link_speed';
 import { chooseQuality, wishesOf, type Quality } from './stream/quality';
 import { SessionWatch } from './stream/session_watch';
+import { SkippedFrames } from './stream/skipped_frames';
 import type { WatchState } from './stream/watch_state';
 import type { Overlay } from './ui/overlay';
 import { Playback } from './ui/playback';
@@ -19,6 +20,8 @@ const historyLimits = { frames: 300, bytes: 192 << 20 };
 export interface SessionViewEvents {
   state(state: WatchState): void;
   failed(reason: string): void;
+  /** A frame is shown again after one that failed. */
+  recovered(): void;
   firstFrame(): void;
 }
 
@@ -26,10 +29,12 @@ export class SessionView {
   private readonly history = new History(historyLimits);
   private readonly playback: Playback;
   private readonly store: BrickStore;
-  private readonly link = new LinkSpeed();
+  private link = new LinkSpeed();
+  private skipped = new SkippedFrames();
   private watch: SessionWatch | undefined;
   private quality: Quality = 'full';
   private moving = false;
+  private failing = false;
   private lastDrawn: Frame | undefined;
 
   constructor(
@@ -40,8 +45,15 @@ export class SessionView {
     private readonly events: SessionViewEvents,
   ) {
     this.store = new BrickStore((brick, bits) => pool.decode(brick, bits), {
-      shown: (shown) => { this.viewer.show(shown); },
-      failed: (error) => { this.events.failed(error instanceof Error ? error.message : String(error)); },
+      shown: (shown) => {
+        this.viewer.show(shown);
+        if (this.failing) this.events.recovered();
+        this.failing = false;
+      },
+      failed: (error) => {
+        this.failing = true;
+        this.events.failed(error instanceof Error ? error.message : String(error));
+      },
     });
     this.playback = new Playback(this.history, {
       paused: () => { this.pauseOrResume(); },
@@ -56,7 +68,8 @@ export class SessionView {
 
   start(session: string): void {
     this.stop();
-    this.history.clear();
+    this.link = new LinkSpeed();
+    this.skipped = new SkippedFrames();
     this.watch = new SessionWatch(this.server, session, {}, {
       frame: (frame) => { this.take(frame); },
       state: (state) => { this.events.state(state); },
@@ -72,9 +85,15 @@ export class SessionView {
     this.watch?.start();
   }
 
+  /** Nothing of the session stays on the screen. */
   stop(): void {
     this.watch?.stop();
     this.watch = undefined;
+    this.lastDrawn = undefined;
+    this.store.clear();
+    this.viewer.clear();
+    this.overlay.clear();
+    this.playback.clear();
   }
 
   togglePause(): void {
@@ -93,9 +112,14 @@ export class SessionView {
   /** A picture of the frame has been drawn. */
   frameDrawn(frame: Frame): void {
     if (frame === this.lastDrawn) return;
-    if (!this.lastDrawn) this.events.firstFrame();
+    const first = !this.lastDrawn;
     this.lastDrawn = frame;
-    this.overlay.frameDrawn(frame, this.levels(), this.store.skipped, this.server.roundTrip);
+    this.overlay.frameDrawn(frame, this.levels());
+    if (!this.playback.paused) {
+      this.skipped.shown(frame);
+      this.overlay.liveFrameDrawn(frame, this.skipped.count, this.server.roundTrip);
+    }
+    if (first) this.events.firstFrame();
   }
 
   private take(frame: Frame): void {
@@ -107,8 +131,9 @@ export class SessionView {
   }
 
   private adjustQuality(): void {
-    const quality = chooseQuality(this.moving, this.link.secondsPerFullMesh);
-    if (quality === this.quality || !this.watch || this.playback.paused) return;
+    if (!this.watch || this.playback.paused || this.link.offsetBits === 0) return;
+    const quality = chooseQuality(this.moving, this.link.secondsPerFullMesh, this.quality);
+    if (quality === this.quality) return;
     this.setQuality(quality);
     this.watch.setWishes(wishesOf(quality, this.link.offsetBits));
   }
@@ -119,7 +144,9 @@ export class SessionView {
   }
 
   private pauseOrResume(): void {
-    this.watch?.setPaused(this.playback.paused || document.hidden);
+    const paused = this.playback.paused || document.hidden;
+    if (paused) this.skipped.pause();
+    this.watch?.setPaused(paused);
   }
 
   private levels(): number[] {

@@ -30,7 +30,7 @@ function body(...parts: Uint8Array[]): Response {
 
 async function watchAll(server: Server, signal = new AbortController().signal): Promise<number> {
   let count = 0;
-  for await (const received of server.watch({ sessionId: 'an-id', normalBits: 0 }, signal)) count += received.bytes > 0 ? 1 : 0;
+  for await (const received of server.watch({ sessionId: 'an-id', normalBits: 0 }, signal, () => undefined)) count += received.bytes > 0 ? 1 : 0;
   return count;
 }
 
@@ -105,7 +105,7 @@ describe('a call', () => {
       },
     });
     const server = serverThat(() => new Response(stream, { headers: grpcWeb }));
-    for await (const received of server.watch({ sessionId: 'x' }, new AbortController().signal)) {
+    for await (const received of server.watch({ sessionId: 'x' }, new AbortController().signal, () => undefined)) {
       expect(received.message.message.case).toBe('draining');
       break;
     }

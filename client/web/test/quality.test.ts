@@ -3,17 +3,33 @@ import type { Frame } from '../src/bricks/frame';
 import { Backoff } from '../src/stream/backoff';
 import { LinkSpeed } from '../src/stream/link_speed';
 import { chooseQuality, wishesOf } from '../src/stream/quality';
+import { SkippedFrames } from '../src/stream/skipped_frames';
 
 describe('quality', () => {
   it('is full at rest as long as a mesh comes within half a second', () => {
-    expect(chooseQuality(false, 0)).toBe('full');
-    expect(chooseQuality(false, 0.5)).toBe('full');
-    expect(chooseQuality(false, 0.6)).toBe('light');
+    expect(chooseQuality(false, 0, 'full')).toBe('full');
+    expect(chooseQuality(false, 0.5, 'full')).toBe('full');
+    expect(chooseQuality(false, 0.6, 'full')).toBe('light');
   });
 
   it('gives up bits while the camera moves, and levels where the link is slow', () => {
-    expect(chooseQuality(true, 0)).toBe('light');
-    expect(chooseQuality(true, 0.2)).toBe('coarse');
+    expect(chooseQuality(true, 0, 'full')).toBe('light');
+    expect(chooseQuality(true, 0.2, 'full')).toBe('coarse');
+  });
+
+  it('does not swing to and fro with a link at its limits', () => {
+    const swings = (moving: boolean, seconds: number[]): number => {
+      let [quality, changes] = [chooseQuality(moving, 10, 'full'), 0];
+      for (const s of seconds) {
+        const next = chooseQuality(moving, s, quality);
+        if (next !== quality) ++changes;
+        quality = next;
+      }
+      return changes;
+    };
+    expect(swings(false, [0.55, 0.45, 0.55, 0.45])).toBe(0);
+    expect(swings(true, [0.11, 0.09, 0.11, 0.09])).toBe(0);
+    expect(swings(false, [0.3, 0.45, 0.3])).toBe(1);
   });
 
   it('never asks for more bits than the mesh has', () => {
@@ -41,6 +57,22 @@ describe('LinkSpeed', () => {
     link.add(frame(100_000, 100, 1_000_000), true);
     link.add(frame(100_000, 100, 10_000), false);
     expect(link.secondsPerFullMesh).toBeCloseTo(1);
+  });
+});
+
+describe('SkippedFrames', () => {
+  const at = (index: number, runId = 1n): Pick<Frame, 'runId' | 'index'> => ({ index: BigInt(index), runId });
+
+  it('counts the frames between those that were shown, run by run, without what a pause left out', () => {
+    const skipped = new SkippedFrames();
+    for (const index of [3, 4, 7, 7]) skipped.shown(at(index));
+    expect(skipped.count).toBe(2);
+    skipped.shown(at(100, 2n));
+    skipped.pause();
+    skipped.shown(at(200, 2n));
+    expect(skipped.count).toBe(2);
+    skipped.shown(at(202, 2n));
+    expect(skipped.count).toBe(3);
   });
 });
 

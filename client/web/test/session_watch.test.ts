@@ -15,6 +15,7 @@ class Call {
   constructor(
     readonly request: Wishes,
     readonly signal: AbortSignal,
+    readonly open: () => void,
   ) {}
 
   async send(...messages: WatchResponse[]): Promise<void> {
@@ -44,8 +45,8 @@ class Call {
 
 class FakeServer implements WatchServer {
   readonly calls: Call[] = [];
-  watch(request: Wishes & { sessionId: string }, signal: AbortSignal): AsyncIterable<Received<WatchResponse>> {
-    const call = new Call(request, signal);
+  watch(request: Wishes & { sessionId: string }, signal: AbortSignal, opened: () => void): AsyncIterable<Received<WatchResponse>> {
+    const call = new Call(request, signal, opened);
     this.calls.push(call);
     return call.messages();
   }
@@ -84,6 +85,18 @@ describe('SessionWatch', () => {
     await server.last.send(...frame({ index: 1 }), ...frame({ index: 2, base: 1 }));
     expect(frames.map(({ index }) => index)).toEqual([1n, 2n]);
     expect(state().kind).toBe('live');
+  });
+
+  it('tells a session without a mesh from a server that does not answer', async () => {
+    expect(state().kind).toBe('connecting');
+    server.last.open();
+    expect(state().kind).toBe('connected');
+    await server.last.send(...frame({ index: 1 }));
+    expect(state().kind).toBe('live');
+    const old = server.last;
+    watch.setPaused(true);
+    old.open();
+    expect(state().kind).toBe('paused');
   });
 
   it('connects again by itself after the time that it tells, and starts from a whole mesh', async () => {
@@ -164,6 +177,7 @@ describe('SessionWatch', () => {
   it.each([
     ['waiting', new RpcError(Code.notFound, 'no such session')],
     ['waiting', new RpcError(Code.resourceExhausted, '8 watchers, at most 8')],
+    ['waiting', new RpcError(Code.internal, 'its GPU failed')],
     ['token', new RpcError(Code.unauthenticated, 'no token')],
     ['token', new RpcError(Code.permissionDenied, 'not a watcher')],
     ['refused', new RpcError(Code.invalidArgument, 'normal_bits is 99')],

@@ -24,7 +24,8 @@ export class BrickStore {
   private current: Shown | undefined;
   private waiting: Frame | undefined;
   private decoding = false;
-  private skippedFrames = 0;
+  /** Changes when everything is forgotten. */
+  private epoch = 0;
 
   constructor(
     private readonly decode: Decode,
@@ -35,28 +36,32 @@ export class BrickStore {
     return this.current;
   }
 
-  /** Frames that a newer one replaced before they could be shown. */
-  get skipped(): number {
-    return this.skippedFrames;
-  }
-
   /** The frame is shown next; one that still waits is skipped. */
   show(frame: Frame): void {
-    if (this.waiting && this.waiting !== frame) ++this.skippedFrames;
     this.waiting = frame;
     if (!this.decoding) void this.work();
+  }
+
+  /** Forgets everything: what is being decoded is not shown any more. */
+  clear(): void {
+    this.current = undefined;
+    this.waiting = undefined;
+    ++this.epoch;
   }
 
   private async work(): Promise<void> {
     this.decoding = true;
     while (this.waiting) {
       const frame = this.waiting;
+      const { epoch } = this;
       this.waiting = undefined;
       try {
-        this.current = { frame, bricks: await this.decodeFrame(frame) };
-        this.events.shown(this.current);
+        const shown = { frame, bricks: await this.decodeFrame(frame) };
+        if (epoch !== this.epoch) continue;
+        this.current = shown;
+        this.events.shown(shown);
       } catch (error) {
-        this.events.failed(error);
+        if (epoch === this.epoch) this.events.failed(error);
       }
     }
     this.decoding = false;

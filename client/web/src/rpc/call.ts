@@ -27,6 +27,8 @@ export interface CallOptions {
   readonly signal: AbortSignal;
   /** Sent as headers. */
   readonly metadata: Readonly<Record<string, string>>;
+  /** The server has taken the call. */
+  readonly opened?: () => void;
 }
 
 export interface Received<Message> {
@@ -75,6 +77,7 @@ async function* messages(endpoint: Endpoint, path: string, request: Uint8Array, 
   if (!(response.headers.get('content-type') ?? '').startsWith('application/grpc-web'))
     throw new RpcError(Code.unimplemented, `${endpoint.base}${path} is not answered in gRPC-Web`);
   if (response.body === null) throw new RpcError(Code.unavailable, 'The server answered without a body.');
+  options.opened?.();
   const parser = new MessageParser(maxMessageBytes);
   for await (const chunk of chunks(response.body, options.signal))
     for (const message of parser.push(chunk)) {

@@ -12,37 +12,41 @@ const unaryTimeout = 10_000;  // ms
 export class Server {
   /** Sent as a bearer token; empty: none. */
   token = '';
-  /** Of the unary call answered last, ms: an estimate of the link's round trip. */
-  roundTrip = 0;
+  private shortestAnswer = Infinity;
 
   constructor(private readonly endpoint: Endpoint) {}
 
+  /** Of the link, ms: the shortest time that a call has taken to be answered; 0 before the first. */
+  get roundTrip(): number {
+    return Number.isFinite(this.shortestAnswer) ? this.shortestAnswer : 0;
+  }
+
   async info(): Promise<GetServerInfoResponse> {
-    return this.timed(() => unary(this.endpoint, ServerService.method.getServerInfo, {}, this.options(AbortSignal.timeout(unaryTimeout))));
+    return unary(this.endpoint, ServerService.method.getServerInfo, {}, this.options(AbortSignal.timeout(unaryTimeout)));
   }
 
   async sessions(): Promise<Session[]> {
-    const answer = await this.timed(() =>
-      unary(this.endpoint, SessionService.method.listSessions, {}, this.options(AbortSignal.timeout(unaryTimeout))),
-    );
+    const answer = await unary(this.endpoint, SessionService.method.listSessions, {}, this.options(AbortSignal.timeout(unaryTimeout)));
     return answer.sessions;
   }
 
-  watch(request: WatchRequestInit & { sessionId: string }, signal: AbortSignal): AsyncIterable<Received<WatchResponse>> {
-    return serverStream(this.endpoint, SurfaceService.method.watch, request, this.options(signal, request.sessionId));
+  /** opened: the server has taken the call. */
+  watch(request: WatchRequestInit & { sessionId: string }, signal: AbortSignal, opened: () => void): AsyncIterable<Received<WatchResponse>> {
+    return serverStream(this.endpoint, SurfaceService.method.watch, request, this.options(signal, request.sessionId, opened));
   }
 
-  private options(signal: AbortSignal, sessionId?: string): CallOptions {
+  private options(signal: AbortSignal, sessionId?: string, opened?: () => void): CallOptions {
     const metadata: Record<string, string> = {};
     if (this.token !== '') metadata.authorization = `Bearer ${this.token}`;
     if (sessionId !== undefined) metadata['x-session-id'] = sessionId;
-    return { signal, metadata };
-  }
-
-  private async timed<T>(call: () => Promise<T>): Promise<T> {
-    const start = performance.now();
-    const answer = await call();
-    this.roundTrip = performance.now() - start;
-    return answer;
+    const asked = performance.now();
+    return {
+      signal,
+      metadata,
+      opened: () => {
+        this.shortestAnswer = Math.min(this.shortestAnswer, performance.now() - asked);
+        opened?.();
+      },
+    };
   }
 }

@@ -29,8 +29,8 @@ export class LinkSpeed {
     return this.bytesPerMs === undefined ? 0 : this.fullBytes / this.bytesPerMs / 1000;
   }
 
-  /** Of the mesh as reconstructed; the largest there is while nothing is known. */
+  /** Of the mesh as reconstructed; 0 while nothing is known. */
   get offsetBits(): number {
-    return this.fullOffsetBits === 0 ? 8 : this.fullOffsetBits;
+    return this.fullOffsetBits;
   }
 }

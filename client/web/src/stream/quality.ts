@@ -7,11 +7,13 @@ export type Quality = 'full' | 'light' | 'coarse';
 const stillSeconds = 0.5;
 /** A moving one should see some ten frames a second. */
 const movingSeconds = 0.1;
+/** A quality is taken back only where it fits by this much, since every change costs a whole mesh. */
+const margin = 0.7;
 
-/** secondsPerFullMesh: what a whole mesh at full quality takes, or would take, on this link. */
-export function chooseQuality(moving: boolean, secondsPerFullMesh: number): Quality {
-  if (moving) return secondsPerFullMesh > movingSeconds ? 'coarse' : 'light';
-  return secondsPerFullMesh > stillSeconds ? 'light' : 'full';
+/** secondsPerFullMesh: what a whole mesh at full quality takes, or would take, on this link. before: the quality until now. */
+export function chooseQuality(moving: boolean, secondsPerFullMesh: number, before: Quality): Quality {
+  if (moving) return secondsPerFullMesh > (before === 'coarse' ? margin : 1) * movingSeconds ? 'coarse' : 'light';
+  return secondsPerFullMesh > (before === 'full' ? 1 : margin) * stillSeconds ? 'light' : 'full';
 }
 
 /** offsetBits: of the mesh as reconstructed; fewer bits than it has are smaller, more are not to be had. */

@@ -12,7 +12,7 @@ import type { WatchState } from './watch_state';
 export type Wishes = Omit<WatchRequestInit, 'sessionId'>;
 
 export interface WatchServer {
-  watch(request: Wishes & { sessionId: string }, signal: AbortSignal): AsyncIterable<Received<WatchResponse>>;
+  watch(request: Wishes & { sessionId: string }, signal: AbortSignal, opened: () => void): AsyncIterable<Received<WatchResponse>>;
 }
 
 export interface WatchEvents {
@@ -22,8 +22,16 @@ export interface WatchEvents {
   received(bytes: number): void;
 }
 
-/** Tried again, with what the viewer shows kept: the server may come back, its simulator make the session again. */
-const passing: ReadonlySet<Code> = new Set([Code.unavailable, Code.notFound, Code.resourceExhausted, Code.deadlineExceeded]);
+/** Tried again, with what the viewer shows kept: the server may come back, its simulator make the session again, on another GPU perhaps. */
+const passing: ReadonlySet<Code> = new Set([
+  Code.unavailable,
+  Code.notFound,
+  Code.resourceExhausted,
+  Code.deadlineExceeded,
+  Code.internal,
+  Code.aborted,
+  Code.unknown,
+]);
 
 export class SessionWatch {
   private readonly backoff = new Backoff({ first: 500, longest: 8000 });
@@ -81,8 +89,11 @@ export class SessionWatch {
 
   private async run(signal: AbortSignal): Promise<void> {
     const receiver = new FrameReceiver();
+    const opened = (): void => {
+      if (!signal.aborted && !this.ended) this.events.state({ kind: 'connected' });
+    };
     try {
-      for await (const { message, bytes } of this.server.watch({ ...this.wishes, sessionId: this.sessionId }, signal)) {
+      for await (const { message, bytes } of this.server.watch({ ...this.wishes, sessionId: this.sessionId }, signal, opened)) {
         if (signal.aborted) return;
         this.take(receiver, message, bytes);
       }
@@ -113,7 +124,7 @@ export class SessionWatch {
 
   private fail(error: unknown): void {
     const reason = explain(error);
-    if (!(error instanceof RpcError)) this.end({ kind: 'refused', reason: `The server sent something that this viewer does not understand: ${reason}.` });
+    if (!(error instanceof RpcError)) this.end({ kind: 'refused', reason: `The server sent something that this page does not understand: ${reason}. Load the page again.` });
     else if (error.code === Code.unauthenticated || error.code === Code.permissionDenied) this.end({ kind: 'token', reason });
     else if (error.code === Code.notFound && this.ended) this.scheduleRetry();
     else if (passing.has(error.code)) this.events.state({ kind: 'waiting', retryAt: this.scheduleRetry(), reason });

@@ -2,7 +2,9 @@
 
 export type WatchState =
   | { readonly kind: 'connecting' }
-  /** Connected; meshes come as the simulator makes them. */
+  /** Connected; no mesh has come on this call yet. */
+  | { readonly kind: 'connected' }
+  /** Meshes come as the simulator makes them. */
   | { readonly kind: 'live' }
   /** Paused by the viewer, or hidden. */
   | { readonly kind: 'paused' }

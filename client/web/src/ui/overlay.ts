@@ -2,31 +2,24 @@
 import type { Frame } from '../bricks/frame';
 import { triangleLevels } from '../decode/decoded_brick';
 import { levelColors } from '../view/level_materials';
+import { legendRow } from './legend';
 import { element } from './page';
 import { Rate } from './rates';
 import { StageChart } from './stage_chart';
 import { bytesText, countText, millisecondsText } from './texts';
 
+const unknown = '–';
+const figures = ['frame', 'latency', 'skipped', 'particles', 'triangles'];
+
 export class Overlay {
   private readonly drawn = new Rate();
   private readonly received = new Rate();
-  private readonly chart = new StageChart(element('stages', HTMLCanvasElement), element('stages-caption', HTMLElement));
+  private readonly chart = new StageChart();
   private readonly levelTexts: HTMLElement[];
 
   constructor() {
     const list = element('levels', HTMLDListElement);
-    this.levelTexts = triangleLevels.map((name, level) => {
-      const value = document.createElement('dd');
-      const term = document.createElement('dt');
-      const swatch = document.createElement('span');
-      swatch.className = 'swatch';
-      swatch.style.background = `#${levelColors[level]!.toString(16).padStart(6, '0')}`;
-      term.append(swatch, name);
-      const row = document.createElement('div');
-      row.append(term, value);
-      list.append(row);
-      return value;
-    });
+    this.levelTexts = triangleLevels.map((name, level) => legendRow(list, name, `#${levelColors[level]!.toString(16).padStart(6, '0')}`));
     setInterval(() => { this.refresh(); }, 500);
   }
 
@@ -34,15 +27,28 @@ export class Overlay {
     this.received.add(performance.now(), bytes);
   }
 
-  /** Once for each frame, when its picture has been drawn. roundTrip: of the link, ms. */
-  frameDrawn(frame: Frame, levels: readonly number[], skipped: number, roundTrip: number): void {
+  clear(): void {
+    for (const id of figures) set(id, unknown);
+    for (const text of this.levelTexts) text.textContent = unknown;
+    this.chart.clear();
+  }
+
+  /** When a picture of the frame has been drawn, new or from the frames that are kept. */
+  frameDrawn(frame: Frame, levels: readonly number[]): void {
+    set('frame', `${countText(frame.index)} (${frame.simulationTime.toFixed(2)} s)`);
+    set('particles', countText(frame.statistics.particles));
+    set('triangles', countText(frame.triangleCount));
+    set('latency', unknown);
+    this.levelTexts.forEach((text, level) => { text.textContent = countText(levels[level]!); });
+    this.chart.describe(frame.statistics);
+  }
+
+  /** When that was its first. skipped: frames so far; roundTrip: of the link, ms. */
+  liveFrameDrawn(frame: Frame, skipped: number, roundTrip: number): void {
     const now = performance.now();
     this.drawn.add(now, 1);
-    set('frame', `${countText(frame.index)} (${frame.simulationTime.toFixed(2)} s)`);
-    set('triangles', countText(frame.triangleCount));
     set('skipped', countText(skipped));
     set('latency', millisecondsText(frame.statistics.latencySeconds * 1000 + roundTrip / 2 + now - frame.beganAt));
-    this.levelTexts.forEach((text, level) => { text.textContent = countText(levels[level]!); });
     this.chart.add(frame.statistics);
     this.refresh();
   }

@@ -35,6 +35,11 @@ export class Playback {
     this.choose(Number(this.scrub.value) + by);
   }
 
+  clear(): void {
+    this.history.clear();
+    this.frameAdded();
+  }
+
   /** After a frame has come: the slider stands at the newest. */
   frameAdded(): void {
     this.scrub.max = String(Math.max(0, this.history.frames.length - 1));

@@ -12,45 +12,46 @@ const refreshEvery = 2000;
 export class SessionList {
   private readonly list = element('sessions', HTMLUListElement);
   private timer: ReturnType<typeof setTimeout> | undefined;
-  private shown = false;
+  /** One for each time that the list is shown: answers to requests of an earlier one are not for it. */
+  private showing: symbol | undefined;
 
   constructor(
     private readonly server: Server,
     private readonly banner: Banner,
     private readonly events: { chosen(session: string): void; tokenNeeded(reason: string): void },
   ) {
-    document.addEventListener('visibilitychange', () => { if (this.shown && !document.hidden) this.show(); });
+    document.addEventListener('visibilitychange', () => { if (this.showing && !document.hidden) this.show(); });
   }
 
   show(): void {
     this.hide();
-    this.shown = true;
+    this.showing = Symbol('showing');
     element('list', HTMLElement).hidden = false;
-    void this.refresh();
+    void this.refresh(this.showing);
   }
 
   hide(): void {
-    this.shown = false;
+    this.showing = undefined;
     clearTimeout(this.timer);
     element('list', HTMLElement).hidden = true;
   }
 
-  private async refresh(): Promise<void> {
+  private async refresh(showing: symbol): Promise<void> {
     try {
       const [info, sessions] = await Promise.all([this.server.info(), this.server.sessions()]);
-      if (!this.shown) return;
+      if (showing !== this.showing) return;
       element('server', HTMLElement).textContent = `meniscusd ${info.version}, ${info.backend} on ${info.device}`;
       this.fill(sessions);
       this.banner.say('');
     } catch (error) {
-      if (!this.shown) return;
+      if (showing !== this.showing) return;
       if (error instanceof RpcError && (error.code === Code.unauthenticated || error.code === Code.permissionDenied)) {
         this.events.tokenNeeded(explain(error));
         return;
       }
       this.banner.countDown(explain(error), performance.now() + refreshEvery);
     }
-    if (!document.hidden) this.timer = setTimeout(() => void this.refresh(), refreshEvery);
+    if (!document.hidden) this.timer = setTimeout(() => void this.refresh(showing), refreshEvery);
   }
 
   /** Entries that stay keep their buttons, and with them the keyboard's focus. */

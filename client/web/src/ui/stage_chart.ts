@@ -1,42 +1,50 @@
-// The method's steps of the last frames, stacked: a column per frame.
+// The method's steps of the last frames, stacked: a column per frame. Below it, those of the frame on the screen.
 import type { FrameStatistics, StageSeconds } from '../gen/meniscus/v1/mesh_pb';
+import { legendRow } from './legend';
+import { element } from './page';
 import { millisecondsText } from './texts';
 
 const stages = [
-  ['registerParticles', 'register particles', '#6b8fb5'],
-  ['splitCells', 'split cells', '#3f7f6d'],
-  ['adjustLevels', 'adjust levels', '#a0a63a'],
-  ['sampleField', 'sample field', '#d08a2e'],
-  ['countTriangles', 'count triangles', '#c4553f'],
-  ['placeVertices', 'place vertices', '#9c4f8a'],
-  ['emitTriangles', 'emit triangles', '#5d58a8'],
-  ['fillCracks', 'fill cracks', '#7d7d7d'],
+  ['registerParticles', 'register', '#6b8fb5'],
+  ['splitCells', 'split', '#3f9f85'],
+  ['adjustLevels', 'adjust', '#a0a63a'],
+  ['sampleField', 'sample', '#e09a35'],
+  ['countTriangles', 'count', '#d9624a'],
+  ['placeVertices', 'place', '#b05c9c'],
+  ['emitTriangles', 'emit', '#7d77d6'],
+  ['fillCracks', 'cracks', '#8d8d8d'],
 ] as const satisfies readonly (readonly [keyof StageSeconds, string, string])[];
 const columnWidth = 4;
 
 export class StageChart {
+  private readonly canvas = element('stages', HTMLCanvasElement);
+  private readonly reconstruction = element('reconstruction', HTMLElement);
+  private readonly encoding = element('encoding', HTMLElement);
+  private readonly values: HTMLElement[];
   private readonly frames: number[][] = [];
 
-  constructor(
-    private readonly canvas: HTMLCanvasElement,
-    private readonly caption: HTMLElement,
-  ) {}
+  constructor() {
+    const legend = element('stages-legend', HTMLDListElement);
+    this.values = stages.map(([, name, color]) => legendRow(legend, name, color));
+  }
 
-  add({ stageSeconds, encodeSeconds }: FrameStatistics): void {
-    if (!stageSeconds) return;
-    const seconds = stages.map(([key]) => stageSeconds[key]);
-    this.frames.push(seconds);
-    if (this.frames.length > this.canvas.width / columnWidth) this.frames.shift();
-    this.describe(seconds, encodeSeconds);
+  clear(): void {
+    this.frames.length = 0;
+    for (const value of [this.reconstruction, this.encoding, ...this.values]) value.textContent = '–';
     this.draw();
   }
 
-  private describe(seconds: number[], encodeSeconds: number): void {
-    const longest = seconds.indexOf(Math.max(...seconds));
-    this.caption.textContent =
-      `Reconstruction ${millisecondsText(sum(seconds) * 1000)}, most in ${stages[longest]![1]} ` +
-      `(${millisecondsText(seconds[longest]! * 1000)}); encoding ${millisecondsText(encodeSeconds * 1000)}`;
-    this.canvas.title = stages.map(([, name], i) => `${name}: ${millisecondsText(seconds[i]! * 1000)}`).join('\n');
+  add({ stageSeconds }: FrameStatistics): void {
+    if (!stageSeconds) return;
+    this.frames.push(stages.map(([key]) => stageSeconds[key]));
+    if (this.frames.length > this.canvas.width / columnWidth) this.frames.shift();
+    this.draw();
+  }
+
+  describe({ stageSeconds, totalSeconds, encodeSeconds }: FrameStatistics): void {
+    this.reconstruction.textContent = millisecondsText(totalSeconds * 1000);
+    this.encoding.textContent = millisecondsText(encodeSeconds * 1000);
+    stages.forEach(([key], i) => { this.values[i]!.textContent = millisecondsText((stageSeconds?.[key] ?? 0) * 1000); });
   }
 
   private draw(): void {

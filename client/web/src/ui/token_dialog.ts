@@ -3,8 +3,9 @@ import { element } from './page';
 
 const storageKey = 'meniscus-token';
 
+/** Empty: none. */
 export function storedToken(): string {
-  return sessionStorage.getItem(storageKey) ?? '';
+  return storage()?.getItem(storageKey) ?? '';
 }
 
 /** Resolves with what was entered; with undefined when the dialog is closed without. */
@@ -24,10 +25,19 @@ export function askToken(reason: string): Promise<string | undefined> {
           resolve(undefined);
           return;
         }
-        sessionStorage.setItem(storageKey, token);
+        storage()?.setItem(storageKey, token);
         resolve(token);
       },
       { once: true },
     );
   });
+}
+
+/** None where the browser keeps nothing for this page. */
+function storage(): Storage | undefined {
+  try {
+    return sessionStorage;
+  } catch {
+    return undefined;
+  }
 }

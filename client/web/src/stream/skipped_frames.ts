@@ -1,0 +1,21 @@
+// How many frames of a run were not shown: replaced by newer ones at the server, on the way or here. The gaps in their indices tell.
+import type { Frame } from '../bricks/frame';
+
+export class SkippedFrames {
+  private last: Pick<Frame, 'runId' | 'index'> | undefined;
+  private skipped = 0;
+
+  get count(): number {
+    return this.skipped;
+  }
+
+  shown(frame: Pick<Frame, 'runId' | 'index'>): void {
+    if (this.last?.runId === frame.runId && frame.index > this.last.index) this.skipped += Number(frame.index - this.last.index - 1n);
+    this.last = frame;
+  }
+
+  /** What comes between here and the next frame was not wanted. */
+  pause(): void {
+    this.last = undefined;
+  }
+}
