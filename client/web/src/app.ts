@@ -10,6 +10,7 @@ import { download } from './ui/download';
 import { readLink, writeLink, type PageState } from './ui/link';
 import { Overlay } from './ui/overlay';
 import { element } from './ui/page';
+import { coveredMargins } from './ui/panels';
 import { SessionList } from './ui/session_list';
 import { followTheme } from './ui/theme';
 import { askToken, storedToken } from './ui/token_dialog';
@@ -31,7 +32,7 @@ export class App {
 
   constructor() {
     this.server.token = storedToken();
-    this.viewer = new Viewer(this.canvas, {
+    this.viewer = new Viewer(this.canvas, coveredMargins, {
       drawn: (frame, triangles) => {
         // For those who look from outside: tests, and assistive tools.
         this.canvas.dataset.frame = String(frame.index);
@@ -43,7 +44,7 @@ export class App {
         if (!moving) this.writeAddress();
       },
       lost: (lost) => {
-        this.banner.say(lost ? 'The browser has taken the graphics away. The picture returns when it gives them back; loading the page again may help.' : '');
+        this.inPlaceOfPicture(lost ? 'The browser has taken the graphics away. The picture returns when it gives them back; loading the page again may help.' : '');
       },
     });
     this.view = new SessionView(this.server, startDecodePool(), this.viewer, new Overlay(), {
@@ -74,12 +75,14 @@ export class App {
     this.linked = state;
     this.session = state.session;
     this.view.stop();
+    delete this.canvas.dataset.frame;
+    delete this.canvas.dataset.triangles;
     this.banner.say('');
     const watching = state.session !== undefined;
     element('watch', HTMLElement).hidden = !watching;
     element('leave', HTMLButtonElement).hidden = !watching;
     element('title', HTMLElement).textContent = state.session ?? '';
-    element('nothing-yet', HTMLElement).hidden = !watching;
+    this.inPlaceOfPicture('');
     if (state.session === undefined) {
       this.list.show();
       return;
@@ -91,7 +94,7 @@ export class App {
   }
 
   private firstFrame(): void {
-    element('nothing-yet', HTMLElement).hidden = true;
+    this.inPlaceOfPicture('');
     if (this.linked.camera) this.viewer.cameraPlace = this.linked.camera;
     else this.viewer.fit();
   }
@@ -99,9 +102,13 @@ export class App {
   private watchState(state: WatchState): void {
     this.canvas.dataset.state = state.kind;
     this.banner.watching(state);
-    element('nothing-yet', HTMLElement).textContent =
-      state.kind === 'connecting' ? 'Connecting…' : state.kind === 'connected' ? 'Connected. No frame has come yet.' : '';
+    if (!this.view.shown)
+      this.inPlaceOfPicture(state.kind === 'connecting' ? 'Connecting…' : state.kind === 'connected' ? 'Connected. No frame has come yet.' : '');
     if (state.kind === 'token') void this.tokenNeeded(state.reason);
+  }
+
+  private inPlaceOfPicture(text: string): void {
+    element('in-place-of-picture', HTMLElement).textContent = text;
   }
 
   private async tokenNeeded(reason: string): Promise<void> {
@@ -163,6 +170,7 @@ export class App {
     const overlay = element('overlay', HTMLElement);
     overlay.hidden = !overlay.hidden;
     element('measure', HTMLButtonElement).setAttribute('aria-pressed', String(!overlay.hidden));
+    this.viewer.resize();
   }
 
   private save(kind: 'glb' | 'ply', type: string): void {

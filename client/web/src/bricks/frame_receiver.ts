@@ -32,6 +32,11 @@ export class FrameReceiver {
   private arriving: Arriving | undefined;
   private partial: PartialBrick | undefined;
 
+  /** Whether a mesh has come on this call, or a part of one. */
+  get begun(): boolean {
+    return this.arriving !== undefined || this.last !== undefined;
+  }
+
   /** Returns the frame that the message completes. Throws ProtocolError. */
   take(response: WatchResponse, bytes: number, now: number): Frame | undefined {
     const { message } = response;

@@ -65,7 +65,7 @@ export function explain(error: unknown): string {
     case Code.deadlineExceeded:
       return 'The server has not answered in time.';
     case Code.unauthenticated:
-      return `The server asks for a token (${error.message}).`;
+      return 'The server asks for a token that it knows.';
     case Code.permissionDenied:
       return `This token does not allow it (${error.message}).`;
     case Code.notFound:

@@ -112,7 +112,7 @@ export class SessionWatch {
       this.events.state({ kind: 'draining', seconds: message.message.value.seconds });
       return;
     }
-    if (message.message.case === 'meshBegin') {
+    if (message.message.case === 'meshBegin' && !receiver.begun) {
       this.ended = false;
       this.events.state({ kind: 'live' });
     }

@@ -50,7 +50,6 @@ export class Playback {
   setPaused(paused: boolean): void {
     this.isPaused = paused;
     this.pauseButton.textContent = paused ? 'Resume' : 'Pause';
-    this.pauseButton.setAttribute('aria-pressed', String(paused));
     this.events.paused(paused);
   }
 

@@ -37,6 +37,10 @@ export function union(a: WorldBox, b: WorldBox): WorldBox {
   return { min: each(Math.min, a.min, b.min), max: each(Math.max, a.max, b.max) };
 }
 
+export function corners({ min, max }: WorldBox): Point[] {
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((i): Point => [i & 1 ? max[0] : min[0], i & 2 ? max[1] : min[1], i & 4 ? max[2] : min[2]]);
+}
+
 /** Its diagonal. */
 export function size({ min, max }: WorldBox): number {
   return Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]);

@@ -37,11 +37,6 @@ export class CameraControls {
     return this.orbit.target;
   }
 
-  resize(aspect: number): void {
-    this.camera.aspect = aspect;
-    this.camera.updateProjectionMatrix();
-  }
-
   place(position: Vector3, target: Vector3): void {
     this.camera.position.copy(position);
     this.orbit.target.copy(target);

@@ -16,7 +16,7 @@ uniform float sceneSize;
 uniform mat4 sunMatrix;
 uniform sampler2D sunThickness;
 
-const vec3 absorption = vec3(8.0, 2.4, 1.0);
+const vec3 absorption = vec3(13.0, 4.2, 1.8);
 
 // What is left of the sun's light where it has come through water.
 vec3 sunlightAt(vec3 place) {

@@ -3,10 +3,11 @@ import { Scene, Vector3, WebGLRenderer } from 'three';
 import type { Shown } from '../bricks/brick_store';
 import type { Frame } from '../bricks/frame';
 import { Background } from './background';
-import { center, contains, size, union, worldBox, type Point, type WorldBox } from './bounds';
+import { center, contains, corners, size, union, worldBox, type Point, type WorldBox } from './bounds';
 import { BrickMeshes } from './brick_meshes';
 import { CameraControls } from './camera_controls';
 import { environmentUniforms, setTheme, type Theme } from './environment';
+import { distanceToSee, putInTheMiddle, type Margins } from './fit';
 import { levelLineMaterials, levelSurfaceMaterial } from './level_materials';
 import { Sunlight } from './sunlight';
 import { pictureLayer, ThicknessPass } from './thickness_pass';
@@ -58,6 +59,8 @@ export class Viewer {
   /** Throws if there is no WebGL 2. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
+    /** What covers the canvas now. */
+    private readonly covered: () => Margins,
     private readonly events: ViewerEvents,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
@@ -133,10 +136,11 @@ export class Viewer {
     this.following = box;
     this.adopt(box);
     const target = this.inScene(center(box));
-    // A box's sphere just fits the narrower of the two angles of view.
-    const { fov, aspect } = this.controls.camera;
-    const half = Math.atan(Math.tan((fov * Math.PI) / 360) * Math.min(1, aspect));
-    const distance = size(box) / 2 / Math.sin(half);
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const margins = this.covered();
+    const free = { width: Math.max(0.2, 1 - margins.right / width), height: Math.max(0.2, 1 - (margins.top + margins.bottom) / height) };
+    const seen = corners(box).map((corner) => this.inScene(corner).sub(target));
+    const distance = distanceToSee(seen, fitDirection, this.controls.camera, free);
     this.controls.place(target.clone().addScaledVector(fitDirection, distance), target);
     this.draw();
   }
@@ -173,15 +177,18 @@ export class Viewer {
     return toWorld(place, this.origin, this.up);
   }
 
-  private resize(): void {
+  /** When the canvas has another size, or something else covers it. */
+  resize(): void {
     const { clientWidth, clientHeight } = this.canvas;
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.renderer.getDrawingBufferSize(this.water.uniforms.screenSize.value);
     this.thickness.setSize(this.canvas.width / thicknessCoarseness, this.canvas.height / thicknessCoarseness);
-    this.controls.resize(clientWidth / clientHeight);
-    this.draw();
+    putInTheMiddle(this.controls.camera, this.covered(), clientWidth, clientHeight);
+    if (this.following) this.lookAt(this.following);
+    // At once: the canvas is blank now.
+    this.render();
   }
 
   private draw(): void {

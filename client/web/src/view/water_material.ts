@@ -59,7 +59,7 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
         vec3 absorbed = exp(-absorption * depth);
         // What comes back from within, more of it where the sun falls in.
         float lit = 0.5 + 0.5 * dot(n, sunDirection);
-        vec3 scattered = vec3(0.008, 0.066, 0.115) * (1.0 - exp(-6.0 * depth)) * (0.2 + 0.7 * horizonColor + 0.25 * lit * lit * sunColor);
+        vec3 scattered = vec3(0.008, 0.066, 0.115) * (1.0 - exp(-9.0 * depth)) * (0.2 + 0.7 * horizonColor + 0.25 * lit * lit * sunColor);
 
         // Where the ray leaves the water it is bent again, on the whole halfway back.
         vec3 bent = refract(-v, n, indexRatio);
