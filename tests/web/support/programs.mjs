@@ -50,16 +50,23 @@ export async function startServer({ ports = { grpc: 0, http: 0 }, args = [] } = 
   };
 }
 
-/** Streams a dam break. Its session goes when it ends, and stays when it is killed. */
-export function startSimulator(server, { session = randomUUID(), particles = 2000, frames = 100_000, stats, token } = {}) {
-  const args = ['simulate', '--scene', 'dam-break', '--particles', `${particles}`, '--frames', `${frames}`, '--session', session, '--server', server.address];
+/** Streams a dam break as fast as it can. Its session goes when it ends, and stays when it is killed. */
+export function startSimulator(server, { session, particles = 2000, frames = 100_000, stats } = {}) {
+  const args = ['simulate', '--scene', 'dam-break', '--particles', `${particles}`, '--frames', `${frames}`];
   if (stats) args.push('--stats', stats);
-  if (token) args.push('--token', token);
-  const child = start(meniscus, args);
+  return startUploader(server, args, session);
+}
+
+/** args: of `meniscus`, without the server and the session. */
+export function startUploader(server, args, session = randomUUID()) {
+  const child = start(meniscus, [...args, '--session', session, '--server', server.address]);
   return {
     session,
-    ended: child.ended,
-    output: () => child.output,
+    /** Resolves when all has been sent. */
+    finished: async () => {
+      await child.ended;
+      if (child.exitCode !== 0) throw new Error(`${args[0]} ended with ${child.exitCode ?? child.signalCode}: ${child.output}`);
+    },
     kill: async () => {
       child.kill('SIGKILL');
       await child.ended;

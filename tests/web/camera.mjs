@@ -1,0 +1,72 @@
+import assert from 'node:assert/strict';
+import { describe, it } from 'node:test';
+import { missing } from './support/browser.mjs';
+import { startServer } from './support/programs.mjs';
+import { startReplay } from './support/recording.mjs';
+import { link, open, state, surface } from './support/viewer.mjs';
+
+const cameraOf = (address) => new URLSearchParams(new URL(address).hash.slice(1)).get('camera')?.split(',').map(Number);
+
+describe('the camera', { skip: missing }, () => {
+  it('moves by the keyboard, and a link brings it back', async () => {
+    const server = await startServer();
+    const simulator = await startReplay(server);
+    const page = await open(link(server, simulator.session));
+    await surface(page);
+    await page.focus('#view');
+    for (const key of ['ArrowLeft', 'ArrowUp', '+', 'Shift+ArrowRight', 'w']) {
+      const before = page.url();
+      await page.keyboard.press(key);
+      await page.waitForFunction((address) => location.href !== address, before);
+    }
+    const address = page.url();
+    const again = await open(address);
+    await surface(again);
+    await again.focus('#view');
+    await again.keyboard.press('w');
+    await again.waitForFunction(() => !/look=/.test(location.hash));
+    cameraOf(again.url()).forEach((x, i) => assert.ok(Math.abs(x - cameraOf(address)[i]) < 1e-4, again.url()));
+  });
+
+  it('keeps spreading water in view until a person moves it', async () => {
+    const server = await startServer();
+    const simulator = await startReplay(server);
+    const page = await open(link(server, simulator.session));
+    await surface(page);
+    const place = async () => {
+      const before = page.url();
+      await page.click('#look');
+      await page.waitForFunction((address) => location.href !== address, before);
+      return cameraOf(page.url());
+    };
+    const first = await place();
+    const until = (frames) => page.waitForFunction((n) => Number(document.getElementById('view').dataset.frame) > n, frames);
+    await until(50);
+    assert.notDeepEqual(await place(), first);
+    await page.focus('#view');
+    await page.keyboard.press('ArrowLeft');
+    const moved = await place();
+    await until(80);
+    (await place()).forEach((x, i) => assert.ok(Math.abs(x - moved[i]) < 1e-4));
+  });
+
+  it('gets fewer bits while it moves and the full mesh when it rests', async () => {
+    const server = await startServer();
+    const simulator = await startReplay(server);
+    const page = await open(link(server, simulator.session), { viewport: { width: 480, height: 400 } });
+    await surface(page);
+    const asked = [];
+    page.on('request', (request) => { if (request.url().endsWith('/Watch')) asked.push(request.postDataBuffer().length); });
+    const quality = (text) => page.waitForFunction((words) => document.getElementById('quality').textContent.startsWith(words), text);
+    await page.mouse.move(200, 200);
+    await page.mouse.down();
+    await page.mouse.move(260, 220, { steps: 4 });
+    await quality('fewer bits');
+    await page.mouse.up();
+    const released = performance.now();
+    await quality('full');
+    await state(page, 'live');
+    console.log(`asked for the full mesh ${(performance.now() - released).toFixed(0)} ms after the camera came to rest`);
+    assert.ok(asked.length >= 2 && asked[0] > asked.at(-1), `wishes of ${asked} bytes: some while it moves, none when it rests`);
+  });
+});

@@ -1,0 +1,65 @@
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { describe, it } from 'node:test';
+import validator from 'gltf-validator';
+import { missing, screenshot } from './support/browser.mjs';
+import { boundsOfPly, reload } from './support/meshes.mjs';
+import { startServer } from './support/programs.mjs';
+import { startReplay } from './support/recording.mjs';
+import { link, open, shown, state, surface } from './support/viewer.mjs';
+
+async function save(page, button) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
+  return readFileSync(await download.path());
+}
+
+describe('playback', { skip: missing }, () => {
+  it('pauses, steps and scrubs through what has been seen, and goes on', async () => {
+    const server = await startServer();
+    const page = await open(link(server, (await startReplay(server)).session));
+    await surface(page);
+    await page.waitForFunction(() => Number(document.getElementById('scrub').max) >= 5);
+    await page.focus('#view');
+    await page.keyboard.press(' ');
+    await state(page, 'paused');
+    const last = Number(await page.inputValue('#scrub'));
+    const { frame: newest } = await shown(page);
+    const drawnBefore = async (frame) => {
+      await page.waitForFunction((before) => Number(document.getElementById('view').dataset.frame) < before, frame);
+      return (await shown(page)).frame;
+    };
+    await page.click('#back');
+    const earlier = await drawnBefore(newest);
+    await page.focus('#view');
+    await page.keyboard.press(',');
+    assert.equal(Number(await page.inputValue('#scrub')), last - 2);
+    const skipped = await page.locator('#skipped').innerText();
+    await page.fill('#scrub', '0');
+    await drawnBefore(earlier);
+    assert.equal(await page.locator('#skipped').innerText(), skipped);
+    assert.equal(await page.locator('#latency').innerText(), '–');
+    await screenshot(page, 'paused');
+    await page.click('#pause');
+    await state(page, 'live');
+    await page.waitForFunction((before) => Number(document.getElementById('view').dataset.frame) > before, newest);
+  });
+
+  it('saves a GLB that the Khronos validator passes and three.js reloads, the same mesh as the PLY and the screen', async () => {
+    const server = await startServer();
+    const simulator = await startReplay(server);
+    const page = await open(link(server, simulator.session));
+    await surface(page);
+    await page.click('#pause');
+    await state(page, 'paused');
+    const glb = await save(page, '#glb');
+    const ply = await save(page, '#ply');
+    const { triangles } = await shown(page);
+
+    const { issues } = await validator.validateBytes(new Uint8Array(glb));
+    assert.deepEqual(issues.messages.filter(({ severity }) => severity < 2), []);
+    const reloaded = await reload(await open(), glb);
+    assert.equal(reloaded.triangles, triangles);
+    assert.match(ply.subarray(0, 400).toString('latin1'), new RegExp(`element face ${triangles}\\n`));
+    boundsOfPly(ply).forEach((x, i) => assert.ok(Math.abs(x - reloaded.bounds[i]) < 1e-5, `${x} in the PLY, ${reloaded.bounds[i]} in the GLB`));
+  });
+});

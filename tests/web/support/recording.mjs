@@ -1,0 +1,39 @@
+// A dam break, recorded once, and played where a test needs frames at a rate that software drawing keeps up with.
+import { mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after } from 'node:test';
+import { startServer, startSimulator, startUploader } from './programs.mjs';
+
+export const frameCount = 240;
+/** Frames a second. */
+const rate = 16;
+
+const folder = mkdtempSync(join(tmpdir(), 'meniscus-web-'));
+after(() => rmSync(folder, { recursive: true }));
+let recorded;
+
+async function record() {
+  const server = await startServer({ args: ['--record', folder] });
+  const stats = join(folder, 'stats.json');
+  const simulator = startSimulator(server, { frames: frameCount, stats });
+  const began = performance.now();
+  await simulator.finished();
+  const seconds = (performance.now() - began) / 1000;
+  await server.kill('SIGTERM');
+  const session = join(folder, simulator.session);
+  return {
+    file: join(session, readdirSync(session).find((name) => name.endsWith('.recording'))),
+    speed: (seconds * rate) / frameCount,
+    /** By frame. */
+    triangles: JSON.parse(readFileSync(stats, 'utf8')).frames.map((frame) => frame.triangles),
+  };
+}
+
+/** faster: than the rate above. loop: for ever. */
+export async function startReplay(server, { faster = 1, loop = true } = {}) {
+  recorded ??= record();
+  const { file, speed, triangles } = await recorded;
+  const replay = startUploader(server, ['replay', file, '--speed', `${speed * faster}`, ...(loop ? ['--loop'] : [])]);
+  return { ...replay, triangles };
+}
