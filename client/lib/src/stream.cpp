@@ -195,7 +195,7 @@ grpc::Status Stream::Impl::read_answers(UploadCall& call) {
         call.finish();
         throw;
     }
-    const grpc::Status status = call.finish();
+    grpc::Status status = call.finish();
     if (status.ok()) receiver.end_of_stream();
     return status;
 }

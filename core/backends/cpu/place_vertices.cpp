@@ -108,7 +108,8 @@ void bisect(FieldSource& field, const Int3& at, const BlocksView& blocks, std::u
     PointList points;
     alignas(32) float values[max_points];
     const int whole = 1 << settings.offset_bits;
-    for (std::size_t i = 0; i < vertices.count; ++i) vertices.offset[i] = static_cast<float>(whole / 2);
+    const int middle = whole / 2;
+    for (std::size_t i = 0; i < vertices.count; ++i) vertices.offset[i] = static_cast<float>(middle);
     // Every step moves to the middle of the half that still has a change of sign.
     for (int half = whole / 4; half >= 1; half /= 2) {
         list_points(vertices, settings.offset_bits, points);
