@@ -15,7 +15,7 @@ describe('frames', { skip: missing }, () => {
     const page = await open(link(server, replay.session), small);
     await surface(page);
     await recordFrames(page);
-    await page.waitForFunction(() => new Set(window.drawn.map(([frame]) => frame)).size >= 200, undefined, { polling: 500 });
+    await page.waitForFunction(() => new Set(window.drawn.map(([frame]) => frame)).size >= 200, undefined, { polling: 500, timeout: 180_000 });
     const drawn = await drawnFrames(page);
     console.log(`200 frames drawn of ${drawn.at(-1)[0] - drawn[0][0] + 1} that were sent`);
     for (const [frame, count] of drawn) assert.equal(count, replay.triangles[frame % frameCount], `frame ${frame}`);
