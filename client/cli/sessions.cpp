@@ -45,6 +45,7 @@ void print_sessions(const SessionsOptions& options) {
         return;
     }
     std::vector<SessionRow> rows;
+    rows.reserve(sessions.size());
     for (const client::SessionInfo& session : sessions) rows.push_back({session, std::nullopt});
     std::cout << session_table(rows);
 }

@@ -4,8 +4,8 @@
 
 namespace meniscus::server {
 
-Watch::Watch(WatchWishes wishes, std::function<void()> wake, std::shared_ptr<Metrics> metrics)
-    : wishes_(std::move(wishes)), wake_(std::move(wake)), metrics_(std::move(metrics)) {
+Watch::Watch(const WatchWishes& wishes, std::function<void()> wake, std::shared_ptr<Metrics> metrics)
+    : wishes_(wishes), wake_(std::move(wake)), metrics_(std::move(metrics)) {
     if (wishes_.bytes_per_second != 0) bucket_.emplace(wishes_.bytes_per_second, Clock::now());
 }
 

@@ -45,7 +45,7 @@ public:
     };
 
     /// wake: called once, by a producing thread, after take() has found nothing and there is something again.
-    Watch(WatchWishes wishes, std::function<void()> wake, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>());
+    Watch(const WatchWishes& wishes, std::function<void()> wake, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>());
 
     const WatchWishes& wishes() const noexcept { return wishes_; }
 
