@@ -50,7 +50,7 @@ void BridgedCall::OnReadDone(bool ok) {
 void BridgedCall::was_read(bool ok) {
     reading_ = false;
     if (ok && !canceled_) {
-        receiver_.message(std::move(message_));
+        receiver_.message(message_);
     } else if (held_) {
         held_ = false;
         RemoveHold();

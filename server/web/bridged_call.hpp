@@ -27,7 +27,7 @@ public:
     /// One of these answers start() and each read(): a message, or the end, which comes once.
     struct Receiver {
         std::function<void()> admitted;  ///< by the handler; once, or never
-        std::function<void(grpc::ByteBuffer message)> message;
+        std::function<void(const grpc::ByteBuffer& message)> message;
         std::function<void(const grpc::Status& status)> end;
     };
     struct Request {

@@ -69,7 +69,7 @@ void GrpcWebExchange::start(const std::shared_ptr<grpc::Channel>& channel, const
     call_ = std::make_shared<BridgedCall>(
         context_, BridgedCall::Receiver{
                       .admitted = [self = shared_from_this()] { self->write_header(); },
-                      .message = [self = shared_from_this()](grpc::ByteBuffer received) { self->receive(std::move(received)); },
+                      .message = [self = shared_from_this()](const grpc::ByteBuffer& received) { self->receive(received); },
                       .end = [self = shared_from_this()](const grpc::Status& status) { self->finish(status); },
                   });
     call_->start(channel, std::move(call));
@@ -117,7 +117,7 @@ void GrpcWebExchange::await_message() {
     call_->read();
 }
 
-void GrpcWebExchange::receive(grpc::ByteBuffer message) {
+void GrpcWebExchange::receive(const grpc::ByteBuffer& message) {
     if (!message.Dump(&slices_).ok()) return cancel();
     message_header_ = grpc_web_header(message.Length());
     buffers_.assign(1, boost::asio::buffer(message_header_));

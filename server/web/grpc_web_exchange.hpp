@@ -57,7 +57,7 @@ private:
     void write_header();
     void header_written();
     void await_message();
-    void receive(grpc::ByteBuffer message);
+    void receive(const grpc::ByteBuffer& message);
     void finish(const grpc::Status& status);
     void finished();
     /// Writes buffers_, then goes on with `next`.

@@ -39,7 +39,7 @@ GrpcWebHeader grpc_web_header(std::size_t bytes) {
 }
 
 grpc::Status grpc_web_request(std::string_view body, grpc::ByteBuffer& message) {
-    const auto malformed = [](std::string text) { return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, std::move(text)); };
+    const auto malformed = [](const std::string& text) { return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, text); };
     constexpr std::size_t header_bytes = GrpcWebHeader{}.size();
     if (body.size() < header_bytes)
         return malformed(fmt::format("the body has {} bytes; a gRPC-Web message has at least {}", body.size(), header_bytes));
