@@ -255,7 +255,7 @@ TEST(WatchUpdate, SendsTheWholeMeshWhereTooManyBricksToNameHaveVanished) {
     };
     const auto begin_of = [&](const std::shared_ptr<EncodedFrame>& frame) {
         watch.put(frame);
-        const auto begin = parsed(std::get<SharedMessage>(watch.take())).mesh_begin();
+        auto begin = parsed(std::get<SharedMessage>(watch.take())).mesh_begin();
         while (!parsed(std::get<SharedMessage>(watch.take())).has_frame_statistics()) {
         }
         return begin;
