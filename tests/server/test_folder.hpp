@@ -24,7 +24,7 @@ public:
     std::string operator/(const std::string& name) const { return (path_ / name).string(); }
     /// Readable for this user alone, unless told otherwise.
     std::string write(const std::string& name, const std::string& text, int mode = 0600) const {
-        const std::string path = *this / name;
+        std::string path = *this / name;
         std::ofstream(path) << text;
         std::filesystem::permissions(path, static_cast<std::filesystem::perms>(mode));
         return path;

@@ -19,7 +19,7 @@ constexpr float last_coordinate = 419378.78125F;
 constexpr float first_beyond = 419378.8125F;
 
 /// A frame of one particle.
-std::function<grpc::Status(RunningServer&)> particle(float x, float y, float z, std::string level = {}) {
+std::function<grpc::Status(RunningServer&)> particle(float x, float y, float z, const std::string& level = {}) {
     std::string bytes;
     for (const float value : {x, y, z}) {
         const auto raw = std::bit_cast<std::array<char, sizeof(float)>>(value);
