@@ -89,7 +89,12 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* SurfaceServiceImpl:
 
 grpc::ServerWriteReactor<grpc::ByteBuffer>* SurfaceServiceImpl::Watch(grpc::CallbackServerContext* context,
                                                                       const grpc::ByteBuffer* request) {
-    return start_watch(registry_, authorizer_, calls_, *context, *request);
+    return start_watch<v1::WatchRequest>(registry_, authorizer_, calls_, *context, *request);
+}
+
+grpc::ServerWriteReactor<grpc::ByteBuffer>* SurfaceServiceImpl::WatchParticles(grpc::CallbackServerContext* context,
+                                                                               const grpc::ByteBuffer* request) {
+    return start_watch<v1::WatchParticlesRequest>(registry_, authorizer_, calls_, *context, *request);
 }
 
 }  // namespace meniscus::server

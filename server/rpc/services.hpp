@@ -44,9 +44,10 @@ private:
     const Authorizer& authorizer_;
 };
 
-/// Raw, so that one encoded brick is shared by all who receive it.
+/// Raw, so that one encoded message is shared by all who receive it.
 using RawSurfaceService = v1::SurfaceService::WithRawCallbackMethod_Stream<
-    v1::SurfaceService::WithRawCallbackMethod_Watch<v1::SurfaceService::Service>>;
+    v1::SurfaceService::WithRawCallbackMethod_Watch<
+        v1::SurfaceService::WithRawCallbackMethod_WatchParticles<v1::SurfaceService::Service>>>;
 
 class SurfaceServiceImpl final : public RawSurfaceService {
 public:
@@ -56,6 +57,8 @@ public:
     grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* Stream(grpc::CallbackServerContext* context) override;
     grpc::ServerWriteReactor<grpc::ByteBuffer>* Watch(grpc::CallbackServerContext* context,
                                                       const grpc::ByteBuffer* request) override;
+    grpc::ServerWriteReactor<grpc::ByteBuffer>* WatchParticles(grpc::CallbackServerContext* context,
+                                                               const grpc::ByteBuffer* request) override;
 
 private:
     SessionRegistry& registry_;

@@ -28,6 +28,8 @@ public:
     WatchReactor(Metrics& metrics, ActiveCalls& calls, const grpc::CallbackServerContext& context)
         : metrics_(metrics), active_(calls), peer_(context.peer()) {}
 
+    /// Request: what names the session and the wishes.
+    template <class Request>
     void start(SessionRegistry& registry, const Authorizer& authorizer, grpc::CallbackServerContext& context,
                const grpc::ByteBuffer& request) {
         self_ = shared_from_this();
@@ -35,8 +37,8 @@ public:
             const Caller caller = admit(authorizer, context, Action::watch);
             session_id_ = metadata_session_id(context);
             grpc::ByteBuffer bytes(request);
-            v1::WatchRequest message;
-            parse(bytes, message, "WatchRequest");
+            Request message;
+            parse(bytes, message, Request::descriptor()->name());
             require_same_session(session_id_, message.session_id());
             session_ = registry.find(session_id_);
             Authorizer::require_access(caller, Action::watch, session_id_, session_->owner());
@@ -133,13 +135,19 @@ private:
 
 }  // namespace
 
+template <class Request>
 grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, const Authorizer& authorizer,
                                                         ActiveCalls& calls,
                                                         grpc::CallbackServerContext& context,
                                                         const grpc::ByteBuffer& request) {
     const auto reactor = std::make_shared<WatchReactor>(registry.metrics(), calls, context);
-    reactor->start(registry, authorizer, context, request);
+    reactor->start<Request>(registry, authorizer, context, request);
     return reactor.get();
 }
+
+template grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch<v1::WatchRequest>(
+    SessionRegistry&, const Authorizer&, ActiveCalls&, grpc::CallbackServerContext&, const grpc::ByteBuffer&);
+template grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch<v1::WatchParticlesRequest>(
+    SessionRegistry&, const Authorizer&, ActiveCalls&, grpc::CallbackServerContext&, const grpc::ByteBuffer&);
 
 }  // namespace meniscus::server

@@ -1,4 +1,4 @@
-// SurfaceService.Watch: a session's newest meshes, by difference.
+// SurfaceService.Watch and WatchParticles: a session's newest meshes, by difference, and its newest particles.
 #pragma once
 
 #include <grpcpp/server_context.h>
@@ -11,7 +11,8 @@
 
 namespace meniscus::server {
 
-/// The call's reactor, which owns itself until the call is done.
+/// The call's reactor, which owns itself until the call is done. Request: v1::WatchRequest or v1::WatchParticlesRequest.
+template <class Request>
 grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, const Authorizer& authorizer,
                                                         ActiveCalls& calls,
                                                         grpc::CallbackServerContext& context,

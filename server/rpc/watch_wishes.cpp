@@ -60,4 +60,10 @@ WatchWishes watch_wishes_of(const v1::WatchRequest& request, const Settings& set
     return wishes;
 }
 
+WatchWishes watch_wishes_of(const v1::WatchParticlesRequest& request, const Settings& /*settings*/) {
+    WatchWishes wishes;
+    wishes.max_particles = request.max_particles();
+    return wishes;
+}
+
 }  // namespace meniscus::server

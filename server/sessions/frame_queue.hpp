@@ -22,6 +22,7 @@ struct Received {
     InputFrame* input = nullptr;               ///< the frame; none: a note
     std::optional<DroppedFrame> dropped = {};  ///< a note of a dropped frame
     int max_level = 0;                         ///< or, if not 0, of a watcher who has come and wishes for this cap
+    bool particles = false;                    ///< or of one who has come and wishes for particles
     std::exception_ptr error = nullptr;        ///< or that the upload ends, with this
 };
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "meniscus/memory.hpp"
@@ -34,6 +35,8 @@ struct InputFrame {
     Box quantization_box;
     Array<std::byte> bytes;  ///< all positions, then all levels
     std::chrono::steady_clock::time_point received_at;
+    /// Of the run, once the session has shown these particles; none again from allocate() on.
+    std::optional<std::uint64_t> shown_in_run;
 
 private:
     ShareInFlight in_flight_;

@@ -98,7 +98,7 @@ SharedMessage begin_message(const EncodedFrame& frame, const Difference& differe
 
 }  // namespace
 
-MeshUpdate update_mesh(const EncodedFrame& frame, const WatchWishes& wishes, const WatcherMesh* base) {
+FrameUpdate update_mesh(const EncodedFrame& frame, const WatchWishes& wishes, const WatcherMesh* base) {
     std::vector<SharedBrick> inside;
     std::span<const SharedBrick> bricks = frame.bricks;
     if (wishes.region) {
@@ -115,7 +115,7 @@ MeshUpdate update_mesh(const EncodedFrame& frame, const WatchWishes& wishes, con
     }
     order(difference.changed, wishes, frame.cell_size);
 
-    MeshUpdate update;
+    FrameUpdate update;
     std::uint64_t triangles = 0;
     update.result.frame_index = frame.index;
     update.result.bricks.reserve(bricks.size());

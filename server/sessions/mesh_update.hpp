@@ -22,16 +22,16 @@ struct WatcherMesh {
     std::vector<Brick> bricks;  ///< ordered by place (z, y, x)
 };
 
-struct MeshUpdate {
+struct FrameUpdate {
     std::deque<SharedMessage> messages;  ///< in the order of sending
     std::size_t bytes = 0;               ///< of them
-    WatcherMesh result;                  ///< what the watcher has after the last one
+    WatcherMesh result{};                ///< what the watcher has after the last one, of a mesh
 };
 
 /// Names at most so many vanished bricks, to keep the announcement below 2 MB; beyond that the mesh is sent whole.
 inline constexpr std::size_t max_vanished = 65536;
 
 /// base: what the watcher has; none: the mesh is sent whole.
-MeshUpdate update_mesh(const EncodedFrame& frame, const WatchWishes& wishes, const WatcherMesh* base);
+FrameUpdate update_mesh(const EncodedFrame& frame, const WatchWishes& wishes, const WatcherMesh* base);
 
 }  // namespace meniscus::server

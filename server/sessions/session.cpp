@@ -165,6 +165,13 @@ std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::funct
         throw LimitExceeded(fmt::format("session {} has {} watchers; the server takes at most {} per session", id(),
                                         watches_.size(), limits_.watchers_per_session));
     watches_.push_back(watch);
+    if (wishes.max_particles) {
+        if (const auto found = particles_.find(*wishes.max_particles); found != particles_.end())
+            watch->put(found->second);
+        else
+            received_.put({.particles = true});
+        return watch;
+    }
     if (const auto found = published_.find(wishes.format); found != published_.end()) {
         watch->put(found->second);
         return watch;
@@ -178,6 +185,9 @@ void Session::close_watch(const std::shared_ptr<Watch>& watch) {
     const std::lock_guard lock(mutex_);
     if (std::erase(watches_, watch) != 0) state_.frames_skipped += watch->progress().frames_skipped;
     last_used_ = std::chrono::steady_clock::now();
+    const auto& wish = watch->wishes().max_particles;
+    if (wish && std::ranges::none_of(watches_, [&](const auto& other) { return other->wishes().max_particles == wish; }))
+        particles_.erase(*wish);
 }
 
 void Session::drain(std::chrono::duration<double> grace) {

@@ -22,6 +22,7 @@
 #include "sessions/frame_rate.hpp"
 #include "sessions/input_frame.hpp"
 #include "sessions/limits.hpp"
+#include "sessions/particle_messages.hpp"
 #include "sessions/reconstruct_functions.hpp"
 #include "sessions/session_observer.hpp"
 #include "sessions/shared_resources.hpp"
@@ -87,7 +88,7 @@ public:
 
     // Watching.
 
-    /// Gets the newest mesh at once if there is one. Throws LimitExceeded, or Refusal if the session ends.
+    /// Gets the newest mesh, or its particles, at once where they are there. Throws LimitExceeded, or Refusal if the session ends.
     std::shared_ptr<Watch> open_watch(const WatchWishes& wishes, std::function<void()> wake);
     void close_watch(const std::shared_ptr<Watch>& watch);
 
@@ -149,14 +150,23 @@ private:
     /// False if the session ends.
     bool reconstruct_next(Received received);
     void reconstruct(const Received& received, ReconstructedFrame& frame);
-    /// Unless the observer has seen the frame already, before its run was resumed.
-    void show_to_observer(const Received& received);
+    /// To the observer and to those who watch particles, unless they have seen the frame already, before its run was resumed.
+    void show(const Received& received);
     /// With the level caps that watchers wish for now.
     void cap_levels(ReconstructedFrame& frame);
     /// Of the last frame, for a watcher who has come since.
     void cap_levels_again(int max_level);
     bool emit_capped(int max_level, Mesh& mesh);
     bool is_wished_for(int max_level) const;
+
+    /// Encodes the input's particles for the watchers whose wish nobody shared.
+    void show_particles(const InputFrame& input);
+    /// Of the last frame, for a watcher who has come since.
+    void show_particles_again();
+    /// The last frame's input, unless another frame is on its way into it.
+    InputFrame* take_back_newest_input();
+    std::optional<std::uint64_t> unpublished_particles() const;
+    void publish(std::uint64_t max_particles, const std::shared_ptr<const ParticleMessages>& particles);
 
     void encode_frames();
     void give_back(ReconstructedFrame& frame);
@@ -193,6 +203,7 @@ private:
     Channel<Task> tasks_;
     std::uint64_t reconstructed_ = 0;          ///< frames; of the reconstructing thread
     ReconstructedFrame* next_mesh_ = nullptr;  ///< of the same: taken before it is needed
+    InputFrame* newest_input_ = nullptr;       ///< of the same: of the frame that was shown last
     std::shared_ptr<Upload> failed_;           ///< of the same: its frames that follow are dropped
     ReconstructedFrame* newest_ = nullptr;     ///< of the encoding thread
     Encodings before_;                         ///< of the frame before the newest, whose bricks may serve again; of the same thread
@@ -207,6 +218,7 @@ private:
     std::vector<std::shared_ptr<Upload>> unanswered_;    ///< and those whose last frames are still on their way
     std::vector<std::shared_ptr<Watch>> watches_;
     Encodings published_;  ///< the newest mesh
+    std::map<std::uint64_t, std::shared_ptr<const ParticleMessages>> particles_;  ///< of the newest frame, by max_particles
     bool draining_ = false;
     bool closed_ = false;
 

@@ -158,7 +158,7 @@ void Session::publish(const MeshFormat& format, const std::shared_ptr<const Enco
         const std::lock_guard lock(mutex_);
         published_[format] = frame;
         for (const auto& watch : watches_)
-            if (watch->wishes().format == format) watches.push_back(watch);
+            if (watch->wishes().wants(format)) watches.push_back(watch);
     }
     for (const auto& watch : watches) watch->put(frame);
 }
@@ -197,7 +197,7 @@ std::optional<MeshFormat> Session::unpublished_format() const {
     const std::lock_guard lock(mutex_);
     for (const auto& watch : watches_) {
         const MeshFormat& format = watch->wishes().format;
-        if (!published_.contains(format) && newest_->mesh_at(format.max_level) != nullptr) return format;
+        if (watch->wishes().wants(format) && !published_.contains(format) && newest_->mesh_at(format.max_level) != nullptr) return format;
     }
     return std::nullopt;
 }

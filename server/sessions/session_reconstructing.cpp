@@ -32,6 +32,8 @@ void Session::reconstruct_frames() {
 void Session::pass_on(Received note) {
     if (note.max_level != 0)
         cap_levels_again(note.max_level);
+    else if (note.particles)
+        show_particles_again();
     else if (note.dropped)
         tasks_.put(ReportDrop{.upload = std::move(note.upload), .dropped = *note.dropped});
     else
@@ -56,7 +58,7 @@ bool Session::reconstruct_next(Received received) {
         tasks_.put(EndUpload{.upload = failed_, .error = std::current_exception()});
         return true;
     }
-    if (observer_) show_to_observer(received);
+    show(received);
     return_input(input);
     tasks_.put(Encode{.upload = std::move(received.upload), .frame = std::exchange(next_mesh_, nullptr)});
     return true;
@@ -84,11 +86,20 @@ void Session::reconstruct(const Received& received, ReconstructedFrame& frame) {
     state_.last_frame_index = input.index;
 }
 
-void Session::show_to_observer(const Received& received) {
-    auto& last_observed = received.upload->run->last_observed;
-    if (last_observed && received.input->index <= *last_observed) return;
-    last_observed = received.input->index;
-    observer_->reconstructed(*received.input);
+void Session::show(const Received& received) {
+    InputFrame& input = *received.input;
+    Run& run = *received.upload->run;
+    if (run.last_shown && input.index <= *run.last_shown) return;
+    run.last_shown = input.index;
+    if (observer_) observer_->reconstructed(input);
+    input.shown_in_run = run.id;
+    newest_input_ = &input;
+    decltype(particles_) before;  // destroyed outside of the lock
+    {
+        const std::lock_guard lock(mutex_);
+        particles_.swap(before);
+    }
+    show_particles(input);
 }
 
 void Session::cap_levels(ReconstructedFrame& frame) {

@@ -33,6 +33,12 @@ public:
         lend();
     }
 
+    /// Takes this slot out of turn. False unless it is free.
+    bool take(T& slot) {
+        const std::lock_guard lock(mutex_);
+        return std::erase(free_, &slot) != 0;
+    }
+
     /// Forgets who waits, and whoever asks from now on.
     void close() {
         std::deque<Waiter> forgotten;  // destroyed outside of the lock

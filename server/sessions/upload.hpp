@@ -32,7 +32,7 @@ struct UploadOptions {
 /// Frames that belong together, over one stream or over several, each of which resumed the run.
 struct Run {
     std::uint64_t id = 0;
-    std::optional<std::uint64_t> last_observed = {};  ///< index of a frame; of the reconstructing thread
+    std::optional<std::uint64_t> last_shown = {};     ///< index of a frame; of the reconstructing thread
     std::optional<std::uint64_t> last_finished = {};  ///< the same, of the encoding thread
 };
 

@@ -4,12 +4,28 @@
 
 namespace meniscus::server {
 
+namespace {
+
+/// What to send of a frame, against the mesh that was sent before.
+struct Update {
+    FrameUpdate operator()(const std::shared_ptr<const EncodedFrame>& frame) const { return update_mesh(*frame, wishes, base); }
+    FrameUpdate operator()(const std::shared_ptr<const ParticleMessages>& frame) const {
+        return {.messages = {frame->messages.begin(), frame->messages.end()}, .bytes = frame->bytes};
+    }
+
+    const WatchWishes& wishes;
+    const WatcherMesh* base;
+};
+
+}  // namespace
+
 Watch::Watch(const WatchWishes& wishes, std::function<void()> wake, std::shared_ptr<Metrics> metrics)
     : wishes_(wishes), wake_(std::move(wake)), metrics_(std::move(metrics)) {
     if (wishes_.bytes_per_second != 0) bucket_.emplace(wishes_.bytes_per_second, Clock::now());
 }
 
-void Watch::put(std::shared_ptr<const EncodedFrame> frame, Clock::time_point now) {
+void Watch::put(WatchedFrame frame, Clock::time_point now) {
+    std::optional<WatchedFrame> replaced(std::move(frame));
     bool wake = false;
     std::uint64_t skipped = 0;
     std::deque<SharedMessage> given_up;  // destroyed outside of the lock, as is the frame that was replaced
@@ -20,7 +36,7 @@ void Watch::put(std::shared_ptr<const EncodedFrame> frame, Clock::time_point now
             ++skipped;
         else
             newest_since_ = now;
-        newest_.swap(frame);
+        newest_.swap(replaced);
         if (!behind_since_) behind_since_ = now;
         if (!update_.messages.empty() && writing_since_ && now - *writing_since_ > stalled_after) {
             given_up.swap(update_.messages);
@@ -89,8 +105,8 @@ Watch::Next Watch::take(Clock::time_point now) {
             return Later{at};
         }
     }
-    update_ = update_mesh(*newest_, wishes_, sent_ ? &*sent_ : nullptr);
-    received_at_ = newest_->received_at;
+    update_ = std::visit(Update{wishes_, sent_ ? &*sent_ : nullptr}, *newest_);
+    received_at_ = std::visit([](const auto& frame) { return frame->received_at; }, *newest_);
     newest_.reset();
     if (bucket_) bucket_->spend(update_.bytes, now);
     return next_message(now);

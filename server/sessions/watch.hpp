@@ -15,10 +15,14 @@
 #include "metrics/metrics.hpp"
 #include "sessions/encoded_frame.hpp"
 #include "sessions/mesh_update.hpp"
+#include "sessions/particle_messages.hpp"
 #include "sessions/token_bucket.hpp"
 #include "sessions/watch_wishes.hpp"
 
 namespace meniscus::server {
+
+/// Meshes or particles.
+using WatchedFrame = std::variant<std::shared_ptr<const EncodedFrame>, std::shared_ptr<const ParticleMessages>>;
 
 /// A watcher that lags finds the newest frame here, never a backlog. The session puts frames in; whoever writes to the
 /// watcher takes messages out, one by one: each frame's difference to the last one that went out whole.
@@ -51,8 +55,8 @@ public:
 
     // The session's side.
 
-    /// In the format wished for. Replaces a frame that has not been taken.
-    void put(std::shared_ptr<const EncodedFrame> frame, Clock::time_point now = Clock::now());
+    /// As wished for. Replaces a frame that has not been taken.
+    void put(WatchedFrame frame, Clock::time_point now = Clock::now());
     /// Tells the watcher, between two messages, that the server goes down in so long.
     void announce_end(std::chrono::duration<double> grace);
     /// Nothing follows the frames that are here now, which go out without waiting for the rate; the first call counts.
@@ -74,10 +78,10 @@ private:
     const std::shared_ptr<Metrics> metrics_;
 
     mutable std::mutex mutex_;  ///< for what follows
-    std::shared_ptr<const EncodedFrame> newest_;  ///< not begun yet
+    std::optional<WatchedFrame> newest_;          ///< not begun yet
     Clock::time_point newest_since_;              ///< when this slot was last filled while it was empty
-    MeshUpdate update_;                           ///< what is left of the frame that is being sent
-    std::optional<WatcherMesh> sent_;             ///< the last frame that went out whole
+    FrameUpdate update_;                          ///< what is left of the frame that is being sent
+    std::optional<WatcherMesh> sent_;             ///< the last mesh that went out whole
     std::optional<TokenBucket> bucket_;
     Clock::time_point received_at_;               ///< that frame's particles
     bool ending_ = false;                         ///< its last message is being written

@@ -8,11 +8,13 @@ namespace meniscus::server {
 namespace {
 
 constexpr std::string_view watch = "/meniscus.v1.SurfaceService/Watch";
-constexpr std::array<std::string_view, 4> methods{
+constexpr std::string_view watch_particles = "/meniscus.v1.SurfaceService/WatchParticles";
+constexpr std::array<std::string_view, 5> methods{
     "/meniscus.v1.ServerService/GetServerInfo",
     "/meniscus.v1.SessionService/GetSession",
     "/meniscus.v1.SessionService/ListSessions",
     watch,
+    watch_particles,
 };
 
 }  // namespace
@@ -26,7 +28,7 @@ bool is_method(std::string_view target) {
 }
 
 bool is_stream(std::string_view target) {
-    return target == watch;
+    return target == watch || target == watch_particles;
 }
 
 }  // namespace meniscus::server

@@ -1,5 +1,6 @@
 #include "frame_receiver.hpp"
 #include "meniscus/v1/surface_service.pb.h"
+#include "particle_receiver.hpp"
 #include "support.hpp"
 
 namespace meniscus::fuzz {
@@ -77,7 +78,43 @@ std::vector<v1::WatchResponse> difference() {
     return responses;
 }
 
+/// A frame of two particles with levels, in two chunks.
+std::vector<v1::WatchParticlesResponse> particles() {
+    std::vector<v1::WatchParticlesResponse> responses(1);
+    v1::ParticlesBegin& begin = *responses.front().mutable_particles_begin();
+    begin.set_particle_count(4);
+    begin.set_stride(2);
+    begin.set_sent_count(2);
+    begin.set_has_levels(true);
+    begin.set_particle_radius(0.1);
+    begin.mutable_quantization_box()->mutable_min()->set_x(-1.0);
+    begin.mutable_quantization_box()->mutable_max()->set_x(1.0);
+    for (const char* data : {"123456789012", "\x01\x02"}) responses.emplace_back().mutable_frame_chunk()->set_data(data);
+    responses.emplace_back().mutable_frame_end();
+    return responses;
+}
+
 }  // namespace
+
+void particle_responses(Bytes bytes) {
+    client::ParticleReceiver receiver;
+    Front front(bytes);
+    may_refuse([&] {
+        while (!front.empty()) {
+            const Bytes message = front.piece(front.number(2));
+            v1::WatchParticlesResponse response;
+            if (!response.ParseFromArray(message.data(), static_cast<int>(message.size()))) return;
+            const auto frame = receiver.take(response);
+            if (!frame) continue;
+            require(frame->levels.empty() || 3 * frame->levels.size() == frame->quantized.size(), "each particle has a level, or none");
+        }
+        receiver.end_of_stream();
+    });
+}
+
+Seeds particle_response_seeds() {
+    return {join(particles())};
+}
 
 void stream_responses(Bytes bytes) {
     receive<v1::StreamResponse>(bytes, false);

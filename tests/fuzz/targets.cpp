@@ -9,6 +9,7 @@ const std::vector<Target>& targets() {
         {"watch_requests", watch_requests, watch_request_seeds},
         {"stream_responses", stream_responses, stream_response_seeds},
         {"watch_responses", watch_responses, watch_response_seeds},
+        {"particle_responses", particle_responses, particle_response_seeds},
         {"settings", settings, settings_seeds},
         {"brick", brick, brick_seeds},
         {"http", http, http_seeds},

@@ -30,6 +30,10 @@ Seeds stream_response_seeds();
 void watch_responses(Bytes bytes);
 Seeds watch_response_seeds();
 
+/// Answers of a WatchParticles call: a list of messages.
+void particle_responses(Bytes bytes);
+Seeds particle_response_seeds();
+
 /// The wire's Settings.
 void settings(Bytes bytes);
 Seeds settings_seeds();

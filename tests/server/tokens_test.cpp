@@ -97,13 +97,23 @@ public:
         call->WritesDone();
         return call->Finish();
     }
-    /// OK once a mesh comes.
     grpc::Status watch() const {
+        return first_answer(&v1::SurfaceService::Stub::Watch);
+    }
+    grpc::Status watch_particles() const {
+        return first_answer(&v1::SurfaceService::Stub::WatchParticles);
+    }
+
+private:
+    /// OK once a message comes.
+    template <class Request, class Response>
+    grpc::Status first_answer(std::unique_ptr<grpc::ClientReader<Response>> (v1::SurfaceService::Stub::*method)(grpc::ClientContext*,
+                                                                                                              const Request&)) const {
         const auto with = context();
-        v1::WatchRequest request;
+        Request request;
         request.set_session_id(session_);
-        const auto call = connection_.surfaces->Watch(with.get(), request);
-        v1::WatchResponse response;
+        const auto call = ((*connection_.surfaces).*method)(with.get(), request);
+        Response response;
         if (!call->Read(&response)) return call->Finish();
         with->TryCancel();
         while (call->Read(&response)) {
@@ -112,7 +122,6 @@ public:
         return grpc::Status::OK;
     }
 
-private:
     std::unique_ptr<grpc::ClientContext> context() const {
         auto context = std::make_unique<grpc::ClientContext>();
         client::add_session_id(*context, session_);
@@ -143,7 +152,7 @@ TEST_F(TokensOnAServer, AreAskedForByEveryCall) {
     for (const Case& c : cases) {
         const RawCalls calls(server.address(), id, c.authorization);
         for (const grpc::Status& status : {calls.server_info(), calls.list(), calls.get(), calls.create(), calls.stream(),
-                                           calls.watch(), calls.remove()}) {
+                                           calls.watch(), calls.watch_particles(), calls.remove()}) {
             EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
             EXPECT_NE(status.error_message().find(c.words), std::string::npos) << status.error_message();
             EXPECT_EQ(status.error_message().find(ada), std::string::npos) << "a token in a message";
@@ -154,7 +163,7 @@ TEST_F(TokensOnAServer, AreAskedForByEveryCall) {
 
 TEST_F(TokensOnAServer, LetWatchersOnlyLook) {
     const RawCalls calls(server.address(), id, {"Bearer " + eve});
-    for (const grpc::Status& status : {calls.server_info(), calls.list(), calls.get(), calls.watch()})
+    for (const grpc::Status& status : {calls.server_info(), calls.list(), calls.get(), calls.watch(), calls.watch_particles()})
         EXPECT_TRUE(status.ok()) << status.error_message();
     for (const auto& [status, name] : {std::pair{calls.create(), "CreateSession"}, std::pair{calls.stream(), "Stream"},
                                        std::pair{calls.remove(), "DeleteSession"}}) {
@@ -168,7 +177,7 @@ TEST_F(TokensOnAServer, LetWatchersOnlyLook) {
 TEST_F(TokensOnAServer, KeepUploadersFromEachOthersSessions) {
     const RawCalls calls(server.address(), id, {"Bearer " + ben});
     EXPECT_TRUE(calls.server_info().ok());
-    for (const grpc::Status& status : {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.remove()}) {
+    for (const grpc::Status& status : {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.watch_particles(), calls.remove()}) {
         EXPECT_EQ(status.error_code(), grpc::StatusCode::PERMISSION_DENIED);
         EXPECT_NE(status.error_message().find("session " + id + " is not one of ben's"), std::string::npos)
             << status.error_message();
@@ -179,13 +188,13 @@ TEST_F(TokensOnAServer, KeepUploadersFromEachOthersSessions) {
 
 TEST_F(TokensOnAServer, LetUploadersDoEverythingWithTheirOwn) {
     const RawCalls calls(server.address(), id, {"Bearer " + ada});
-    for (const grpc::Status& status : {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.remove()})
+    for (const grpc::Status& status : {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.watch_particles(), calls.remove()})
         EXPECT_TRUE(status.ok()) << status.error_message();
 }
 
 TEST_F(TokensOnAServer, LetAdminsDoEverythingWithAll) {
     const RawCalls calls(server.address(), id, {"Bearer " + root});
-    for (const grpc::Status& status : {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.remove()})
+    for (const grpc::Status& status : {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.watch_particles(), calls.remove()})
         EXPECT_TRUE(status.ok()) << status.error_message();
 }
 

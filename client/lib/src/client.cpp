@@ -7,6 +7,7 @@
 #include "error_mapping.hpp"
 #include "frame_statistics.hpp"
 #include "grpc/health/v1/health.grpc.pb.h"
+#include "particle_watcher_impl.hpp"
 #include "stream_impl.hpp"
 #include "watcher_impl.hpp"
 
@@ -123,6 +124,10 @@ Stream Client::stream(const std::string& session_id, const StreamOptions& option
 
 Watcher Client::watch(const std::string& session_id, const WatchOptions& options) {
     return Watcher(std::make_unique<Watcher::Impl>(impl_->connection(), session_id, options));
+}
+
+ParticleWatcher Client::watch_particles(const std::string& session_id, std::uint64_t max_particles) {
+    return ParticleWatcher(std::make_unique<ParticleWatcher::Impl>(impl_->connection(), session_id, max_particles));
 }
 
 }  // namespace meniscus::client

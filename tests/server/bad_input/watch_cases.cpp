@@ -13,42 +13,64 @@ constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
 
 const std::string no_session = "00000000-0000-4000-8000-000000000000";
 
-/// Watches until the session, which is given with the metadata, ends.
-grpc::Status watch(RunningServer& running, const std::string& session, const v1::WatchRequest& request) {
-    const client::Connection connection = connect(running);
-    grpc::ClientContext context;
-    client::add_session_id(context, session);
-    const auto call = connection.surfaces->Watch(&context, request);
-    call->WaitForInitialMetadata();
+/// Watches until the session ends.
+template <class Response>
+grpc::Status watch(RunningServer& running, const std::string& session, grpc::ClientReader<Response>& call) {
+    call.WaitForInitialMetadata();
     // A watcher that was accepted is one until its session ends; for one that was refused there is nothing to end.
     try {
         running.client.delete_session(session);
     } catch (const client::ServerError&) {
     }
-    v1::WatchResponse ignored;
-    while (call->Read(&ignored)) {
+    Response ignored;
+    while (call.Read(&ignored)) {
     }
-    return call->Finish();
+    return call.Finish();
+}
+
+/// The session is given with the metadata.
+grpc::Status watch(RunningServer& running, const std::string& session, const v1::WatchRequest& request) {
+    const client::Connection connection = connect(running);
+    grpc::ClientContext context;
+    client::add_session_id(context, session);
+    return watch(running, session, *connection.surfaces->Watch(&context, request));
+}
+
+grpc::Status watch(RunningServer& running, const std::string& session, const v1::WatchParticlesRequest& request) {
+    const client::Connection connection = connect(running);
+    grpc::ClientContext context;
+    client::add_session_id(context, session);
+    return watch(running, session, *connection.surfaces->WatchParticles(&context, request));
 }
 
 /// Watches a new session, with this wish.
-std::function<grpc::Status(RunningServer&)> wish(std::function<void(v1::WatchRequest&)> change) {
+template <class Request>
+std::function<grpc::Status(RunningServer&)> wish(std::function<void(Request&)> change) {
     return [change = std::move(change)](RunningServer& running) {
         const std::string session = running.session();
-        v1::WatchRequest request;
+        Request request;
         request.set_session_id(session);
         change(request);
         return watch(running, session, request);
     };
 }
 
+std::function<grpc::Status(RunningServer&)> wish(std::function<void(v1::WatchRequest&)> change) {
+    return wish<v1::WatchRequest>(std::move(change));
+}
+
+std::function<grpc::Status(RunningServer&)> wish_for_particles(std::function<void(v1::WatchParticlesRequest&)> change) {
+    return wish<v1::WatchParticlesRequest>(std::move(change));
+}
+
 /// Watches a session that has this many watchers already.
+template <class Request>
 std::function<grpc::Status(RunningServer&)> beside(std::size_t watchers) {
     return [=](RunningServer& running) {
         const std::string session = running.session();
         std::vector<client::Watcher> others;
         for (std::size_t i = 0; i < watchers; ++i) others.push_back(running.client.watch(session));
-        v1::WatchRequest request;
+        Request request;
         request.set_session_id(session);
         return watch(running, session, request);
     };
@@ -117,9 +139,29 @@ std::vector<BadInputCase> watch_cases() {
          wish([](v1::WatchRequest& request) {
              request = with_raw_field<v1::WatchRequest>(v1::WatchRequest::kRegionFieldNumber, "\x0a\x7f");
          })},
-        {"AsManyWatchersAsTheLimit", ok, "", beside(1)},
+        {"AsManyWatchersAsTheLimit", ok, "", beside<v1::WatchRequest>(1)},
         {"AWatcherPastTheLimit", grpc::StatusCode::RESOURCE_EXHAUSTED, "has 2 watchers; the server takes at most 2 per session",
-         beside(2)},
+         beside<v1::WatchRequest>(2)},
+        {"AsManyWatchersOfParticlesAsTheLimit", ok, "", beside<v1::WatchParticlesRequest>(1)},
+        {"AWatcherOfParticlesPastTheLimit", grpc::StatusCode::RESOURCE_EXHAUSTED,
+         "has 2 watchers; the server takes at most 2 per session", beside<v1::WatchParticlesRequest>(2)},
+        {"AsManyParticlesAsThereAreNumbers", ok, "", wish_for_particles([](v1::WatchParticlesRequest& request) {
+             request.set_max_particles(std::numeric_limits<std::uint64_t>::max());
+         })},
+        {"ParticlesWithoutSessionId", invalid, "the message's session id is \"\"; it must be a UUID",
+         wish_for_particles([](v1::WatchParticlesRequest& request) { request.clear_session_id(); })},
+        {"ParticlesOfAnotherSessionThanTheMetadataSays", invalid, "but the message's session id is " + no_session,
+         wish_for_particles([](v1::WatchParticlesRequest& request) { request.set_session_id(no_session); })},
+        {"ParticlesOfNoSession", grpc::StatusCode::NOT_FOUND, "no session " + no_session,
+         [](RunningServer& running) {
+             v1::WatchParticlesRequest request;
+             request.set_session_id(no_session);
+             return watch(running, no_session, request);
+         }},
+        {"AWishForParticlesThatIsNoMessage", invalid, "is not a WatchParticlesRequest",
+         wish_for_particles([](v1::WatchParticlesRequest& request) {
+             request = with_raw_field<v1::WatchParticlesRequest>(v1::WatchParticlesRequest::kSessionIdFieldNumber, "\xff\xfe");
+         })},
     };
 }
 

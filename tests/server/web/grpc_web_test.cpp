@@ -128,6 +128,25 @@ TEST_F(GrpcWebCalls, ReachOldProxiesThatSpeakHttp10) {
     EXPECT_EQ(call.status, 0);
 }
 
+TEST_F(GrpcWebCalls, BringParticles) {
+    const Particles particles = wave(4, 0.0);
+    push_one(running.client, id, particles, 6);
+    v1::WatchParticlesRequest request;
+    request.set_session_id(id);
+    WebCall call(http, "/meniscus.v1.SurfaceService/WatchParticles", request, about_session());
+    v1::WatchParticlesResponse response;
+    ASSERT_TRUE(response.ParseFromString(call.next().value_or("")));
+    EXPECT_EQ(response.particles_begin().frame_index(), 6U);
+    EXPECT_EQ(response.particles_begin().sent_count(), 64U);
+    ASSERT_TRUE(response.ParseFromString(call.next().value_or("")));
+    EXPECT_EQ(response.frame_chunk().data().size(), 64U * 6U);
+    ASSERT_TRUE(response.ParseFromString(call.next().value_or("")));
+    EXPECT_TRUE(response.has_frame_end());
+    running.client.delete_session(id);
+    EXPECT_FALSE(call.next());
+    EXPECT_EQ(call.status, 0);
+}
+
 TEST_F(GrpcWebCalls, EndWhenTheBrowserLeaves) {
     {
         WebCall call(http, watch, watch_request(id), about_session());
