@@ -47,6 +47,33 @@ describe('the first surface', { skip: missing }, () => {
     await screenshot(page, 'wireframe-light');
   });
 
+  it('gives way to the particles that it was made of, asked for only while they are shown', async () => {
+    const server = await startServer();
+    const { session } = await startReplay(server);
+    const page = await open(link(server, session), { viewport: { width: 1200, height: 750 } });
+    await surface(page);
+    const calls = [];
+    page.on('request', (request) => { if (request.url().endsWith('/WatchParticles')) calls.push(request); });
+    await page.waitForFunction(() => Number(document.getElementById('view').dataset.frame) > 30);
+    assert.equal(calls.length, 0);
+    await page.focus('#view');
+    await page.keyboard.press('p');
+    await page.waitForFunction(() => document.getElementById('view').dataset.particles === document.getElementById('view').dataset.frame);
+    assert.equal(await page.getAttribute('#show-particles', 'aria-pressed'), 'true');
+    await screenshot(page, 'particles-light');
+    await page.click('#theme');
+    await page.click('#look');
+    await screenshot(page, 'particles-wireframe-dark');
+    await page.click('#look');
+    await screenshot(page, 'particles-dark');
+    const ended = page.waitForEvent('requestfailed', (request) => request === calls[0]);
+    await page.click('#show-particles');
+    await ended;
+    await surface(page);
+    assert.equal(calls.length, 1);
+    assert.equal(await page.getAttribute('#view', 'data-particles'), null);
+  });
+
   it('of another session has nothing of the one before', async () => {
     const server = await startServer();
     const [first, second] = [await startReplay(server), await startReplay(server)];

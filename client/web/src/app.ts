@@ -27,17 +27,20 @@ export class App {
   private session: string | undefined;
   private look: Look = 'water';
   private up: UpAxis = 'y';
+  private particles = false;
   /** From the link, for the first picture. */
   private linked: PageState = {};
 
   constructor() {
     this.server.token = storedToken();
     this.viewer = new Viewer(this.canvas, coveredMargins, {
-      drawn: (frame, triangles) => {
+      drawn: (frame, triangles, particles) => {
         // For those who look from outside: tests, and assistive tools.
         this.canvas.dataset.frame = String(frame.index);
         this.canvas.dataset.triangles = String(triangles);
-        this.view.frameDrawn(frame);
+        if (particles) this.canvas.dataset.particles = String(particles.index);
+        else delete this.canvas.dataset.particles;
+        this.view.frameDrawn(frame, particles);
       },
       moving: (moving) => {
         this.view.cameraMoving(moving);
@@ -49,7 +52,7 @@ export class App {
     });
     this.view = new SessionView(this.server, startDecodePool(), this.viewer, new Overlay(), {
       state: (state) => { this.watchState(state); },
-      failed: (reason) => { this.banner.say(`A mesh could not be shown: ${reason}.`); },
+      failed: (reason) => { this.banner.say(reason); },
       recovered: () => { this.banner.say(''); },
       firstFrame: () => { this.firstFrame(); },
     });
@@ -77,6 +80,7 @@ export class App {
     this.view.stop();
     delete this.canvas.dataset.frame;
     delete this.canvas.dataset.triangles;
+    delete this.canvas.dataset.particles;
     this.banner.say('');
     const watching = state.session !== undefined;
     element('watch', HTMLElement).hidden = !watching;
@@ -90,6 +94,7 @@ export class App {
     this.list.hide();
     this.setLook(state.look ?? 'water');
     this.setUp(state.up ?? 'y');
+    this.setParticles(false);
     this.view.start(state.session);
   }
 
@@ -125,6 +130,7 @@ export class App {
     const actions: Record<string, () => void> = {
       leave: () => { this.go({}); },
       look: () => { this.setLook(this.look === 'water' ? 'levels' : 'water'); },
+      'show-particles': () => { this.setParticles(!this.particles); },
       up: () => { this.setUp(this.up === 'y' ? 'z' : 'y'); },
       fit: () => { this.viewer.fit(); },
       full: () => void toggleFullScreen().catch(() => undefined),
@@ -142,6 +148,7 @@ export class App {
       '.': () => { this.view.step(1); },
       f: () => { this.viewer.fit(); },
       w: () => { actions.look!(); },
+      p: () => { this.setParticles(!this.particles); },
       m: () => { this.toggleOverlay(); },
     };
     this.canvas.addEventListener('keydown', (event) => {
@@ -157,6 +164,12 @@ export class App {
     this.viewer.setLook(look);
     element('look', HTMLButtonElement).setAttribute('aria-pressed', String(look === 'levels'));
     this.writeAddress();
+  }
+
+  private setParticles(wanted: boolean): void {
+    this.particles = wanted;
+    this.view.setParticles(wanted);
+    element('show-particles', HTMLButtonElement).setAttribute('aria-pressed', String(wanted));
   }
 
   private setUp(up: UpAxis): void {

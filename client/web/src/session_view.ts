@@ -4,8 +4,11 @@ import type { Frame } from './bricks/frame';
 import { History } from './bricks/history';
 import { levelCount } from './decode/decoded_brick';
 import type { DecodePool } from './decode/decode_pool';
+import { KeptParticles } from './particles/kept_particles';
+import type { Particles } from './particles/particles';
 import type { Server } from './rpc/server';
 import { LinkSpeed } from './stream/link_speed';
+import { ParticleWatch } from './stream/particle_watch';
 import { chooseQuality, wishesOf, type Quality } from './stream/quality';
 import { SessionWatch } from './stream/session_watch';
 import { SkippedFrames } from './stream/skipped_frames';
@@ -16,6 +19,7 @@ import type { Viewer } from './view/viewer';
 
 /** Some ten seconds at 30 frames a second. */
 const historyLimits = { frames: 300, bytes: 192 << 20 };
+const particleLimits = { frames: 300, bytes: 64 << 20 };
 
 export interface SessionViewEvents {
   state(state: WatchState): void;
@@ -29,6 +33,10 @@ export class SessionView {
   private readonly history = new History(historyLimits);
   private readonly playback: Playback;
   private readonly store: BrickStore;
+  private readonly particles = new KeptParticles(particleLimits);
+  private particleWatch: ParticleWatch | undefined;
+  private particlesWanted = false;
+  private particlesFailing = false;
   private link = new LinkSpeed();
   private skipped = new SkippedFrames();
   private watch: SessionWatch | undefined;
@@ -47,12 +55,13 @@ export class SessionView {
     this.store = new BrickStore((brick, bits) => pool.decode(brick, bits), {
       shown: (shown) => {
         this.viewer.show(shown);
+        this.showParticles();
         if (this.failing) this.events.recovered();
         this.failing = false;
       },
       failed: (error) => {
         this.failing = true;
-        this.events.failed(error instanceof Error ? error.message : String(error));
+        this.events.failed(`A mesh could not be shown: ${error instanceof Error ? error.message : String(error)}.`);
       },
     });
     this.playback = new Playback(this.history, {
@@ -75,6 +84,19 @@ export class SessionView {
       state: (state) => { this.events.state(state); },
       received: (bytes) => { this.overlay.receivedBytes(bytes); },
     });
+    this.particleWatch = new ParticleWatch(this.server, session, {
+      particles: (particles) => {
+        this.particles.add(particles);
+        this.showParticles();
+        this.askForParticles();
+        this.particlesRecovered();
+      },
+      failed: (reason) => {
+        this.particlesFailing = true;
+        this.events.failed(`The particles cannot be shown: ${reason}`);
+      },
+      received: (bytes) => { this.overlay.receivedBytes(bytes); },
+    });
     this.setQuality('full');
     this.playback.setPaused(false);
     this.watch.start();
@@ -89,11 +111,24 @@ export class SessionView {
   stop(): void {
     this.watch?.stop();
     this.watch = undefined;
+    this.particleWatch?.setWanted(false);
+    this.particleWatch = undefined;
+    this.particles.clear();
     this.lastDrawn = undefined;
     this.store.clear();
     this.viewer.clear();
+    this.viewer.showParticles(undefined);
     this.overlay.clear();
     this.playback.clear();
+  }
+
+  /** Whether particles are shown, in place of the surface. */
+  setParticles(wanted: boolean): void {
+    this.particlesWanted = wanted;
+    if (!wanted) this.particles.clear();
+    this.askForParticles();
+    this.showParticles();
+    this.particlesRecovered();
   }
 
   togglePause(): void {
@@ -110,7 +145,8 @@ export class SessionView {
   }
 
   /** A picture of the frame has been drawn. */
-  frameDrawn(frame: Frame): void {
+  frameDrawn(frame: Frame, particles: Particles | undefined): void {
+    this.overlay.particlesDrawn(frame, particles);
     if (frame === this.lastDrawn) return;
     const first = !this.lastDrawn;
     this.lastDrawn = frame;
@@ -147,6 +183,25 @@ export class SessionView {
     const paused = this.playback.paused || document.hidden;
     if (paused) this.skipped.pause();
     this.watch?.setPaused(paused);
+    this.askForParticles();
+  }
+
+  /** While the picture is paused only until there are some. */
+  private askForParticles(): void {
+    const { shown } = this.store;
+    const enough = this.playback.paused && shown && this.particles.nearest(shown.frame);
+    this.particleWatch?.setWanted(this.particlesWanted && !enough && !document.hidden);
+  }
+
+  private particlesRecovered(): void {
+    if (this.particlesFailing) this.events.recovered();
+    this.particlesFailing = false;
+  }
+
+  /** Those that belong to the mesh on the screen. */
+  private showParticles(): void {
+    const { shown } = this.store;
+    this.viewer.showParticles(this.particlesWanted && shown ? this.particles.nearest(shown.frame) : undefined);
   }
 
   private levels(): number[] {

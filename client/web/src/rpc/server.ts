@@ -2,7 +2,7 @@
 import type { MessageInitShape } from '@bufbuild/protobuf';
 import { SessionService, type Session } from '../gen/meniscus/v1/session_service_pb';
 import { ServerService, type GetServerInfoResponse } from '../gen/meniscus/v1/server_service_pb';
-import { SurfaceService, type WatchRequestSchema, type WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
+import { SurfaceService, type WatchParticlesResponse, type WatchRequestSchema, type WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
 import { serverStream, unary, type CallOptions, type Endpoint, type Received } from './call';
 
 export type WatchRequestInit = MessageInitShape<typeof WatchRequestSchema>;
@@ -33,6 +33,10 @@ export class Server {
   /** opened: the server has taken the call. */
   watch(request: WatchRequestInit & { sessionId: string }, signal: AbortSignal, opened: () => void): AsyncIterable<Received<WatchResponse>> {
     return serverStream(this.endpoint, SurfaceService.method.watch, request, this.options(signal, request.sessionId, opened));
+  }
+
+  watchParticles(request: { sessionId: string; maxParticles: bigint }, signal: AbortSignal): AsyncIterable<Received<WatchParticlesResponse>> {
+    return serverStream(this.endpoint, SurfaceService.method.watchParticles, request, this.options(signal, request.sessionId));
   }
 
   private options(signal: AbortSignal, sessionId?: string, opened?: () => void): CallOptions {

@@ -1,5 +1,6 @@
 // The figures over the picture.
 import type { Frame } from '../bricks/frame';
+import type { Particles } from '../particles/particles';
 import { triangleLevels } from '../decode/decoded_brick';
 import { levelColors } from '../view/level_materials';
 import { legendRow } from './legend';
@@ -36,11 +37,17 @@ export class Overlay {
   /** When a picture of the frame has been drawn, new or from the frames that are kept. */
   frameDrawn(frame: Frame, levels: readonly number[]): void {
     set('frame', `${countText(frame.index)} (${frame.simulationTime.toFixed(2)} s)`);
-    set('particles', countText(frame.statistics.particles));
     set('triangles', countText(frame.triangleCount));
     set('latency', unknown);
     this.levelTexts.forEach((text, level) => { text.textContent = countText(levels[level]!); });
     this.chart.describe(frame.statistics);
+  }
+
+  /** What is drawn of the frame's particles, if any are. */
+  particlesDrawn(frame: Frame, drawn: Particles | undefined): void {
+    const part = drawn && drawn.stride > 1 ? `, 1 in ${drawn.stride} drawn` : '';
+    const other = drawn && drawn.index !== frame.index ? `, drawn of frame ${countText(drawn.index)}` : '';
+    set('particles', countText(frame.statistics.particles) + part + other);
   }
 
   /** When that was its first. skipped: frames so far; roundTrip: of the link, ms. */

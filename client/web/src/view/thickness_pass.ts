@@ -17,6 +17,8 @@ import {
 } from 'three';
 import type { EnvironmentUniforms } from './environment';
 
+/** Of the water's surface: that of every object unless it is told otherwise. */
+export const waterLayer = 0;
 /** Of what is in the picture without being water. */
 export const pictureLayer = 1;
 

@@ -2,6 +2,7 @@
 import { Scene, Vector3, WebGLRenderer } from 'three';
 import type { Shown } from '../bricks/brick_store';
 import type { Frame } from '../bricks/frame';
+import type { Particles } from '../particles/particles';
 import { Background } from './background';
 import { center, contains, corners, size, union, worldBox, type Point, type WorldBox } from './bounds';
 import { BrickMeshes } from './brick_meshes';
@@ -9,8 +10,9 @@ import { CameraControls } from './camera_controls';
 import { environmentUniforms, setTheme, type Theme } from './environment';
 import { distanceToSee, putInTheMiddle, type Margins } from './fit';
 import { levelLineMaterials, levelSurfaceMaterial } from './level_materials';
+import { ParticleCloud } from './particle_cloud';
 import { Sunlight } from './sunlight';
-import { pictureLayer, ThicknessPass } from './thickness_pass';
+import { pictureLayer, ThicknessPass, waterLayer } from './thickness_pass';
 import { toScene, toWorld, turnUp, type UpAxis } from './up_axis';
 import { waterMaterial } from './water_material';
 
@@ -22,8 +24,8 @@ export interface CameraPlace {
 }
 
 export interface ViewerEvents {
-  /** A picture of the frame has been drawn, with so many triangles. */
-  drawn(frame: Frame, triangles: number): void;
+  /** A picture of the frame has been drawn, with so many triangles, or with particles. */
+  drawn(frame: Frame, triangles: number, particles: Particles | undefined): void;
   moving(moving: boolean): void;
   /** The browser has taken the graphics hardware away, or given it back. */
   lost(lost: boolean): void;
@@ -44,6 +46,7 @@ export class Viewer {
   private readonly thickness = new ThicknessPass(this.environment);
   private readonly sunlight = new Sunlight(this.environment);
   private readonly bricks = new BrickMeshes(this.water, levelLineMaterials());
+  private readonly particles = new ParticleCloud();
   private readonly controls: CameraControls;
   /** What the scene's coordinates are relative to, so that they stay small wherever the water is. */
   private origin: Point = [0, 0, 0];
@@ -68,6 +71,7 @@ export class Viewer {
     this.renderer.info.autoReset = false;
     this.water.uniforms.thickness.value = this.thickness.texture;
     this.scene.add(this.background.mesh, this.bricks.group);
+    this.bricks.group.add(this.particles.points);
     this.background.mesh.layers.set(pictureLayer);
     this.controls = new CameraControls(canvas, {
       changed: () => { this.draw(); },
@@ -104,6 +108,12 @@ export class Viewer {
     else this.bricks.show(shown, this.origin);
     this.waterChanged = true;
     if (box && this.following && !contains(this.following, box)) this.lookAt(union(this.following, box));
+    this.draw();
+  }
+
+  /** In place of the surface; its wires stay. None: the surface again. */
+  showParticles(particles: Particles | undefined): void {
+    this.particles.show(particles, this.origin);
     this.draw();
   }
 
@@ -161,6 +171,7 @@ export class Viewer {
     const { position, target } = this.cameraPlace;
     this.origin = center(box);
     this.bricks.show(this.shown, this.origin);
+    this.particles.moveTo(this.origin);
     this.waterChanged = true;
     this.controls.place(this.inScene(position), this.inScene(target));
     this.environment.sceneSize.value = size(box);
@@ -184,6 +195,7 @@ export class Viewer {
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.renderer.getDrawingBufferSize(this.water.uniforms.screenSize.value);
+    this.particles.setScreenHeight(this.canvas.height);
     this.thickness.setSize(this.canvas.width / thicknessCoarseness, this.canvas.height / thicknessCoarseness);
     putInTheMiddle(this.controls.camera, this.covered(), clientWidth, clientHeight);
     if (this.following) this.lookAt(this.following);
@@ -206,10 +218,13 @@ export class Viewer {
     this.background.update(camera);
     if (this.waterChanged) this.sunlight.render(this.renderer, this.scene);
     this.waterChanged = false;
-    if (this.look === 'water') this.thickness.render(this.renderer, this.scene, camera);
+    const surface = this.particles.shown === undefined;
+    if (this.look === 'water' && surface) this.thickness.render(this.renderer, this.scene, camera);
     this.renderer.info.reset();
     this.renderer.clear();
+    if (!surface) camera.layers.disable(waterLayer);
     this.renderer.render(this.scene, camera);
-    if (this.shown) this.events.drawn(this.shown.frame, this.renderer.info.render.triangles - 1);
+    camera.layers.enable(waterLayer);
+    if (this.shown) this.events.drawn(this.shown.frame, this.renderer.info.render.triangles - 1, this.particles.shown);
   }
 }
