@@ -111,6 +111,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->check(CLI::Range(0U, 1024U));
     app.add_option("--max-sessions", server.limits.sessions, "Sessions at a time; 0: no limit");
     app.add_option("--max-watchers", server.limits.watchers_per_session, "Watchers of one session; 0: no limit");
+    app.add_option("--max-recording-readers", server.limits.recording_readers, "Calls that read recordings at a time; 0: no limit");
     app.add_option("--max-particles", server.limits.particles_per_frame, "Particles of one frame; 0: no limit");
     app.add_option("--max-bytes-in-flight", server.limits.bytes_in_flight,
                    "Frames that wait to be reconstructed, over all sessions; 0: no limit. Default: half of the machine's memory")

@@ -57,8 +57,8 @@ BackendOptions for_sessions(BackendOptions backend, const BackendDescription& fo
 
 Observe record_with(RecordingWriter* recordings) {
     if (recordings == nullptr) return nullptr;
-    return [recordings](const std::string& id, const Settings& settings) {
-        return std::make_shared<SessionRecording>(*recordings, id, settings);
+    return [recordings](const std::string& id, const Settings& settings, const std::string& owner) {
+        return std::make_shared<SessionRecording>(*recordings, id, settings, owner);
     };
 }
 
@@ -114,9 +114,12 @@ Server::Server(const ServerOptions& options)
       recordings_(options.recording.directory.empty() ? nullptr : std::make_unique<RecordingWriter>(options.recording)),
       registry_(options.limits, for_sessions(options.backend, backend_), threads_or_processors(options.backend.threads),
                 options.devices, metrics_, record_with(recordings_.get())),
+      recording_reads_(recordings_ ? std::make_unique<RecordingReads>(options.recording.directory, options.limits.recording_readers)
+                                   : nullptr),
       server_service_(access_.authorizer(), backend_, threads_or_processors(options.backend.threads), options.limits),
       session_service_(registry_, access_.authorizer()),
-      surface_service_(registry_, access_.authorizer(), calls_) {
+      surface_service_(registry_, access_.authorizer(), calls_),
+      recording_service_(recording_reads_.get(), access_.authorizer(), *metrics_, calls_) {
     require_closed_to_others(options);
     const AllowedOrigins origins(options.web_origins, options.http);
     require_unused_unix_socket(options.listen);
@@ -131,6 +134,7 @@ Server::Server(const ServerOptions& options)
     builder.RegisterService(&server_service_);
     builder.RegisterService(&session_service_);
     builder.RegisterService(&surface_service_);
+    builder.RegisterService(&recording_service_);
     add_standard_services(builder, options.standard_services);
     std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
     interceptors.push_back(make_call_counter(metrics_));
@@ -155,6 +159,7 @@ void Server::shutdown() {
     draining_ = true;
     set_serving(*grpc_, false);
     registry_.drain(time);
+    if (recording_reads_) recording_reads_->end();
     // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection once
     // the client has confirmed the goodbye, or loses what the client has not read. Idle clients confirm late or never.
     calls_.wait_until_none(deadline);
@@ -178,7 +183,7 @@ std::vector<prometheus::MetricFamily> Server::metrics() {
     };
     add(session_gauges(registry_));
     add(limit_gauges(options_.limits, backend_));
-    if (recordings_) add(recording_metrics(recordings_->counters()));
+    if (recordings_) add(recording_metrics(recordings_->counters(), recording_reads_->readers()));
     add(process_metrics());
     return all;
 }

@@ -11,6 +11,7 @@
 
 #include "meniscus/reconstructor.hpp"
 #include "metrics/prometheus_metrics.hpp"
+#include "recording/recording_reads.hpp"
 #include "recording/recording_writer.hpp"
 #include "rpc/services.hpp"
 #include "security/access.hpp"
@@ -75,10 +76,12 @@ private:
     const std::shared_ptr<PrometheusMetrics> metrics_;
     const std::unique_ptr<RecordingWriter> recordings_;  ///< none: nothing is recorded
     SessionRegistry registry_;
+    const std::unique_ptr<RecordingReads> recording_reads_;  ///< likewise
     ActiveCalls calls_;
     ServerServiceImpl server_service_;
     SessionServiceImpl session_service_;
     SurfaceServiceImpl surface_service_;
+    RecordingServiceImpl recording_service_;
     std::unique_ptr<grpc::Server> grpc_;
     std::string address_;
     std::atomic<bool> draining_{false};

@@ -8,6 +8,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/recording_files.hpp"
+#include "cli/server_flags.hpp"
 #include "cli/settings_json.hpp"
 #include "meniscus/error.hpp"
 
@@ -65,10 +66,46 @@ void print(const nlohmann::ordered_json& recording) {
 
 struct RecordingsOptions {
     std::string folder;
+    ServerFlags server;
     bool json = false;
 };
 
+nlohmann::ordered_json describe(const client::RecordingInfo& recording) {
+    nlohmann::ordered_json out;
+    out["session"] = recording.session_id;
+    out["number"] = recording.number;
+    out["owner"] = recording.owner;
+    out["started_at"] = utc(recording.started_at);
+    out["frames"] = recording.frames;
+    if (recording.first_frame_index) out["first_index"] = *recording.first_frame_index;
+    if (recording.last_frame_index) out["last_index"] = *recording.last_frame_index;
+    out["bytes"] = recording.bytes;
+    out["being_written"] = recording.being_written;
+    out["damaged"] = recording.damaged;
+    return out;
+}
+
+void list_of_server(const RecordingsOptions& options) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const client::RecordingInfo& recording : options.server.connect().recordings()) {
+        if (options.json) {
+            all.push_back(describe(recording));
+            continue;
+        }
+        std::cout << recording.session_id << '/' << recording.number << "  " << utc(recording.started_at) << "  "
+                  << recording.frames << " frames";
+        if (recording.first_frame_index && recording.last_frame_index)
+            std::cout << " (" << *recording.first_frame_index << " to " << *recording.last_frame_index << ")";
+        std::cout << ", " << recording.bytes << " bytes" << (recording.being_written ? ", being written" : "")
+                  << (recording.damaged ? ", damaged behind them" : "") << '\n';
+    }
+    if (options.json) std::cout << nlohmann::ordered_json{{"recordings", all}}.dump(2) << '\n';
+}
+
 void list(const RecordingsOptions& options) {
+    if (!options.server.address.empty()) return list_of_server(options);
+    if (options.folder.empty()) throw InvalidInput("name a folder, or a server by --server");
+
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     for (const auto& path : recordings_in(options.folder)) {
         nlohmann::ordered_json recording{{"file", path.string()}};
@@ -91,7 +128,8 @@ void list(const RecordingsOptions& options) {
 void add_recordings(CLI::App& app) {
     auto options = std::make_shared<RecordingsOptions>();
     CLI::App& command = *app.add_subcommand("recordings", "List what meniscusd --record DIR has kept");
-    command.add_option("DIR", options->folder, "The folder, or one session's folder in it")->required();
+    CLI::Option* folder = command.add_option("DIR", options->folder, "The folder, or one session's folder in it");
+    options->server.add_to(command, "List what this server offers, instead")->excludes(folder);
     command.add_flag("--json", options->json, "As JSON, with all settings");
     command.callback([options] { list(*options); });
 }

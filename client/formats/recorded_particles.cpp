@@ -7,7 +7,7 @@
 
 #include "conversion/recording_format.hpp"
 #include "conversion/settings_conversion.hpp"
-#include "formats/delimited_messages.hpp"
+#include "conversion/delimited_messages.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 class Reader {
 public:
-    Reader(const RandomAccessFile& file, const RecordedFrame& frame)
+    Reader(const conversion::RandomAccessFile& file, const RecordedFrame& frame)
         : file_(file),
           frame_(frame),
           messages_(file, frame.particles.first, frame.particles.first + frame.particles.size) {}
@@ -92,16 +92,16 @@ private:
         file_.fail("frame " + std::to_string(frame_.index) + ", at byte " + std::to_string(messages_.position()) + ": " + what);
     }
 
-    const RandomAccessFile& file_;
+    const conversion::RandomAccessFile& file_;
     const RecordedFrame& frame_;
-    DelimitedMessages messages_;
+    conversion::DelimitedMessages messages_;
     v1::StreamRequest request_;
     std::span<const std::byte> chunk_;  ///< what is left of the one in request_
 };
 
 }  // namespace
 
-RecordedParticles read_recorded_particles(const RandomAccessFile& file, const RecordedFrame& frame) {
+RecordedParticles read_recorded_particles(const conversion::RandomAccessFile& file, const RecordedFrame& frame) {
     return Reader(file, frame).read();
 }
 

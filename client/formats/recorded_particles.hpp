@@ -1,12 +1,12 @@
 // A recorded frame's messages to its particles.
 #pragma once
 
-#include "formats/random_access_file.hpp"
+#include "conversion/random_access_file.hpp"
 #include "formats/recording.hpp"
 
 namespace meniscus::formats {
 
 /// Throws InvalidInput, in one line that names file and frame, unless the messages are exactly that frame.
-RecordedParticles read_recorded_particles(const RandomAccessFile& file, const RecordedFrame& frame);
+RecordedParticles read_recorded_particles(const conversion::RandomAccessFile& file, const RecordedFrame& frame);
 
 }  // namespace meniscus::formats

@@ -8,18 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "formats/random_access_file.hpp"
+#include "conversion/random_access_file.hpp"
+#include "conversion/recording_scan.hpp"
 #include "meniscus/client/client.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 
 namespace meniscus::formats {
 
-/// Where a frame's messages are in the file.
-struct ByteRange {
-    std::uint64_t first = 0;
-    std::uint64_t size = 0;
-};
+using conversion::ByteRange;
 
 /// A frame as the recording announces it. Times are those of the server's wall clock.
 struct RecordedFrame {
@@ -71,7 +68,7 @@ public:
 private:
     class Scan;
 
-    RandomAccessFile file_;
+    conversion::RandomAccessFile file_;
     std::string session_id_;
     Settings settings_;
     std::chrono::system_clock::time_point started_at_;

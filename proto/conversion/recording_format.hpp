@@ -8,7 +8,8 @@
 // So frames are found by hopping from entry to entry, and nothing of a frame is read but what is asked for.
 //
 // Numbers are protobuf's, particle data as FrameChunk has it: little-endian. Files only ever grow at their ends. One that a
-// crash or a full disk has cut ends within a frame: readers leave that tail out.
+// crash or a full disk has cut ends within a frame: readers leave that tail out. While a file is
+// being written its writer holds a lock: see writing_mark.hpp.
 #pragma once
 
 #include <cstddef>

@@ -22,6 +22,7 @@ std::vector<prometheus::MetricFamily> limit_gauges(const Limits& limits, const B
             gauges("meniscus_limit", "What the server refuses to exceed, in the unit of the name; 0: no limit.", "name",
                    {{"sessions", number(limits.sessions)},
                     {"watchers_per_session", number(limits.watchers_per_session)},
+                    {"recording_readers", number(limits.recording_readers)},
                     {"particles_per_frame", number(limits.particles_per_frame)},
                     {"bytes_per_session", number(limits.bytes_per_session)},
                     {"device_bytes_per_session", number(limits.device_bytes_per_session)},

@@ -12,7 +12,7 @@ namespace meniscus::server {
 class Metrics {
 public:
     enum class Drop : std::uint8_t { replaced, not_nth };
-    enum class Receiver : std::uint8_t { simulator, watcher };
+    enum class Receiver : std::uint8_t { simulator, watcher, recording_reader };
 
     Metrics() = default;
     virtual ~Metrics() = default;

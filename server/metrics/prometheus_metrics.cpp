@@ -50,7 +50,7 @@ struct PrometheusMetrics::Instruments {
     prometheus::Counter& upload_bytes = counter("meniscus_upload_bytes_total", "Particle bytes of frames received whole.");
     prometheus::Counter& mesh_bytes = counter("meniscus_mesh_bytes_total", "Bytes of encoded bricks, each encoding counted once.");
     std::array<prometheus::Counter*, 2> drops{&dropped("replaced"), &dropped("not_nth")};
-    std::array<prometheus::Counter*, 2> sent_bytes{&sent("simulator"), &sent("watcher")};
+    std::array<prometheus::Counter*, 3> sent_bytes{&sent("simulator"), &sent("watcher"), &sent("recording_reader")};
     prometheus::Counter& skipped =
         counter("meniscus_watcher_frames_skipped_total", "Frames that a watcher had not taken before a newer one came.");
 

@@ -9,6 +9,6 @@
 
 namespace meniscus::server {
 
-std::vector<prometheus::MetricFamily> recording_metrics(const RecordingCounters& counters);
+std::vector<prometheus::MetricFamily> recording_metrics(const RecordingCounters& counters, std::uint32_t readers);
 
 }  // namespace meniscus::server

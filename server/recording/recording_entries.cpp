@@ -13,6 +13,9 @@ namespace meniscus::server {
 
 namespace {
 
+/// So that no name makes the entry one that readers refuse.
+constexpr std::size_t max_owner_bytes = conversion::max_recording_entry_bytes / 2;
+
 void append_varint(std::string& out, std::uint64_t value) {
     for (; value >= 0x80; value >>= 7U) out += static_cast<char>((value & 0x7fU) | 0x80U);
     out += static_cast<char>(value);
@@ -54,13 +57,15 @@ v1::StreamRequest begin_message(const InputFrame& frame) {
 
 }  // namespace
 
-std::string recording_begin(const std::string& session_id, const Settings& settings, std::int64_t started_at) {
+std::string recording_begin(const std::string& session_id, const Settings& settings, std::int64_t started_at,
+                            const std::string& owner) {
     v1::RecordingEntry entry;
     v1::RecordingBegin& begin = *entry.mutable_begin();
     begin.set_version(conversion::recording_version);
     begin.set_session_id(session_id);
     *begin.mutable_settings() = conversion::to_wire(settings);
     begin.set_started_at(started_at);
+    if (owner.size() <= max_owner_bytes) begin.set_owner(owner);
     std::string out(conversion::recording_magic);
     append_delimited(out, entry);
     return out;

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "conversion/recording_format.hpp"
+#include "conversion/writing_mark.hpp"
 
 namespace meniscus::server {
 
@@ -29,6 +30,7 @@ RecordingFile::RecordingFile(const std::filesystem::path& directory, const std::
         descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
         if (descriptor_ < 0 && errno != EEXIST) fail(path_, errno);
     }
+    conversion::mark_as_being_written(descriptor_);
 }
 
 RecordingFile::~RecordingFile() {

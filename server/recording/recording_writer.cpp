@@ -107,7 +107,7 @@ void RecordingWriter::perform(Job& job) {
 void RecordingWriter::append(RecordedRun& run, const RecordingBytes& bytes) {
     if (!run.file) {
         const RecordedSession& session = *run.session;
-        const std::string begin = recording_begin(session.id, session.settings, run.started_at);
+        const std::string begin = recording_begin(session.id, session.settings, run.started_at, session.owner);
         // Counted again with every file, so that room made by deleting recordings is found.
         if (options_.limit != 0) used_ = bytes_of_recordings(options_.directory);
         admit(begin.size() + bytes.size());

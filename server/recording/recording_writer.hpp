@@ -29,6 +29,7 @@ struct RecordingCounters {
 struct RecordedSession {
     std::string id;
     Settings settings;
+    std::string owner;
     std::atomic<bool> stopped{false};  ///< by the writer: nothing more of this session will be written
 };
 

@@ -15,10 +15,12 @@ constexpr std::size_t frames_under_way = 8;
 
 }  // namespace
 
-SessionRecording::SessionRecording(RecordingWriter& writer, std::string session_id, const Settings& settings)
+SessionRecording::SessionRecording(RecordingWriter& writer, std::string session_id, const Settings& settings,
+                                   std::string owner)
     : writer_(writer), session_(std::make_shared<RecordedSession>()) {
     session_->id = std::move(session_id);
     session_->settings = settings;
+    session_->owner = std::move(owner);
 }
 
 void SessionRecording::reconstructed(const InputFrame& frame) noexcept {

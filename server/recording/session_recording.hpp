@@ -18,8 +18,8 @@ namespace meniscus::server {
 /// the stream at once. Meshes are shared. A frame that finds no room in the queue is left out, and said so once.
 class SessionRecording final : public SessionObserver {
 public:
-    /// The writer outlives this object. session_id: a UUID, as the edge has verified.
-    SessionRecording(RecordingWriter& writer, std::string session_id, const Settings& settings);
+    /// The writer outlives this object. session_id: a UUID, as the edge has verified. owner: who made the session, if that is known.
+    SessionRecording(RecordingWriter& writer, std::string session_id, const Settings& settings, std::string owner = {});
 
     void reconstructed(const InputFrame& frame) noexcept override;
     void encoded(std::shared_ptr<const EncodedFrame> frame) noexcept override;

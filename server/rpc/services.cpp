@@ -7,7 +7,9 @@
 #include "rpc/create_session_handler.hpp"
 #include "rpc/delete_session_handler.hpp"
 #include "rpc/get_session_handler.hpp"
+#include "rpc/list_recordings_handler.hpp"
 #include "rpc/list_sessions_handler.hpp"
+#include "rpc/read_recording_handler.hpp"
 #include "rpc/server_info_handler.hpp"
 #include "rpc/session_id.hpp"
 #include "rpc/status.hpp"
@@ -95,6 +97,31 @@ grpc::ServerWriteReactor<grpc::ByteBuffer>* SurfaceServiceImpl::Watch(grpc::Call
 grpc::ServerWriteReactor<grpc::ByteBuffer>* SurfaceServiceImpl::WatchParticles(grpc::CallbackServerContext* context,
                                                                                const grpc::ByteBuffer* request) {
     return start_watch<v1::WatchParticlesRequest>(registry_, authorizer_, calls_, *context, *request);
+}
+
+grpc::ServerUnaryReactor* RecordingServiceImpl::ListRecordings(grpc::CallbackServerContext* context,
+                                                               const v1::ListRecordingsRequest* /*request*/,
+                                                               v1::ListRecordingsResponse* response) {
+    grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+    try {
+        const Caller caller = admit(authorizer_, *context, Action::list_recordings);
+        require_recorded(reads_).post([reactor, response, caller](RecordingCatalog& catalog) {
+            try {
+                *response = list_recordings(catalog, caller);
+                reactor->Finish(grpc::Status::OK);
+            } catch (...) {
+                reactor->Finish(to_status(std::current_exception()));
+            }
+        });
+    } catch (...) {
+        reactor->Finish(to_status(std::current_exception()));
+    }
+    return reactor;
+}
+
+grpc::ServerWriteReactor<grpc::ByteBuffer>* RecordingServiceImpl::ReadRecording(grpc::CallbackServerContext* context,
+                                                                                const grpc::ByteBuffer* request) {
+    return start_reading(reads_, authorizer_, metrics_, calls_, *context, *request);
 }
 
 }  // namespace meniscus::server

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "meniscus/reconstructor.hpp"
+#include "meniscus/v1/recording_service.grpc.pb.h"
 #include "meniscus/v1/server_service.grpc.pb.h"
 #include "meniscus/v1/session_service.grpc.pb.h"
 #include "meniscus/v1/surface_service.grpc.pb.h"
+#include "recording/recording_reads.hpp"
 #include "rpc/active_calls.hpp"
 #include "security/authorizer.hpp"
 #include "sessions/session_registry.hpp"
@@ -63,6 +65,28 @@ public:
 private:
     SessionRegistry& registry_;
     const Authorizer& authorizer_;
+    ActiveCalls& calls_;
+};
+
+/// Raw, so that what was recorded is sent as it is.
+using RawRecordingService = v1::RecordingService::WithCallbackMethod_ListRecordings<
+    v1::RecordingService::WithRawCallbackMethod_ReadRecording<v1::RecordingService::Service>>;
+
+class RecordingServiceImpl final : public RawRecordingService {
+public:
+    /// reads: none where nothing is recorded.
+    RecordingServiceImpl(RecordingReads* reads, const Authorizer& authorizer, Metrics& metrics, ActiveCalls& calls)
+        : reads_(reads), authorizer_(authorizer), metrics_(metrics), calls_(calls) {}
+
+    grpc::ServerUnaryReactor* ListRecordings(grpc::CallbackServerContext* context, const v1::ListRecordingsRequest* request,
+                                             v1::ListRecordingsResponse* response) override;
+    grpc::ServerWriteReactor<grpc::ByteBuffer>* ReadRecording(grpc::CallbackServerContext* context,
+                                                              const grpc::ByteBuffer* request) override;
+
+private:
+    RecordingReads* const reads_;
+    const Authorizer& authorizer_;
+    Metrics& metrics_;
     ActiveCalls& calls_;
 };
 

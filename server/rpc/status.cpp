@@ -25,6 +25,10 @@ grpc::StatusCode code_of(Refusal::Kind kind) {
             return grpc::StatusCode::UNAUTHENTICATED;
         case Refusal::Kind::permission_denied:
             return grpc::StatusCode::PERMISSION_DENIED;
+        case Refusal::Kind::unimplemented:
+            return grpc::StatusCode::UNIMPLEMENTED;
+        case Refusal::Kind::data_loss:
+            return grpc::StatusCode::DATA_LOSS;
     }
     return grpc::StatusCode::INTERNAL;
 }

@@ -12,9 +12,19 @@
 namespace meniscus::server {
 
 /// The calls, by what they do.
-enum class Action { describe_server, list_sessions, get_session, watch, create_session, stream, delete_session };
+enum class Action {
+    describe_server,
+    list_sessions,
+    get_session,
+    watch,
+    list_recordings,
+    read_recording,
+    create_session,
+    stream,
+    delete_session
+};
 
-/// A watcher describes the server, lists, describes and watches all sessions. An uploader does everything with sessions of
+/// A watcher describes the server, lists, describes and watches all sessions, lists and reads their recordings. An uploader does everything with sessions of
 /// its own, and sees no others. An admin does everything. Thread-safe.
 class Authorizer {
 public:

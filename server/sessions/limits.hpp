@@ -13,6 +13,8 @@ inline constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 struct Limits {
     std::uint32_t sessions = 16;
     std::uint32_t watchers_per_session = 64;
+    /// Calls at a time that read recordings.
+    std::uint32_t recording_readers = 16;
     std::uint64_t particles_per_frame = 0;
     /// For the reconstruction of one session, and as much again for its frames on their way in.
     std::size_t bytes_per_session = 0;

@@ -8,7 +8,16 @@ namespace meniscus::server {
 
 class Refusal : public std::runtime_error {
 public:
-    enum class Kind { not_found, already_exists, failed_precondition, unavailable, unauthenticated, permission_denied };
+    enum class Kind {
+        not_found,
+        already_exists,
+        failed_precondition,
+        unavailable,
+        unauthenticated,
+        permission_denied,
+        unimplemented,
+        data_loss
+    };
 
     Refusal(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
     Kind kind() const noexcept { return kind_; }

@@ -87,7 +87,7 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
     const BackendOptions backend = place_session();
     auto session = std::make_shared<Session>(SessionIdentity{.id = id, .owner = owner}, settings, limits_,
                                              make_reconstruct_(settings, backend), shared_on(backend),
-                                             observe_ ? observe_(id, settings) : nullptr);
+                                             observe_ ? observe_(id, settings, owner) : nullptr);
     sessions_.emplace(id, session);
     log_info({.session = id}, "created on {} ({} open)", place_name(backend), sessions_.size());
     return session;

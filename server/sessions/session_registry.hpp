@@ -20,7 +20,8 @@
 namespace meniscus::server {
 
 /// Makes the observer of a new session.
-using Observe = std::function<std::shared_ptr<SessionObserver>(const std::string& id, const Settings& settings)>;
+using Observe =
+    std::function<std::shared_ptr<SessionObserver>(const std::string& id, const Settings& settings, const std::string& owner)>;
 
 /// What a new session reconstructs with.
 using MakeReconstruct = std::function<ReconstructFunctions(const Settings& settings, const BackendOptions& backend)>;

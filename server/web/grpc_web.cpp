@@ -9,7 +9,10 @@ namespace {
 
 constexpr std::string_view watch = "/meniscus.v1.SurfaceService/Watch";
 constexpr std::string_view watch_particles = "/meniscus.v1.SurfaceService/WatchParticles";
-constexpr std::array<std::string_view, 5> methods{
+constexpr std::string_view read_recording = "/meniscus.v1.RecordingService/ReadRecording";
+constexpr std::array<std::string_view, 7> methods{
+    "/meniscus.v1.RecordingService/ListRecordings",
+    read_recording,
     "/meniscus.v1.ServerService/GetServerInfo",
     "/meniscus.v1.SessionService/GetSession",
     "/meniscus.v1.SessionService/ListSessions",
@@ -28,7 +31,7 @@ bool is_method(std::string_view target) {
 }
 
 bool is_stream(std::string_view target) {
-    return target == watch || target == watch_particles;
+    return target == watch || target == watch_particles || target == read_recording;
 }
 
 }  // namespace meniscus::server

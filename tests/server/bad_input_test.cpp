@@ -6,13 +6,15 @@
 
 #include "bad_input/case.hpp"
 #include "meniscus/error.hpp"
+#include "sample_files.hpp"
 
 namespace meniscus::server::test {
 namespace {
 
 std::vector<BadInputCase> all_cases() {
     std::vector<BadInputCase> all;
-    for (auto part : {message_order_cases(), frame_cases(), position_cases(), open_cases(), watch_cases(), session_cases()})
+    for (auto part : {message_order_cases(), frame_cases(), position_cases(), open_cases(), watch_cases(), session_cases(),
+                      recording_cases()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
 }
@@ -42,7 +44,8 @@ struct HealthySession {
 struct BadInput : testing::TestWithParam<BadInputCase> {};
 
 TEST_P(BadInput, GetsItsAnswer) {
-    RunningServer running(bad_input_options());
+    const meniscus::test::TemporaryDirectory recordings;
+    RunningServer running(bad_input_options(recordings.path()));
     HealthySession healthy(running);
     expect_answer(GetParam(), running);
     healthy.expect_right_mesh();
@@ -52,7 +55,8 @@ INSTANTIATE_TEST_SUITE_P(Table, BadInput, testing::ValuesIn(all_cases()),
                          [](const auto& bad) { return bad.param.name; });
 
 TEST(BadInputTable, LeavesAHealthySessionOfTheSameServerAsItWas) {
-    RunningServer running(bad_input_options());
+    const meniscus::test::TemporaryDirectory recordings;
+    RunningServer running(bad_input_options(recordings.path()));
     HealthySession healthy(running);
     const std::vector<BadInputCase> cases = all_cases();
     EXPECT_GE(cases.size(), 60U);
@@ -66,7 +70,8 @@ TEST(BadInputTable, LeavesAHealthySessionOfTheSameServerAsItWas) {
 }
 
 TEST(BadInputException, ReachesTheCallerOfPushAndNext) {
-    RunningServer running(bad_input_options());
+    const meniscus::test::TemporaryDirectory recordings;
+    RunningServer running(bad_input_options(recordings.path()));
     const std::string id = running.session();
     auto stream = running.client.stream(id);
     Particles bad = wave(3, 0.0);

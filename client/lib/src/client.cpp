@@ -1,5 +1,6 @@
 #include "meniscus/client/client.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "connection.hpp"
@@ -8,6 +9,7 @@
 #include "frame_statistics.hpp"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "particle_watcher_impl.hpp"
+#include "recording_reader_impl.hpp"
 #include "stream_impl.hpp"
 #include "watcher_impl.hpp"
 
@@ -27,6 +29,23 @@ SessionInfo from_wire(const v1::Session& wire) {
     info.frames_dropped = wire.frames_dropped();
     info.frames_skipped = wire.frames_skipped();
     if (wire.has_last_frame()) info.last_frame = frame_statistics(wire.last_frame());
+    return info;
+}
+
+RecordingInfo from_wire(const v1::Recording& wire) {
+    RecordingInfo info;
+    info.session_id = wire.session_id();
+    info.number = wire.number();
+    info.owner = wire.owner();
+    using Time = std::chrono::system_clock::time_point;
+    constexpr auto last = std::chrono::duration_cast<std::chrono::microseconds>(Time::max().time_since_epoch()).count();
+    info.started_at = Time(std::chrono::microseconds(std::clamp<std::int64_t>(wire.started_at(), 0, last)));
+    info.frames = wire.frames();
+    if (wire.has_first_frame_index()) info.first_frame_index = wire.first_frame_index();
+    if (wire.has_last_frame_index()) info.last_frame_index = wire.last_frame_index();
+    info.bytes = wire.bytes();
+    info.being_written = wire.being_written();
+    info.damaged = wire.damaged();
     return info;
 }
 
@@ -128,6 +147,18 @@ Watcher Client::watch(const std::string& session_id, const WatchOptions& options
 
 ParticleWatcher Client::watch_particles(const std::string& session_id, std::uint64_t max_particles) {
     return ParticleWatcher(std::make_unique<ParticleWatcher::Impl>(impl_->connection(), session_id, max_particles));
+}
+
+std::vector<RecordingInfo> Client::recordings() {
+    v1::ListRecordingsResponse response;
+    impl_->call(*impl_->connection()->recordings, &v1::RecordingService::Stub::ListRecordings, {}, {}, response);
+    std::vector<RecordingInfo> recordings;
+    for (const v1::Recording& recording : response.recordings()) recordings.push_back(from_wire(recording));
+    return recordings;
+}
+
+RecordingReader Client::read_recording(const std::string& session_id, std::uint32_t number, const ReadOptions& options) {
+    return RecordingReader(std::make_unique<RecordingReader::Impl>(impl_->connection(), session_id, number, options));
 }
 
 }  // namespace meniscus::client

@@ -87,6 +87,7 @@ Connection::Connection(std::string server_address, const ConnectionOptions& opti
       server(v1::ServerService::NewStub(channel)),
       sessions(v1::SessionService::NewStub(channel)),
       surfaces(v1::SurfaceService::NewStub(channel)),
+      recordings(v1::RecordingService::NewStub(channel)),
       token_(checked_token(address, options)) {
     if (connect(*channel, options)) return;
     const std::string reason = connection_failure(*server);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "meniscus/client/client.hpp"
+#include "meniscus/v1/recording_service.grpc.pb.h"
 #include "meniscus/v1/server_service.grpc.pb.h"
 #include "meniscus/v1/session_service.grpc.pb.h"
 #include "meniscus/v1/surface_service.grpc.pb.h"
@@ -27,6 +28,7 @@ public:
     const std::unique_ptr<v1::ServerService::Stub> server;
     const std::unique_ptr<v1::SessionService::Stub> sessions;
     const std::unique_ptr<v1::SurfaceService::Stub> surfaces;
+    const std::unique_ptr<v1::RecordingService::Stub> recordings;
 
 private:
     const std::string token_;

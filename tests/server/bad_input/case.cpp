@@ -6,8 +6,9 @@
 
 namespace meniscus::server::test {
 
-ServerOptions bad_input_options() {
+ServerOptions bad_input_options(const std::filesystem::path& recordings) {
     ServerOptions options = test_options();
+    options.recording.directory = recordings;
     options.limits.sessions = 3;
     options.limits.watchers_per_session = 2;
     options.limits.particles_per_frame = 1'000'000;

@@ -25,8 +25,8 @@ inline void PrintTo(const BadInputCase& bad, std::ostream* out) {
     *out << bad.name;
 }
 
-/// The limits of the server that all cases run against.
-ServerOptions bad_input_options();
+/// The limits of the server that all cases run against. It records into the folder.
+ServerOptions bad_input_options(const std::filesystem::path& recordings);
 
 // The table, by what is wrong.
 std::vector<BadInputCase> message_order_cases();
@@ -35,6 +35,7 @@ std::vector<BadInputCase> position_cases();
 std::vector<BadInputCase> open_cases();
 std::vector<BadInputCase> watch_cases();
 std::vector<BadInputCase> session_cases();
+std::vector<BadInputCase> recording_cases();
 
 /// A session for as long as the case needs it.
 struct CaseSession {

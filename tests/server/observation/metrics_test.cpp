@@ -89,12 +89,14 @@ TEST(Metrics, StateTheLimits) {
     ServerOptions options = with_http();
     options.limits.sessions = 5;
     options.limits.watchers_per_session = 6;
+    options.limits.recording_readers = 9;
     options.limits.particles_per_frame = 7;
     options.limits.bytes_per_session = 8'000'000'000;
     const RunningServer running(options);
     const Samples samples = scrape(running.server.http_address());
     EXPECT_EQ(samples.at("meniscus_limit{name=\"sessions\"}"), 5);
     EXPECT_EQ(samples.at("meniscus_limit{name=\"watchers_per_session\"}"), 6);
+    EXPECT_EQ(samples.at("meniscus_limit{name=\"recording_readers\"}"), 9);
     EXPECT_EQ(samples.at("meniscus_limit{name=\"particles_per_frame\"}"), 7);
     EXPECT_EQ(samples.at("meniscus_limit{name=\"bytes_per_session\"}"), 8'000'000'000);
 }

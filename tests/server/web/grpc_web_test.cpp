@@ -1,16 +1,19 @@
 // Browsers' calls: the same answers as native gRPC gives, and what a browser would never send.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
+#include "meniscus/v1/recording_service.pb.h"
 #include "meniscus/v1/server_service.pb.h"
 #include "meniscus/v1/session_service.pb.h"
 #include "meniscus/v1/surface_service.pb.h"
 #include "running_server.hpp"
 #include "test_certificates.hpp"
+#include "test_folder.hpp"
 #include "web/origins.hpp"
 #include "web/web_call.hpp"
 
@@ -20,6 +23,8 @@ namespace {
 const std::string info = "/meniscus.v1.ServerService/GetServerInfo";
 const std::string get = "/meniscus.v1.SessionService/GetSession";
 const std::string watch = "/meniscus.v1.SurfaceService/Watch";
+const std::string list_recordings = "/meniscus.v1.RecordingService/ListRecordings";
+const std::string read_recording = "/meniscus.v1.RecordingService/ReadRecording";
 
 ServerOptions web_options() {
     ServerOptions options = test_options();
@@ -145,6 +150,37 @@ TEST_F(GrpcWebCalls, BringParticles) {
     running.client.delete_session(id);
     EXPECT_FALSE(call.next());
     EXPECT_EQ(call.status, 0);
+}
+
+TEST(GrpcWebRecordings, AreTheBytesThatAWatcherGot) {
+    const TestFolder folder;
+    ServerOptions options = web_options();
+    options.recording.directory = folder / "recordings";
+    RunningServer running(options);
+    const std::string id = running.session();
+    const WebCall::Headers about_session{{"x-session-id", id}};
+    WebCall watching(running.server.http_address(), watch, watch_request(id), about_session);
+    push_one(running.client, id, wave(12, 0.0), 3);
+    std::vector<std::string> watched = web_frame(watching);
+    v1::ListRecordingsResponse list;
+    const auto guard = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (list.recordings_size() == 0 || list.recordings(0).frames() == 0) {
+        ASSERT_LT(std::chrono::steady_clock::now(), guard);
+        WebCall call(running.server.http_address(), list_recordings, v1::ListRecordingsRequest());
+        ASSERT_TRUE(list.ParseFromString(call.next().value_or("")));
+    }
+    v1::ReadRecordingRequest request;
+    request.set_session_id(id);
+    request.set_number(list.recordings(0).number());
+    WebCall reading(running.server.http_address(), read_recording, request, about_session);
+    std::vector<std::string> read = web_frame(reading);
+    EXPECT_FALSE(reading.next());
+    EXPECT_EQ(reading.status, 0) << reading.message;
+    EXPECT_GT(read.size(), 2U);
+    // A watcher gets the bricks in the order of its wishes.
+    std::sort(watched.begin(), watched.end());
+    std::sort(read.begin(), read.end());
+    EXPECT_EQ(read, watched);
 }
 
 TEST_F(GrpcWebCalls, EndWhenTheBrowserLeaves) {

@@ -234,6 +234,44 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
+/// Frames of a session that the server has kept: one file of its folder of recordings.
+struct RecordingInfo {
+    std::string session_id;
+    std::uint32_t number = 0;  ///< of the session's recordings, from 1
+    std::string owner;         ///< who made the session; empty where nobody was asked
+    std::chrono::system_clock::time_point started_at;
+    std::uint64_t frames = 0;  ///< those with a mesh, here and below
+    std::optional<std::uint64_t> first_frame_index;
+    std::optional<std::uint64_t> last_frame_index;
+    std::uint64_t bytes = 0;
+    bool being_written = false;
+    bool damaged = false;  ///< behind the last of these frames
+};
+
+/// Which of a recording's frames to read, by their places in it.
+struct ReadOptions {
+    std::uint64_t position = 0;  ///< of the first, less than RecordingInfo::frames
+    std::uint64_t count = 0;     ///< at most; 0: all from there on
+};
+
+/// Reads frames that were recorded, in order.
+class RecordingReader {
+public:
+    RecordingReader(RecordingReader&&) noexcept;
+    RecordingReader& operator=(RecordingReader&&) noexcept;
+    ~RecordingReader();
+
+    /// Waits for the next frame; none after the last. Throws InvalidInput for a position past the end, LimitExceeded when too
+    /// many read, or ServerError.
+    std::optional<ReceivedFrame> next();
+
+private:
+    friend class Client;
+    class Impl;
+    explicit RecordingReader(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
 /// A connection to one server. Thread-safe.
 class Client {
 public:
@@ -258,6 +296,10 @@ public:
     Watcher watch(const std::string& session_id, const WatchOptions& options = {});
     /// max_particles: of a frame with more, only every k-th is sent, by the smallest k that suffices; 0: all.
     ParticleWatcher watch_particles(const std::string& session_id, std::uint64_t max_particles = 0);
+
+    /// What the server has recorded, the newest first. Throws ServerError (UNIMPLEMENTED) if it records nothing.
+    std::vector<RecordingInfo> recordings();
+    RecordingReader read_recording(const std::string& session_id, std::uint32_t number, const ReadOptions& options = {});
 
 private:
     class Impl;

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace meniscus::formats {
+namespace meniscus::conversion {
 
 class RandomAccessFile {
 public:
@@ -19,6 +19,8 @@ public:
     const std::filesystem::path& path() const noexcept { return path_; }
     /// Bytes, when it was opened.
     std::uint64_t size() const noexcept { return size_; }
+    /// Whether its writer has it open: see writing_mark.hpp.
+    bool being_written() const noexcept;
     /// `size` bytes from `first` on, all of which the file has. Throws InvalidInput if it has been cut since.
     std::string read(std::uint64_t first, std::size_t size) const;
 
@@ -31,4 +33,4 @@ private:
     std::uint64_t size_ = 0;
 };
 
-}  // namespace meniscus::formats
+}  // namespace meniscus::conversion

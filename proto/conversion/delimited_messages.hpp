@@ -6,15 +6,15 @@
 #include <optional>
 #include <string>
 
-#include "formats/random_access_file.hpp"
+#include "conversion/random_access_file.hpp"
 
-namespace meniscus::formats {
+namespace meniscus::conversion {
 
 class DelimitedMessages {
 public:
     /// Those between the bytes `first` and `end` of the file, which outlives this object.
     DelimitedMessages(const RandomAccessFile& file, std::uint64_t first, std::uint64_t end)
-        : file_(file), position_(first), end_(end) {}
+        : file_(&file), position_(first), end_(end) {}
 
     std::uint64_t position() const noexcept { return position_; }
     bool at_end() const noexcept { return position_ == end_; }
@@ -25,9 +25,9 @@ public:
     std::optional<std::string> next(std::size_t limit);
 
 private:
-    const RandomAccessFile& file_;
+    const RandomAccessFile* file_;
     std::uint64_t position_;
-    const std::uint64_t end_;
+    std::uint64_t end_;
 };
 
-}  // namespace meniscus::formats
+}  // namespace meniscus::conversion

@@ -1,4 +1,4 @@
-#include "formats/random_access_file.hpp"
+#include "conversion/random_access_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -8,9 +8,10 @@
 #include <system_error>
 #include <utility>
 
+#include "conversion/writing_mark.hpp"
 #include "meniscus/error.hpp"
 
-namespace meniscus::formats {
+namespace meniscus::conversion {
 
 RandomAccessFile::RandomAccessFile(std::filesystem::path path) : path_(std::move(path)) {
     // Without O_NONBLOCK a named pipe would wait for its writer.
@@ -39,6 +40,10 @@ RandomAccessFile& RandomAccessFile::operator=(RandomAccessFile&& other) noexcept
     return *this;
 }
 
+bool RandomAccessFile::being_written() const noexcept {
+    return is_being_written(descriptor_);
+}
+
 std::string RandomAccessFile::read(std::uint64_t first, std::size_t size) const {
     std::string bytes(size, '\0');
     std::size_t filled = 0;
@@ -57,4 +62,4 @@ void RandomAccessFile::fail(const std::string& message) const {
     throw InvalidInput(path_.string() + ": " + message);
 }
 
-}  // namespace meniscus::formats
+}  // namespace meniscus::conversion

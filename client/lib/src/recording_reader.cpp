@@ -1,0 +1,49 @@
+#include <utility>
+
+#include "error_mapping.hpp"
+#include "recording_reader_impl.hpp"
+
+namespace meniscus::client {
+
+RecordingReader::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, std::uint32_t number,
+                            const ReadOptions& options)
+    : connection_(std::move(connection)) {
+    v1::ReadRecordingRequest request;
+    request.set_session_id(session_id);
+    request.set_number(number);
+    request.set_position(options.position);
+    request.set_count(options.count);
+    connection_->add_metadata(context_, session_id);
+    reader_ = connection_->recordings->ReadRecording(&context_, request);
+}
+
+RecordingReader::Impl::~Impl() {
+    if (ended_) return;
+    context_.TryCancel();
+    v1::WatchResponse ignored;
+    while (reader_->Read(&ignored)) {
+    }
+    reader_->Finish();
+}
+
+std::optional<ReceivedFrame> RecordingReader::Impl::next() {
+    if (ended_) return std::nullopt;
+    v1::WatchResponse response;
+    while (reader_->Read(&response))
+        if (auto frame = receiver_.take(response)) return frame;
+    ended_ = true;
+    require_ok(reader_->Finish(), connection_->address);
+    receiver_.end_of_stream();
+    return std::nullopt;
+}
+
+RecordingReader::RecordingReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RecordingReader::RecordingReader(RecordingReader&&) noexcept = default;
+RecordingReader& RecordingReader::operator=(RecordingReader&&) noexcept = default;
+RecordingReader::~RecordingReader() = default;
+
+std::optional<ReceivedFrame> RecordingReader::next() {
+    return impl_->next();
+}
+
+}  // namespace meniscus::client

@@ -1,0 +1,50 @@
+// Hops from entry to entry of a recording; recording_format.hpp describes the file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "conversion/delimited_messages.hpp"
+#include "conversion/random_access_file.hpp"
+#include "meniscus/v1/recording.pb.h"
+
+namespace meniscus::conversion {
+
+/// Where a frame's messages are in the file.
+struct ByteRange {
+    std::uint64_t first = 0;
+    std::uint64_t size = 0;
+};
+
+/// Reads entries, and not the messages that follow them. Everything wrong is InvalidInput, in one line that names file and byte.
+class RecordingScan {
+public:
+    /// The file outlives this object. Throws unless it begins as a recording of this version.
+    explicit RecordingScan(const RandomAccessFile& file);
+
+    const v1::RecordingBegin& begin() const noexcept { return begin_; }
+
+    struct Item {
+        v1::RecordingEntry entry;  ///< particles or mesh
+        ByteRange messages;
+    };
+    /// The next entry with all of its messages; none at the end, or where the file is cut. Throws for what is no entry.
+    std::optional<Item> next();
+
+    /// Where the entry is that next() will return: a file that has grown since can be scanned from there on.
+    std::uint64_t position() const noexcept { return messages_.position(); }
+    /// position: as an earlier scan of this file had it.
+    void go_on_at(std::uint64_t position) { messages_ = DelimitedMessages(file_, position, file_.size()); }
+
+    /// Throws InvalidInput about the entry that next() has read last.
+    [[noreturn]] void fail(const std::string& what) const;
+
+private:
+    const RandomAccessFile& file_;
+    DelimitedMessages messages_;
+    std::uint64_t entry_at_ = 0;
+    v1::RecordingBegin begin_;
+};
+
+}  // namespace meniscus::conversion

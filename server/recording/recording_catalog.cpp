@@ -1,0 +1,77 @@
+#include "recording/recording_catalog.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+#include <system_error>
+
+#include "conversion/recording_format.hpp"
+#include "meniscus/error.hpp"
+#include "sessions/refusal.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+/// Of a file NNNNNN.recording.
+std::optional<std::uint32_t> number_of(const std::filesystem::path& path) {
+    const std::string stem = path.stem().string();
+    std::uint32_t number = 0;
+    std::from_chars(stem.data(), stem.data() + stem.size(), number);
+    if (number == 0 || path.filename() != fmt::format("{:06}{}", number, conversion::recording_extension)) return std::nullopt;
+    return number;
+}
+
+}  // namespace
+
+const std::map<RecordingName, RecordingCatalog::Entry>& RecordingCatalog::list() {
+    std::erase_if(entries_, [](const auto& entry) {
+        std::error_code error;
+        return !std::filesystem::exists(entry.second.path, error);
+    });
+    std::error_code error;
+    for (auto i = std::filesystem::directory_iterator(directory_, error); !error && i != std::filesystem::directory_iterator();
+         i.increment(error))
+        look_into(i->path());
+    return entries_;
+}
+
+void RecordingCatalog::look_into(const std::filesystem::path& session_folder) {
+    std::error_code error;
+    for (auto i = std::filesystem::directory_iterator(session_folder, error);
+         !error && i != std::filesystem::directory_iterator(); i.increment(error)) {
+        const auto number = number_of(i->path());
+        if (!number) continue;
+        const RecordingName name{.session_id = session_folder.filename().string(), .number = *number};
+        Entry& entry = entries_[name];
+        std::error_code unknown;
+        const RecordingIndex& index = entry.index;
+        if (!entry.path.empty() && !index.being_written() && i->file_size(unknown) == index.bytes()) continue;
+        entry.path = i->path();
+        refresh(name);
+    }
+}
+
+RecordingCatalog::Opened RecordingCatalog::open(const RecordingName& name) {
+    if (!entries_.contains(name)) list();
+    if (entries_.contains(name))
+        if (auto file = refresh(name)) return {.file = std::move(file), .index = entries_.at(name).index};
+    throw Refusal(Refusal::Kind::not_found,
+                  fmt::format("no recording {} of session {}; ListRecordings tells which there are", name.number, name.session_id));
+}
+
+std::shared_ptr<const conversion::RandomAccessFile> RecordingCatalog::refresh(const RecordingName& name) {
+    const auto entry = entries_.find(name);
+    try {
+        auto file = std::make_shared<const conversion::RandomAccessFile>(entry->second.path);
+        entry->second.index.update(*file);
+        if (entry->second.index.begin().session_id() == name.session_id) return file;
+    } catch (const InvalidInput&) {
+        // Not yet, or no more.
+    }
+    entries_.erase(entry);
+    return nullptr;
+}
+
+}  // namespace meniscus::server

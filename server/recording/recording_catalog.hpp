@@ -1,0 +1,50 @@
+// The recordings in a folder, found by looking: whoever asks names a session and a number, never a file.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "conversion/random_access_file.hpp"
+#include "recording/recording_index.hpp"
+
+namespace meniscus::server {
+
+struct RecordingName {
+    std::string session_id;
+    std::uint32_t number = 0;
+    auto operator<=>(const RecordingName&) const = default;
+};
+
+/// Blocks on the disk; of one thread.
+class RecordingCatalog {
+public:
+    explicit RecordingCatalog(std::filesystem::path directory) : directory_(std::move(directory)) {}
+
+    struct Entry {
+        std::filesystem::path path;
+        RecordingIndex index;
+    };
+    /// All that can be read, as they are now. A file without a recording's beginning is none, nor is one in another session's folder.
+    const std::map<RecordingName, Entry>& list();
+
+    struct Opened {
+        std::shared_ptr<const conversion::RandomAccessFile> file;
+        const RecordingIndex& index;  ///< as the file is now; until the next call
+    };
+    /// Throws Refusal, not_found, if there is no such recording.
+    Opened open(const RecordingName& name);
+
+private:
+    void look_into(const std::filesystem::path& session_folder);
+    /// Opens the file and brings the entry up to date; forgets the entry and returns none if it is no recording any more.
+    std::shared_ptr<const conversion::RandomAccessFile> refresh(const RecordingName& name);
+
+    const std::filesystem::path directory_;
+    std::map<RecordingName, Entry> entries_;
+};
+
+}  // namespace meniscus::server

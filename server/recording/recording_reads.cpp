@@ -1,0 +1,35 @@
+#include "recording/recording_reads.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/asio/post.hpp>
+#include <utility>
+
+#include "meniscus/error.hpp"
+#include "sessions/refusal.hpp"
+
+namespace meniscus::server {
+
+RecordingReads::RecordingReads(std::filesystem::path directory, std::uint32_t readers)
+    : limit_(readers), catalog_(std::move(directory)) {}
+
+RecordingReads::Place RecordingReads::admit() {
+    require_going_on();
+    const std::uint32_t others = readers_++;
+    Place place(&readers_, [](void* readers) { --*static_cast<std::atomic<std::uint32_t>*>(readers); });
+    if (limit_ != 0 && others >= limit_)
+        throw LimitExceeded(fmt::format("{} recordings are being read; the server takes at most {} readers at a time "
+                                        "(--max-recording-readers): try again later",
+                                        others, limit_));
+    return place;
+}
+
+void RecordingReads::post(std::function<void(RecordingCatalog&)> job) {
+    boost::asio::post(thread_, [this, job = std::move(job)] { job(catalog_); });
+}
+
+void RecordingReads::require_going_on() const {
+    if (ending_) throw shutting_down();
+}
+
+}  // namespace meniscus::server

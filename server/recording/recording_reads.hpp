@@ -1,0 +1,43 @@
+// What the calls that read recordings share: one thread that waits for the disk, so that no thread of gRPC does, and no session.
+#pragma once
+
+#include <atomic>
+#include <boost/asio/thread_pool.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "recording/recording_catalog.hpp"
+
+namespace meniscus::server {
+
+class RecordingReads {
+public:
+    /// readers: that may read at a time; 0: no limit.
+    RecordingReads(std::filesystem::path directory, std::uint32_t readers);
+
+    /// Held by a reader for as long as it reads.
+    using Place = std::shared_ptr<void>;
+    /// Throws LimitExceeded, or Refusal once the server goes down.
+    Place admit();
+    std::uint32_t readers() const noexcept { return readers_; }
+
+    /// Runs the job on the thread that reads, after those posted before. It throws nothing. Readers post one message at a time,
+    /// and so take turns.
+    void post(std::function<void(RecordingCatalog&)> job);
+
+    /// Readers end at their next message.
+    void end() noexcept { ending_ = true; }
+    /// Throws Refusal once the server goes down.
+    void require_going_on() const;
+
+private:
+    const std::uint32_t limit_;
+    std::atomic<std::uint32_t> readers_{0};
+    std::atomic<bool> ending_{false};
+    RecordingCatalog catalog_;           ///< of the thread
+    boost::asio::thread_pool thread_{1};
+};
+
+}  // namespace meniscus::server

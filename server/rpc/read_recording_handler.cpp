@@ -1,0 +1,168 @@
+#include "rpc/read_recording_handler.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "conversion/delimited_messages.hpp"
+#include "conversion/recording_format.hpp"
+#include "log.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/v1/recording_service.pb.h"
+#include "rpc/caller.hpp"
+#include "rpc/session_id.hpp"
+#include "rpc/status.hpp"
+#include "rpc/wire_bytes.hpp"
+#include "sessions/refusal.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+/// The messages of some frames of a recording, one after the other.
+class RecordedMessages {
+public:
+    RecordedMessages(const RecordingCatalog::Opened& opened, const v1::ReadRecordingRequest& request)
+        : file_(opened.file), name_(fmt::format("recording {} of session {}", request.number(), request.session_id())) {
+        const auto& meshes = opened.index.meshes();
+        const std::uint64_t first = request.position();
+        if (first > meshes.size() || (first == meshes.size() && first != 0))
+            throw InvalidInput(fmt::format("position is {}; {} has {} frames", first, name_, meshes.size()));
+        const std::uint64_t left = meshes.size() - first;
+        const std::uint64_t count = request.count() == 0 ? left : std::min(left, request.count());
+        const auto begin = meshes.begin() + static_cast<std::ptrdiff_t>(first);
+        meshes_.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+    }
+
+    /// None after the last. Throws Refusal, data_loss, where the file is damaged.
+    SharedMessage next() {
+        try {
+            if (messages_ && messages_->at_end()) messages_.reset();
+            if (!messages_) {
+                if (at_ == meshes_.size()) return nullptr;
+                const conversion::ByteRange range = meshes_[at_++].messages;
+                messages_.emplace(*file_, range.first, range.first + range.size);
+            }
+            if (auto message = messages_->next(conversion::max_recorded_message_bytes))
+                return std::make_shared<const std::string>(std::move(*message));
+            file_->fail("a message is cut");
+        } catch (const InvalidInput& error) {
+            const std::uint64_t frame = meshes_[at_ - 1].frame_index;
+            log_error({.frame = frame}, "a recording cannot be read: {}", error.what());
+            throw Refusal(Refusal::Kind::data_loss,
+                          fmt::format("{} is damaged at frame {}; the server's log says where", name_, frame));
+        }
+    }
+
+private:
+    const std::shared_ptr<const conversion::RandomAccessFile> file_;
+    const std::string name_;
+    std::vector<MeshPlace> meshes_;
+    std::size_t at_ = 0;                                    ///< the next of meshes_
+    std::optional<conversion::DelimitedMessages> messages_; ///< of the one before
+};
+
+/// Holds one message at a time: the next one is read when gRPC has taken the one before. At any moment either a job of the thread
+/// that reads or a write is under way, and only that goes on, or finishes; after a cancellation, too.
+class ReadRecordingReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
+                                   public std::enable_shared_from_this<ReadRecordingReactor> {
+public:
+    ReadRecordingReactor(Metrics& metrics, ActiveCalls& calls) : metrics_(metrics), active_(calls) {}
+
+    void start(RecordingReads* reads, const Authorizer& authorizer, grpc::CallbackServerContext& context,
+               const grpc::ByteBuffer& request) {
+        self_ = shared_from_this();
+        try {
+            const Caller caller = admit(authorizer, context, Action::read_recording);
+            reads_ = &require_recorded(reads);
+            const std::string session_id = metadata_session_id(context);
+            grpc::ByteBuffer bytes(request);
+            parse(bytes, request_, "ReadRecordingRequest");
+            require_same_session(session_id, request_.session_id());
+            place_ = reads_->admit();
+            go_on([this, caller, &context](RecordingCatalog& catalog) {
+                open(catalog, caller);
+                // With metadata, as a refusal has none.
+                context.AddInitialMetadata("x-session-id", request_.session_id());
+                StartSendInitialMetadata();
+            });
+        } catch (...) {
+            Finish(to_status(std::current_exception()));
+        }
+    }
+
+    void OnWriteDone(bool ok) override {
+        if (!ok) canceled_ = true;
+        go_on([](RecordingCatalog&) {});
+    }
+
+    void OnCancel() override { canceled_ = true; }
+
+    void OnDone() override { const auto self = std::move(self_); }
+
+private:
+    /// On the thread that reads: `first`, then the next message.
+    template <class First>
+    void go_on(First first) {
+        reads_->post([self = shared_from_this(), first = std::move(first)](RecordingCatalog& catalog) {
+            try {
+                first(catalog);
+                self->send_next();
+            } catch (...) {
+                self->Finish(to_status(std::current_exception()));
+            }
+        });
+    }
+
+    void open(RecordingCatalog& catalog, const Caller& caller) {
+        const auto opened = catalog.open({.session_id = request_.session_id(), .number = request_.number()});
+        Authorizer::require_access(caller, Action::read_recording, request_.session_id(), opened.index.begin().owner());
+        messages_.emplace(opened, request_);
+    }
+
+    void send_next() {
+        if (canceled_) return Finish({grpc::StatusCode::CANCELLED, "the client has gone"});
+        reads_->require_going_on();
+        const SharedMessage message = messages_->next();
+        if (!message) return Finish(grpc::Status::OK);
+        metrics_.message_sent(Metrics::Receiver::recording_reader, message->size());
+        outgoing_ = to_bytes(message);
+        StartWrite(&outgoing_);
+    }
+
+    Metrics& metrics_;
+    const ActiveCalls::Token active_;
+    std::shared_ptr<ReadRecordingReactor> self_;  ///< until OnDone
+    RecordingReads* reads_ = nullptr;
+    RecordingReads::Place place_;
+    v1::ReadRecordingRequest request_;
+    std::optional<RecordedMessages> messages_;
+    grpc::ByteBuffer outgoing_;
+    std::atomic<bool> canceled_{false};
+};
+
+}  // namespace
+
+RecordingReads& require_recorded(RecordingReads* reads) {
+    if (reads == nullptr)
+        throw Refusal(Refusal::Kind::unimplemented, "this server keeps no recordings: meniscusd --record DIR does");
+    return *reads;
+}
+
+grpc::ServerWriteReactor<grpc::ByteBuffer>* start_reading(RecordingReads* reads, const Authorizer& authorizer, Metrics& metrics,
+                                                          ActiveCalls& calls, grpc::CallbackServerContext& context,
+                                                          const grpc::ByteBuffer& request) {
+    const auto reactor = std::make_shared<ReadRecordingReactor>(metrics, calls);
+    reactor->start(reads, authorizer, context, request);
+    return reactor.get();
+}
+
+}  // namespace meniscus::server
