@@ -3,5 +3,6 @@ import './first_surface.mjs';
 import './frames.mjs';
 import './recovery.mjs';
 import './playback.mjs';
+import './recordings.mjs';
 import './camera.mjs';
 import './accessibility.mjs';

@@ -1,8 +1,12 @@
-// The page: the list of sessions, or one of them.
+// The page: the list of sessions and recordings, or one of them.
 import { startDecodePool } from './decode/decode_pool';
+import type { Frame } from './bricks/frame';
+import { RecordingView } from './recordings/recording_view';
+import { recordingNameText } from './recordings/recording_name';
 import { Server } from './rpc/server';
 import { writeGlb } from './save/glb';
 import { writePly } from './save/ply';
+import { Screen } from './screen';
 import { SessionView } from './session_view';
 import type { WatchState } from './stream/watch_state';
 import { Banner } from './ui/banner';
@@ -11,6 +15,8 @@ import { readLink, writeLink, type PageState } from './ui/link';
 import { Overlay } from './ui/overlay';
 import { element } from './ui/page';
 import { coveredMargins } from './ui/panels';
+import { Playback } from './ui/playback';
+import { RecordingList } from './ui/recording_list';
 import { SessionList } from './ui/session_list';
 import { followTheme } from './ui/theme';
 import { askToken, storedToken } from './ui/token_dialog';
@@ -22,9 +28,14 @@ export class App {
   private readonly banner = new Banner();
   private readonly canvas = element('view', HTMLCanvasElement);
   private readonly viewer: Viewer;
-  private readonly view: SessionView;
+  private readonly screen: Screen;
+  private readonly playback = new Playback();
+  private readonly sessionView: SessionView;
+  private readonly recordingView: RecordingView;
   private readonly list: SessionList;
-  private session: string | undefined;
+  private readonly recordings: RecordingList;
+  /** What is looked at. */
+  private at: Pick<PageState, 'session' | 'recording' | 'position'> = {};
   private look: Look = 'water';
   private up: UpAxis = 'y';
   private particles = false;
@@ -40,22 +51,36 @@ export class App {
         this.canvas.dataset.triangles = String(triangles);
         if (particles) this.canvas.dataset.particles = String(particles.index);
         else delete this.canvas.dataset.particles;
-        this.view.frameDrawn(frame, particles);
+        this.screen.overlay.particlesDrawn(frame, particles);
+        this.frameDrawn(frame);
       },
       moving: (moving) => {
-        this.view.cameraMoving(moving);
+        this.sessionView.cameraMoving(moving);
         if (!moving) this.writeAddress();
       },
       lost: (lost) => {
         this.inPlaceOfPicture(lost ? 'The browser has taken the graphics away. The picture returns when it gives them back; loading the page again may help.' : '');
       },
     });
-    this.view = new SessionView(this.server, startDecodePool(), this.viewer, new Overlay(), {
-      state: (state) => { this.watchState(state); },
+    this.screen = new Screen(startDecodePool(), this.viewer, new Overlay(), {
+      shown: () => { this.sessionView.showParticles(); },
       failed: (reason) => { this.banner.say(reason); },
       recovered: () => { this.banner.say(''); },
       firstFrame: () => { this.firstFrame(); },
     });
+    this.sessionView = new SessionView(this.server, this.screen, this.playback, {
+      state: (state) => { this.watchState(state); },
+      failed: (reason) => { this.banner.say(reason); },
+      recovered: () => { this.banner.say(''); },
+    });
+    this.recordingView = new RecordingView(this.server, this.screen, this.playback, {
+      state: (state) => { this.watchState(state); },
+      restsAt: (position) => {
+        this.at = { ...this.at, position };
+        this.writeAddress();
+      },
+    });
+    this.recordings = new RecordingList(this.server, (recording) => { this.go({ recording }); });
     this.list = new SessionList(this.server, this.banner, {
       chosen: (session) => { this.go({ session }); },
       tokenNeeded: (reason) => void this.tokenNeeded(reason),
@@ -70,32 +95,49 @@ export class App {
     history.pushState(null, '', writeLink(state));
     this.open(state);
     // What was chosen with the keyboard goes on with the keyboard.
-    if (state.session === undefined) element('list-heading', HTMLElement).focus();
+    if (!state.session && !state.recording) element('list-heading', HTMLElement).focus();
     else this.canvas.focus();
   }
 
   private open(state: PageState): void {
     this.linked = state;
-    this.session = state.session;
-    this.view.stop();
+    this.at = { ...(state.session === undefined ? {} : { session: state.session }), ...(state.recording ? { recording: state.recording } : {}) };
+    this.sessionView.stop();
+    this.recordingView.stop();
+    this.screen.clear();
+    this.playback.play(undefined);
     delete this.canvas.dataset.frame;
     delete this.canvas.dataset.triangles;
     delete this.canvas.dataset.particles;
     this.banner.say('');
-    const watching = state.session !== undefined;
+    const watching = this.looking;
     element('watch', HTMLElement).hidden = !watching;
     element('leave', HTMLButtonElement).hidden = !watching;
-    element('title', HTMLElement).textContent = state.session ?? '';
+    element('title', HTMLElement).textContent = state.recording ? `Recording ${recordingNameText(state.recording)}` : (state.session ?? '');
     this.inPlaceOfPicture('');
-    if (state.session === undefined) {
+    if (!watching) {
       this.list.show();
+      this.recordings.show();
       return;
     }
     this.list.hide();
+    this.recordings.hide();
     this.setLook(state.look ?? 'water');
     this.setUp(state.up ?? 'y');
     this.setParticles(false);
-    this.view.start(state.session);
+    if (state.recording) this.recordingView.start(state.recording, state.position);
+    else this.sessionView.start(state.session!);
+  }
+
+  /** Whether something is looked at, or else the list. */
+  private get looking(): boolean {
+    return this.at.session !== undefined || this.at.recording !== undefined;
+  }
+
+  private frameDrawn(frame: Frame): void {
+    if (!this.screen.frameDrawn(frame)) return;
+    if (this.at.recording) this.recordingView.frameDrawn(frame);
+    else this.sessionView.frameDrawn(frame);
   }
 
   private firstFrame(): void {
@@ -107,7 +149,7 @@ export class App {
   private watchState(state: WatchState): void {
     this.canvas.dataset.state = state.kind;
     this.banner.watching(state);
-    if (!this.view.shown)
+    if (!this.screen.shown)
       this.inPlaceOfPicture(state.kind === 'connecting' ? 'Connecting…' : state.kind === 'connected' ? 'Connected. No frame has come yet.' : '');
     if (state.kind === 'token') void this.tokenNeeded(state.reason);
   }
@@ -122,8 +164,9 @@ export class App {
     if (token === undefined) return;
     this.server.token = token;
     this.banner.say('');
-    if (this.session === undefined) this.list.show();
-    else this.view.restart();
+    if (this.at.recording) this.recordingView.restart();
+    else if (this.at.session !== undefined) this.sessionView.restart();
+    else this.open({});
   }
 
   private bindControls(): void {
@@ -143,9 +186,9 @@ export class App {
     for (const [id, action] of Object.entries(actions)) element(id, HTMLButtonElement).addEventListener('click', action);
     element('full', HTMLButtonElement).hidden = !document.fullscreenEnabled;
     const keys: Record<string, () => void> = {
-      ' ': () => { this.view.togglePause(); },
-      ',': () => { this.view.step(-1); },
-      '.': () => { this.view.step(1); },
+      ' ': () => { this.playback.toggle(); },
+      ',': () => { this.playback.step(-1); },
+      '.': () => { this.playback.step(1); },
       f: () => { this.viewer.fit(); },
       w: () => { actions.look!(); },
       p: () => { this.setParticles(!this.particles); },
@@ -166,10 +209,13 @@ export class App {
     this.writeAddress();
   }
 
+  /** Recordings are shown without. */
   private setParticles(wanted: boolean): void {
-    this.particles = wanted;
-    this.view.setParticles(wanted);
-    element('show-particles', HTMLButtonElement).setAttribute('aria-pressed', String(wanted));
+    this.particles = wanted && this.at.session !== undefined;
+    this.sessionView.setParticles(this.particles);
+    const button = element('show-particles', HTMLButtonElement);
+    button.hidden = this.at.session === undefined;
+    button.setAttribute('aria-pressed', String(this.particles));
   }
 
   private setUp(up: UpAxis): void {
@@ -187,14 +233,14 @@ export class App {
   }
 
   private save(kind: 'glb' | 'ply', type: string): void {
-    const shown = this.view.shown;
+    const { shown } = this.screen;
     if (!shown) return;
     download(`meniscus-${shown.frame.index}.${kind}`, type, kind === 'glb' ? writeGlb(shown, this.up) : writePly(shown));
   }
 
   private writeAddress(): void {
-    if (!this.view.shown || this.session === undefined) return;
-    history.replaceState(null, '', writeLink({ session: this.session, camera: this.viewer.cameraPlace, look: this.look, up: this.up }));
+    if (!this.screen.shown || !this.looking) return;
+    history.replaceState(null, '', writeLink({ ...this.at, camera: this.viewer.cameraPlace, look: this.look, up: this.up }));
   }
 
   private async copyLink(): Promise<void> {

@@ -15,9 +15,17 @@ describe('the link', () => {
     expect(readLink('')).toEqual({});
   });
 
+  it('reopens a recording at its frame', () => {
+    const recorded = { recording: { session: state.session, number: 12 }, position: 34, look: 'levels' as const };
+    expect(writeLink(recorded)).toBe(`#recording=${state.session}/12&position=34&look=levels`);
+    expect(readLink(writeLink(recorded))).toEqual(recorded);
+  });
+
   it('leaves out what it does not understand', () => {
     expect(readLink('#session=../../etc&camera=1,2,3&look=x&up=w')).toEqual({});
     expect(readLink('#camera=1,2,3,4,5,x')).toEqual({});
+    expect(readLink(`#recording=${state.session}/0&position=1`)).toEqual({});
+    expect(readLink(`#recording=${state.session}/1&position=-1`)).toEqual({ recording: { session: state.session, number: 1 } });
     expect(readLink('#camera=1,,3,4,5,6')).toEqual({});
   });
 });

@@ -30,10 +30,14 @@ async function record() {
   };
 }
 
+/** The recording's file, and its frames' triangles. */
+export function recordedFile() {
+  return (recorded ??= record());
+}
+
 /** faster: than the rate above. loop: for ever. */
 export async function startReplay(server, { faster = 1, loop = true } = {}) {
-  recorded ??= record();
-  const { file, speed, triangles } = await recorded;
+  const { file, speed, triangles } = await recordedFile();
   const replay = startUploader(server, ['replay', file, '--speed', `${speed * faster}`, ...(loop ? ['--loop'] : [])]);
   return { ...replay, triangles };
 }

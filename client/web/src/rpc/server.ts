@@ -1,11 +1,13 @@
 // The server's calls that a viewer makes.
 import type { MessageInitShape } from '@bufbuild/protobuf';
+import { RecordingService, type ReadRecordingRequestSchema, type Recording } from '../gen/meniscus/v1/recording_service_pb';
 import { SessionService, type Session } from '../gen/meniscus/v1/session_service_pb';
 import { ServerService, type GetServerInfoResponse } from '../gen/meniscus/v1/server_service_pb';
 import { SurfaceService, type WatchParticlesResponse, type WatchRequestSchema, type WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
 import { serverStream, unary, type CallOptions, type Endpoint, type Received } from './call';
 
 export type WatchRequestInit = MessageInitShape<typeof WatchRequestSchema>;
+export type ReadRequestInit = MessageInitShape<typeof ReadRecordingRequestSchema>;
 
 const unaryTimeout = 10_000;  // ms
 
@@ -37,6 +39,15 @@ export class Server {
 
   watchParticles(request: { sessionId: string; maxParticles: bigint }, signal: AbortSignal): AsyncIterable<Received<WatchParticlesResponse>> {
     return serverStream(this.endpoint, SurfaceService.method.watchParticles, request, this.options(signal, request.sessionId));
+  }
+
+  async recordings(): Promise<Recording[]> {
+    const answer = await unary(this.endpoint, RecordingService.method.listRecordings, {}, this.options(AbortSignal.timeout(unaryTimeout)));
+    return answer.recordings;
+  }
+
+  readRecording(request: ReadRequestInit & { sessionId: string }, signal: AbortSignal): AsyncIterable<Received<WatchResponse>> {
+    return serverStream(this.endpoint, RecordingService.method.readRecording, request, this.options(signal, request.sessionId));
   }
 
   private options(signal: AbortSignal, sessionId?: string, opened?: () => void): CallOptions {

@@ -52,10 +52,14 @@ export class Overlay {
 
   /** When that was its first. skipped: frames so far; roundTrip: of the link, ms. */
   liveFrameDrawn(frame: Frame, skipped: number, roundTrip: number): void {
-    const now = performance.now();
-    this.drawn.add(now, 1);
     set('skipped', countText(skipped));
-    set('latency', millisecondsText(frame.statistics.latencySeconds * 1000 + roundTrip / 2 + now - frame.beganAt));
+    set('latency', millisecondsText(frame.statistics.latencySeconds * 1000 + roundTrip / 2 + performance.now() - frame.beganAt));
+    this.framePlayed(frame);
+  }
+
+  /** When that was its first, and the next one follows by itself. */
+  framePlayed(frame: Frame): void {
+    this.drawn.add(performance.now(), 1);
     this.chart.add(frame.statistics);
     this.refresh();
   }

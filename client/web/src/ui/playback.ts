@@ -1,22 +1,25 @@
-// Pause, step and scrub over the frames that are kept.
-import type { Frame } from '../bricks/frame';
-import type { History } from '../bricks/history';
+// Pause, step and scrub: over the frames that are kept, or over a recording.
 import { element } from './page';
 
-export interface PlaybackEvents {
+/** What is played, by place. */
+export interface Reel {
+  readonly length: number;
+  /** For who cannot see the slider. */
+  describe(at: number): string;
+  /** To be shown; paused already. */
+  choose(at: number): void;
   paused(paused: boolean): void;
-  chosen(frame: Frame): void;
+  /** On the button, while it is paused. */
+  readonly resume: string;
 }
 
 export class Playback {
   private readonly pauseButton = element('pause', HTMLButtonElement);
   private readonly scrub = element('scrub', HTMLInputElement);
+  private reel: Reel | undefined;
   private isPaused = false;
 
-  constructor(
-    private readonly history: History,
-    private readonly events: PlaybackEvents,
-  ) {
+  constructor() {
     this.pauseButton.addEventListener('click', () => { this.toggle(); });
     element('back', HTMLButtonElement).addEventListener('click', () => { this.step(-1); });
     element('forward', HTMLButtonElement).addEventListener('click', () => { this.step(1); });
@@ -27,43 +30,47 @@ export class Playback {
     return this.isPaused;
   }
 
+  /** Of the slider. */
+  get at(): number {
+    return Number(this.scrub.value);
+  }
+
+  /** In place of the one before. */
+  play(reel: Reel | undefined): void {
+    this.reel = reel;
+    this.label();
+    this.moveTo(0);
+  }
+
   toggle(): void {
     this.setPaused(!this.isPaused);
   }
 
   step(by: number): void {
-    this.choose(Number(this.scrub.value) + by);
+    this.choose(this.at + by);
   }
 
-  clear(): void {
-    this.history.clear();
-    this.frameAdded();
-  }
-
-  /** After a frame has come: the slider stands at the newest. */
-  frameAdded(): void {
-    this.scrub.max = String(Math.max(0, this.history.frames.length - 1));
-    if (!this.isPaused) this.scrub.value = this.scrub.max;
-    this.describe();
+  /** The slider follows what is shown. */
+  moveTo(at: number): void {
+    this.scrub.max = String(Math.max(0, (this.reel?.length ?? 0) - 1));
+    this.scrub.value = String(at);
+    this.scrub.setAttribute('aria-valuetext', this.reel && at < this.reel.length ? this.reel.describe(at) : 'none');
   }
 
   setPaused(paused: boolean): void {
     this.isPaused = paused;
-    this.pauseButton.textContent = paused ? 'Resume' : 'Pause';
-    this.events.paused(paused);
+    this.label();
+    this.reel?.paused(paused);
+  }
+
+  private label(): void {
+    this.pauseButton.textContent = this.isPaused ? (this.reel?.resume ?? 'Resume') : 'Pause';
   }
 
   private choose(at: number): void {
-    const frame = this.history.frames[Math.min(Math.max(at, 0), this.history.frames.length - 1)];
-    if (!frame) return;
+    if (!this.reel || this.reel.length === 0) return;
     if (!this.isPaused) this.setPaused(true);
-    this.scrub.value = String(this.history.frames.indexOf(frame));
-    this.describe();
-    this.events.chosen(frame);
-  }
-
-  private describe(): void {
-    const frame = this.history.frames[Number(this.scrub.value)];
-    this.scrub.setAttribute('aria-valuetext', frame ? `frame ${frame.index}` : 'none');
+    this.moveTo(Math.min(Math.max(at, 0), this.reel.length - 1));
+    this.reel.choose(this.at);
   }
 }

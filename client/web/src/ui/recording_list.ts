@@ -1,0 +1,98 @@
+// What the server has recorded, below the sessions; not there where it records nothing. Follows by itself while it is shown.
+import type { Recording } from '../gen/meniscus/v1/recording_service_pb';
+import { recordingNameText, type RecordingName } from '../recordings/recording_name';
+import type { Server } from '../rpc/server';
+import { Code, RpcError } from '../rpc/status';
+import { element } from './page';
+import { bytesText, countText } from './texts';
+
+/** ms */
+const refreshEvery = 5000;
+/** The newest. */
+const most = 100;
+
+export class RecordingList {
+  private readonly list = element('recordings', HTMLUListElement);
+  private readonly section = element('recordings-section', HTMLElement);
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  /** As in SessionList. */
+  private showing: symbol | undefined;
+
+  constructor(
+    private readonly server: Server,
+    private readonly chosen: (recording: RecordingName) => void,
+  ) {
+    document.addEventListener('visibilitychange', () => { if (this.showing && !document.hidden) this.show(); });
+  }
+
+  show(): void {
+    this.hide();
+    this.showing = Symbol('showing');
+    void this.refresh(this.showing);
+  }
+
+  hide(): void {
+    this.showing = undefined;
+    clearTimeout(this.timer);
+  }
+
+  private async refresh(showing: symbol): Promise<void> {
+    try {
+      const recordings = await this.server.recordings();
+      if (showing !== this.showing) return;
+      this.fill(recordings);
+    } catch (error) {
+      if (showing !== this.showing) return;
+      // Other errors are the list of sessions' to tell.
+      if (error instanceof RpcError && error.code === Code.unimplemented) {
+        this.fill([]);
+        return;
+      }
+    }
+    if (!document.hidden) this.timer = setTimeout(() => void this.refresh(showing), refreshEvery);
+  }
+
+  /** Entries that stay keep their buttons, and with them the keyboard's focus. */
+  private fill(recordings: Recording[]): void {
+    this.section.hidden = recordings.length === 0;
+    const more = element('more-recordings', HTMLElement);
+    more.hidden = recordings.length <= most;
+    more.textContent = `These are the newest ${most} of ${countText(recordings.length)}.`;
+    const buttons = new Map([...this.list.querySelectorAll('button')].map((button) => [button.dataset.recording, button]));
+    this.list.replaceChildren(
+      ...recordings.slice(0, most).map((recording) => {
+        const name = { session: recording.sessionId, number: recording.number };
+        const button = buttons.get(recordingNameText(name)) ?? this.button(name);
+        button.querySelector('.about')!.textContent = about(recording);
+        const item = document.createElement('li');
+        item.append(button);
+        return item;
+      }),
+    );
+  }
+
+  private button(name: RecordingName): HTMLButtonElement {
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.dataset.recording = recordingNameText(name);
+    const code = document.createElement('code');
+    code.textContent = recordingNameText(name);
+    const text = document.createElement('span');
+    text.className = 'about';
+    button.append(code, text);
+    button.addEventListener('click', () => { this.chosen(name); });
+    return button;
+  }
+}
+
+function about(recording: Recording): string {
+  const parts = [
+    new Date(Number(recording.startedAt / 1000n)).toLocaleString(),
+    `${countText(recording.frames)} ${recording.frames === 1n ? 'frame' : 'frames'}`,
+    bytesText(Number(recording.bytes)),
+  ];
+  if (recording.beingWritten) parts.push('being written');
+  if (recording.damaged) parts.push('damaged behind them');
+  if (recording.owner !== '') parts.push(`of ${recording.owner}`);
+  return parts.join(', ');
+}

@@ -1,0 +1,64 @@
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { describe, it } from 'node:test';
+import { missing, screenshot } from './support/browser.mjs';
+import { startServer, startUploader } from './support/programs.mjs';
+import { recordedFile } from './support/recording.mjs';
+import { open, shown, state } from './support/viewer.mjs';
+
+describe('a recording', { skip: missing }, () => {
+  it('opens, plays, scrubs, steps, and reopens by its link', async () => {
+    const folder = mkdtempSync(join(tmpdir(), 'meniscus-web-'));
+    try {
+      const { file, triangles } = await recordedFile();
+      const server = await startServer({ args: ['--record', folder] });
+      const replay = startUploader(server, ['replay', file, '--speed', 'max', '--to', '59']);
+      await replay.finished();
+      const page = await open(server.url);
+      const entry = page.locator(`[data-recording="${replay.session}/1"]`);
+      await entry.getByText('60 frames').waitFor();
+      await screenshot(page, 'recordings');
+      await entry.click();
+      await state(page, 'live');
+      await page.waitForFunction(() => Number(document.getElementById('view').dataset.frame) >= 2);
+      assert.equal(await page.getAttribute('#scrub', 'max'), '59');
+
+      const shows = async (frame) => {
+        await page.waitForFunction((wanted) => Number(document.getElementById('view').dataset.frame) === wanted, frame);
+        assert.deepEqual(await shown(page), { frame, triangles: triangles[frame] });
+      };
+      await page.fill('#scrub', '45');
+      await shows(45);
+      await state(page, 'paused');
+      await page.click('#back');
+      await shows(44);
+      await page.focus('#view');
+      await page.keyboard.press('.');
+      await page.keyboard.press('.');
+      await shows(46);
+      await screenshot(page, 'recording');
+
+      assert.match(page.url(), new RegExp(`#recording=${replay.session}/1&position=46`));
+      await page.reload();
+      await shows(46);
+      await state(page, 'paused');
+      await page.fill('#scrub', '56');
+      await page.click('#pause');
+      await shows(59);
+      await state(page, 'paused');
+    } finally {
+      rmSync(folder, { recursive: true });
+    }
+  });
+
+  it('says that there is none where there is none', async () => {
+    const server = await startServer();
+    const page = await open(`${server.url}#recording=00000000-0000-4000-8000-000000000000/1`);
+    await page.getByText('There are no recordings (this server keeps no recordings').waitFor();
+    await page.click('#leave');
+    await page.waitForSelector('#no-sessions:not([hidden])');
+    assert.equal(await page.locator('#recordings-section').isVisible(), false);
+  });
+});
