@@ -69,7 +69,7 @@ TEST(WatchWishes, AreTakenOnTheirLimits) {
 }
 
 TEST(WatchWishes, ShareAnEncodeWhereTheyComeToTheSame) {
-    const MeshFormat plain = watch_wishes_of({}, settings()).format;
+    const MeshFormat plain = watch_wishes_of(v1::WatchRequest(), settings()).format;
     const auto spelled_out = [](auto& m) {
         m.set_position_bits(6);
         m.set_max_level(3);
@@ -81,7 +81,7 @@ TEST(WatchWishes, ShareAnEncodeWhereTheyComeToTheSame) {
     EXPECT_EQ(watch_wishes_of(request(spelled_out), settings()).format, plain);
     Settings without_normals = settings();
     without_normals.normals = false;
-    EXPECT_EQ(watch_wishes_of({}, without_normals).format, watch_wishes_of(request([](auto& m) { m.set_normal_bits(0); }), settings()).format);
+    EXPECT_EQ(watch_wishes_of(v1::WatchRequest(), without_normals).format, watch_wishes_of(request([](auto& m) { m.set_normal_bits(0); }), settings()).format);
 }
 
 struct WatcherOfAFrame : testing::Test {
