@@ -50,7 +50,12 @@ protected:
 
     void make_device(std::size_t limit = 0, const Settings& settings = test::default_settings()) {
         device_account = std::make_shared<MemoryAccount>(limit, "on the GPU");
-        device = cuda::make_reconstruction(settings, 0, std::make_shared<MemoryAccount>(), device_account);
+        device = cuda::make_reconstruction(settings, 0, account, device_account);
+    }
+    /// As a reconstructor does after a failure.
+    void make_device_again() {
+        device.reset();
+        device = cuda::make_reconstruction(test::default_settings(), 0, account, device_account);
     }
     void begin(Frame& frame) {
         Statistics statistics;
@@ -61,6 +66,7 @@ protected:
         expect_equal(frame.mesh, frame.expected);
     }
 
+    const std::shared_ptr<MemoryAccount> account = std::make_shared<MemoryAccount>();
     std::shared_ptr<MemoryAccount> device_account;
     std::unique_ptr<BackendReconstruction> device;
 };
@@ -218,6 +224,38 @@ TEST_F(CudaDownload, WhereTheLimitLeavesNoSecondSetAFrameBringsTheMeshBeforeItDo
         finish(third);
     }
     EXPECT_LE(device_account->peak_bytes(), limit);
+}
+
+TEST_F(CudaDownload, AfterARefusedFrameThereIsRoomForTheNextHoweverLongDownloadsAreHeld) {
+    Frame complete(1), pending(2), next(3);
+    const test::Particles too_many = test::splash(4, 40);
+    make_device();
+    for (Frame* frame : {&complete, &pending, &next}) {
+        begin(*frame);
+        finish(*frame);
+    }
+    const std::size_t one_set = device_account->peak_bytes();
+    begin(complete);
+    begin(pending);
+    const std::size_t two_sets = device_account->peak_bytes();
+    ASSERT_GT(two_sets, one_set);
+    for (const std::size_t limit : {one_set, two_sets}) {
+        for (Frame* frame : {&complete, &pending, &next}) frame->download = {};
+        make_device(limit);
+        begin(complete);
+        begin(pending);
+        complete.download.finish();
+        Statistics statistics;
+        Mesh none;
+        EXPECT_THROW(static_cast<void>(device->reconstruct(too_many.frame(), none, statistics)), LimitExceeded);
+        EXPECT_EQ(pending.download.seconds(), 0.0) << "still to be downloaded";
+        make_device_again();
+        EXPECT_EQ(device_account->bytes(), 0U);
+        begin(next);
+        finish(next);
+        finish(complete);
+        finish(pending);
+    }
 }
 
 TEST_F(CudaDownload, AMeshComesDownAfterItsReconstructorHasEnded) {

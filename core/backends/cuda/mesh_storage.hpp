@@ -14,7 +14,7 @@
 namespace meniscus::cuda {
 
 /// Two sets of mesh arrays, so that one is written while the other is read, and what copies from them. It lives as long as the
-/// reconstruction or a download needs it. The kernels' stream never meets this one: the host waits for the kernels before a download
+/// reconstruction or a download refers to it; the sets are freed when the reconstruction ends. The kernels' stream never meets this one: the host waits for the kernels before a download
 /// begins, and for the copies before the arrays are written again.
 struct MeshStorage {
     MeshStorage(int on_device, const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account)

@@ -65,8 +65,9 @@ public:
         try {
             at_end_.emplace(device_);
         } catch (...) {
-            // The device is lost: there is nothing to free on it.
+            return;  // The device is lost: there is nothing to free on it.
         }
+        give_sets_back();
     }
 
     MeshDownload reconstruct(const ParticleFrame& particles, Mesh& mesh, Statistics& statistics) override {
@@ -128,6 +129,24 @@ private:
     std::shared_ptr<PendingMesh> reader(std::size_t set) const {
         auto pending = pending_[set].lock();
         return pending && !pending->is_done() ? pending : nullptr;
+    }
+
+    /// A mesh's owner may keep its download for long, and the next reconstruction needs the room: only the host's memory may outlive this one.
+    void give_sets_back() noexcept {
+        const auto attempt = [](const auto& action) {
+            try {
+                action();
+            } catch (...) {
+                // The device failed: whoever asks for a mesh that is not complete is told.
+            }
+        };
+        // After an exception kernels may still write a set.
+        attempt([&] { stream_.synchronize(); });
+        for (std::size_t set = 0; set < pending_.size(); ++set) {
+            if (const auto pending = reader(set)) attempt([&] { pending->finish(); });
+            storage_->sets[set].release();
+        }
+        attempt([&] { storage_->stream.synchronize(); });
     }
 
     /// Chooses a set that nothing reads for the mesh that comes. What must come down for that comes down here: its owner may wait for this
