@@ -67,13 +67,13 @@ SharedBrick find_brick(const EncodedFrame* frame, const std::array<std::int32_t,
     return found != frame->bricks.end() && (*found)->place == place ? *found : nullptr;
 }
 
-v1::StreamResponse statistics_response(const ReconstructedFrame& frame) {
+v1::StreamResponse statistics_response(const ReconstructedFrame& frame, const MeshDownload& download) {
     v1::StreamResponse response;
     v1::FrameStatistics& statistics = *response.mutable_frame_statistics();
     statistics.set_frame_index(frame.index);
     statistics.set_simulation_time(frame.simulation_time);
     conversion::to_wire(frame.statistics, statistics);
-    statistics.set_download_seconds(frame.download.seconds());
+    statistics.set_download_seconds(download.seconds());
     statistics.set_latency_seconds(seconds_since(frame.received_at));
     return response;
 }
@@ -118,7 +118,7 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
         for (const SharedMessage& message : brick->messages) emit(message);
     });
 
-    v1::StreamResponse end = statistics_response(frame);
+    v1::StreamResponse end = statistics_response(frame, download);
     end.mutable_frame_statistics()->set_encode_seconds(seconds_since(start));
     end.mutable_frame_statistics()->set_encoded_bytes(bytes);
     encoded->statistics = serialize(end);
@@ -127,7 +127,7 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
 }
 
 SharedMessage encode_statistics(const ReconstructedFrame& frame) {
-    return serialize(statistics_response(frame));
+    return serialize(statistics_response(frame, frame.download));
 }
 
 }  // namespace meniscus::server

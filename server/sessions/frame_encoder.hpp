@@ -23,6 +23,9 @@ struct ReconstructedFrame {
         Mesh mesh;
     };
 
+    ReconstructedFrame() = default;
+    ReconstructedFrame(ReconstructedFrame&&) = delete;  // the download refers to the mesh
+
     std::uint64_t number = 0;  ///< frames of the session up to this one
     std::uint64_t index = 0;
     std::uint64_t run_id = 0;

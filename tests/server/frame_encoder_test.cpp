@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "late_meshes.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/limits.hpp"
@@ -12,16 +13,16 @@
 namespace meniscus::server {
 namespace {
 
-ReconstructedFrame reconstructed(const test::Particles& particles) {
-    ReconstructedFrame frame;
-    frame.index = 5;
-    frame.simulation_time = 2.5;
-    frame.received_at = std::chrono::steady_clock::now();
-    Reconstructor reconstructor(test::settings(), {.threads = 1});
-    reconstructor.reconstruct(particles.view(), frame.mesh);
-    frame.statistics = reconstructor.statistics();
-    return frame;
-}
+struct FrameOf : ReconstructedFrame {
+    explicit FrameOf(const test::Particles& particles) {
+        index = 5;
+        simulation_time = 2.5;
+        received_at = std::chrono::steady_clock::now();
+        Reconstructor reconstructor(test::settings(), {.threads = 1});
+        reconstructor.reconstruct(particles.view(), mesh);
+        statistics = reconstructor.statistics();
+    }
+};
 
 v1::WatchResponse parsed(const SharedMessage& message) {
     v1::WatchResponse response;
@@ -31,7 +32,7 @@ v1::WatchResponse parsed(const SharedMessage& message) {
 
 TEST(FrameEncoder, SendsBeginThenBricksThenStatistics) {
     WorkerPool workers(3);
-    const ReconstructedFrame frame = reconstructed(test::wave(12, 0.0));
+    const FrameOf frame(test::wave(12, 0.0));
     std::vector<SharedMessage> sent;
     const auto encoded =
         encode_frame(frame, {.normal_bits = 8}, nullptr, workers, [&](const SharedMessage& m) { sent.push_back(m); });
@@ -61,7 +62,7 @@ TEST(FrameEncoder, KeepsThePartsOfABrickTogetherAndWithinTheChunkSize) {
         state = state * 1664525U + 1013904223U;
         particles.positions.push_back(static_cast<float>(state >> 8U) / static_cast<float>(1U << 24U) * 6.3F);
     }
-    ReconstructedFrame frame = reconstructed(particles);
+    const FrameOf frame(particles);
     WorkerPool workers(2);
     const auto encoded = encode_frame(frame, {.normal_bits = 16}, nullptr, workers, nullptr);
     for (const SharedBrick& brick : encoded->bricks) {
@@ -75,9 +76,24 @@ TEST(FrameEncoder, KeepsThePartsOfABrickTogetherAndWithinTheChunkSize) {
     }
 }
 
+TEST(FrameEncoder, TellsTheDownloadsTimeOfTheMeshThatItSendsAlone) {
+    FrameOf frame(test::wave(6, 0.0));
+    frame.download = MeshDownload(std::make_shared<test::LateMesh>(std::make_shared<test::LateMeshes>(), frame.mesh));
+    auto& capped = frame.capped_at(2);
+    Reconstructor(test::settings(), {.threads = 1}).reconstruct(test::wave(3, 0.0).view(), capped.mesh);
+    capped.made = true;
+    WorkerPool workers(1);
+    const auto seconds = [&](int max_level) {
+        const auto encoded = encode_frame(frame, {.max_level = max_level, .normal_bits = 8}, nullptr, workers, nullptr);
+        return parsed(encoded->statistics).frame_statistics().download_seconds();
+    };
+    EXPECT_EQ(seconds(3), 0.25);
+    EXPECT_EQ(seconds(2), 0.0);
+}
+
 TEST(FrameEncoder, SendsAnEmptyMesh) {
     WorkerPool workers(1);
-    const auto encoded = encode_frame(reconstructed({}), {.normal_bits = 8}, nullptr, workers, nullptr);
+    const auto encoded = encode_frame(FrameOf({}), {.normal_bits = 8}, nullptr, workers, nullptr);
     EXPECT_TRUE(encoded->bricks.empty());
     EXPECT_EQ(parsed(encoded->begin).mesh_begin().brick_count(), 0U);
     EXPECT_GT(parsed(encoded->begin).mesh_begin().cell_size(), 0.0);
@@ -91,9 +107,9 @@ TEST(FrameEncoder, EncodesOnlyTheBricksThatHaveChanged) {
         for (const float p : test::wave(10, 0.0).positions) both.positions.push_back(p + 20.0F);
         return both;
     };
-    const auto before = encode_frame(reconstructed(particles(0.0)), {.normal_bits = 8}, nullptr, workers, nullptr);
-    const auto after = encode_frame(reconstructed(particles(0.5)), {.normal_bits = 8}, before.get(), workers, nullptr);
-    const auto anew = encode_frame(reconstructed(particles(0.5)), {.normal_bits = 8}, nullptr, workers, nullptr);
+    const auto before = encode_frame(FrameOf(particles(0.0)), {.normal_bits = 8}, nullptr, workers, nullptr);
+    const auto after = encode_frame(FrameOf(particles(0.5)), {.normal_bits = 8}, before.get(), workers, nullptr);
+    const auto anew = encode_frame(FrameOf(particles(0.5)), {.normal_bits = 8}, nullptr, workers, nullptr);
     ASSERT_EQ(after->bricks.size(), anew->bricks.size());
     std::size_t reused = 0;
     std::size_t far = 0;
