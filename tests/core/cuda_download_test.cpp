@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstring>
+#include <future>
 #include <list>
 #include <thread>
 #include <vector>
@@ -46,7 +48,7 @@ struct Frame {
 
 class CudaDownload : public testing::Test {
 protected:
-    ~CudaDownload() override { emulated_device::copies_until_failure = -1; }
+    ~CudaDownload() override { emulated_device::before_copy_to_host = nullptr; }
 
     void make_device(std::size_t limit = 0, const Settings& settings = test::default_settings()) {
         device_account = std::make_shared<MemoryAccount>(limit, "on the GPU");
@@ -218,12 +220,31 @@ TEST_F(CudaDownload, WhereTheLimitLeavesNoSecondSetAFrameBringsTheMeshBeforeItDo
         Frame first(1), second(2, 10), third(3);
         begin(first);
         begin(second);
+        EXPECT_GT(first.download.seconds(), 0.0);
         begin(third);
         finish(first);
         finish(second);
         finish(third);
     }
-    EXPECT_LE(device_account->peak_bytes(), limit);
+}
+
+TEST_F(CudaDownload, ASecondSetThatWasRefusedIsTriedAgainOnceAFrameNeedsMore) {
+    constexpr std::size_t limit = std::size_t{1} << 30;
+    make_device(limit);
+    Frame first(1), second(1), third(1), large(2, 10);
+    begin(first);
+    const std::size_t one_set = device_account->bytes();
+    const std::size_t others = limit - one_set;
+    device_account->charge(others);
+    begin(second);
+    EXPECT_GT(first.download.seconds(), 0.0);
+    device_account->release(others);
+    begin(third);
+    EXPECT_GT(second.download.seconds(), 0.0);
+    EXPECT_EQ(device_account->bytes(), one_set);
+    begin(large);
+    EXPECT_EQ(third.download.seconds(), 0.0);
+    for (Frame* frame : {&first, &second, &third, &large}) finish(*frame);
 }
 
 TEST_F(CudaDownload, AfterARefusedFrameThereIsRoomForTheNextHoweverLongDownloadsAreHeld) {
@@ -276,13 +297,43 @@ TEST_F(CudaDownload, ADeviceThatFailsMeanwhileIsToldToWhoeverAsksAndTheNextFrame
     Frame first(1), second(2);
     begin(first);
     first.download.start();
-    emulated_device::copies_until_failure = 2;
+    emulated_device::before_copy_to_host = [] { return cudaErrorLaunchFailure; };
     EXPECT_THROW(first.download.finish(), DeviceError);
-    emulated_device::copies_until_failure = -1;
+    emulated_device::before_copy_to_host = nullptr;
     EXPECT_THROW(first.download.bring(0), DeviceError) << "the mesh is not complete";
     begin(second);
     finish(second);
     EXPECT_THROW(first.download.finish(), DeviceError);
+}
+
+TEST_F(CudaDownload, ADeviceWithoutMemoryForACopyHasFailed) {
+    make_device();
+    Frame frame(1);
+    begin(frame);
+    emulated_device::before_copy_to_host = [] { return cudaErrorMemoryAllocation; };
+    EXPECT_THROW(frame.download.start(), DeviceError);
+    emulated_device::before_copy_to_host = nullptr;
+    EXPECT_THROW(frame.download.finish(), DeviceError);
+}
+
+TEST_F(CudaDownload, ABrickThatIsThereIsTakenWhileOthersComeDown) {
+    Settings settings = test::default_settings();
+    settings.cell_size = 0.2;
+    make_device(0, settings);
+    Frame frame(test::splash(4, 10), settings);
+    begin(frame);
+    frame.download.bring(0);
+    bool taken = false;
+    std::future<void> taker;
+    emulated_device::before_copy_to_host = [&] {
+        if (!taker.valid()) {
+            taker = std::async(std::launch::async, [&] { frame.download.bring(0); });
+            taken = taker.wait_for(std::chrono::seconds(20)) == std::future_status::ready;
+        }
+        return cudaSuccess;
+    };
+    finish(frame);
+    EXPECT_TRUE(taken);
 }
 
 TEST_F(CudaDownload, OneThreadTakesTheMeshesThatAnotherMakes) {

@@ -53,7 +53,6 @@ public:
     std::size_t bytes() const { return bytes_; }
 
 private:
-
     cudaStream_t stream_;
     std::shared_ptr<MemoryAccount> account_;
     cudaMemPool_t pool_ = nullptr;

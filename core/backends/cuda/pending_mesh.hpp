@@ -5,12 +5,14 @@
 #include <chrono>
 #include <cstddef>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <utility>
 
 #include "backends/cuda/mesh_storage.hpp"
 #include "meniscus/device_mesh.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
 
@@ -23,19 +25,12 @@ public:
     PendingMesh(std::shared_ptr<MeshStorage> storage, const DeviceMesh& from, const MeshBrick* bricks, Mesh& to)
         : storage_(std::move(storage)), from_(from), bricks_(bricks), to_(to) {}
 
-    void start() override {
-        proceed([] {});
-    }
+    void start() override { bring_first(0); }
     void bring(std::size_t brick) override {
-        proceed([&] {
-            while (arrived_ <= brick && arrived_ < to_.bricks.size()) fetch_bricks();
-        });
+        // Whose brick is there does not wait for who copies others.
+        if (arrived_ <= brick) bring_first(brick + 1);
     }
-    void finish() override {
-        proceed([&] {
-            while (arrived_ < to_.bricks.size()) fetch_bricks();
-        });
-    }
+    void finish() override { bring_first(std::numeric_limits<std::size_t>::max()); }
     void abandon() noexcept override {
         const std::lock_guard lock(storage_->copying);
         done_ = true;
@@ -52,24 +47,38 @@ private:
     /// Enough for a copy to be worth its launch, and few enough for the first brick to be there soon.
     static constexpr std::size_t fetch_bytes = std::size_t{256} << 10;
 
-    template <class Fetch>
-    void proceed(const Fetch& fetch) {
+    /// The vertices, and the triangles of so many bricks or of all; others who ask take their turns between the steps.
+    void bring_first(std::size_t bricks) {
+        while (!step(bricks)) {}
+    }
+
+    /// Returns whether that was the last.
+    bool step(std::size_t bricks) {
         const std::lock_guard lock(storage_->copying);
         if (error_) std::rethrow_exception(error_);
-        if (done_) return;
+        if (done_ || (started_ && arrived_ >= bricks)) return true;
         const auto start = std::chrono::steady_clock::now();
         try {
             const CurrentDevice current(storage_->device);
-            if (!std::exchange(started_, true)) fetch_vertices();
-            fetch();
+            if (std::exchange(started_, true)) fetch_bricks();
+            else fetch_vertices();
             done_ = arrived_ == to_.bricks.size();
+        } catch (const LimitExceeded& error) {
+            // No limit of the frame's, which has been made.
+            fail(std::make_exception_ptr(DeviceError("the download of a mesh", error.what(), storage_->device)));
         } catch (...) {
-            error_ = std::current_exception();
-            storage_->download.forget();
-            done_ = true;
-            throw;
+            fail(std::current_exception());
         }
         seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return done_ || arrived_ >= bricks;
+    }
+
+    [[noreturn]] void fail(const std::exception_ptr& error) {
+        error_ = error;
+        arrived_ = 0;
+        storage_->download.forget();
+        done_ = true;
+        std::rethrow_exception(error);
     }
 
     void fetch_vertices() {
@@ -81,11 +90,12 @@ private:
     }
 
     void fetch_bricks() {
-        std::size_t end = arrived_;
+        const std::size_t begin = arrived_;
+        std::size_t end = begin;
         for (std::size_t triangles = 0; end < to_.bricks.size() && triangles * sizeof(Triangle) < fetch_bytes; ++end) triangles += to_.bricks[end].triangle_count();
         // Within a level, the triangles of successive bricks follow one another.
         for (std::size_t level = 0; level < triangle_level_count; ++level) {
-            const std::uint32_t first = to_.bricks[arrived_].ranges[level].first;
+            const std::uint32_t first = to_.bricks[begin].ranges[level].first;
             const TriangleRange& last = to_.bricks[end - 1].ranges[level];
             fetch(from_.triangles + first, last.first + last.count - first, to_.triangles.data() + first);
         }
@@ -103,9 +113,9 @@ private:
     const MeshBrick* const bricks_;
     Mesh& to_;
     std::atomic<bool> done_{false};
+    std::atomic<std::size_t> arrived_{0};  ///< bricks whose triangles are there; none after a failure
     // With storage_->copying held:
     bool started_ = false;
-    std::size_t arrived_ = 0;  ///< bricks whose triangles are there
     std::exception_ptr error_;
     double seconds_ = 0.0;
 };

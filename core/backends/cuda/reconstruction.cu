@@ -153,18 +153,25 @@ private:
     /// very frame.
     void take_set() {
         if (const auto last = reader(set_)) {
-            set_ = 1 - set_;
-            if (const auto earlier = reader(set_)) earlier->finish();
-            try {
-                fit_set();
-                return;
-            } catch (const LimitExceeded&) {
-                // One set has to do.
-                last->finish();
-                set_ = 1 - set_;
-            }
+            if (take_other_set()) return;
+            last->finish();
         }
         with_room([&] { fit_set(); });
+    }
+
+    /// Returns whether there is room for it. Where there was none, every frame would try in vain until the sizes change.
+    bool take_other_set() {
+        if (one_set_has_to_do_) return false;
+        set_ = 1 - set_;
+        if (const auto earlier = reader(set_)) earlier->finish();
+        try {
+            fit_set();
+            return true;
+        } catch (const LimitExceeded&) {
+            set_ = 1 - set_;
+            one_set_has_to_do_ = true;
+            return false;
+        }
     }
 
     void fit_set() {
@@ -233,6 +240,7 @@ private:
     bool make_room(const Needed& needed) {
         const Capacities before = frame_.capacity;
         if (!frame_.capacity.grow_to(particles_, needed)) return false;
+        one_set_has_to_do_ = false;
         drop_graphs();
         if (frame_.capacity.same_but_for_mesh(before)) return true;
         const Capacities& room = frame_.capacity;
@@ -321,6 +329,7 @@ private:
     std::array<Graph, 2> graphs_;                       ///< one for each set of mesh arrays
     std::array<std::weak_ptr<PendingMesh>, 2> pending_;
     std::size_t set_ = 0;                               ///< that the last mesh went into
+    bool one_set_has_to_do_ = false;                    ///< a second one of these capacities was refused
     std::uint64_t particles_ = 0;                       ///< of the last frame
     bool settled_ = false;     ///< whether the last frame needed no more room
     bool has_levels_ = false;

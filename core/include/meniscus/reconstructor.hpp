@@ -38,7 +38,7 @@ public:
     /// Emits the last frame's surface once more with no cell finer than max_level (1 to 3): coarser, with fewer triangles, and closed as
     /// ever. Cheap, since nothing is sampled: only the steps from count_triangles on run. Leaves the statistics as they are.
     /// Throws InvalidInput for another max_level, or if the last call did not end with a surface; else as reconstruct() does. The last
-    /// frame's own mesh may still be on its way, to another Mesh.
+    /// frame's own mesh may still be on its way, to another Mesh; then this first brings an earlier mesh that is still on its way down.
     void emit_capped(int max_level, Mesh& mesh);
 
     /// Of the last frame.

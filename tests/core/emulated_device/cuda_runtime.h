@@ -4,7 +4,6 @@
 // not wait meets old bytes. It shows what a kernel computes; not races of memory, nor speed.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -40,8 +39,6 @@ const std::uint64_t* exchange(std::uint64_t value, int place);
 
 /// Into the stream, or the graph that it is being captured into.
 void submit(cudaStream_t stream, const std::function<void()>& work);
-/// Copies to the host that still succeed; all do if negative.
-extern std::atomic<int> copies_until_failure;
 void run_kernel(unsigned blocks, unsigned threads, const std::function<void()>& kernel);
 
 template <class T>
@@ -99,6 +96,10 @@ T atomicOr(T* at, T value) {
 // ---- the part of the runtime that the backend uses ------------------------------------------------------------------
 
 enum cudaError_t { cudaSuccess, cudaErrorMemoryAllocation, cudaErrorLaunchFailure };
+namespace emulated_device {
+/// Called, if there, before every copy to the host, by whoever asks for that; what it answers is the copy's status.
+extern std::function<cudaError_t()> before_copy_to_host;
+}  // namespace emulated_device
 enum cudaDeviceAttr { cudaDevAttrMultiProcessorCount };
 enum cudaDriverEntryPointQueryResult { cudaDriverEntryPointSymbolNotFound };
 enum cudaMemcpyKind { cudaMemcpyHostToDevice, cudaMemcpyDeviceToHost };

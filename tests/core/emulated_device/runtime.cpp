@@ -48,7 +48,7 @@ void run_until(EmulatedStream& stream, std::size_t count) {
 }
 }  // namespace
 
-std::atomic<int> emulated_device::copies_until_failure{-1};
+std::function<cudaError_t()> emulated_device::before_copy_to_host;
 
 void emulated_device::submit(cudaStream_t stream, const std::function<void()>& work) {
     if (stream->capturing != nullptr) stream->capturing->work.push_back(work);
@@ -128,7 +128,8 @@ cudaError_t cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStre
     return cudaSuccess;
 }
 cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream) {
-    if (kind == cudaMemcpyDeviceToHost && emulated_device::copies_until_failure >= 0 && emulated_device::copies_until_failure-- == 0) return cudaErrorLaunchFailure;
+    if (kind == cudaMemcpyDeviceToHost && emulated_device::before_copy_to_host)
+        if (const cudaError_t status = emulated_device::before_copy_to_host(); status != cudaSuccess) return status;
     emulated_device::submit(stream, [=] { std::memcpy(to, from, bytes); });
     return cudaSuccess;
 }
