@@ -10,7 +10,7 @@
 
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "meniscus/error.hpp"
-#include "observation/http_client.hpp"
+#include "observation/metrics.hpp"
 #include "running_server.hpp"
 
 namespace meniscus::server::test {
@@ -76,6 +76,7 @@ TEST(Probes, TellOfDrainingWhileTheServerStillAnswers) {
     RawStream stream(running.server.address(), running.session());
     stream.send_begin(0, 4);  // the server waits for the rest of it
     stream.send_chunk(1);
+    scrape_until(http, "meniscus_host_bytes{pool=\"frames_in_flight\"}", 48);
     std::thread stopping([&] { running.server.shutdown(); });
     ASSERT_TRUE(watch->Read(&response));
     EXPECT_EQ(response.status(), HealthCheckResponse::NOT_SERVING);
