@@ -3,6 +3,7 @@ import type { Recording } from '../gen/meniscus/v1/recording_service_pb';
 import { recordingNameText, type RecordingName } from '../recordings/recording_name';
 import type { Server } from '../rpc/server';
 import { Code, RpcError } from '../rpc/status';
+import { showChoices } from './choices';
 import { element } from './page';
 import { bytesText, countText } from './texts';
 
@@ -52,36 +53,15 @@ export class RecordingList {
     if (!document.hidden) this.timer = setTimeout(() => void this.refresh(showing), refreshEvery);
   }
 
-  /** Entries that stay keep their buttons, and with them the keyboard's focus. */
   private fill(recordings: Recording[]): void {
     this.section.hidden = recordings.length === 0;
     const more = element('more-recordings', HTMLElement);
     more.hidden = recordings.length <= most;
     more.textContent = `These are the newest ${most} of ${countText(recordings.length)}.`;
-    const buttons = new Map([...this.list.querySelectorAll('button')].map((button) => [button.dataset.recording, button]));
-    this.list.replaceChildren(
-      ...recordings.slice(0, most).map((recording) => {
-        const name = { session: recording.sessionId, number: recording.number };
-        const button = buttons.get(recordingNameText(name)) ?? this.button(name);
-        button.querySelector('.about')!.textContent = about(recording);
-        const item = document.createElement('li');
-        item.append(button);
-        return item;
-      }),
-    );
-  }
-
-  private button(name: RecordingName): HTMLButtonElement {
-    const button = document.createElement('button');
-    button.type = 'button';
-    button.dataset.recording = recordingNameText(name);
-    const code = document.createElement('code');
-    code.textContent = recordingNameText(name);
-    const text = document.createElement('span');
-    text.className = 'about';
-    button.append(code, text);
-    button.addEventListener('click', () => { this.chosen(name); });
-    return button;
+    showChoices(this.list, 'recording', recordings.slice(0, most).map((recording) => {
+      const name = { session: recording.sessionId, number: recording.number };
+      return { name: recordingNameText(name), about: about(recording), chosen: () => { this.chosen(name); } };
+    }));
   }
 }
 

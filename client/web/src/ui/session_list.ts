@@ -3,6 +3,7 @@ import type { Session } from '../gen/meniscus/v1/session_service_pb';
 import type { Server } from '../rpc/server';
 import { Code, explain, RpcError } from '../rpc/status';
 import type { Banner } from './banner';
+import { showChoices } from './choices';
 import { element } from './page';
 import { countText } from './texts';
 
@@ -54,32 +55,13 @@ export class SessionList {
     if (!document.hidden) this.timer = setTimeout(() => void this.refresh(showing), refreshEvery);
   }
 
-  /** Entries that stay keep their buttons, and with them the keyboard's focus. */
   private fill(sessions: Session[]): void {
     element('no-sessions', HTMLElement).hidden = sessions.length > 0;
-    const buttons = new Map([...this.list.querySelectorAll('button')].map((button) => [button.dataset.session, button]));
-    this.list.replaceChildren(
-      ...sessions.map((session) => {
-        const button = buttons.get(session.id) ?? this.button(session.id);
-        button.querySelector('.about')!.textContent = about(session);
-        const item = document.createElement('li');
-        item.append(button);
-        return item;
-      }),
-    );
-  }
-
-  private button(id: string): HTMLButtonElement {
-    const button = document.createElement('button');
-    button.type = 'button';
-    button.dataset.session = id;
-    const name = document.createElement('code');
-    name.textContent = id;
-    const text = document.createElement('span');
-    text.className = 'about';
-    button.append(name, text);
-    button.addEventListener('click', () => { this.events.chosen(id); });
-    return button;
+    showChoices(this.list, 'session', sessions.map((session) => ({
+      name: session.id,
+      about: about(session),
+      chosen: () => { this.events.chosen(session.id); },
+    })));
   }
 }
 
