@@ -98,14 +98,14 @@ ReceivedParticles ParticleReceiver::end() {
         throw ServerError(name_of(frame.header.index) + " ended after " + std::to_string(frame.bytes.size()) + " of " +
                           std::to_string(frame.expected_bytes) + " bytes");
     ReceivedParticles particles = frame.header;
+    if (frame.sent_count == 0) return particles;
     particles.quantized.resize(3 * frame.sent_count);
     std::memcpy(particles.quantized.data(), frame.bytes.data(), frame.sent_count * position_bytes);
     if (frame.has_levels) {
         particles.levels.resize(frame.sent_count);
         std::memcpy(particles.levels.data(), frame.bytes.data() + frame.sent_count * position_bytes, frame.sent_count);
-        const auto highest = std::ranges::max_element(particles.levels);
-        if (highest != particles.levels.end() && *highest > max_particle_level)
-            throw ServerError(name_of(particles.index) + " have the level " + std::to_string(*highest));
+        const std::uint8_t highest = *std::ranges::max_element(particles.levels);
+        if (highest > max_particle_level) throw ServerError(name_of(particles.index) + " have the level " + std::to_string(highest));
     }
     return particles;
 }

@@ -229,7 +229,13 @@ TEST_F(GrpcWebCalls, ThatAreNotReadSkipToTheNewestFrame) {
     WebCall call(http, watch, watch_request(id), about_session());
     constexpr std::uint64_t frames = 400;
     std::size_t bytes = 0;
-    for (std::uint64_t i = 0; i < frames; ++i) push_one(running.client, id, wave(20, 0.1 * static_cast<double>(i)), i);
+    {
+        auto stream = running.client.stream(id, {.receive_meshes = false});
+        for (std::uint64_t i = 0; i < frames; ++i) stream.push(wave(20, 0.1 * static_cast<double>(i)).view(), i, 0.0);
+        stream.finish();
+        while (stream.next()) {
+        }
+    }
     std::uint64_t received = 0;
     std::uint64_t last = 0;
     while (last + 1 < frames) {
