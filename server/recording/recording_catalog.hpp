@@ -16,7 +16,7 @@ namespace meniscus::server {
 struct RecordingName {
     std::string session_id;
     std::uint32_t number = 0;
-    auto operator<=>(const RecordingName&) const = default;
+    auto operator<=>(const RecordingName&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
 };
 
 /// Blocks on the disk; of one thread.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <span>
@@ -53,7 +54,7 @@ std::string bytes_of(const ParticleFrame& particles, const Box& box, std::size_t
         for (std::size_t axis = 0; axis < 3; ++axis)
             position[axis] = particles.is_quantized()
                                  ? particles.quantized[from + axis]
-                                 : static_cast<std::uint16_t>((particles.positions[from + axis] - box.min[axis]) * scale[axis] + 0.5);
+                                 : static_cast<std::uint16_t>(std::lrint((particles.positions[from + axis] - box.min[axis]) * scale[axis]));
         std::memcpy(bytes.data() + i * position_bytes, position.data(), position_bytes);
         if (!particles.levels.empty()) bytes[sent * position_bytes + i] = static_cast<char>(particles.levels[stride * i]);
     }

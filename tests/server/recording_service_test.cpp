@@ -63,7 +63,7 @@ protected:
     }
     /// A session of these frames, recorded.
     static std::string recorded(RunningServer& running, const std::vector<Particles>& frames) {
-        const std::string id = running.session();
+        std::string id = running.session();
         stream(running.client, id, frames);
         recording(running.client, id, frames.size());
         running.client.delete_session(id);
