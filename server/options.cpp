@@ -1,7 +1,6 @@
 #include "options.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <limits>
 #include <map>
 
+#include "available_memory.hpp"
 #include "meniscus/error.hpp"
 #include "settings_sources.hpp"
 
@@ -17,12 +17,9 @@ namespace meniscus::server {
 
 namespace {
 
-/// Half of this machine's memory.
+/// Half of the memory that there is.
 std::size_t default_memory_limit() {
-    const long pages = ::sysconf(_SC_PHYS_PAGES);
-    const long page_bytes = ::sysconf(_SC_PAGE_SIZE);
-    if (pages <= 0 || page_bytes <= 0) return 0;
-    return static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(page_bytes);
+    return available_memory() / 2;
 }
 
 /// A full chunk, and what is around it.
@@ -114,7 +111,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.add_option("--max-recording-readers", server.limits.recording_readers, "Calls that read recordings at a time; 0: no limit");
     app.add_option("--max-particles", server.limits.particles_per_frame, "Particles of one frame; 0: no limit");
     app.add_option("--max-bytes-in-flight", server.limits.bytes_in_flight,
-                   "Frames that wait to be reconstructed, over all sessions; 0: no limit. Default: half of the machine's memory")
+                   "Frames that wait to be reconstructed, over all sessions; 0: no limit. Default: half of the machine's memory, or of the container's")
         ->transform(CLI::AsSizeValue(false))
         ->type_name("BYTES");
     app.add_option("--max-frames-per-second", server.limits.frames_per_second, "Frames of one session; 0: no limit");
@@ -127,7 +124,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
                    "Seconds that a stream, or a session without streams, watchers and calls, is kept without use; 0: no limit")
         ->check(CLI::Range(0.0, 1e7));
     app.add_option("--memory-limit", server.limits.bytes_per_session,
-                   "Memory of one session's reconstruction, as 4G or 500M; 0: no limit. Default: half of the machine's")
+                   "Memory of one session's reconstruction, as 4G or 500M; 0: no limit. Default: half of the machine's, or of the container's")
         ->transform(CLI::AsSizeValue(false))
         ->type_name("BYTES");
     app.add_option("--device-memory-limit", server.limits.device_bytes_per_session,
