@@ -1,5 +1,6 @@
 #include "connections.hpp"
 
+#include <array>
 #include <atomic>
 #include <future>
 #include <vector>
@@ -40,13 +41,12 @@ void connect_once(const std::string& server, std::uint64_t number) {
 }  // namespace
 
 void connect_many(const std::string& server, std::uint64_t connections) {
-    constexpr int at_a_time = 4;
     std::atomic<std::uint64_t> next{0};
-    std::vector<std::future<void>> clients;
-    for (int i = 0; i < at_a_time; ++i)
-        clients.push_back(std::async(std::launch::async, [&] {
+    std::array<std::future<void>, 4> clients;
+    for (auto& client : clients)
+        client = std::async(std::launch::async, [&] {
             for (std::uint64_t number = next++; number < connections; number = next++) connect_once(server, number);
-        }));
+        });
     for (auto& client : clients) client.get();
 }
 

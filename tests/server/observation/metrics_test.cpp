@@ -34,7 +34,7 @@ TEST(Metrics, CountWhatWasDone) {
         stream.push(frame.view(), i, 0.0);
         const auto received = stream.next();
         ASSERT_TRUE(received);
-        particles += static_cast<double>(frame.positions.size() / 3);
+        particles += static_cast<double>(frame.view().count());
         triangles += static_cast<double>(received->statistics.triangles);
         encoded_bytes += static_cast<double>(received->statistics.encoded_bytes);
         ASSERT_TRUE(watcher.next());

@@ -37,7 +37,7 @@ grpc::Status call(const client::Connection& connection, const std::string& metho
     std::promise<grpc::Status> status;
     stub.UnaryCall(&context, method, grpc::StubOptions(), &sent, &received,
                    [&](grpc::Status s) { status.set_value(std::move(s)); });
-    const grpc::Status result = status.get_future().get();
+    grpc::Status result = status.get_future().get();
     grpc::Slice whole;
     if (result.ok() && received.DumpToSingleSlice(&whole).ok())
         response.assign(reinterpret_cast<const char*>(whole.begin()), whole.size());

@@ -10,24 +10,12 @@
 #include <string>
 #include <thread>
 
+#include "free_port.hpp"
 #include "observation/http_client.hpp"
 #include "running_server.hpp"
 
 namespace meniscus::server::test {
 namespace {
-
-/// One that was free a moment ago.
-int free_port() {
-    const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    ::bind(listener, reinterpret_cast<const sockaddr*>(&address), size);
-    ::getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size);
-    ::close(listener);
-    return ntohs(address.sin_port);
-}
 
 /// Scrapes the target five times a second.
 class Prometheus {

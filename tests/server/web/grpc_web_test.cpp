@@ -95,7 +95,9 @@ TEST_F(GrpcWebCalls, FollowOneAnotherOnOneConnection) {
     HttpClient client(http);
     for (int i = 0; i < 3; ++i) {
         const std::string body = web_message("");
-        client.send("POST " + info + " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/grpc-web\r\nContent-Length: 5\r\n\r\n" + body);
+        std::string request = "POST " + info;
+        request += " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/grpc-web\r\nContent-Length: 5\r\n\r\n" + body;
+        client.send(request);
         std::string answer;
         while (!answer.ends_with("\r\n0\r\n\r\n")) {
             const std::string more = client.take();
@@ -215,10 +217,10 @@ TEST_F(GrpcWebCalls, ThatAreNotReadDoNotHoldTheServerUp) {
     options.limits.watchers_per_session = 0;
     RunningServer hasty(options);
     const std::string session = hasty.session();
-    std::vector<std::unique_ptr<WebCall>> calls;
-    for (int i = 0; i < 200; ++i)
-        calls.push_back(std::make_unique<WebCall>(hasty.server.http_address(), watch, watch_request(session),
-                                                  WebCall::Headers{{"x-session-id", session}}));
+    std::vector<std::unique_ptr<WebCall>> calls(200);
+    for (auto& call : calls)
+        call = std::make_unique<WebCall>(hasty.server.http_address(), watch, watch_request(session),
+                                         WebCall::Headers{{"x-session-id", session}});
     for (std::uint64_t i = 0; i < 10; ++i) push_one(hasty.client, session, spray(12), i);
     const auto start = std::chrono::steady_clock::now();
     hasty.server.shutdown();

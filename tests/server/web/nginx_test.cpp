@@ -11,6 +11,7 @@
 #include <csignal>
 #include <thread>
 
+#include "free_port.hpp"
 #include "meniscus/v1/server_service.pb.h"
 #include "meniscus/v1/surface_service.pb.h"
 #include "running_server.hpp"
@@ -54,18 +55,6 @@ public:
     const std::string address = "127.0.0.1:" + std::to_string(free_port());
 
 private:
-    static int free_port() {
-        const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-        sockaddr_in any{};
-        any.sin_family = AF_INET;
-        any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        socklen_t size = sizeof any;
-        ::bind(listener, reinterpret_cast<const sockaddr*>(&any), size);
-        ::getsockname(listener, reinterpret_cast<sockaddr*>(&any), &size);
-        ::close(listener);
-        return ntohs(any.sin_port);
-    }
-
     TestFolder folder_;
     pid_t pid_ = -1;
 };

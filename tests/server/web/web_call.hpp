@@ -29,7 +29,7 @@ public:
                                const std::string& version = "1.1") {
         std::string text = "POST " + method + " HTTP/" + version +
                            "\r\nHost: localhost\r\nConnection: close\r\nContent-Type: application/grpc-web+proto\r\n";
-        for (const auto& [name, value] : headers) text += name + ": " + value + "\r\n";
+        for (const auto& [name, value] : headers) text.append(name).append(": ").append(value).append("\r\n");
         return text + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
     }
 
