@@ -4,13 +4,13 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS meniscus_client meniscus_conversion meniscus_proto
         EXPORT MeniscusTargets
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/client/lib/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/client/lib/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/Meniscus)
-install(EXPORT MeniscusTargets NAMESPACE meniscus:: DESTINATION ${package_directory})
+install(EXPORT MeniscusTargets NAMESPACE meniscus:: DESTINATION ${package_directory} COMPONENT development)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/MeniscusConfig.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/MeniscusConfig.cmake INSTALL_DESTINATION ${package_directory})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/MeniscusConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/MeniscusConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/MeniscusConfigVersion.cmake
-        DESTINATION ${package_directory})
+        DESTINATION ${package_directory} COMPONENT development)

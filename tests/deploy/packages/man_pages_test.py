@@ -1,0 +1,100 @@
+"""What the man pages say of flags, against what the programs say: man_pages_test.py PAGES MENISCUSD MENISCUS MENISCUS-LOAD."""
+
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+*_, PAGES, MENISCUSD, MENISCUS, MENISCUS_LOAD = sys.argv
+del sys.argv[1:]
+PAGES = Path(PAGES)
+
+
+def help_of(*command):
+    return subprocess.run([*command, "--help"], check=True, capture_output=True, text=True, timeout=60).stdout
+
+
+def flags_of(text):
+    """Flag to default (None: it has none, or one that depends on the machine), as a --help has them."""
+    flags = {}
+    for option in re.findall(r"^  (-\S.*(?:\n {10}.*)*)", text, re.MULTILINE):
+        names, left = re.match(r"(\S+)(.*)", option).groups()
+        default = re.search(r"[A-Z\])}]=([^\s\[]+)", left)
+        depends_on_machine = re.search(r"half\s+of\s+the\s+machine", option)
+        has_default = default and "--no-" not in names and not depends_on_machine
+        for name in re.findall(r"--([a-z-]+)", names):
+            flags[name] = default.group(1) if has_default else None
+    return flags
+
+
+def items_of(source):
+    """Flag to the text that describes it, of a part of a page."""
+    items = {}
+    for heads, text in re.findall(r"((?:^\.It Fl .*\n)+)((?:(?!^\.(?:It|El|Sh|Ss)\b).*\n)*)", source, re.MULTILINE):
+        for flag in re.findall(r"Fl -([a-z-]+)", heads):
+            assert flag not in items, f"--{flag} is there twice"
+            items[flag] = text
+    return items
+
+
+def subsections_of(source):
+    """Title to text, of every .Sh and .Ss."""
+    parts = re.split(r"^\.S[hs] (.*)\n", source, flags=re.MULTILINE)
+    return dict(zip(parts[1::2], parts[2::2]))
+
+
+class ManPages(unittest.TestCase):
+    def assert_says_what_help_says(self, items, help_text, name):
+        flags = flags_of(help_text)
+        self.assertGreater(len(flags), 1, name)
+        self.assertEqual(sorted(items), sorted(flags), name)
+        for flag, default in flags.items():
+            if default is not None:
+                self.assertIn(f"Default: {default}.", items[flag].replace("\n", " "), f"{name} --{flag}")
+
+    def test_each_program_has_exactly_the_flags_of_its_page_with_their_defaults(self):
+        for program, page in ((MENISCUSD, "meniscusd.8"), (MENISCUS_LOAD, "meniscus-load.1")):
+            self.assert_says_what_help_says(items_of((PAGES / page).read_text()), help_of(program), page)
+
+    def test_each_command_has_exactly_the_flags_of_its_section_and_of_those_it_refers_to(self):
+        sections = subsections_of((PAGES / "meniscus.1").read_text())
+        overview = help_of(MENISCUS)
+        commands = re.findall(r"^  ([a-z]+) {2,}\S", overview.partition("Subcommands:")[2], re.MULTILINE)
+        self.assertGreater(len(commands), 1)
+        general = items_of(sections["DESCRIPTION"])
+        self.assert_says_what_help_says(general, overview, "meniscus")
+        titles = {title.split()[0]: title for title in sections if title[0].islower()}
+        self.assertEqual(sorted(titles), sorted(commands))
+        for command in commands:
+            text = sections[titles[command]]
+            items = {"help": general["help"]} | items_of(text)
+            for reference in re.findall(r"^\.Sx (.*?)(?: [.,])?$", text, re.MULTILINE):
+                shared = items_of(sections[reference])
+                items |= {flag: shared[flag] for flag in shared.keys() - items.keys()}
+            self.assert_says_what_help_says(items, help_of(MENISCUS, command), command)
+
+    def test_every_flag_that_a_text_mentions_exists(self):
+        known = set(flags_of(help_of(MENISCUSD))) | set(flags_of(help_of(MENISCUS_LOAD))) | {"name"}
+        overview = help_of(MENISCUS)
+        for command in re.findall(r"^  ([a-z]+) {2,}\S", overview.partition("Subcommands:")[2], re.MULTILINE):
+            known |= set(flags_of(help_of(MENISCUS, command)))
+        for page in PAGES.iterdir():
+            mentioned = set(re.findall(r"Fl -([a-z-]+)|(?<![\w-])--([a-z-]+)", page.read_text()))
+            self.assertLessEqual({name for pair in mentioned for name in pair if name}, known, page.name)
+
+    def test_every_setting_in_the_example_of_the_file_exists(self):
+        example = re.search(r"^\.Bd -literal.*\n((?:.*\n)*?)\.Ed", (PAGES / "meniscus.conf.5").read_text(), re.MULTILINE).group(1)
+        names = {line.partition("=")[0].strip() for line in example.splitlines()}
+        self.assertLessEqual(names, set(flags_of(help_of(MENISCUSD))))
+
+    @unittest.skipUnless(shutil.which("mandoc"), "mandoc is not installed")
+    def test_every_page_is_free_of_lint(self):
+        for page in PAGES.iterdir():
+            linted = subprocess.run(["mandoc", "-Tlint", "-W", "warning", str(page)], capture_output=True, text=True, timeout=60)
+            self.assertEqual((linted.returncode, linted.stdout), (0, ""), page.name)
+
+
+if __name__ == "__main__":
+    unittest.main()
