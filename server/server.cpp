@@ -12,6 +12,7 @@
 #include "listen_address.hpp"
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
+#include "metrics/gauge_family.hpp"
 #include "metrics/limit_gauges.hpp"
 #include "metrics/process_metrics.hpp"
 #include "metrics/recording_metrics.hpp"
@@ -181,6 +182,7 @@ std::vector<prometheus::MetricFamily> Server::metrics() {
     const auto add = [&all](std::vector<prometheus::MetricFamily> more) {
         all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     };
+    all.push_back(gauge("meniscus_ready", "1; 0 once it shuts down, while the frames in flight are finished.", draining_ ? 0 : 1));
     add(session_gauges(registry_));
     add(limit_gauges(options_.limits, backend_));
     if (recordings_) add(recording_metrics(recordings_->counters(), recording_reads_->readers()));

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <sstream>
 #include <memory>
+#include <stdexcept>
 
 #include "cli/commands.hpp"
 #include "cli/server_flags.hpp"
@@ -52,8 +53,15 @@ void print_this_process(Backend choice) {
     print_backend(std::string(version()), backend.name, backend.reason, backend.device);
 }
 
+/// For a container's health check, which has no token to describe the server with.
+void print_health(const ServerFlags& server) {
+    if (!server.connect().serving()) throw std::runtime_error("the server at " + server.address + " is shutting down");
+    std::cout << "health                 serving\n";
+}
+
 struct InfoOptions {
     ServerFlags server;  ///< no address: this process
+    bool health = false;
     Backend backend = Backend::automatic;
 };
 
@@ -64,9 +72,12 @@ void add_info(CLI::App& app) {
     CLI::App& command = *app.add_subcommand("info", "Describe a server, or what this process would reconstruct with");
     auto* server = options->server.add_to(command, "Version, backend, limits of that server");
     add_backend_option(command, options->backend)->excludes(server);
+    command.add_flag("--health", options->health, "Only whether it serves, which needs no token; if not, exit code 1")->needs(server);
     command.callback([options] {
         if (options->server.address.empty())
             print_this_process(options->backend);
+        else if (options->health)
+            print_health(options->server);
         else
             print_server(options->server);
     });

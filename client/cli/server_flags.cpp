@@ -9,10 +9,14 @@
 namespace meniscus::cli {
 namespace {
 
+std::string from_environment(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value == nullptr ? "" : value;
+}
+
 std::string read_token(const std::string& file) {
     if (!file.empty()) return CLI::detail::trim_copy(formats::read_file(file));
-    const char* token = std::getenv("MENISCUS_TOKEN");
-    return token == nullptr ? "" : token;
+    return from_environment("MENISCUS_TOKEN");
 }
 
 }  // namespace
@@ -22,11 +26,11 @@ CLI::Option* ServerFlags::add_to(CLI::App& command, const std::string& descripti
     const auto add_file = [&](const std::string& flag, std::string& file, const std::string& meaning) {
         return command.add_option(flag, file, meaning)->type_name("FILE")->needs(server);
     };
-    CLI::Option* ca = add_file("--tls-ca", options.ca_file, "TLS; whose certificates to trust, PEM");
+    CLI::Option* ca = add_file("--tls-ca", options.ca_file, "TLS; whose certificates to trust, PEM (default: the variable MENISCUS_SERVER_CA)");
     CLI::Option* certificate =
         add_file("--tls-cert", options.certificate_file, "Mutual TLS: this client's certificate, PEM")->needs(ca);
     certificate->needs(add_file("--tls-key", options.key_file, "Its key, PEM")->needs(certificate));
-    command.add_option("--tls-server-name", options.server_name, "Name in the server's certificate, if not the address's host")
+    command.add_option("--tls-server-name", options.server_name, "Name in the server's certificate, if not the address's host (with MENISCUS_SERVER_CA: MENISCUS_SERVER_NAME)")
         ->type_name("NAME")
         ->needs(ca);
     add_file("--token-file", token_file, "File with the token to call with (default: the variable MENISCUS_TOKEN)");
@@ -40,6 +44,10 @@ CLI::Option* ServerFlags::add_to(CLI::App& command, const std::string& descripti
 client::ConnectionOptions ServerFlags::connection() const {
     client::ConnectionOptions connection = options;
     connection.token = read_token(token_file);
+    if (connection.ca_file.empty()) {
+        connection.ca_file = from_environment("MENISCUS_SERVER_CA");
+        connection.server_name = from_environment("MENISCUS_SERVER_NAME");
+    }
     connection.wait = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(wait_seconds));
     return connection;
 }

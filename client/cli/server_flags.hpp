@@ -21,7 +21,7 @@ struct ServerFlags {
 
     /// Returns --server, for what else it excludes or requires.
     CLI::Option* add_to(CLI::App& command, const std::string& description);
-    /// With the token of --token-file or, without that, of MENISCUS_TOKEN. Throws InvalidInput for a file that cannot be read.
+    /// What no flag says is taken from MENISCUS_TOKEN, MENISCUS_SERVER_CA and MENISCUS_SERVER_NAME. Throws InvalidInput for a file that cannot be read.
     client::ConnectionOptions connection() const;
     /// By it. Throws InvalidInput if there is no server.
     client::Client connect() const;
