@@ -1,14 +1,16 @@
 """What the Dockerfile promises, by the programs that the image holds: container_test.py SOURCE MENISCUSD MENISCUS."""
 
+import array
 import json
 import os
+import random
 import re
-import signal
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import urllib.request
 from pathlib import Path
 
 from running import Running, Server
@@ -68,18 +70,29 @@ class HealthCheck(unittest.TestCase):
 
     def test_fails_while_the_server_shuts_down(self):
         server = self.serve("--shutdown-grace", "60")
-        simulator = Running([MENISCUS, "simulate", "--particles", "300", "--frames", "1000000", "--reconnect", "0", "--server", server.address])
-        self.addCleanup(simulator.stop)
-        simulator.wait_for("^frame 1:")
-        simulator.process.send_signal(signal.SIGSTOP)  # its stream stays open
+        source = random.Random(1)
+        noise = array.array("f", (source.uniform(0.0, 20.0) for _ in range(3 * 8000)))  # whose surface takes long
+        with open(self.folder / "noise.bin", "wb") as file:
+            noise.tofile(file)
+        client = Running([MENISCUS, "reconstruct", self.folder / "noise.bin", "-o", self.folder / "noise.bricks", "--particle-radius", "0.5",
+                          "--cell-size", "0.25", "--mode", "uniform", "--reconnect", "0", "--server", server.address])
+        self.addCleanup(client.stop)
+        self.wait_for_upload(server)
         server.process.terminate()
         server.wait_for("finishing the frames in flight")
-        guard = time.monotonic() + 30
         code, output = self.check(server.address)
-        while code == 0 and time.monotonic() < guard:  # the line comes just before the state
+        while code == 0:  # the line comes just before the state
             code, output = self.check(server.address)
         self.assertEqual(code, 1, output)
         self.assertIn("shutting down", output)
+
+    def wait_for_upload(self, server):
+        guard = time.monotonic() + 60
+        uploaded = 0
+        while not uploaded and time.monotonic() < guard:
+            with urllib.request.urlopen(f"http://{server.http}/metrics", timeout=30) as answer:
+                uploaded = float(re.search(r"^meniscus_upload_bytes_total (\S+)$", answer.read().decode(), re.M)[1])
+        self.assertTrue(uploaded)
 
     def test_fails_without_a_server(self):
         self.assertNotEqual(self.check("127.0.0.1:1")[0], 0)
