@@ -75,6 +75,12 @@ class ManPages(unittest.TestCase):
                 items |= {flag: shared[flag] for flag in shared.keys() - items.keys()}
             self.assert_says_what_help_says(items, help_of(MENISCUS, command), command)
 
+    def test_each_page_has_the_variables_that_help_names(self):
+        for page, command in (("meniscusd.8", [MENISCUSD]), ("meniscus.1", [MENISCUS, "info"]), ("meniscus-load.1", [MENISCUS_LOAD])):
+            named = set(re.findall(r"MENISCUS_[A-Z_]+", help_of(*command)))
+            self.assertTrue(named, page)
+            self.assertLessEqual(named, set(re.findall(r"^\.It Ev (MENISCUS_[A-Z_]+)", (PAGES / page).read_text(), re.MULTILINE)), page)
+
     def test_every_flag_that_a_text_mentions_exists(self):
         known = set(flags_of(help_of(MENISCUSD))) | set(flags_of(help_of(MENISCUS_LOAD))) | {"name"}
         overview = help_of(MENISCUS)
