@@ -19,6 +19,7 @@
 #include "metrics/session_gauges.hpp"
 #include "recording/session_recording.hpp"
 #include "rpc/call_counter.hpp"
+#include "rpc/server_instance.hpp"
 #include "web/observation_pages.hpp"
 #include "web/viewer_pages.hpp"
 
@@ -139,6 +140,7 @@ Server::Server(const ServerOptions& options)
     add_standard_services(builder, options.standard_services);
     std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
     interceptors.push_back(make_call_counter(metrics_));
+    interceptors.push_back(make_instance_marker());
     builder.experimental().SetInterceptorCreators(std::move(interceptors));
     grpc_ = builder.BuildAndStart();
     if (!grpc_ || port == 0)

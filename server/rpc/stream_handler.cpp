@@ -146,6 +146,11 @@ private:
                 else
                     end_reading(std::make_exception_ptr(shutting_down()));
                 return false;
+            case v1::StreamRequest::kMove:
+                assembler_.end_of_stream();
+                upload_->moves = true;
+                end_reading(std::make_exception_ptr(moved()));
+                return false;
             case v1::StreamRequest::MESSAGE_NOT_SET:
                 break;
         }
@@ -187,6 +192,8 @@ private:
             const std::lock_guard lock(mutex_);
             session_ = session;
             upload_ = std::move(upload);
+            // The client knows from here on which server it has.
+            if (!canceled_) StartSendInitialMetadata();
         }
         write();
     }

@@ -26,6 +26,10 @@ private:
     Kind kind_;
 };
 
+inline Refusal moved() {
+    return {Refusal::Kind::unavailable, "the session has moved to another server: call again"};
+}
+
 inline Refusal shutting_down() {
     return {Refusal::Kind::unavailable, "the server is shutting down"};
 }

@@ -102,7 +102,7 @@ public:
     void touch();
     /// Drops what is in flight, and ends the upload and the watchers. Returns at once.
     void close();
-    /// Whether the session was closed, or a GPU that failed has ended it.
+    /// Whether the session was closed or has moved to another server, or a GPU that failed has ended it.
     bool ended() const;
     /// After its end: waits until the session's threads have ended. Once, and not from one of them.
     void join();

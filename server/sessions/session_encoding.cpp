@@ -108,12 +108,19 @@ void Session::perform(ReportDrop& task) {
 
 void Session::perform(EndUpload& task) {
     std::vector<std::shared_ptr<Watch>> done;
+    bool moves = false;
     {
         const std::lock_guard lock(mutex_);
         if (upload_ == task.upload) upload_.reset();
         std::erase(unanswered_, task.upload);
         last_used_ = std::chrono::steady_clock::now();
         if (draining_ && !upload_) done = watches_;
+        moves = task.upload && task.upload->moves && !upload_;
+    }
+    if (moves) {
+        log_info({.session = id()}, "its simulator goes on with another server");
+        EndSession end{std::make_exception_ptr(moved())};
+        perform(end);
     }
     // Only now: who hears of the end may open the next stream.
     if (task.upload) task.upload->output.finish(task.error);
