@@ -37,6 +37,27 @@ TEST(WatchReconnect, GoesOnWhenTheServerAndThenTheSessionAreBack) {
     EXPECT_EQ(mesh_sha256(frame->mesh()), local_sha256(particles));
 }
 
+TEST(WatchReconnect, GoesOnWithTheParticlesToo) {
+    const ServerOptions options = test_options();
+    std::optional<RunningServer> running(std::in_place, options);
+    const std::string id = running->session();
+    auto watcher = client::Client(options.listen).watch_particles(id, 0, std::chrono::seconds(60));
+    const Particles particles = wave(6, 0.0);
+    {
+        auto stream = running->client.stream(id);
+        stream.push(particles.view(), 4, 0.0);
+        ASSERT_TRUE(stream.next());
+    }
+    EXPECT_EQ(watcher.next()->index, 4U);
+    auto after = std::async(std::launch::async, [&] { return watcher.next(); });
+    running.reset();
+    running.emplace(options);
+    running->client.create_session(id, settings());
+    auto stream = running->client.stream(id);
+    stream.push(particles.view(), 5, 0.0);
+    EXPECT_EQ(after.get()->index, 5U);
+}
+
 TEST(WatchReconnect, GivesUpAfterTheTimeThatItWasGiven) {
     std::optional<RunningServer> running(std::in_place);
     auto watcher = running->client.watch(running->session(), {.reconnect = std::chrono::milliseconds(300)});

@@ -1,47 +1,26 @@
 #include <utility>
 
-#include "error_mapping.hpp"
 #include "particle_watcher_impl.hpp"
 
 namespace meniscus::client {
 
-ParticleWatcher::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, std::uint64_t max_particles)
-    : connection_(std::move(connection)) {
-    connection_->add_metadata(context_, session_id);
+namespace {
+
+v1::WatchParticlesRequest request_of(const std::string& session_id, std::uint64_t max_particles) {
     v1::WatchParticlesRequest request;
     request.set_session_id(session_id);
     request.set_max_particles(max_particles);
-    reader_ = connection_->surfaces->WatchParticles(&context_, request);
-    // The server answers, with metadata, once it has the watcher: no frame from here on is missed.
-    reader_->WaitForInitialMetadata();
+    return request;
 }
 
-ParticleWatcher::Impl::~Impl() {
-    if (ended_) return;
-    cancel();
-    v1::WatchParticlesResponse ignored;
-    while (reader_->Read(&ignored)) {
-    }
-    reader_->Finish();
-}
+}  // namespace
 
-std::optional<ReceivedParticles> ParticleWatcher::Impl::next() {
-    if (ended_) return std::nullopt;
-    v1::WatchParticlesResponse response;
-    while (reader_->Read(&response))
-        if (auto particles = receiver_.take(response)) return particles;
-    ended_ = true;
-    const grpc::Status status = reader_->Finish();
-    if (canceled_) return std::nullopt;
-    require_ok(status, connection_->address);
-    receiver_.end_of_stream();
-    return std::nullopt;
-}
-
-void ParticleWatcher::Impl::cancel() {
-    canceled_ = true;
-    context_.TryCancel();
-}
+ParticleWatcher::Impl::Impl(const std::shared_ptr<Connection>& connection, const std::string& session_id,
+                            std::uint64_t max_particles, std::chrono::milliseconds reconnect)
+    : call_(connection, session_id, reconnect,
+            [surfaces = connection->surfaces.get(), request = request_of(session_id, max_particles)](grpc::ClientContext& context) {
+                return surfaces->WatchParticles(&context, request);
+            }) {}
 
 ParticleFrame ReceivedParticles::view() const {
     return {.positions = {}, .quantized = quantized, .quantization_box = quantization_box, .levels = levels};

@@ -1,7 +1,8 @@
 // The inside of a ParticleWatcher.
 #pragma once
 
-#include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,26 +10,20 @@
 #include "connection.hpp"
 #include "meniscus/client/client.hpp"
 #include "particle_receiver.hpp"
+#include "watch_call.hpp"
 
 namespace meniscus::client {
 
 class ParticleWatcher::Impl {
 public:
-    Impl(std::shared_ptr<Connection> connection, const std::string& session_id, std::uint64_t max_particles);
-    ~Impl();
-    Impl(const Impl&) = delete;
-    Impl& operator=(const Impl&) = delete;
+    Impl(const std::shared_ptr<Connection>& connection, const std::string& session_id, std::uint64_t max_particles,
+         std::chrono::milliseconds reconnect);
 
-    std::optional<ReceivedParticles> next();
-    void cancel();
+    std::optional<ReceivedParticles> next() { return call_.next(); }
+    void cancel() { call_.cancel(); }
 
 private:
-    const std::shared_ptr<Connection> connection_;
-    grpc::ClientContext context_;
-    std::unique_ptr<grpc::ClientReader<v1::WatchParticlesResponse>> reader_;
-    ParticleReceiver receiver_;
-    bool ended_ = false;
-    std::atomic<bool> canceled_ = false;
+    WatchCall<v1::WatchParticlesResponse, ParticleReceiver> call_;
 };
 
 }  // namespace meniscus::client

@@ -1,6 +1,7 @@
 #include <random>
 #include <utility>
 
+#include "call_end.hpp"
 #include "error_mapping.hpp"
 #include "frame_receiver.hpp"
 #include "meniscus/error.hpp"
@@ -10,8 +11,11 @@ namespace meniscus::client {
 
 namespace {
 
-/// Of a call that creates the session again: a network that swallows packets must not hold the attempts up.
+/// Of a call that creates the session again, or looks for it: a network that swallows packets must not hold the attempts up.
 constexpr std::chrono::seconds attempt_time{5};
+
+/// A server that the session is to leave, and that answers nothing for so long, is given up.
+constexpr std::chrono::seconds leaving_time{10};
 
 std::uint64_t random_run_id() {
     std::random_device device;
@@ -42,13 +46,17 @@ v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& 
     return open;
 }
 
-v1::CreateSessionRequest as_it_is_now(Connection& connection, const std::string& session_id) {
-    grpc::ClientContext context;
+grpc::Status get_session(Connection& connection, grpc::ClientContext& context, const std::string& session_id,
+                         v1::GetSessionResponse& response) {
     connection.add_metadata(context, session_id);
     v1::GetSessionRequest request;
     request.set_id(session_id);
+    return connection.sessions->GetSession(&context, request, &response);
+}
+
+v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContext& context, const std::string& session_id) {
     v1::GetSessionResponse response;
-    require_ok(connection.sessions->GetSession(&context, request, &response), connection.address);
+    require_ok(get_session(connection, context, session_id, response), connection.address);
     v1::CreateSessionRequest create;
     create.set_id(session_id);
     *create.mutable_settings() = response.session().settings();
@@ -59,10 +67,15 @@ v1::CreateSessionRequest as_it_is_now(Connection& connection, const std::string&
 
 Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options)
     : connection_(std::move(connection)), options_(options), open_(open_message(session_id, options)) {
-    if (resumes()) session_ = as_it_is_now(*connection_, session_id);
+    if (resumes()) {
+        grpc::ClientContext context;
+        session_ = as_it_is_now(*connection_, context, session_id);
+        created_by_ = ended_by(context);
+    }
     call_ = open_call();
     receiver_ = std::thread([this, call = call_] { receive(call); });
     sender_ = std::thread([this] { send(); });
+    if (resumes() && options_.route_check.count() > 0) route_checker_ = std::thread([this] { check_route(); });
 }
 
 Stream::Impl::~Impl() {
@@ -71,10 +84,14 @@ Stream::Impl::~Impl() {
         left_ = true;
         if (call_) call_->cancel();
         if (creating_) creating_->TryCancel();
+        for (const auto& context : route_calls_)
+            if (context) context->TryCancel();
     }
     changed_.notify_all();
+    over_.notify_all();
     receiver_.join();
     sender_.join();
+    if (route_checker_.joinable()) route_checker_.join();
 }
 
 std::shared_ptr<UploadCall> Stream::Impl::open_call() const {
@@ -125,7 +142,7 @@ std::uint64_t Stream::Impl::dropped() const {
 }
 
 bool Stream::Impl::may_send() const {
-    return call_ && !draining_ && (sent_ < unanswered_.size() || (finished_ && !half_closed_));
+    return call_ && !draining_ && (moving_ || sent_ < unanswered_.size() || (finished_ && !half_closed_));
 }
 
 void Stream::Impl::send() {
@@ -134,6 +151,13 @@ void Stream::Impl::send() {
         changed_.wait(lock, [&] { return ended_ || may_send(); });
         if (ended_) return;
         const std::shared_ptr<UploadCall> call = call_;
+        if (moving_) {
+            draining_ = true;
+            lock.unlock();
+            call->move();
+            lock.lock();
+            continue;
+        }
         if (sent_ == unanswered_.size()) {
             half_closed_ = true;
             lock.unlock();
@@ -163,7 +187,7 @@ void Stream::Impl::receive(std::shared_ptr<UploadCall> call) {
                                       std::to_string(unanswered_.front()->begin.frame_index()) + " was answered");
                 break;
             }
-            if (!is_worth_another_call(status)) require_ok(status, connection_->address);
+            if (!is_worth_another_call(status, *call)) require_ok(status, connection_->address);
             call = reopen(status);
         }
         end(nullptr);
@@ -175,6 +199,11 @@ void Stream::Impl::receive(std::shared_ptr<UploadCall> call) {
 grpc::Status Stream::Impl::read_answers(UploadCall& call) {
     FrameReceiver receiver(options_.receive_meshes);
     try {
+        std::string instance = call.accepted_by();
+        {
+            const std::lock_guard lock(mutex_);
+            if (call_.get() == &call) instance_ = std::move(instance);
+        }
         v1::StreamResponse response;
         while (call.read(response)) {
             if (response.has_draining()) {
@@ -227,21 +256,16 @@ bool Stream::Impl::settle(std::uint64_t index) {
                           ", which is not the next one that it was sent");
     }
     last_answered_ = index;
+    moving_since_ = Clock::now();
     unanswered_.pop_front();
     --sent_;
     return true;
 }
 
-bool Stream::Impl::is_worth_another_call(const grpc::Status& status) const {
-    switch (status.error_code()) {
-        case grpc::StatusCode::UNAVAILABLE:
-        case grpc::StatusCode::CANCELLED:          // by a proxy, or a server that did not wait any longer
-        case grpc::StatusCode::UNKNOWN:            // gRPC's word for some broken connections
-        case grpc::StatusCode::DEADLINE_EXCEEDED:  // of an attempt
-            break;
-        default:
-            return false;
-    }
+bool Stream::Impl::is_worth_another_call(const grpc::Status& status, const UploadCall& call) const {
+    // The call came to another server than the one that had just created the session.
+    const bool astray = status.error_code() == grpc::StatusCode::NOT_FOUND && ended_by(call.context()) != created_by_;
+    if (!astray && !may_go_on(status, call.context())) return false;
     const std::lock_guard lock(mutex_);
     return resumes() && !left_;
 }
@@ -264,11 +288,15 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
                               " is the first without an answer",
                               "UNAVAILABLE");
         if (changed_.wait_until(lock, attempt_at, [&] { return left_; })) return nullptr;
-        creating_ = std::make_shared<grpc::ClientContext>();
+        const auto creating = std::make_shared<grpc::ClientContext>();
+        creating_ = creating;
         lock.unlock();
-        status = create_session();
+        status = create_session(*creating);
         std::shared_ptr<UploadCall> call;
-        if (status.ok()) call = open_call();
+        if (status.ok()) {
+            created_by_ = ended_by(*creating);
+            call = open_call();
+        }
         lock.lock();
         creating_.reset();
         if (left_) {
@@ -280,17 +308,16 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
             sent_ = 0;
             half_closed_ = false;
             draining_ = false;
+            moving_ = false;
+            instance_.clear();
             changed_.notify_all();
             return call;
         }
-        lock.unlock();
-        if (!is_worth_another_call(status)) require_ok(status, connection_->address);
-        lock.lock();
+        if (!may_go_on(status, *creating)) require_ok(status, connection_->address);
     }
 }
 
-grpc::Status Stream::Impl::create_session() {
-    grpc::ClientContext& context = *creating_;
+grpc::Status Stream::Impl::create_session(grpc::ClientContext& context) const {
     connection_->add_metadata(context, session_.id());
     context.set_deadline(std::chrono::system_clock::now() + attempt_time);
     v1::CreateSessionResponse response;
@@ -302,6 +329,38 @@ void Stream::Impl::end(std::exception_ptr error) {
     ended_ = true;
     error_ = std::move(error);
     changed_.notify_all();
+    over_.notify_all();
+}
+
+void Stream::Impl::check_route() {
+    std::unique_lock lock(mutex_);
+    while (!over_.wait_for(lock, options_.route_check, [&] { return left_ || ended_; })) {
+        if (moving_ && call_ && Clock::now() - moving_since_ > leaving_time) call_->cancel();
+        if (moving_ || !call_ || half_closed_ || instance_.empty()) continue;
+        const std::shared_ptr<UploadCall> call = call_;
+        const std::string instance = instance_;
+        for (auto& context : route_calls_) context = std::make_shared<grpc::ClientContext>();
+        const auto [looking, creating] = route_calls_;
+        lock.unlock();
+        const bool elsewhere = is_elsewhere(instance, *looking, *creating);
+        lock.lock();
+        if (!elsewhere || call_ != call || half_closed_) continue;
+        moving_ = true;
+        moving_since_ = Clock::now();
+        changed_.notify_all();
+    }
+}
+
+bool Stream::Impl::is_elsewhere(const std::string& instance, grpc::ClientContext& looking, grpc::ClientContext& creating) const {
+    looking.set_deadline(std::chrono::system_clock::now() + attempt_time);
+    v1::GetSessionResponse response;
+    const grpc::Status status = get_session(*connection_, looking, session_.id(), response);
+    const std::string other = ended_by(looking);
+    if (other.empty() || other == instance) return false;
+    // A session that somebody uploads to is theirs.
+    if (status.ok() ? response.session().uploading() : status.error_code() != grpc::StatusCode::NOT_FOUND) return false;
+    // Only a server that has room for the session is worth giving up the stream.
+    return create_session(creating).ok() && ended_by(creating) != instance;
 }
 
 Stream::Stream(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

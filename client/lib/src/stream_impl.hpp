@@ -1,6 +1,7 @@
 // The inside of a Stream.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -22,8 +23,8 @@
 
 namespace meniscus::client {
 
-/// Two threads of its own: one sends the frames that were pushed, the other receives their answers and, when the call
-/// breaks, opens the next one, over which all that is unanswered is sent again.
+/// Threads of its own: one sends the frames that were pushed, one receives their answers and, when the call breaks, opens the
+/// next one, over which all that is unanswered is sent again. One that resumes has a third: it looks where the session belongs.
 class Stream::Impl {
 public:
     Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options);
@@ -55,11 +56,16 @@ private:
     void take(const v1::FrameDropped& dropped);
     /// Forgets the frame, which has been answered. False if it was answered before. With the lock held.
     bool settle(std::uint64_t index);
-    bool is_worth_another_call(const grpc::Status& status) const;
+    bool is_worth_another_call(const grpc::Status& status, const UploadCall& call) const;
     /// The next call. None once the stream is left. Throws what becomes of the stream without another call.
     std::shared_ptr<UploadCall> reopen(grpc::Status status);
-    grpc::Status create_session();
+    grpc::Status create_session(grpc::ClientContext& context) const;
     void end(std::exception_ptr error);
+
+    // The thread that looks.
+    void check_route();
+    /// Whether another server than this instance answers for the session, and has it now, free for this stream.
+    bool is_elsewhere(const std::string& instance, grpc::ClientContext& looking, grpc::ClientContext& creating) const;
 
     const std::shared_ptr<Connection> connection_;
     const StreamOptions options_;
@@ -70,17 +76,22 @@ private:
     // Of the receiving thread.
     Backoff backoff_;
     std::optional<Clock::time_point> broken_at_;  ///< none: answers have come since
+    std::string created_by_;                      ///< the instance of the server that had the session last; or empty
 
     mutable std::mutex mutex_;  ///< for what follows
     std::condition_variable changed_;
     std::shared_ptr<UploadCall> call_;                      ///< none while it is broken
+    std::string instance_;                                  ///< of the server that has accepted it; or empty
     std::shared_ptr<grpc::ClientContext> creating_;         ///< of the call that creates the session again
+    std::array<std::shared_ptr<grpc::ClientContext>, 2> route_calls_;  ///< of the look under way
     std::deque<std::shared_ptr<PushedFrame>> unanswered_;
     std::size_t sent_ = 0;       ///< of those, on this call
     std::optional<std::uint64_t> last_answered_;  ///< index
     bool finished_ = false;      ///< no more frames will be pushed
     bool half_closed_ = false;   ///< the server knows
     bool draining_ = false;      ///< the server takes no more over this call
+    bool moving_ = false;        ///< the session goes on elsewhere: after the frame on its way
+    Clock::time_point moving_since_;  ///< or since the last answer after that
     std::deque<ReceivedFrame> waiting_;
     std::vector<DroppedFrame> dropped_since_;  ///< the frame received last
     std::uint64_t dropped_ = 0;
@@ -88,9 +99,11 @@ private:
     bool left_ = false;            ///< by the caller
     bool ended_ = false;           ///< the server has answered all it will
     std::exception_ptr error_;
+    std::condition_variable over_;  ///< left_ or ended_
 
     std::thread receiver_;
     std::thread sender_;
+    std::thread route_checker_;
 };
 
 }  // namespace meniscus::client

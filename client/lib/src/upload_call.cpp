@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "call_end.hpp"
+
 namespace meniscus::client {
 
 namespace {
@@ -80,6 +82,17 @@ bool UploadCall::send(const v1::StreamRequest& request, grpc::WriteOptions optio
 
 void UploadCall::no_more_frames() {
     call_->WritesDone();
+}
+
+void UploadCall::move() {
+    v1::StreamRequest request;
+    request.mutable_move();
+    send(request, {});
+}
+
+std::string UploadCall::accepted_by() {
+    call_->WaitForInitialMetadata();
+    return client::accepted_by(context_);
 }
 
 bool UploadCall::read(v1::StreamResponse& response) {

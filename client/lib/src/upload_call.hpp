@@ -22,10 +22,16 @@ public:
     /// bytes, and keeps them, until they are on the wire.
     bool send(const PushedFrame& frame);
     void no_more_frames();
+    /// Between two frames, and the last that is sent: the session goes on with another server.
+    void move();
 
+    /// Waits until the server has accepted the call, or the call has ended. As client::accepted_by; before the first read().
+    std::string accepted_by();
     /// False once there is nothing more to read.
     bool read(v1::StreamResponse& response);
     grpc::Status finish();
+    /// For what is told of its end.
+    const grpc::ClientContext& context() const { return context_; }
 
     /// From any thread.
     void cancel();

@@ -139,6 +139,10 @@ struct StreamOptions {
     /// returns every frame once, in order. For this their particles are kept here, no more frames than the server itself has
     /// taken and not answered, and one. 0: a broken connection ends the stream, and no frame is kept.
     std::chrono::milliseconds reconnect{0};
+    /// Where a proxy spreads sessions over several servers: how often to look whether calls about this session still go to the
+    /// server that the stream is on. If not, because a server came or came back, the stream moves there between two frames, and
+    /// watchers with `reconnect` follow it. Only with `reconnect`; 0: never.
+    std::chrono::milliseconds route_check{2000};
 };
 
 /// Uploads frames and receives their meshes, in order. Reads on a thread of its own, so that a caller that only pushes
@@ -174,8 +178,8 @@ struct WatchOptions {
     std::optional<Box> region{};         ///< world units: only bricks that touch it; the mesh ends where they do
     std::uint64_t bytes_per_second = 0;  ///< in the mean: frames are skipped to keep it; 0: no limit
     std::optional<std::array<double, 3>> viewpoint{};  ///< world units: nearest bricks are sent first
-    /// How long to try again after the connection breaks, the server goes down, or comes back without the session, which its
-    /// simulator then creates again. next() goes on with the first frame of a run that it has not returned before. 0: not at all.
+    /// How long to try again after the connection breaks, the session moves to another server, or the server goes down, or comes
+    /// back without the session, which its simulator then creates again. next() goes on with the first frame of a run that it has not returned before. 0: not at all.
     std::chrono::milliseconds reconnect{0};
 };
 
@@ -294,8 +298,10 @@ public:
     /// The session must exist.
     Stream stream(const std::string& session_id, const StreamOptions& options = {});
     Watcher watch(const std::string& session_id, const WatchOptions& options = {});
-    /// max_particles: of a frame with more, only every k-th is sent, by the smallest k that suffices; 0: all.
-    ParticleWatcher watch_particles(const std::string& session_id, std::uint64_t max_particles = 0);
+    /// max_particles: of a frame with more, only every k-th is sent, by the smallest k that suffices; 0: all. reconnect: as in
+    /// WatchOptions.
+    ParticleWatcher watch_particles(const std::string& session_id, std::uint64_t max_particles = 0,
+                                    std::chrono::milliseconds reconnect = {});
 
     /// What the server has recorded, the newest first. Throws ServerError (UNIMPLEMENTED) if it records nothing.
     std::vector<RecordingInfo> recordings();

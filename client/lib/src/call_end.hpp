@@ -1,0 +1,20 @@
+// What a call's end says: which server ended it, and whether another call is worth while.
+#pragma once
+
+#include <grpcpp/client_context.h>
+#include <grpcpp/support/status.h>
+
+#include <string>
+
+namespace meniscus::client {
+
+/// The instance of the server that has accepted a call which goes on. Empty: none has, or one of an older version.
+std::string accepted_by(const grpc::ClientContext& context);
+
+/// The instance of the server that the status is from. Empty: it is a proxy's, gRPC's, or that of a server of an older version.
+std::string ended_by(const grpc::ClientContext& context);
+
+/// Whether the call broke, or was ended by a server that goes down or has seen the session move: another one may go on.
+bool may_go_on(const grpc::Status& status, const grpc::ClientContext& context);
+
+}  // namespace meniscus::client
