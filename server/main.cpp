@@ -79,6 +79,7 @@ int run(const meniscus::server::CommandLine& command_line) {
     spdlog::info("meniscusd {} listening on {}, backend {} on {}: {}", meniscus::version(), server.address(), backend.name,
                  backend.device, backend.reason);
     if (!server.http_address().empty()) spdlog::info("viewer, metrics and probes at {}://{}", command_line.server.tls.any() ? "https" : "http", server.http_address());
+    if (!server.probes_address().empty()) spdlog::info("metrics and probes at http://{}", server.probes_address());
     const int signal = wait_for_stop(signals, server);
     exit_deadline.start(command_line.server.shutdown_grace);
     spdlog::info("{}: finishing the frames in flight", strsignal(signal));

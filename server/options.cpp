@@ -84,6 +84,8 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->type_name("FILE");
     app.add_flag("--insecure", server.insecure, "Let other machines connect without TLS, also to --http");
     app.add_option("--http", server.http, "HOST:PORT (port 0: a free one, which is logged) of the viewer, /metrics, /healthz and /readyz");
+    app.add_option("--probes", server.probes,
+                   "HOST:PORT of /metrics, /healthz and /readyz alone, always without TLS, also for other machines: they tell numbers only");
     app.add_option("--web-origin", server.web_origins,
                    "Page, as https://example.org, that may call over the HTTP port; those of this machine may")
         ->allow_extra_args(false)

@@ -149,6 +149,7 @@ Server::Server(const ServerOptions& options)
     address_ = with_port(options.listen, port);
     set_serving(*grpc_, true);
     if (!options.http.empty()) serve_http(origins);
+    if (!options.probes.empty()) serve_probes();
 }
 
 Server::~Server() {
@@ -171,12 +172,22 @@ void Server::shutdown() {
     http_.reset();
     grpc_->Shutdown(std::min(deadline, std::chrono::system_clock::now() + goodbye_time));
     grpc_.reset();
+    probes_.reset();
 }
 
 void Server::serve_http(const AllowedOrigins& origins) {
     const std::shared_ptr<const TlsContext> tls = access_.http_tls();
+    Router router;
+    add_viewer_pages(router);
+    add_observation(router);
     const GrpcWeb calls{.channel = grpc_->InProcessChannel({}), .origins = origins, .needs_certificate = tls && tls->mutual()};
-    http_ = std::make_unique<HttpServer>(options_.http, pages(), calls, HttpLimits{}, tls);
+    http_ = std::make_unique<HttpServer>(options_.http, std::move(router), calls, HttpLimits{}, tls);
+}
+
+void Server::serve_probes() {
+    Router router;
+    add_observation(router);
+    probes_ = std::make_unique<HttpServer>(options_.probes, std::move(router));
 }
 
 std::vector<prometheus::MetricFamily> Server::metrics() {
@@ -192,11 +203,8 @@ std::vector<prometheus::MetricFamily> Server::metrics() {
     return all;
 }
 
-Router Server::pages() {
-    Router router;
-    add_viewer_pages(router);
+void Server::add_observation(Router& router) {
     add_observation_pages(router, [this] { return metrics(); }, [this] { return !draining_; });
-    return router;
 }
 
 }  // namespace meniscus::server

@@ -28,6 +28,7 @@ struct ServerOptions {
     std::string tokens;                      ///< file of tokens; empty: everyone may do everything
     bool insecure = false;                   ///< whether other machines may connect without TLS
     std::string http;                        ///< "HOST:PORT" for viewer, metrics and probes, port 0 for a free one; empty: none
+    std::string probes;                      ///< "HOST:PORT" for metrics and probes alone, without TLS; empty: none
     std::vector<std::string> web_origins;    ///< pages of other machines that may call over the HTTP port
     StandardServices standard_services;
     BackendOptions backend;                  ///< backend and threads; limits and devices have the rest
@@ -54,6 +55,8 @@ public:
     const std::string& address() const noexcept { return address_; }
     /// Of the HTTP port; empty if there is none.
     std::string http_address() const { return http_ ? http_->address() : std::string(); }
+    /// Of the port for metrics and probes alone; empty if there is none.
+    std::string probes_address() const { return probes_ ? probes_->address() : std::string(); }
     const BackendDescription& backend() const noexcept { return backend_; }
     /// None if nothing is recorded.
     const RecordingWriter* recordings() const noexcept { return recordings_.get(); }
@@ -67,8 +70,9 @@ public:
 
 private:
     std::vector<prometheus::MetricFamily> metrics();
-    Router pages();
+    void add_observation(Router& router);
     void serve_http(const AllowedOrigins& origins);
+    void serve_probes();
 
     const ServerOptions options_;
     Access access_;
@@ -85,7 +89,8 @@ private:
     std::unique_ptr<grpc::Server> grpc_;
     std::string address_;
     std::atomic<bool> draining_{false};
-    std::unique_ptr<HttpServer> http_;  ///< last: its pages read the rest
+    std::unique_ptr<HttpServer> http_;  ///< these last: their pages read the rest
+    std::unique_ptr<HttpServer> probes_;
 };
 
 }  // namespace meniscus::server

@@ -1,4 +1,4 @@
-// Gauges whose values are known at the moment of collection.
+// Gauges and counters whose values are known at the moment of collection.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -15,6 +15,13 @@ inline prometheus::MetricFamily gauge(std::string name, std::string help, double
     prometheus::ClientMetric metric;
     metric.gauge.value = value;
     return {std::move(name), std::move(help), prometheus::MetricType::Gauge, {std::move(metric)}};
+}
+
+/// One counter with no label.
+inline prometheus::MetricFamily counter(std::string name, std::string help, double value) {
+    prometheus::ClientMetric metric;
+    metric.counter.value = value;
+    return {std::move(name), std::move(help), prometheus::MetricType::Counter, {std::move(metric)}};
 }
 
 /// One gauge for each value of a label.

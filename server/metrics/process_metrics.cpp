@@ -18,18 +18,14 @@ double seconds(const timeval& time) {
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
-prometheus::MetricFamily processor_seconds(const rusage& usage) {
-    prometheus::ClientMetric metric;
-    metric.counter.value = seconds(usage.ru_utime) + seconds(usage.ru_stime);
-    return {"process_cpu_seconds_total", "User and system time of the process.", prometheus::MetricType::Counter, {metric}};
-}
-
 }  // namespace
 
 std::vector<prometheus::MetricFamily> process_metrics() {
     std::vector<prometheus::MetricFamily> families;
     rusage usage{};
-    if (::getrusage(RUSAGE_SELF, &usage) == 0) families.push_back(processor_seconds(usage));
+    if (::getrusage(RUSAGE_SELF, &usage) == 0)
+        families.push_back(counter("process_cpu_seconds_total", "User and system time of the process.",
+                                   seconds(usage.ru_utime) + seconds(usage.ru_stime)));
     double pages = 0;
     double resident_pages = 0;
     if (std::ifstream("/proc/self/statm") >> pages >> resident_pages)

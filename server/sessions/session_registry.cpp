@@ -149,6 +149,13 @@ SharedResources SessionRegistry::shared_on(const BackendOptions& place) {
     return {.workers = workers_, .metrics = metrics_, .turns = turns, .bytes_in_flight = bytes_in_flight_};
 }
 
+std::chrono::duration<double> SessionRegistry::busy_time() {
+    const std::lock_guard lock(mutex_);
+    std::chrono::duration<double> sum{};
+    for (const auto& [device, turns] : turns_) sum += turns->taken();
+    return sum;
+}
+
 void SessionRegistry::drain(std::chrono::duration<double> grace) {
     {
         const std::lock_guard lock(mutex_);

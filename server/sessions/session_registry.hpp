@@ -59,6 +59,8 @@ public:
     const Limits& limits() const noexcept { return limits_; }
     /// Of the frames of all sessions.
     std::size_t bytes_in_flight() const noexcept { return bytes_in_flight_->bytes(); }
+    /// That all devices together have spent on frames since the start.
+    std::chrono::duration<double> busy_time();
     Metrics& metrics() const noexcept { return *metrics_; }
 
 private:

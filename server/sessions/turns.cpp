@@ -6,6 +6,7 @@ Turns::Turn Turns::wait() {
     std::unique_lock lock(mutex_);
     const std::uint64_t mine = asked_++;
     ended_.wait(lock, [&] { return current_ == mine; });
+    began_ = Clock::now();
     return Turn(*this);
 }
 
@@ -14,10 +15,17 @@ std::uint64_t Turns::waiting() {
     return asked_ > current_ ? asked_ - current_ - 1 : 0;
 }
 
+std::chrono::duration<double> Turns::taken() {
+    const std::lock_guard lock(mutex_);
+    return began_ ? taken_ + (Clock::now() - *began_) : taken_;
+}
+
 void Turns::end() {
     {
         const std::lock_guard lock(mutex_);
         ++current_;
+        taken_ += Clock::now() - *began_;
+        began_.reset();
     }
     ended_.notify_all();
 }

@@ -1,9 +1,11 @@
 // Whose frame is reconstructed next, on a device that sessions share.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 namespace meniscus::server {
@@ -31,14 +33,20 @@ public:
     Turn wait();
     /// How many wait now.
     std::uint64_t waiting();
+    /// Of all turns so far, with what the one that goes on has taken.
+    std::chrono::duration<double> taken();
 
 private:
+    using Clock = std::chrono::steady_clock;
+
     void end();
 
     std::mutex mutex_;
     std::condition_variable ended_;
     std::uint64_t asked_ = 0;
     std::uint64_t current_ = 0;
+    std::optional<Clock::time_point> began_;  ///< the turn that goes on; none: nobody's
+    Clock::duration taken_{};  ///< by those that ended
 };
 
 }  // namespace meniscus::server

@@ -55,5 +55,20 @@ TEST(Turns, AreGivenAtOnceToWhoIsAlone) {
     EXPECT_EQ(turns.waiting(), 0U);
 }
 
+TEST(Turns, AddUpToTheTimeThatTheyTook) {
+    Turns turns;
+    EXPECT_EQ(turns.taken().count(), 0.0);
+    std::chrono::duration<double> running{};
+    {
+        const auto turn = turns.wait();
+        while (running.count() == 0.0) running = turns.taken();
+    }
+    const auto ended = turns.taken();
+    EXPECT_GE(ended, running);
+    EXPECT_EQ(turns.taken(), ended) << "nobody has a turn";
+    { const auto turn = turns.wait(); }
+    EXPECT_GT(turns.taken(), ended);
+}
+
 }  // namespace
 }  // namespace meniscus::server

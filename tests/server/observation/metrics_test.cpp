@@ -57,6 +57,7 @@ TEST(Metrics, CountWhatWasDone) {
     }
     EXPECT_LE(stage_seconds, samples.at("meniscus_frame_reconstruction_seconds_sum"));
     EXPECT_EQ(samples.at("meniscus_frame_stage_seconds_count{stage=\"encode\"}"), 3);
+    EXPECT_GE(samples.at("meniscus_device_busy_seconds_total"), samples.at("meniscus_frame_reconstruction_seconds_sum"));
     EXPECT_EQ(samples.at("meniscus_sessions"), 1);
     EXPECT_EQ(samples.at("meniscus_uploads"), 1);
     EXPECT_EQ(samples.at("meniscus_watchers"), 1);

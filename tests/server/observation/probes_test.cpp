@@ -12,6 +12,8 @@
 #include "meniscus/error.hpp"
 #include "observation/metrics.hpp"
 #include "running_server.hpp"
+#include "test_certificates.hpp"
+#include "web/web_call.hpp"
 
 namespace meniscus::server::test {
 namespace {
@@ -152,6 +154,27 @@ TEST(Probes, ReflectionCallsThatStayOpenAreBounded) {
     queue.Shutdown();
     while (queue.Next(&tag, &ok)) {
     }
+}
+
+TEST(Probes, HaveAPortOfTheirOwnThatStaysPlainAndHasNothingElse) {
+    const TestCertificates certificates;
+    ServerOptions options = test_options();
+    options.tls = certificates.mutual_files();
+    options.tokens = certificates.folder.write("tokens", "admin me " + std::string(64, 'a') + "\n");
+    options.probes = "0.0.0.0:0";  // though it is not --insecure
+    EXPECT_EQ(problems_of(options), std::vector<std::string>{});
+    Server server(options);
+    const std::string probes = "127.0.0.1" + server.probes_address().substr(7);
+    EXPECT_EQ(http_get(probes, "/healthz").status, 200);
+    EXPECT_EQ(http_get(probes, "/readyz").status, 200);
+    EXPECT_EQ(scrape(probes).at("meniscus_sessions"), 0);
+    EXPECT_EQ(http_get(probes, "/").status, 404);
+    const std::string call = WebCall::request("/meniscus.v1.ServerService/GetServerInfo", web_message(""), {});
+    HttpClient caller(probes);
+    caller.send(call);
+    EXPECT_EQ(caller.receive().status, 405);
+    server.shutdown();
+    EXPECT_THROW(HttpClient{probes}, std::runtime_error);
 }
 
 TEST(Probes, HttpNeedsALoopbackAddressUnlessToldOtherwise) {
