@@ -54,8 +54,9 @@ public:
 
 private:
     void start(const std::string& port, const std::string& http_port) {
+        // Room for all sessions on the servers that are left.
         process_.emplace(std::vector<std::string>{"--listen", "127.0.0.1:" + port, "--http", "127.0.0.1:" + http_port, "--threads", "1",
-                                                  "--backend", "cpu"});
+                                                  "--backend", "cpu", "--max-sessions", "64"});
         address_ = process_->address();
         http_ = process_->http_address();
         reading_ = std::thread([this] { log_ += process_->rest(); });
