@@ -59,7 +59,7 @@ public:
         return std::max(first_from(received_, index), first_from(shown_, index));
     }
 
-    /// No more frames; returns once all are answered.
+    /// No more frames; returns once all are answered, and the watcher, if it is waited for, has seen them.
     void finish() {
         {
             const std::lock_guard lock(mutex_);
@@ -69,6 +69,10 @@ public:
         }
         pushing_.join();
         receiving_.join();
+        {
+            std::unique_lock lock(mutex_);
+            changed_.wait_for(lock, std::chrono::seconds(30), [&] { return !in_step_ || pushed_ == 0 || (!shown_.empty() && shown_.back().index + 1 >= pushed_); });
+        }
         watcher_->cancel();
         watching_.join();
     }

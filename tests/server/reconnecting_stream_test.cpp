@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "meniscus/error.hpp"
+#include "observation/metrics.hpp"
 #include "running_server.hpp"
 #include "tcp_proxy.hpp"
 
@@ -87,6 +88,24 @@ TEST(ReconnectingStream, GoesOnWithTheServerThatTakesThePlaceOfOneThatIsShutDown
     });
     EXPECT_EQ(received, numbers(30));
     EXPECT_EQ(running->client.session(id).settings, settings());
+}
+
+TEST(ReconnectingStream, WaitsForAServerThatIsFull) {
+    auto running = std::make_unique<RunningServer>(on_tcp());
+    const std::uint16_t port = port_of(running->server.address());
+    const std::string id = running->session();
+    client::Client client("127.0.0.1:" + std::to_string(port));
+    auto stream = client.stream(id, {.reconnect = patient});
+    running.reset();
+    ServerOptions small = on_tcp(port);
+    small.http = "127.0.0.1:0";
+    small.limits.sessions = 1;
+    running = std::make_unique<RunningServer>(small);
+    const std::string other = running->session();
+    stream.push(wave(4, 0.0).view(), 0, 0.0);
+    while (scrape(running->server.http_address())["meniscus_calls_total{code=\"RESOURCE_EXHAUSTED\"}"] == 0) std::this_thread::yield();
+    running->client.delete_session(other);
+    EXPECT_EQ(stream.next()->index, 0U);
 }
 
 TEST(ReconnectingStream, SaysSinceWhenTheServerIsGoneOnceItsPatienceEnds) {

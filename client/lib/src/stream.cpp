@@ -313,7 +313,9 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
             changed_.notify_all();
             return call;
         }
-        if (!may_go_on(status, *creating)) require_ok(status, connection_->address);
+        // A server that is full, of another's sessions perhaps, may have room later.
+        const bool full = status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED;
+        if (!full && !may_go_on(status, *creating)) require_ok(status, connection_->address);
     }
 }
 
