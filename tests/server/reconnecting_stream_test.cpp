@@ -49,6 +49,13 @@ std::vector<std::uint64_t> exchange_frames(client::Stream& stream, std::uint64_t
     return received;
 }
 
+TEST(Client, FindsAServerThatIsFarAway) {
+    RunningServer running(on_tcp());
+    TcpProxy proxy(port_of(running.server.address()), std::chrono::milliseconds(400));
+    client::Client far(proxy.address());
+    EXPECT_TRUE(far.serving());
+}
+
 TEST(ReconnectingStream, LosesNothingAndRepeatsNothingWhenItsConnectionIsCut) {
     RunningServer running(on_tcp());
     TcpProxy proxy(port_of(running.server.address()));

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <stdexcept>
@@ -19,8 +20,8 @@ namespace meniscus::server::test {
 
 class TcpProxy {
 public:
-    /// upstream: port on the loopback address.
-    explicit TcpProxy(std::uint16_t upstream) : upstream_(upstream) {
+    /// upstream: port on the loopback address. distance: time that a connection takes, as to a machine far away.
+    explicit TcpProxy(std::uint16_t upstream, std::chrono::milliseconds distance = {}) : upstream_(upstream), distance_(distance) {
         listening_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
         sockaddr_in address = loopback(0);
         socklen_t size = sizeof address;
@@ -62,6 +63,7 @@ private:
         for (;;) {
             const int client = ::accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC);
             if (client < 0) return;
+            std::this_thread::sleep_for(distance_);
             const int server = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
             const sockaddr_in address = loopback(upstream_);
             const std::lock_guard lock(mutex_);
@@ -97,6 +99,7 @@ private:
     }
 
     const std::uint16_t upstream_;
+    const std::chrono::milliseconds distance_;
     int listening_ = -1;
     std::uint16_t port_ = 0;
     std::mutex mutex_;  ///< for the next two
