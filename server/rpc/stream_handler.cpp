@@ -192,8 +192,8 @@ private:
             const std::lock_guard lock(mutex_);
             session_ = session;
             upload_ = std::move(upload);
-            // The client knows from here on which server it has.
-            if (!canceled_) StartSendInitialMetadata();
+            // The client knows from here on which server it has. The server may have gone down since open_upload().
+            if (!finished_) StartSendInitialMetadata();
         }
         write();
     }

@@ -1,4 +1,5 @@
 // The session's second thread: meshes become messages, for the stream and for the watchers, each format once.
+#include <algorithm>
 #include <utility>
 
 #include "log.hpp"
@@ -115,7 +116,9 @@ void Session::perform(EndUpload& task) {
         std::erase(unanswered_, task.upload);
         last_used_ = std::chrono::steady_clock::now();
         if (draining_ && !upload_) done = watches_;
-        moves = task.upload && task.upload->moves && !upload_;
+        // Another run may have come since, and is here still or waits for answers.
+        moves = task.upload && task.upload->moves && !upload_ &&
+                std::ranges::all_of(unanswered_, [&](const auto& other) { return other->run == task.upload->run; });
     }
     if (moves) {
         log_info({.session = id()}, "its simulator goes on with another server");

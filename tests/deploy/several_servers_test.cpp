@@ -8,6 +8,7 @@
 #include <chrono>
 #include <deque>
 #include <functional>
+#include <future>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -231,6 +232,10 @@ TEST_P(SeveralServers, AnswerThroughTheProxyInTheirOwnWords) {
         EXPECT_EQ(error.status(), "NOT_FOUND");
         EXPECT_NE(std::string(error.what()).find("no session " + id), std::string::npos) << error.what();
     }
+    auto watcher = near.watch(id, {.reconnect = std::chrono::seconds(60)});
+    const auto refused = std::async(std::launch::async, [&] { EXPECT_THROW(watcher.next(), client::ServerError); });
+    EXPECT_EQ(refused.wait_for(std::chrono::seconds(10)), std::future_status::ready) << "tried again, as if there had been a session";
+    watcher.cancel();
     near.create_session(id, settings());
     auto stream = near.stream(id);
     Particles bad = wave(3, 0.0);

@@ -131,6 +131,19 @@ TEST(ReconnectingStream, SaysSinceWhenTheServerIsGoneOnceItsPatienceEnds) {
     EXPECT_THROW(stream.push(wave(4, 0.0).view(), 1, 0.0), client::ServerError);
 }
 
+TEST(ReconnectingStream, HasAllItsPatienceForEachBreakThoughItsSimulatorRests) {
+    RunningServer running(on_tcp());
+    TcpProxy proxy(port_of(running.server.address()));
+    client::Client far(proxy.address());
+    constexpr std::chrono::milliseconds patience{1000};
+    auto stream = far.stream(running.session(), {.reconnect = patience});
+    proxy.cut();
+    std::this_thread::sleep_for(patience + std::chrono::milliseconds(200));
+    proxy.cut();
+    stream.push(wave(4, 0.0).view(), 0, 0.0);
+    EXPECT_EQ(stream.next()->index, 0U);
+}
+
 TEST(ReconnectingStream, CanBeLeftWhileTheServerIsGone) {
     auto running = std::make_unique<RunningServer>(on_tcp());
     client::Client client(running->server.address());

@@ -139,5 +139,20 @@ TEST_F(Resume, NamesTheRunInTheMesh) {
     EXPECT_EQ(simulator.receive()->mesh_begin().run_id(), 7U);
 }
 
+TEST(SessionThatMoves, AnswersARunFirstThatCameInTheMeantime) {
+    GatedSession gated;
+    Simulator first(gated.session, run_seven);
+    first.send(0, gated.particles);
+    first.upload->moves = true;
+    gated.session.end_upload(first.upload, std::make_exception_ptr(moved()));
+    Simulator second(gated.session, {.receive_meshes = true, .normal_bits = 8, .run_id = 8});
+    second.send(5, gated.particles);
+    second.end();
+    gated.gate.release(2);
+    EXPECT_EQ(first.receive_story(), (Story{"0"}));
+    EXPECT_EQ(second.receive_story(), (Story{"5"}));
+    EXPECT_FALSE(second.error);
+}
+
 }  // namespace
 }  // namespace meniscus::server::test

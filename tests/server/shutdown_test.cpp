@@ -1,11 +1,49 @@
 #include <gtest/gtest.h>
+#include <spdlog/sinks/sink.h>
+#include <spdlog/spdlog.h>
 
+#include <future>
+#include <memory>
+#include <string_view>
 #include <thread>
 
 #include "running_server.hpp"
 
 namespace meniscus::server::test {
 namespace {
+
+/// Holds who logs that a stream is opened until it is released.
+class HeldOpening final : public spdlog::sinks::sink {
+public:
+    void log(const spdlog::details::log_msg& message) override {
+        const std::string_view text(message.payload.data(), message.payload.size());
+        if (!text.ends_with(" opened")) return;
+        held.set_value();
+        released.get_future().wait();
+    }
+    void flush() override {}
+    void set_pattern(const std::string& /*pattern*/) override {}
+    void set_formatter(std::unique_ptr<spdlog::formatter> /*formatter*/) override {}
+
+    std::promise<void> held;
+    std::promise<void> released;
+};
+
+TEST(Shutdown, EndsAStreamThatIsBeingOpened) {
+    const auto opening = std::make_shared<HeldOpening>();
+    const auto logger_before = spdlog::default_logger();
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>("test", opening));
+    {
+        RunningServer running;
+        RawStream stream(running.server.address(), running.session());
+        opening->held.get_future().wait();
+        std::thread stopping([&] { running.server.shutdown(); });
+        EXPECT_EQ(stream.finish().error_code(), grpc::StatusCode::UNAVAILABLE);
+        opening->released.set_value();
+        stopping.join();
+    }
+    spdlog::set_default_logger(logger_before);
+}
 
 TEST(Shutdown, LetsAFrameThatIsOnItsWayInBeTheLast) {
     RunningServer running;

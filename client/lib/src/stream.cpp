@@ -14,8 +14,9 @@ namespace {
 /// Of a call that creates the session again, or looks for it: a network that swallows packets must not hold the attempts up.
 constexpr std::chrono::seconds attempt_time{5};
 
-/// A server that the session is to leave, and that answers nothing for so long, is given up.
-constexpr std::chrono::seconds leaving_time{10};
+/// A server that the session is to leave, and that answers nothing for so long, is given up. Long enough for a large frame on
+/// a busy server: watchers there would not hear of the move.
+constexpr std::chrono::seconds leaving_time{60};
 
 std::uint64_t random_run_id() {
     std::random_device device;
@@ -202,6 +203,8 @@ grpc::Status Stream::Impl::read_answers(UploadCall& call) {
         std::string instance = call.accepted_by();
         {
             const std::lock_guard lock(mutex_);
+            // Answers will not come if none are owed.
+            if (!instance.empty() && unanswered_.empty()) broken_at_.reset();
             if (call_.get() == &call) instance_ = std::move(instance);
         }
         v1::StreamResponse response;

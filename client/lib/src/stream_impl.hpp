@@ -75,7 +75,7 @@ private:
 
     // Of the receiving thread.
     Backoff backoff_;
-    std::optional<Clock::time_point> broken_at_;  ///< none: answers have come since
+    std::optional<Clock::time_point> broken_at_;  ///< none: answers have come since, or a call was accepted when none were owed
     std::string created_by_;                      ///< the instance of the server that had the session last; or empty
 
     mutable std::mutex mutex_;  ///< for what follows

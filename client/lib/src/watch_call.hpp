@@ -93,7 +93,7 @@ private:
         call_->reader = start_(call_->context);
         // The server answers, with metadata, once it has the watcher: no frame from here on is missed.
         call_->reader->WaitForInitialMetadata();
-        if (call_->context.GetServerInitialMetadata().empty()) return;  // refused
+        if (!call_->context.GetServerInitialMetadata().contains("x-session-id")) return;  // refused; a proxy may add its own
         had_session_ = true;
         broken_since_.reset();
     }
