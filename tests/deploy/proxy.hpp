@@ -1,9 +1,6 @@
 // A real proxy with the configuration that is shipped, in which nothing is changed but ports.
 #pragma once
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,21 +15,10 @@
 #include <thread>
 #include <vector>
 
+#include "free_port.hpp"
 #include "test_folder.hpp"
 
 namespace meniscus::server::test {
-
-inline int free_port() {
-    const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in any{};
-    any.sin_family = AF_INET;
-    any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof any;
-    ::bind(listener, reinterpret_cast<const sockaddr*>(&any), size);
-    ::getsockname(listener, reinterpret_cast<sockaddr*>(&any), &size);
-    ::close(listener);
-    return ntohs(any.sin_port);
-}
 
 /// Of a server, in words such as "127.0.0.1:50051".
 inline std::string port_of(const std::string& address) {

@@ -189,6 +189,7 @@ TEST_P(Sessions, GoOnElsewhereWhenTheirServerIsKilledAndComeBackWithItWhileOther
     std::atomic<bool> all_back{false};
     std::deque<Clock::duration> ways(moved.size());
     std::vector<std::thread> comers;
+    comers.reserve(moved.size());
     auto way = ways.begin();
     for (const std::string& id : moved)
         comers.emplace_back([&, id, &longest_way = *way++] { longest_way = longest_way_to_a_frame(proxy->address(), id, all_back); });
