@@ -12,7 +12,8 @@ void require_supported_processor() {
     __builtin_cpu_init();
     if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
         throw InvalidInput("this processor (" + processor_name() +
-                           ") lacks AVX2 or FMA, which this build needs: run on a processor with both (Intel Haswell, AMD Excavator or newer)");
+                           ") lacks AVX2 or FMA, which this build needs: run on a processor with both (Intel Haswell, "
+                           "AMD Excavator or newer)");
 #endif
 }
 

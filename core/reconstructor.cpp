@@ -20,11 +20,14 @@ void Mesh::clear() {
     levels = {};
 }
 
-std::string_view version() { return MENISCUS_VERSION; }
+std::string_view version() {
+    return MENISCUS_VERSION;
+}
 
 BackendDescription describe_backend(Backend choice, int device) {
     const std::string without_gpu = cuda::why_unavailable(device);
-    if (choice == Backend::cuda && !without_gpu.empty()) throw InvalidInput("the CUDA backend cannot be used: " + without_gpu);
+    if (choice == Backend::cuda && !without_gpu.empty())
+        throw InvalidInput("the CUDA backend cannot be used: " + without_gpu);
     const char* const asked_for = "asked for";
     if (choice != Backend::cpu && without_gpu.empty())
         return {Backend::cuda, "cuda", cuda::device_name(device), choice == Backend::cuda ? asked_for : "a usable GPU"};
@@ -35,7 +38,9 @@ BackendDescription describe_backend(Backend choice, int device) {
 class Reconstructor::Impl {
 public:
     Impl(const Settings& settings, const BackendOptions& options)
-        : settings_(checked(settings)), options_(options), account_(std::make_shared<MemoryAccount>(options.memory_limit)),
+        : settings_(checked(settings)),
+          options_(options),
+          account_(std::make_shared<MemoryAccount>(options.memory_limit)),
           device_account_(std::make_shared<MemoryAccount>(options.device_memory_limit, "on the GPU")) {
         options_.backend = describe_backend(options.backend, options.device).backend;
         make_backend();
@@ -90,8 +95,9 @@ private:
     }
 
     void make_backend() {
-        backend_ = options_.backend == Backend::cuda ? cuda::make_reconstruction(settings_, options_.device, account_, device_account_)
-                                                     : cpu::make_reconstruction(settings_, options_.threads, account_);
+        backend_ = options_.backend == Backend::cuda
+                       ? cuda::make_reconstruction(settings_, options_.device, account_, device_account_)
+                       : cpu::make_reconstruction(settings_, options_.threads, account_);
     }
 
     void begin(const ParticleFrame& frame) {
@@ -141,7 +147,8 @@ private:
 
     void count(std::size_t triangles, const std::array<TriangleRange, triangle_level_count>& levels) {
         statistics_.triangles = triangles;
-        for (std::size_t level = 0; level < triangle_level_count; ++level) statistics_.triangles_by_level[level] = levels[level].count;
+        for (std::size_t level = 0; level < triangle_level_count; ++level)
+            statistics_.triangles_by_level[level] = levels[level].count;
     }
 
     /// A mesh that is new here is charged to this reconstructor's account from now on.
@@ -171,11 +178,23 @@ Reconstructor::~Reconstructor() = default;
 Reconstructor::Reconstructor(Reconstructor&&) noexcept = default;
 Reconstructor& Reconstructor::operator=(Reconstructor&&) noexcept = default;
 
-void Reconstructor::reconstruct(const ParticleFrame& frame, Mesh& mesh) { impl_->reconstruct(frame, mesh); }
-MeshDownload Reconstructor::reconstruct_for_download(const ParticleFrame& frame, Mesh& mesh) { return impl_->reconstruct_for_download(frame, mesh); }
-void Reconstructor::emit_capped(int max_level, Mesh& mesh) { impl_->emit_capped(max_level, mesh); }
-DeviceMesh Reconstructor::reconstruct_on_device(const ParticleFrame& frame) { return impl_->reconstruct_on_device(frame); }
-const Statistics& Reconstructor::statistics() const { return impl_->statistics(); }
-const Settings& Reconstructor::settings() const { return impl_->settings(); }
+void Reconstructor::reconstruct(const ParticleFrame& frame, Mesh& mesh) {
+    impl_->reconstruct(frame, mesh);
+}
+MeshDownload Reconstructor::reconstruct_for_download(const ParticleFrame& frame, Mesh& mesh) {
+    return impl_->reconstruct_for_download(frame, mesh);
+}
+void Reconstructor::emit_capped(int max_level, Mesh& mesh) {
+    impl_->emit_capped(max_level, mesh);
+}
+DeviceMesh Reconstructor::reconstruct_on_device(const ParticleFrame& frame) {
+    return impl_->reconstruct_on_device(frame);
+}
+const Statistics& Reconstructor::statistics() const {
+    return impl_->statistics();
+}
+const Settings& Reconstructor::settings() const {
+    return impl_->settings();
+}
 
 }  // namespace meniscus

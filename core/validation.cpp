@@ -30,8 +30,8 @@ void require_box(const char* name, const Box& box, bool may_be_flat) {
     for (std::size_t i = 0; i < 3; ++i) {
         const bool ordered = may_be_flat ? box.min[i] <= box.max[i] : box.min[i] < box.max[i];
         if (!std::isfinite(box.min[i]) || !std::isfinite(box.max[i]) || !ordered)
-            throw InvalidInput(std::string(name) + " runs from " + text(box.min[i]) + " to " + text(box.max[i]) + " along " + axes[i] +
-                               ", must be finite and run upward");
+            throw InvalidInput(std::string(name) + " runs from " + text(box.min[i]) + " to " + text(box.max[i]) +
+                               " along " + axes[i] + ", must be finite and run upward");
     }
 }
 
@@ -40,7 +40,8 @@ void require_support(const Settings& s, unsigned coarsest_level) {
     const double cells = std::ldexp(2.0 * s.smoothing_length / s.cell_size, static_cast<int>(coarsest_level));
     if (cells > max_support_cells)
         throw InvalidInput("the support of particle level " + std::to_string(coarsest_level) + " spans " + text(cells) +
-                           " cells, at most " + std::to_string(max_support_cells) + " are possible: use a larger cell size");
+                           " cells, at most " + std::to_string(max_support_cells) +
+                           " are possible: use a larger cell size");
 }
 
 }  // namespace
@@ -69,15 +70,16 @@ void validate(const ParticleFrame& frame, const Settings& settings) {
         throw InvalidInput("the frame has " + std::to_string(numbers) + " coordinates, must be three per particle");
     const std::size_t count = frame.count();
     if (count >= 0xFFFFFFFFULL)
-        throw LimitExceeded("the frame has " + std::to_string(count) + " particles, at most 4294967294 can be numbered: split it");
+        throw LimitExceeded("the frame has " + std::to_string(count) +
+                            " particles, at most 4294967294 can be numbered: split it");
     if (!frame.levels.empty() && frame.levels.size() != count)
-        throw InvalidInput("the frame has " + std::to_string(frame.levels.size()) + " levels for " + std::to_string(count) +
-                           " particles, must have one each or none");
+        throw InvalidInput("the frame has " + std::to_string(frame.levels.size()) + " levels for " +
+                           std::to_string(count) + " particles, must have one each or none");
     if (!frame.levels.empty()) {
         const auto coarsest = std::max_element(frame.levels.begin(), frame.levels.end());
         if (*coarsest > max_particle_level)
-            throw InvalidInput("particle " + std::to_string(coarsest - frame.levels.begin()) + " has level " + std::to_string(*coarsest) +
-                               ", must be 0 to " + std::to_string(max_particle_level));
+            throw InvalidInput("particle " + std::to_string(coarsest - frame.levels.begin()) + " has level " +
+                               std::to_string(*coarsest) + ", must be 0 to " + std::to_string(max_particle_level));
         require_support(settings, *coarsest);
     }
     const double limit = static_cast<double>(max_cell) * world_cell_size(settings);
@@ -87,7 +89,8 @@ void validate(const ParticleFrame& frame, const Settings& settings) {
         for (std::size_t i = 0; i < 3; ++i)
             if (std::max(std::abs(box.min[i]), std::abs(box.max[i])) > limit)
                 throw InvalidInput("the quantization box reaches from " + text(box.min[i]) + " to " + text(box.max[i]) +
-                                   ", farther from the origin than the " + text(limit) + " that this cell size can address");
+                                   ", farther from the origin than the " + text(limit) +
+                                   " that this cell size can address");
         return;
     }
     for (std::size_t i = 0; i < numbers; ++i) {
@@ -96,7 +99,8 @@ void validate(const ParticleFrame& frame, const Settings& settings) {
         if (std::abs(p) <= limit) continue;
         const std::string where = "particle " + std::to_string(i / 3) + " has " + "xyz"[i % 3] + " = " + text(p);
         if (!std::isfinite(p)) throw InvalidInput(where + ", positions must be finite");
-        throw InvalidInput(where + ", farther from the origin than the " + text(limit) + " that this cell size can address");
+        throw InvalidInput(where + ", farther from the origin than the " + text(limit) +
+                           " that this cell size can address");
     }
 }
 

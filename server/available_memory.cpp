@@ -48,7 +48,8 @@ std::uint64_t control_group_limit(const std::filesystem::path& root) {
         const std::size_t first = line.find(':');
         const std::size_t second = line.find(':', first + 1);
         if (first == std::string::npos || second == std::string::npos || second + 1 == line.size()) continue;
-        const std::string controllers = fmt::format(",{},", std::string_view(line).substr(first + 1, second - first - 1));
+        const std::string controllers =
+            fmt::format(",{},", std::string_view(line).substr(first + 1, second - first - 1));
         const std::filesystem::path group = std::filesystem::path(line.substr(second + 1)).relative_path();
         if (controllers == ",,")
             limit = std::min(limit, group_limit(groups, group, "memory.max"));

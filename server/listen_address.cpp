@@ -12,9 +12,10 @@ namespace meniscus::server {
 
 void require_loopback(std::string_view flag, const std::string& address) {
     if (conversion::is_loopback(address)) return;
-    throw InvalidInput(fmt::format("{} {} can be reached from other machines, without TLS: give a loopback address, or --insecure "
-                                   "if this is meant (--tls-cert and --tls-key give --listen TLS)",
-                                   flag, address));
+    throw InvalidInput(
+        fmt::format("{} {} can be reached from other machines, without TLS: give a loopback address, or --insecure "
+                    "if this is meant (--tls-cert and --tls-key give --listen TLS)",
+                    flag, address));
 }
 
 void require_unused_unix_socket(const std::string& address) {

@@ -9,8 +9,8 @@ namespace meniscus::server {
 /// Throws InvalidInput if the address, of this flag, whose port has no TLS, can be reached from other machines.
 void require_loopback(std::string_view flag, const std::string& address);
 
-/// Throws InvalidInput if the address is a Unix socket whose path cannot be one, or that another server listens on: gRPC
-/// would take it over.
+/// Throws InvalidInput if the address is a Unix socket whose path cannot be one, or that another server listens on:
+/// gRPC would take it over.
 void require_unused_unix_socket(const std::string& address);
 
 }  // namespace meniscus::server

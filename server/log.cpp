@@ -23,7 +23,8 @@ std::string_view view(spdlog::string_view_t text) {
 /// "session ID, frame N: ".
 class SubjectFlag final : public spdlog::custom_flag_formatter {
 public:
-    void format(const spdlog::details::log_msg& /*message*/, const std::tm& /*time*/, spdlog::memory_buf_t& out) override {
+    void format(const spdlog::details::log_msg& /*message*/, const std::tm& /*time*/,
+                spdlog::memory_buf_t& out) override {
         if (current_subject == nullptr) return;
         fmt::format_to(std::back_inserter(out), "session {}", current_subject->session);
         if (current_subject->frame) fmt::format_to(std::back_inserter(out), ", frame {}", *current_subject->frame);
@@ -35,10 +36,12 @@ public:
 class JsonFormatter final : public spdlog::formatter {
 public:
     void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
-        const auto milliseconds = std::chrono::floor<std::chrono::milliseconds>(message.time).time_since_epoch().count() % 1000;
+        const auto milliseconds =
+            std::chrono::floor<std::chrono::milliseconds>(message.time).time_since_epoch().count() % 1000;
         const std::time_t seconds = spdlog::log_clock::to_time_t(message.time);
-        nlohmann::ordered_json line{{"time", fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(seconds), milliseconds)},
-                                    {"level", view(spdlog::level::to_string_view(message.level))}};
+        nlohmann::ordered_json line{
+            {"time", fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(seconds), milliseconds)},
+            {"level", view(spdlog::level::to_string_view(message.level))}};
         if (current_subject != nullptr) line["session"] = current_subject->session;
         if (current_subject != nullptr && current_subject->frame) line["frame"] = *current_subject->frame;
         line["message"] = view(message.payload);

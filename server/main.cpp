@@ -76,9 +76,11 @@ int run(const meniscus::server::CommandLine& command_line) {
     meniscus::server::Server server(command_line.server);
     gpr_set_log_function(log_grpc);
     const meniscus::BackendDescription& backend = server.backend();
-    spdlog::info("meniscusd {} listening on {}, backend {} on {}: {}", meniscus::version(), server.address(), backend.name,
-                 backend.device, backend.reason);
-    if (!server.http_address().empty()) spdlog::info("viewer, metrics and probes at {}://{}", command_line.server.tls.any() ? "https" : "http", server.http_address());
+    spdlog::info("meniscusd {} listening on {}, backend {} on {}: {}", meniscus::version(), server.address(),
+                 backend.name, backend.device, backend.reason);
+    if (!server.http_address().empty())
+        spdlog::info("viewer, metrics and probes at {}://{}", command_line.server.tls.any() ? "https" : "http",
+                     server.http_address());
     if (!server.probes_address().empty()) spdlog::info("metrics and probes at http://{}", server.probes_address());
     const int signal = wait_for_stop(signals, server);
     exit_deadline.start(command_line.server.shutdown_grace);

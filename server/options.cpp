@@ -70,28 +70,33 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->envname("MENISCUS_CONFIG")
         ->configurable(false)
         ->type_name("FILE");
-    app.add_flag("--print-config", print_config, "Print the settings in effect, as such a file, and end")->configurable(false);
+    app.add_flag("--print-config", print_config, "Print the settings in effect, as such a file, and end")
+        ->configurable(false);
     app.add_flag("--check-config", command_line.check_config, "Say whether the settings can be used, and end")
         ->configurable(false);
     app.add_option("--listen", server.listen,
                    "HOST:PORT (port 0: a free one, which is logged) or unix:PATH (for this user alone)");
     app.add_option("--tls-cert", server.tls.certificate, "Certificate chain for TLS, PEM")->type_name("FILE");
     app.add_option("--tls-key", server.tls.key, "Its key, PEM")->type_name("FILE");
-    app.add_option("--tls-client-ca", server.tls.client_ca, "Mutual TLS: clients need a certificate of one of these, PEM")
+    app.add_option("--tls-client-ca", server.tls.client_ca,
+                   "Mutual TLS: clients need a certificate of one of these, PEM")
         ->type_name("FILE");
     app.add_option("--tokens", server.tokens,
                    "Lines ROLE NAME TOKEN, the role being uploader, watcher or admin: calls need one of these tokens")
         ->type_name("FILE");
     app.add_flag("--insecure", server.insecure, "Let other machines connect without TLS, also to --http");
-    app.add_option("--http", server.http, "HOST:PORT (port 0: a free one, which is logged) of the viewer, /metrics, /healthz and /readyz");
+    app.add_option("--http", server.http,
+                   "HOST:PORT (port 0: a free one, which is logged) of the viewer, /metrics, /healthz and /readyz");
     app.add_option("--probes", server.probes,
-                   "HOST:PORT of /metrics, /healthz and /readyz alone, always without TLS, also for other machines: they tell numbers only");
+                   "HOST:PORT of /metrics, /healthz and /readyz alone, always without TLS, also for other machines: "
+                   "they tell numbers only");
     app.add_option("--web-origin", server.web_origins,
                    "Page, as https://example.org, that may call over the HTTP port; those of this machine may")
         ->allow_extra_args(false)
         ->type_name("ORIGIN")
         ->default_str("");
-    app.add_flag("--reflection", server.standard_services.reflection, "Let clients ask for the contract, as grpcurl does");
+    app.add_flag("--reflection", server.standard_services.reflection,
+                 "Let clients ask for the contract, as grpcurl does");
     app.add_flag("--channelz", server.standard_services.channelz, "Let clients ask for connections and their traffic");
 
     app.add_option_function<std::string>(
@@ -99,8 +104,9 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
            "auto, cpu or cuda")
         ->type_name("NAME")
         ->default_str("auto");
-    app.add_option("--devices", server.devices,
-                   "GPUs to use, as 0,1: each session on the one with the most free memory. Default: all that can be used")
+    app.add_option(
+           "--devices", server.devices,
+           "GPUs to use, as 0,1: each session on the one with the most free memory. Default: all that can be used")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(CLI::NonNegativeNumber)
@@ -110,10 +116,12 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->check(CLI::Range(0U, 1024U));
     app.add_option("--max-sessions", server.limits.sessions, "Sessions at a time; 0: no limit");
     app.add_option("--max-watchers", server.limits.watchers_per_session, "Watchers of one session; 0: no limit");
-    app.add_option("--max-recording-readers", server.limits.recording_readers, "Calls that read recordings at a time; 0: no limit");
+    app.add_option("--max-recording-readers", server.limits.recording_readers,
+                   "Calls that read recordings at a time; 0: no limit");
     app.add_option("--max-particles", server.limits.particles_per_frame, "Particles of one frame; 0: no limit");
     app.add_option("--max-bytes-in-flight", server.limits.bytes_in_flight,
-                   "Frames that wait to be reconstructed, over all sessions; 0: no limit. Default: half of the machine's memory, or of the container's")
+                   "Frames that wait to be reconstructed, over all sessions; 0: no limit. Default: half of the "
+                   "machine's memory, or of the container's")
         ->transform(CLI::AsSizeValue(false))
         ->type_name("BYTES");
     app.add_option("--max-frames-per-second", server.limits.frames_per_second, "Frames of one session; 0: no limit");
@@ -122,11 +130,13 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->transform(CLI::AsSizeValue(false))
         ->check(CLI::Range(min_message_bytes, max_message_bytes))
         ->type_name("BYTES");
-    app.add_option("--max-idle", idle_seconds,
-                   "Seconds that a stream, or a session without streams, watchers and calls, is kept without use; 0: no limit")
+    app.add_option(
+           "--max-idle", idle_seconds,
+           "Seconds that a stream, or a session without streams, watchers and calls, is kept without use; 0: no limit")
         ->check(CLI::Range(0.0, 1e7));
     app.add_option("--memory-limit", server.limits.bytes_per_session,
-                   "Memory of one session's reconstruction, as 4G or 500M; 0: no limit. Default: half of the machine's, or of the container's")
+                   "Memory of one session's reconstruction, as 4G or 500M; 0: no limit. Default: half of the "
+                   "machine's, or of the container's")
         ->transform(CLI::AsSizeValue(false))
         ->type_name("BYTES");
     app.add_option("--device-memory-limit", server.limits.device_bytes_per_session,
@@ -152,7 +162,9 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
 
     app.add_option_function<std::string>(
            "--log-format",
-           [&](const std::string& name) { command_line.log_format = name == "json" ? LogFormat::json : LogFormat::text; },
+           [&](const std::string& name) {
+               command_line.log_format = name == "json" ? LogFormat::json : LogFormat::text;
+           },
            "text, or json: one object a line")
         ->check(CLI::IsMember({"text", "json"}).description(""))
         ->type_name("NAME")
@@ -161,7 +173,8 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     try {
         app.parse(argc, argv);
         std::vector<std::string> problems = apply_settings(environment_settings(::environ), app);
-        if (!config.empty()) std::ranges::move(apply_settings(file_settings(config), app), std::back_inserter(problems));
+        if (!config.empty())
+            std::ranges::move(apply_settings(file_settings(config), app), std::back_inserter(problems));
         if (!problems.empty()) return refuse(problems);
     } catch (const CLI::CallForHelp&) {
         return EarlyExit{.text = app.help(), .code = 0};

@@ -43,7 +43,8 @@ unsigned threads_or_processors(unsigned threads) {
 BackendDescription describe(const ServerOptions& options) {
     const Backend choice = options.backend.backend;
     if (choice == Backend::cpu) {
-        if (!options.devices.empty()) throw InvalidInput("--devices needs --backend cuda or auto: the CPU was asked for");
+        if (!options.devices.empty())
+            throw InvalidInput("--devices needs --backend cuda or auto: the CPU was asked for");
         return describe_backend(choice);
     }
     for (const int device : options.devices) describe_backend(Backend::cuda, device);
@@ -92,8 +93,12 @@ std::vector<std::string> problems_of(const ServerOptions& options) {
         [&] { require_closed_to_others(options); },
         [&] { AllowedOrigins(options.web_origins, options.http); },
         [&] { require_unused_unix_socket(options.listen); },
-        [&] { if (options.tls.any()) load_certificates(options.tls); },
-        [&] { if (!options.tokens.empty()) Tokens::load(options.tokens); },
+        [&] {
+            if (options.tls.any()) load_certificates(options.tls);
+        },
+        [&] {
+            if (!options.tokens.empty()) Tokens::load(options.tokens);
+        },
         [&] { require_recordable(options.recording); },
         [&] { describe(options); },
     };
@@ -116,8 +121,9 @@ Server::Server(const ServerOptions& options)
       recordings_(options.recording.directory.empty() ? nullptr : std::make_unique<RecordingWriter>(options.recording)),
       registry_(options.limits, for_sessions(options.backend, backend_), threads_or_processors(options.backend.threads),
                 options.devices, metrics_, record_with(recordings_.get())),
-      recording_reads_(recordings_ ? std::make_unique<RecordingReads>(options.recording.directory, options.limits.recording_readers)
-                                   : nullptr),
+      recording_reads_(
+          recordings_ ? std::make_unique<RecordingReads>(options.recording.directory, options.limits.recording_readers)
+                      : nullptr),
       server_service_(access_.authorizer(), backend_, threads_or_processors(options.backend.threads), options.limits),
       session_service_(registry_, access_.authorizer()),
       surface_service_(registry_, access_.authorizer(), calls_),
@@ -164,8 +170,9 @@ void Server::shutdown() {
     set_serving(*grpc_, false);
     registry_.drain(time);
     if (recording_reads_) recording_reads_->end();
-    // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection once
-    // the client has confirmed the goodbye, or loses what the client has not read. Idle clients confirm late or never.
+    // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection
+    // once the client has confirmed the goodbye, or loses what the client has not read. Idle clients confirm late or
+    // never.
     calls_.wait_until_none(deadline);
     // First: its calls go to the server in this process, and what they ended with is still to be taken.
     if (http_) http_->finish(deadline);
@@ -180,7 +187,8 @@ void Server::serve_http(const AllowedOrigins& origins) {
     Router router;
     add_viewer_pages(router);
     add_observation(router);
-    const GrpcWeb calls{.channel = grpc_->InProcessChannel({}), .origins = origins, .needs_certificate = tls && tls->mutual()};
+    const GrpcWeb calls{
+        .channel = grpc_->InProcessChannel({}), .origins = origins, .needs_certificate = tls && tls->mutual()};
     http_ = std::make_unique<HttpServer>(options_.http, std::move(router), calls, HttpLimits{}, tls);
 }
 
@@ -195,7 +203,8 @@ std::vector<prometheus::MetricFamily> Server::metrics() {
     const auto add = [&all](std::vector<prometheus::MetricFamily> more) {
         all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     };
-    all.push_back(gauge("meniscus_ready", "1; 0 once it shuts down, while the frames in flight are finished.", draining_ ? 0 : 1));
+    all.push_back(gauge("meniscus_ready", "1; 0 once it shuts down, while the frames in flight are finished.",
+                        draining_ ? 0 : 1));
     add(session_gauges(registry_));
     add(limit_gauges(options_.limits, backend_));
     if (recordings_) add(recording_metrics(recordings_->counters(), recording_reads_->readers()));
@@ -204,7 +213,8 @@ std::vector<prometheus::MetricFamily> Server::metrics() {
 }
 
 void Server::add_observation(Router& router) {
-    add_observation_pages(router, [this] { return metrics(); }, [this] { return !draining_; });
+    add_observation_pages(
+        router, [this] { return metrics(); }, [this] { return !draining_; });
 }
 
 }  // namespace meniscus::server

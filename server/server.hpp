@@ -14,8 +14,8 @@
 #include "recording/recording_reads.hpp"
 #include "recording/recording_writer.hpp"
 #include "rpc/services.hpp"
-#include "security/access.hpp"
 #include "rpc/standard_services.hpp"
+#include "security/access.hpp"
 #include "sessions/limits.hpp"
 #include "sessions/session_registry.hpp"
 #include "web/http_server.hpp"
@@ -27,12 +27,12 @@ struct ServerOptions {
     TlsFiles tls;                            ///< none: no TLS
     std::string tokens;                      ///< file of tokens; empty: everyone may do everything
     bool insecure = false;                   ///< whether other machines may connect without TLS
-    std::string http;                        ///< "HOST:PORT" for viewer, metrics and probes, port 0 for a free one; empty: none
-    std::string probes;                      ///< "HOST:PORT" for metrics and probes alone, without TLS; empty: none
-    std::vector<std::string> web_origins;    ///< pages of other machines that may call over the HTTP port
+    std::string http;    ///< "HOST:PORT" for viewer, metrics and probes, port 0 for a free one; empty: none
+    std::string probes;  ///< "HOST:PORT" for metrics and probes alone, without TLS; empty: none
+    std::vector<std::string> web_origins;  ///< pages of other machines that may call over the HTTP port
     StandardServices standard_services;
-    BackendOptions backend;                  ///< backend and threads; limits and devices have the rest
-    std::vector<int> devices;                ///< the GPUs to use; empty: all that can reconstruct
+    BackendOptions backend;    ///< backend and threads; limits and devices have the rest
+    std::vector<int> devices;  ///< the GPUs to use; empty: all that can reconstruct
     Limits limits;
     RecordingOptions recording;
     /// How long shutdown() waits for clients to take what they are owed.
@@ -61,7 +61,8 @@ public:
     /// None if nothing is recorded.
     const RecordingWriter* recordings() const noexcept { return recordings_.get(); }
 
-    /// Reads certificates and tokens again, for connections and calls from now on. What is wrong is logged and not used.
+    /// Reads certificates and tokens again, for connections and calls from now on. What is wrong is logged and not
+    /// used.
     void reload() { access_.reload(); }
 
     /// Takes no new frames, answers those in flight, ends the watchers. Calls that are left after the grace period are

@@ -20,11 +20,11 @@ namespace {
 
 constexpr std::string_view prefix = "MENISCUS_";
 
-/// The file's own name; variables of the client, of the tests and benchmarks; and those that Kubernetes sets for a service
-/// named meniscus.
+/// The file's own name; variables of the client, of the tests and benchmarks; and those that Kubernetes sets for a
+/// service named meniscus.
 bool is_no_setting(std::string_view variable) {
     constexpr std::array<std::string_view, 6> others{"MENISCUS_CONFIG",      "MENISCUS_TOKEN", "MENISCUS_SERVER_CA",
-                                                         "MENISCUS_SERVER_NAME", "MENISCUS_DATA",  "MENISCUS_COMMIT"};
+                                                     "MENISCUS_SERVER_NAME", "MENISCUS_DATA",  "MENISCUS_COMMIT"};
     return std::find(others.begin(), others.end(), variable) != others.end() ||
            variable.starts_with("MENISCUS_SERVICE_") || variable.starts_with("MENISCUS_PORT");
 }
@@ -99,8 +99,8 @@ std::vector<Setting> file_settings(const std::string& path) {
         if (text.empty() || text.starts_with('#')) continue;
         const std::size_t equals = text.find('=');
         if (equals == std::string::npos)
-            throw InvalidInput(fmt::format("{}:{}: \"{}\" is no setting; a line is FLAG = VALUE, or begins with #", path,
-                                           number, text.substr(0, 64)));
+            throw InvalidInput(fmt::format("{}:{}: \"{}\" is no setting; a line is FLAG = VALUE, or begins with #",
+                                           path, number, text.substr(0, 64)));
         const std::string name = CLI::detail::trim_copy(text.substr(0, equals));
         settings.push_back({.name = name,
                             .value = CLI::detail::trim_copy(text.substr(equals + 1)),
@@ -139,8 +139,8 @@ std::string settings_file(const CLI::App& app) {
     std::string text;
     for (const CLI::Option* option : app.get_options(is_setting)) {
         const bool is_flag = option->get_expected_min() == 0;
-        std::string value = option->count() != 0 ? CLI::detail::join(option->reduced_results(), ",")
-                                                 : option->get_default_str();
+        std::string value =
+            option->count() != 0 ? CLI::detail::join(option->reduced_results(), ",") : option->get_default_str();
         if (value.empty() && is_flag) value = "false";
         text += fmt::format("# {}\n{}{} ={}{}\n", option->get_description(), value.empty() ? "# " : "",
                             option->get_lnames().front(), value.empty() ? "" : " ", value);

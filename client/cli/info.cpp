@@ -1,8 +1,8 @@
 // meniscus info: what a server, or this process, says about itself.
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <sstream>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 
 #include "cli/commands.hpp"
@@ -24,7 +24,8 @@ std::string seconds_limit(double value) {
 }
 
 /// Those of a server and of this process alike.
-void print_backend(const std::string& version, const std::string& name, const std::string& reason, const std::string& device) {
+void print_backend(const std::string& version, const std::string& name, const std::string& reason,
+                   const std::string& device) {
     std::cout << "version                " << version << '\n'
               << "backend                " << name << " (" << reason << ")\n"
               << "device                 " << device << '\n';
@@ -72,7 +73,8 @@ void add_info(CLI::App& app) {
     CLI::App& command = *app.add_subcommand("info", "Describe a server, or what this process would reconstruct with");
     auto* server = options->server.add_to(command, "Version, backend, limits of that server");
     add_backend_option(command, options->backend)->excludes(server);
-    command.add_flag("--health", options->health, "Only whether it serves, which needs no token; if not, exit code 1")->needs(server);
+    command.add_flag("--health", options->health, "Only whether it serves, which needs no token; if not, exit code 1")
+        ->needs(server);
     command.callback([options] {
         if (options->server.address.empty())
             print_this_process(options->backend);

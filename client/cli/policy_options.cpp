@@ -7,9 +7,10 @@
 namespace meniscus::cli {
 
 CLI::Option* add_policy_options(CLI::App& command, client::StreamOptions& stream) {
-    static const std::map<std::string, client::UploadPolicy> policies{{"every-frame", client::UploadPolicy::every_frame},
-                                                                      {"latest", client::UploadPolicy::latest},
-                                                                      {"every-nth", client::UploadPolicy::every_nth}};
+    static const std::map<std::string, client::UploadPolicy> policies{
+        {"every-frame", client::UploadPolicy::every_frame},
+        {"latest", client::UploadPolicy::latest},
+        {"every-nth", client::UploadPolicy::every_nth}};
     auto* policy = command
                        .add_option("--policy", stream.policy,
                                    "What the server does with frames that come faster than they are reconstructed: "

@@ -25,7 +25,8 @@ std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& fo
 }
 
 void RecordingSelection::add_to(CLI::App& command) {
-    command.add_option("RECORDING", path, "A file NNNNNN.recording, or a session's folder if it holds one only")->required();
+    command.add_option("RECORDING", path, "A file NNNNNN.recording, or a session's folder if it holds one only")
+        ->required();
     command.add_option("--from", from, "First frame, by its index (default: all)");
     command.add_option("--to", to, "Last frame, by its index");
 }

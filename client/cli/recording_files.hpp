@@ -15,7 +15,8 @@ class App;
 
 namespace meniscus::cli {
 
-/// The recordings in a folder and in the folders of its sessions, by name. Throws InvalidInput if there is no such folder.
+/// The recordings in a folder and in the folders of its sessions, by name. Throws InvalidInput if there is no such
+/// folder.
 std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& folder);
 
 /// The argument RECORDING and the flags --from and --to.

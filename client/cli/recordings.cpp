@@ -39,7 +39,8 @@ nlohmann::ordered_json describe(const formats::Recording& recording) {
         out["first_index"] = frames.front().index;
         out["last_index"] = frames.back().index;
     }
-    out["meshes"] = std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return frame.mesh.has_value(); });
+    out["meshes"] =
+        std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return frame.mesh.has_value(); });
     out["seconds"] = seconds(frames);
     out["bytes"] = recording.bytes();
     out["cut_bytes"] = recording.cut_bytes();
@@ -60,7 +61,8 @@ void print(const nlohmann::ordered_json& recording) {
     std::cout << ", " << recording["meshes"] << " meshes, " << recording["seconds"].get<double>() << " s, "
               << recording["bytes"] << " bytes; particle radius " << settings["particle_radius"].get<double>()
               << ", cell size " << settings["cell_size"].get<double>() << ", " << settings["mode"].get<std::string>();
-    if (recording["cut_bytes"] != 0) std::cout << "; its last " << recording["cut_bytes"] << " bytes are no whole frame";
+    if (recording["cut_bytes"] != 0)
+        std::cout << "; its last " << recording["cut_bytes"] << " bytes are no whole frame";
     std::cout << '\n';
 }
 

@@ -108,7 +108,8 @@ void add_replay(CLI::App& app) {
     options->server.add_to(command, "Where to")->required();
     command.add_option("--session", options->session, "UUID of the session to create (default: a new one)");
     command.add_option("--speed", options->speed, "Times as fast as it was recorded, or max")->capture_default_str();
-    command.add_flag("--loop", options->loop, "Begin again after the last frame, until interrupted; indices go on rising");
+    command.add_flag("--loop", options->loop,
+                     "Begin again after the last frame, until interrupted; indices go on rising");
     command.callback([options] { replay(*options); });
 }
 

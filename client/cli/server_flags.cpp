@@ -26,15 +26,20 @@ CLI::Option* ServerFlags::add_to(CLI::App& command, const std::string& descripti
     const auto add_file = [&](const std::string& flag, std::string& file, const std::string& meaning) {
         return command.add_option(flag, file, meaning)->type_name("FILE")->needs(server);
     };
-    CLI::Option* ca = add_file("--tls-ca", options.ca_file, "TLS; whose certificates to trust, PEM (default: the variable MENISCUS_SERVER_CA)");
+    CLI::Option* ca = add_file("--tls-ca", options.ca_file,
+                               "TLS; whose certificates to trust, PEM (default: the variable MENISCUS_SERVER_CA)");
     CLI::Option* certificate =
         add_file("--tls-cert", options.certificate_file, "Mutual TLS: this client's certificate, PEM")->needs(ca);
     certificate->needs(add_file("--tls-key", options.key_file, "Its key, PEM")->needs(certificate));
-    command.add_option("--tls-server-name", options.server_name, "Name in the server's certificate, if not the address's host (with MENISCUS_SERVER_CA: MENISCUS_SERVER_NAME)")
+    command
+        .add_option("--tls-server-name", options.server_name,
+                    "Name in the server's certificate, if not the address's host (with MENISCUS_SERVER_CA: "
+                    "MENISCUS_SERVER_NAME)")
         ->type_name("NAME")
         ->needs(ca);
     add_file("--token-file", token_file, "File with the token to call with (default: the variable MENISCUS_TOKEN)");
-    command.add_flag("--insecure", options.insecure, "Let the token travel to another machine without TLS")->needs(server);
+    command.add_flag("--insecure", options.insecure, "Let the token travel to another machine without TLS")
+        ->needs(server);
     command.add_option("--wait", wait_seconds, "Seconds to wait for a server that is still starting")
         ->check(CLI::Range(0.0, 86400.0))
         ->needs(server);
@@ -48,7 +53,8 @@ client::ConnectionOptions ServerFlags::connection() const {
         connection.ca_file = from_environment("MENISCUS_SERVER_CA");
         connection.server_name = from_environment("MENISCUS_SERVER_NAME");
     }
-    connection.wait = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(wait_seconds));
+    connection.wait =
+        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(wait_seconds));
     return connection;
 }
 

@@ -8,7 +8,7 @@
 namespace CLI {
 class App;
 class Option;
-}
+}  // namespace CLI
 
 namespace meniscus::cli {
 
@@ -21,7 +21,8 @@ struct ServerFlags {
 
     /// Returns --server, for what else it excludes or requires.
     CLI::Option* add_to(CLI::App& command, const std::string& description);
-    /// What no flag says is taken from MENISCUS_TOKEN, MENISCUS_SERVER_CA and MENISCUS_SERVER_NAME. Throws InvalidInput for a file that cannot be read.
+    /// What no flag says is taken from MENISCUS_TOKEN, MENISCUS_SERVER_CA and MENISCUS_SERVER_NAME. Throws InvalidInput
+    /// for a file that cannot be read.
     client::ConnectionOptions connection() const;
     /// By it. Throws InvalidInput if there is no server.
     client::Client connect() const;

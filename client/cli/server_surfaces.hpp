@@ -12,8 +12,8 @@ namespace meniscus::cli {
 class ServerSurfaces : public Surfaces {
 public:
     /// Throws InvalidInput if the server is not there or refuses the session.
-    ServerSurfaces(const ServerFlags& server, std::string session, const Settings& settings, client::StreamOptions options,
-                   Handler handler);
+    ServerSurfaces(const ServerFlags& server, std::string session, const Settings& settings,
+                   client::StreamOptions options, Handler handler);
     ~ServerSurfaces() override;
     void submit(const ParticleFrame& frame, double simulation_time) override;
     void finish() override;

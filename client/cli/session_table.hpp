@@ -19,7 +19,8 @@ struct SessionRow {
 /// How fast sessions go, from what they say time after time.
 class FrameRates {
 public:
-    std::vector<SessionRow> update(const std::vector<client::SessionInfo>& sessions, std::chrono::steady_clock::time_point now);
+    std::vector<SessionRow> update(const std::vector<client::SessionInfo>& sessions,
+                                   std::chrono::steady_clock::time_point now);
 
 private:
     struct Seen {

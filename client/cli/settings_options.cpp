@@ -22,11 +22,13 @@ void SettingsOptions::add_to(CLI::App& command) {
         ->check(CLI::IsMember({"curvature", "count"}))
         ->capture_default_str();
     command
-        .add_option("--tolerance", settings.tolerance,
-                    "With --criterion curvature: how far the surface may depart from that of the finest cells, in those")
+        .add_option(
+            "--tolerance", settings.tolerance,
+            "With --criterion curvature: how far the surface may depart from that of the finest cells, in those")
         ->capture_default_str();
     command
-        .add_option("--count-threshold", settings.count_threshold, "With --criterion count: particles per base cell that decide about level 3")
+        .add_option("--count-threshold", settings.count_threshold,
+                    "With --criterion count: particles per base cell that decide about level 3")
         ->capture_default_str();
     command.add_option("--edge-points", edge_points, "How the point on an edge is found")
         ->check(CLI::IsMember({"interpolate", "bisect"}))

@@ -13,7 +13,7 @@
 namespace CLI {
 class App;
 class Option;
-}
+}  // namespace CLI
 
 namespace meniscus::cli {
 
@@ -62,8 +62,8 @@ CLI::Option* add_backend_option(CLI::App& command, Backend& backend);
 /// The flags --local, --backend and --threads, and those of a server and a stream to it.
 struct SurfacesOptions {
     bool local = false;
-    ServerFlags server;      ///< no address: this process
-    BackendOptions backend;  ///< of this process
+    ServerFlags server;            ///< no address: this process
+    BackendOptions backend;        ///< of this process
     client::StreamOptions stream;  ///< to the server
 
     void add_to(CLI::App& command);

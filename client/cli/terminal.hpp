@@ -9,8 +9,8 @@
 
 namespace meniscus::cli {
 
-/// To be made before any other thread: it takes the signals that would end the process, in order to leave the terminal as
-/// it was found.
+/// To be made before any other thread: it takes the signals that would end the process, in order to leave the terminal
+/// as it was found.
 class Terminal {
 public:
     Terminal();
@@ -25,7 +25,7 @@ public:
 
 private:
     sigset_t signals_before_{};
-    int signals_ = -1;  ///< readable once one has come
+    int signals_ = -1;   ///< readable once one has come
     bool keys_ = false;  ///< whether there is a keyboard
     termios settings_before_{};
     bool drawn_ = false;

@@ -56,7 +56,8 @@ void watch_sessions(const TopOptions& options) {
 
 void add_top(CLI::App& app) {
     auto options = std::make_shared<TopOptions>();
-    CLI::App& command = *app.add_subcommand("top", "Watch a server's sessions: frames per second, latency, sizes, drops");
+    CLI::App& command =
+        *app.add_subcommand("top", "Watch a server's sessions: frames per second, latency, sizes, drops");
     options->server.add_to(command, "Whose")->required();
     command.add_option("--interval", options->seconds, "Seconds from one look to the next")
         ->check(CLI::Range(0.1, 3600.0))

@@ -6,17 +6,20 @@
 namespace meniscus::cli {
 
 void WatchWishes::add_to(CLI::App& command) {
-    command.add_option("--normal-bits", options.normal_bits, "Bits per component of the normals, 2 to 16; 0: no normals")
+    command
+        .add_option("--normal-bits", options.normal_bits, "Bits per component of the normals, 2 to 16; 0: no normals")
         ->check(CLI::Range(0, 16))
         ->capture_default_str();
     command
         .add_option("--position-bits", options.position_bits,
-                    "Vertices lie on multiples of the cell size / 2^BITS, from 2 on; fewer take less. Default: as reconstructed")
+                    "Vertices lie on multiples of the cell size / 2^BITS, from 2 on; fewer take less. Default: as "
+                    "reconstructed")
         ->check(CLI::Range(2, 8));
     command.add_option("--max-level", options.max_level, "Finest level of grid, 1 to 3: a coarser surface, as closed")
         ->check(CLI::Range(1, 3))
         ->capture_default_str();
-    command.add_option("--region", region, "X0 Y0 Z0 X1 Y1 Z1: only bricks that touch this box, world units")->expected(6);
+    command.add_option("--region", region, "X0 Y0 Z0 X1 Y1 Z1: only bricks that touch this box, world units")
+        ->expected(6);
     command
         .add_option("--bytes-per-second", options.bytes_per_second,
                     "In the mean, as 2MB: frames are skipped to keep it; 0: no limit")

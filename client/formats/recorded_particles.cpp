@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
+#include "conversion/delimited_messages.hpp"
 #include "conversion/recording_format.hpp"
 #include "conversion/settings_conversion.hpp"
-#include "conversion/delimited_messages.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 
@@ -54,8 +54,8 @@ private:
         const std::uint64_t count = message.particle_count();
         // Before memory is allocated by it.
         if (count > frame_.particles.size / particle_bytes)
-            fail(std::to_string(count) + " particles of " + std::to_string(particle_bytes) + " bytes are announced, but only " +
-                 std::to_string(frame_.particles.size) + " bytes follow");
+            fail(std::to_string(count) + " particles of " + std::to_string(particle_bytes) +
+                 " bytes are announced, but only " + std::to_string(frame_.particles.size) + " bytes follow");
         if (quantized) {
             particles.quantization_box = box(message);
             particles.quantized.resize(3 * count);
@@ -89,7 +89,8 @@ private:
     }
 
     [[noreturn]] void fail(const std::string& what) const {
-        file_.fail("frame " + std::to_string(frame_.index) + ", at byte " + std::to_string(messages_.position()) + ": " + what);
+        file_.fail("frame " + std::to_string(frame_.index) + ", at byte " + std::to_string(messages_.position()) +
+                   ": " + what);
     }
 
     const conversion::RandomAccessFile& file_;

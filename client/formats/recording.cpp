@@ -72,8 +72,9 @@ private:
     }
 
     void take(const v1::RecordedMesh& mesh, ByteRange messages) {
-        const auto frame = std::lower_bound(recording_.frames_.begin(), recording_.frames_.end(), mesh.frame_index(),
-                                            [](const RecordedFrame& f, std::uint64_t index) { return f.index < index; });
+        const auto frame =
+            std::lower_bound(recording_.frames_.begin(), recording_.frames_.end(), mesh.frame_index(),
+                             [](const RecordedFrame& f, std::uint64_t index) { return f.index < index; });
         const std::string name = "frame " + std::to_string(mesh.frame_index());
         if (frame == recording_.frames_.end() || frame->index != mesh.frame_index())
             entries_.fail("the mesh of " + name + ", whose particles did not come before");
@@ -82,10 +83,11 @@ private:
     }
 
     Time time(std::int64_t microseconds) const {
-        constexpr auto last = std::chrono::duration_cast<std::chrono::microseconds>(Time::max().time_since_epoch()).count();
+        constexpr auto last =
+            std::chrono::duration_cast<std::chrono::microseconds>(Time::max().time_since_epoch()).count();
         if (microseconds < 0 || microseconds > last)
-            entries_.fail("a time of " + std::to_string(microseconds) + " microseconds since 1970; 0 to " + std::to_string(last) +
-                          " are possible");
+            entries_.fail("a time of " + std::to_string(microseconds) + " microseconds since 1970; 0 to " +
+                          std::to_string(last) + " are possible");
         return Time(std::chrono::duration_cast<Time::duration>(std::chrono::microseconds(microseconds)));
     }
 

@@ -30,7 +30,7 @@ struct RecordedFrame {
 
 /// A frame's particles, owned, encoded as they were uploaded.
 struct RecordedParticles {
-    std::vector<float> positions;          ///< as ParticleFrame has them, here and below
+    std::vector<float> positions;  ///< as ParticleFrame has them, here and below
     std::vector<std::uint16_t> quantized;
     Box quantization_box;
     std::vector<std::uint8_t> levels;
@@ -44,8 +44,9 @@ struct RecordedParticles {
 
 class Recording {
 public:
-    /// Finds the frames without reading them. A frame that the file does not hold to its end, and all after it, is left out:
-    /// see cut_bytes(). Throws InvalidInput, in one line that names the file, for anything else that is not a recording.
+    /// Finds the frames without reading them. A frame that the file does not hold to its end, and all after it, is left
+    /// out: see cut_bytes(). Throws InvalidInput, in one line that names the file, for anything else that is not a
+    /// recording.
     explicit Recording(const std::filesystem::path& path);
 
     const std::filesystem::path& path() const noexcept { return file_.path(); }

@@ -8,7 +8,8 @@ Frames Frames::moving_water(std::size_t particles, double particle_radius) {
     constexpr int period = 16;
     Frames frames;
     for (int i = 0; i < period; ++i)
-        frames.frames_.push_back({.positions = load::moving_water(particles, particle_radius, i / double{period}), .levels = {}});
+        frames.frames_.push_back(
+            {.positions = load::moving_water(particles, particle_radius, i / double{period}), .levels = {}});
     return frames;
 }
 

@@ -24,7 +24,8 @@ public:
     explicit Party(const LoadOptions& options)
         : options_(options), connection_(options.server.connection()), client_(options.server.address, connection_) {
         client_.create_session(session_, options.settings.build(options.particle_radius));
-        for (unsigned i = 0; i < options.stalled; ++i) stalled_.emplace_back(options.server.address, connection_, session_);
+        for (unsigned i = 0; i < options.stalled; ++i)
+            stalled_.emplace_back(options.server.address, connection_, session_);
         for (unsigned i = 0; i < options.watchers + options.slow; ++i) {
             watching_.emplace_back(options.server.address, connection_);
             watchers_.push_back(watching_.back().watch(session_));

@@ -19,7 +19,8 @@ std::vector<float> moving_water(std::size_t particles, double particle_radius, d
         const auto z = static_cast<double>(row % side);
         const auto y = static_cast<double>(layer);
         const double angle = 2.0 * std::numbers::pi * (waves * x / static_cast<double>(side) - phase);
-        const double height = 1.0 + wave_height * std::sin(angle) * std::cos(0.5 * angle + z / static_cast<double>(side));
+        const double height =
+            1.0 + wave_height * std::sin(angle) * std::cos(0.5 * angle + z / static_cast<double>(side));
         for (const double value : {x, y * height, z}) positions.push_back(static_cast<float>(spacing * value));
     }
     return positions;

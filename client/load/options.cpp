@@ -12,9 +12,11 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, L
     app.option_defaults()->always_capture_default();
     app.set_version_flag("--version", std::string("meniscus-load ") + std::string(version()));
     options.server.add_to(app, "HOST:PORT or unix:PATH of the meniscusd")->required();
-    app.add_option("--simulators", options.simulators, "Simulators, each with a session of its own")->check(CLI::Range(1, 10000));
+    app.add_option("--simulators", options.simulators, "Simulators, each with a session of its own")
+        ->check(CLI::Range(1, 10000));
     app.add_option("--watchers", options.watchers, "Watchers of each session that read as fast as they can");
-    app.add_option("--slow-watchers", options.slow, "Watchers of each session that take --slow-seconds over each frame");
+    app.add_option("--slow-watchers", options.slow,
+                   "Watchers of each session that take --slow-seconds over each frame");
     app.add_option("--slow-seconds", options.slow_seconds, "What a slow watcher takes")->check(CLI::Range(0.0, 3600.0));
     app.add_option("--stalled-watchers", options.stalled, "Watchers of each session that never read");
     app.add_option("--vanishing-watchers", options.vanishing,
@@ -24,10 +26,12 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, L
     app.add_option("--seconds", options.seconds, "How long simulators send")->check(CLI::Range(0.001, 1e7));
     app.add_option("--warm-up", options.warm_up, "Seconds at the beginning whose latencies do not count")
         ->check(CLI::Range(0.0, 1e7));
-    app.add_flag("--meshes,!--no-meshes", options.stream.receive_meshes, "Whether simulators want their meshes back")->default_str("true");
+    app.add_flag("--meshes,!--no-meshes", options.stream.receive_meshes, "Whether simulators want their meshes back")
+        ->default_str("true");
     cli::add_policy_options(app, options.stream);
-    auto* particles = app.add_option("--particles", options.particles, "Particles of a frame of generated, moving water")
-                          ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
+    auto* particles =
+        app.add_option("--particles", options.particles, "Particles of a frame of generated, moving water")
+            ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
     app.add_option("--input", options.files, "Particle files to send in its place, one after the other and over again")
         ->excludes(particles)
         ->type_name("FILE...");
@@ -41,7 +45,8 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, L
     } catch (const CLI::CallForVersion&) {
         return EarlyExit{.text = app.version() + "\n", .code = 0};
     } catch (const CLI::ParseError& error) {
-        return EarlyExit{.text = std::string("meniscus-load: ") + error.what() + " (see meniscus-load --help)\n", .code = 2};
+        return EarlyExit{.text = std::string("meniscus-load: ") + error.what() + " (see meniscus-load --help)\n",
+                         .code = 2};
     }
     return std::nullopt;
 }

@@ -18,11 +18,11 @@ struct LoadOptions {
     unsigned simulators = 1;  ///< each with a session of its own
 
     // Watchers, of each simulator.
-    unsigned watchers = 1;      ///< that read as fast as they can
-    unsigned slow = 0;          ///< that take slow_seconds over each frame
+    unsigned watchers = 1;  ///< that read as fast as they can
+    unsigned slow = 0;      ///< that take slow_seconds over each frame
     double slow_seconds = 0.5;
-    unsigned stalled = 0;       ///< that stop reading
-    unsigned vanishing = 0;     ///< that break their connection after vanish_after frames, and come again
+    unsigned stalled = 0;    ///< that stop reading
+    unsigned vanishing = 0;  ///< that break their connection after vanish_after frames, and come again
     std::uint64_t vanish_after = 10;
 
     double rate = 10.0;     ///< frames per second of each simulator

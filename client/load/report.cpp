@@ -14,7 +14,8 @@ struct Percentile {
     const char* name;
     double share;
 };
-constexpr std::array<Percentile, 5> percentiles{{{"p50", 0.5}, {"p90", 0.9}, {"p99", 0.99}, {"p99.9", 0.999}, {"max", 1.0}}};
+constexpr std::array<Percentile, 5> percentiles{
+    {{"p50", 0.5}, {"p90", 0.9}, {"p99", 0.99}, {"p99.9", 0.999}, {"max", 1.0}}};
 
 Json to_json(const Latencies& latencies) {
     Json json{{"count", latencies.count()}, {"mean", latencies.mean()}};
@@ -116,18 +117,19 @@ std::string to_table(const LoadResult& result) {
     if (result.watchers.frames > 0) add_row(table, "to a watcher", result.watchers.latency);
     if (result.slow.frames > 0) add_row(table, "to a slow watcher", result.slow.latency);
     std::array<char, 400> text{};
-    std::snprintf(text.data(), text.size(),
-                  "%.2f frames/s answered, %.3g particles/s, %.1f MB/s up, %.2f MB/s of meshes back\n"
-                  "frames: %llu sent, %llu answered, %llu dropped, %llu lost, %llu not sent in time\n"
-                  "watchers: %llu frames, %llu skipped; slow: %llu, %llu skipped; vanished %llu times\n",
-                  per_second(uploads.answered, result), per_second(uploads.particles, result),
-                  per_second(uploads.upload_bytes, result) / 1e6, per_second(uploads.mesh_bytes, result) / 1e6,
-                  static_cast<unsigned long long>(uploads.sent), static_cast<unsigned long long>(uploads.answered),
-                  static_cast<unsigned long long>(uploads.dropped), static_cast<unsigned long long>(uploads.lost()),
-                  static_cast<unsigned long long>(uploads.not_sent), static_cast<unsigned long long>(result.watchers.frames),
-                  static_cast<unsigned long long>(result.watchers.skipped), static_cast<unsigned long long>(result.slow.frames),
-                  static_cast<unsigned long long>(result.slow.skipped),
-                  static_cast<unsigned long long>(result.vanishing.vanished));
+    std::snprintf(
+        text.data(), text.size(),
+        "%.2f frames/s answered, %.3g particles/s, %.1f MB/s up, %.2f MB/s of meshes back\n"
+        "frames: %llu sent, %llu answered, %llu dropped, %llu lost, %llu not sent in time\n"
+        "watchers: %llu frames, %llu skipped; slow: %llu, %llu skipped; vanished %llu times\n",
+        per_second(uploads.answered, result), per_second(uploads.particles, result),
+        per_second(uploads.upload_bytes, result) / 1e6, per_second(uploads.mesh_bytes, result) / 1e6,
+        static_cast<unsigned long long>(uploads.sent), static_cast<unsigned long long>(uploads.answered),
+        static_cast<unsigned long long>(uploads.dropped), static_cast<unsigned long long>(uploads.lost()),
+        static_cast<unsigned long long>(uploads.not_sent), static_cast<unsigned long long>(result.watchers.frames),
+        static_cast<unsigned long long>(result.watchers.skipped), static_cast<unsigned long long>(result.slow.frames),
+        static_cast<unsigned long long>(result.slow.skipped),
+        static_cast<unsigned long long>(result.vanishing.vanished));
     return table + text.data() + "errors: " + errors_of(result) + "\n";
 }
 

@@ -15,9 +15,9 @@ struct LeveledParticles {
 };
 
 /// The simulation itself is uniform; this merges what it computed, for the upload: in every cell of 2 x 2 x 2 rest
-/// distances whose 26 neighbors are filled too, the eight particles nearest to the cell's center become one of level 1 at
-/// their center of mass. So everything within 4 radii of the water's surface, at the walls too, keeps level 0, and mass
-/// and center of mass are kept. positions: x y z per particle; they lie in the tank.
+/// distances whose 26 neighbors are filled too, the eight particles nearest to the cell's center become one of level 1
+/// at their center of mass. So everything within 4 radii of the water's surface, at the walls too, keeps level 0, and
+/// mass and center of mass are kept. positions: x y z per particle; they lie in the tank.
 LeveledParticles merge_deep_particles(std::span<const float> positions, float particle_radius, const Tank& tank);
 
 }  // namespace meniscus::simulator

@@ -11,7 +11,10 @@ export default ts.config(
     languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
     rules: {
       // Numbers are what most of our texts are made of.
-      '@typescript-eslint/restrict-template-expressions': ['error', { allowNumber: true, allow: [{ from: 'lib', name: 'bigint' }] }],
+      '@typescript-eslint/restrict-template-expressions': [
+        'error',
+        { allowNumber: true, allow: [{ from: 'lib', name: 'bigint' }] },
+      ],
       // Indices that a loop's bounds have checked.
       '@typescript-eslint/no-non-null-assertion': 'off',
     },

@@ -8,7 +8,8 @@ namespace meniscus::server {
 namespace {
 
 constexpr unsigned char page[] =
-    "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Meniscus</title></head><body><h1>Meniscus</h1>"
+    "<!doctype html><html lang=\"en\"><head><meta "
+    "charset=\"utf-8\"><title>Meniscus</title></head><body><h1>Meniscus</h1>"
     "<p>This meniscusd was built without its viewer: npm was not there. Install Node.js and npm, configure again with "
     "<code>-DMENISCUS_WEB=ON</code>, and build.</p>"
     "<p>Metrics are at <a href=\"/metrics\">/metrics</a>.</p></body></html>\n";

@@ -1,4 +1,5 @@
-// Sizing the backends' arrays: they grow with some room to spare and never shrink, so that a warm frame allocates nothing.
+// Sizing the backends' arrays: they grow with some room to spare and never shrink, so that a warm frame allocates
+// nothing.
 #pragma once
 
 #include <cstddef>

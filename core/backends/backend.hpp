@@ -18,8 +18,8 @@ namespace meniscus {
 class BackendReconstruction {
 public:
     virtual ~BackendReconstruction() = default;
-    /// The frame is valid. Fills every figure of the statistics but memory and times of the whole. The mesh has its final sizes, bricks
-    /// aside; its content is there once it has been downloaded.
+    /// The frame is valid. Fills every figure of the statistics but memory and times of the whole. The mesh has its
+    /// final sizes, bricks aside; its content is there once it has been downloaded.
     virtual MeshDownload reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) = 0;
     /// The surface of the last frame once more, with no cell finer than max_level (1 to 3).
     virtual void emit_capped(int max_level, Mesh& mesh) = 0;
@@ -48,7 +48,8 @@ private:
     using Clock = std::chrono::steady_clock;
     void stop() {
         if (running_)
-            statistics_.stage_seconds[static_cast<std::size_t>(stage_)] += std::chrono::duration<double>(Clock::now() - start_).count();
+            statistics_.stage_seconds[static_cast<std::size_t>(stage_)] +=
+                std::chrono::duration<double>(Clock::now() - start_).count();
         running_ = false;
     }
 
@@ -66,7 +67,8 @@ std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& setti
 
 namespace cuda {
 /// device_account: of the memory on the GPU. Throws DeviceError if the device does not answer.
-std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, int device, const std::shared_ptr<MemoryAccount>& account,
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, int device,
+                                                           const std::shared_ptr<MemoryAccount>& account,
                                                            const std::shared_ptr<MemoryAccount>& device_account);
 }  // namespace cuda
 

@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t cells_per_brick = std::size_t{brick_base_cells} * brick_base_cells * brick_base_cells;
 
 [[noreturn]] void refuse(const EncodedBrick& brick, const std::string& what) {
-    throw InvalidInput("brick (" + std::to_string(brick.coordinate[0]) + ", " + std::to_string(brick.coordinate[1]) + ", " +
-                       std::to_string(brick.coordinate[2]) + "): " + what);
+    throw InvalidInput("brick (" + std::to_string(brick.coordinate[0]) + ", " + std::to_string(brick.coordinate[1]) +
+                       ", " + std::to_string(brick.coordinate[2]) + "): " + what);
 }
 
 /// Draco allocates what its bytes claim before it finds that they do not hold it: their claims are compared first, with
@@ -27,23 +27,25 @@ void require_plausible(const EncodedBrick& brick) {
     // A brick's lattice has room for at most so many triangles and vertices.
     constexpr std::uint32_t most = 16U * brick_cells * brick_cells * brick_cells;
     if (brick.triangles > most || brick.vertices > most)
-        refuse(brick, "announces " + std::to_string(brick.triangles) + " triangles and " + std::to_string(brick.vertices) +
-                          " vertices, a brick has at most " + std::to_string(most));
+        refuse(brick, "announces " + std::to_string(brick.triangles) + " triangles and " +
+                          std::to_string(brick.vertices) + " vertices, a brick has at most " + std::to_string(most));
     // The smoothest surface takes an eighth of a byte per triangle at the speed that is in use.
     constexpr std::size_t most_per_byte = 64;
     if (brick.triangles / most_per_byte > brick.draco.size())
-        refuse(brick, "announces " + std::to_string(brick.triangles) + " triangles in " + std::to_string(brick.draco.size()) +
-                          " bytes, more than " + std::to_string(most_per_byte) + " per byte");
+        refuse(brick, "announces " + std::to_string(brick.triangles) + " triangles in " +
+                          std::to_string(brick.draco.size()) + " bytes, more than " + std::to_string(most_per_byte) +
+                          " per byte");
     const auto header = read_draco_header(brick.draco);
     if (!header) refuse(brick, "its bytes are not a Draco mesh as bricks have them");
     if (header->faces != brick.triangles)
-        refuse(brick, "has " + std::to_string(header->faces) + " triangles, announced were " + std::to_string(brick.triangles));
-    if (header->vertices > 3 * header->faces || header->symbols > header->faces || header->split_symbols > header->symbols ||
-        header->attribute_connectivities > 1)
-        refuse(brick, "its Draco mesh has " + std::to_string(header->vertices) + " vertices, " + std::to_string(header->symbols) +
-                          " symbols, " + std::to_string(header->split_symbols) + " splits and " +
-                          std::to_string(header->attribute_connectivities) + " more connectivities, which do not fit " +
-                          std::to_string(header->faces) + " triangles");
+        refuse(brick, "has " + std::to_string(header->faces) + " triangles, announced were " +
+                          std::to_string(brick.triangles));
+    if (header->vertices > 3 * header->faces || header->symbols > header->faces ||
+        header->split_symbols > header->symbols || header->attribute_connectivities > 1)
+        refuse(brick, "its Draco mesh has " + std::to_string(header->vertices) + " vertices, " +
+                          std::to_string(header->symbols) + " symbols, " + std::to_string(header->split_symbols) +
+                          " splits and " + std::to_string(header->attribute_connectivities) +
+                          " more connectivities, which do not fit " + std::to_string(header->faces) + " triangles");
 }
 
 std::unique_ptr<draco::Mesh> decode_draco(const EncodedBrick& brick) {
@@ -58,7 +60,7 @@ std::unique_ptr<draco::Mesh> decode_draco(const EncodedBrick& brick) {
 
 /// For every point of the Draco mesh, the vertex that it belongs to: points at one position are one vertex.
 struct Weld {
-    std::vector<LocalPosition> positions;        ///< of the vertices, ascending
+    std::vector<LocalPosition> positions;  ///< of the vertices, ascending
     std::vector<std::uint32_t> vertex_of_point;
     std::vector<std::uint32_t> point_of_vertex;  ///< the first one
 };
@@ -120,8 +122,9 @@ DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits) 
     const auto mesh = decode_draco(brick);
     const Weld weld = weld_points(brick, *mesh);
     if (mesh->num_faces() != brick.triangles || weld.positions.size() != brick.vertices)
-        refuse(brick, "has " + std::to_string(mesh->num_faces()) + " triangles and " + std::to_string(weld.positions.size()) +
-                          " vertices, announced were " + std::to_string(brick.triangles) + " and " + std::to_string(brick.vertices));
+        refuse(brick, "has " + std::to_string(mesh->num_faces()) + " triangles and " +
+                          std::to_string(weld.positions.size()) + " vertices, announced were " +
+                          std::to_string(brick.triangles) + " and " + std::to_string(brick.vertices));
     const int last = brick_cells << offset_bits;
     DecodedBrick decoded;
     decoded.coordinate = brick.coordinate;
@@ -140,11 +143,13 @@ DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits) 
         const auto& face = mesh->face(draco::FaceIndex(t));
         Triangle triangle;
         for (std::size_t i = 0; i < 3; ++i) {
-            if (face[i].value() >= weld.vertex_of_point.size()) refuse(brick, "a triangle names a point that is not there");
+            if (face[i].value() >= weld.vertex_of_point.size())
+                refuse(brick, "a triangle names a point that is not there");
             triangle[i] = weld.vertex_of_point[face[i].value()];
         }
         decoded.triangles.push_back(triangle);
-        cells.push_back(cell_of_triangle(weld.positions[triangle[0]], weld.positions[triangle[1]], weld.positions[triangle[2]], offset_bits));
+        cells.push_back(cell_of_triangle(weld.positions[triangle[0]], weld.positions[triangle[1]],
+                                         weld.positions[triangle[2]], offset_bits));
         if (cells.back()) occupied[*cells.back()] = true;
     }
     const std::vector<std::uint8_t> levels = unpack_cell_levels(brick.cell_levels, occupied);

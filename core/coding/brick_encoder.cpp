@@ -22,8 +22,8 @@ struct BrickIndex {
 };
 
 BrickIndex index_brick(const Mesh& mesh, const MeshBrick& brick) {
-    // From a mesh's vertex to the brick's: an entry holds only if the brick's vertex points back, so that what earlier bricks
-    // have left behind need not be cleared. One table per thread, as large as the largest mesh.
+    // From a mesh's vertex to the brick's: an entry holds only if the brick's vertex points back, so that what earlier
+    // bricks have left behind need not be cleared. One table per thread, as large as the largest mesh.
     thread_local std::vector<std::uint32_t> local_of;
     if (local_of.size() < mesh.vertices.size()) local_of.resize(mesh.vertices.size());
     BrickIndex index;
@@ -45,16 +45,17 @@ BrickIndex index_brick(const Mesh& mesh, const MeshBrick& brick) {
     return index;
 }
 
-std::vector<LocalPosition> local_positions(const Mesh& mesh, const MeshBrick& brick, const std::vector<std::uint32_t>& vertices,
-                                           std::uint32_t bits) {
+std::vector<LocalPosition> local_positions(const Mesh& mesh, const MeshBrick& brick,
+                                           const std::vector<std::uint32_t>& vertices, std::uint32_t bits) {
     std::vector<LocalPosition> positions;
     positions.reserve(vertices.size());
     for (const std::uint32_t v : vertices) {
         LocalPosition local;
         for (std::size_t axis = 0; axis < 3; ++axis)
-            local[axis] = round_position(
-                static_cast<std::uint16_t>(mesh.vertices[v][axis] - brick.coordinate[axis] * (brick_cells << mesh.offset_bits)),
-                mesh.offset_bits, bits);
+            local[axis] =
+                round_position(static_cast<std::uint16_t>(mesh.vertices[v][axis] -
+                                                          brick.coordinate[axis] * (brick_cells << mesh.offset_bits)),
+                               mesh.offset_bits, bits);
         positions.push_back(local);
     }
     return positions;
@@ -67,19 +68,23 @@ std::vector<std::byte> cell_levels(const MeshBrick& brick, const std::vector<Tri
     for (std::size_t level = 0; level < triangle_level_count; ++level)
         for (std::uint32_t i = 0; i < brick.ranges[level].count; ++i, ++t) {
             const Triangle& triangle = triangles[t];
-            const auto cell = cell_of_triangle(positions[triangle[0]], positions[triangle[1]], positions[triangle[2]], bits);
+            const auto cell =
+                cell_of_triangle(positions[triangle[0]], positions[triangle[1]], positions[triangle[2]], bits);
             if (cell) level_of_cell[*cell] = level_byte(static_cast<TriangleLevel>(level));
         }
     return pack_cell_levels(level_of_cell);
 }
 
 template <class Value>
-int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType data_type, const std::vector<Value>& values) {
+int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType data_type,
+                  const std::vector<Value>& values) {
     draco::GeometryAttribute attribute;
     attribute.Init(type, nullptr, 3, data_type, false, sizeof(Value), 0);
-    const int id = mesh.AddAttribute(attribute, true, static_cast<draco::AttributeValueIndex::ValueType>(values.size()));
+    const int id =
+        mesh.AddAttribute(attribute, true, static_cast<draco::AttributeValueIndex::ValueType>(values.size()));
     for (std::size_t i = 0; i < values.size(); ++i)
-        mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(static_cast<std::uint32_t>(i)), values[i].data());
+        mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(static_cast<std::uint32_t>(i)),
+                                              values[i].data());
     return id;
 }
 
@@ -104,7 +109,8 @@ std::uint64_t BrickContent::hash() const {
 
 BrickContent brick_content(const Mesh& mesh, std::size_t brick_number, const CodingOptions& options) {
     if (options.normal_bits != 0 && (options.normal_bits < 2 || options.normal_bits > 16))
-        throw InvalidInput("normal bits are " + std::to_string(options.normal_bits) + ", must be 2 to 16, or 0 for no normals");
+        throw InvalidInput("normal bits are " + std::to_string(options.normal_bits) +
+                           ", must be 2 to 16, or 0 for no normals");
     const std::uint32_t bits = encoded_offset_bits(mesh, options);
     const MeshBrick& brick = mesh.bricks.at(brick_number);
     BrickIndex index = index_brick(mesh, brick);
@@ -135,14 +141,16 @@ EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& opti
     draco_mesh.SetNumFaces(encoded.triangles);
     for (std::uint32_t t = 0; t < encoded.triangles; ++t) {
         const Triangle& triangle = content.triangles[t];
-        draco_mesh.SetFace(draco::FaceIndex(t), {{draco::PointIndex(triangle[0]), draco::PointIndex(triangle[1]), draco::PointIndex(triangle[2])}});
+        draco_mesh.SetFace(draco::FaceIndex(t), {{draco::PointIndex(triangle[0]), draco::PointIndex(triangle[1]),
+                                                  draco::PointIndex(triangle[2])}});
     }
     add_attribute(draco_mesh, draco::GeometryAttribute::POSITION, draco::DT_UINT16, content.positions);
     draco::ExpertEncoder encoder(draco_mesh);
     encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
     encoder.SetSpeedOptions(options.speed, options.speed);
     if (!content.normals.empty()) {
-        const int normals = add_attribute(draco_mesh, draco::GeometryAttribute::NORMAL, draco::DT_FLOAT32, content.normals);
+        const int normals =
+            add_attribute(draco_mesh, draco::GeometryAttribute::NORMAL, draco::DT_FLOAT32, content.normals);
         encoder.SetAttributeQuantization(normals, options.normal_bits);
     }
     draco::EncoderBuffer buffer;

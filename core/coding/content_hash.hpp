@@ -10,8 +10,8 @@
 
 namespace meniscus {
 
-/// Takes eight bytes at a time: each is mixed in by a step that loses nothing, so that contents which differ in one place
-/// always differ, and others meet with a chance of about 2^-64.
+/// Takes eight bytes at a time: each is mixed in by a step that loses nothing, so that contents which differ in one
+/// place always differ, and others meet with a chance of about 2^-64.
 class ContentHash {
 public:
     template <class T>

@@ -40,7 +40,8 @@ private:
 
 std::optional<DracoHeader> read_draco_header(std::span<const std::byte> bytes) {
     const auto is = [](unsigned char a, std::byte b) { return std::byte{a} == b; };
-    if (bytes.size() < expected.size() || !std::equal(expected.begin(), expected.end(), bytes.begin(), is)) return std::nullopt;
+    if (bytes.size() < expected.size() || !std::equal(expected.begin(), expected.end(), bytes.begin(), is))
+        return std::nullopt;
     Cursor cursor(bytes.subspan(expected.size()));
     const auto traversal = cursor.byte();
     const auto vertices = cursor.number();

@@ -12,7 +12,7 @@ namespace meniscus {
 struct DracoHeader {
     std::uint64_t vertices = 0;  ///< of the connectivity: points that share a position may be several
     std::uint64_t faces = 0;
-    std::uint64_t symbols = 0;         ///< of the edgebreaker traversal, one per face at most
+    std::uint64_t symbols = 0;  ///< of the edgebreaker traversal, one per face at most
     std::uint64_t split_symbols = 0;
     unsigned attribute_connectivities = 0;  ///< beside the positions'
 };

@@ -1,7 +1,8 @@
 // A triangle's level, told by where its vertices lie.
 //
-// A crack triangle lies in a face plane of the base-cell grid; a marching-cubes triangle never does, since no diagonal of
-// its loop lies in a face of its cube. So every other triangle lies inside one base cell, and the level of that cell is its own.
+// A crack triangle lies in a face plane of the base-cell grid; a marching-cubes triangle never does, since no diagonal
+// of its loop lies in a face of its cube. So every other triangle lies inside one base cell, and the level of that cell
+// is its own.
 #pragma once
 
 #include <array>
@@ -22,7 +23,8 @@ using LocalPosition = std::array<std::uint16_t, 3>;
 std::optional<std::uint16_t> cell_of_triangle(const LocalPosition& a, const LocalPosition& b, const LocalPosition& c,
                                               std::uint32_t offset_bits);
 
-/// Packs the levels (1, 2, 3; 0 where a cell holds no triangle) of a brick's 4096 base cells: two bits for each that holds some.
+/// Packs the levels (1, 2, 3; 0 where a cell holds no triangle) of a brick's 4096 base cells: two bits for each that
+/// holds some.
 std::vector<std::byte> pack_cell_levels(std::span<const std::uint8_t> level_of_cell);
 
 /// The reverse, for the cells marked in `occupied`. Throws InvalidInput if the bytes do not fit.

@@ -9,7 +9,9 @@
 namespace meniscus {
 namespace {
 
-std::array<std::int32_t, 3> zyx(const std::array<std::int32_t, 3>& p) { return {p[2], p[1], p[0]}; }
+std::array<std::int32_t, 3> zyx(const std::array<std::int32_t, 3>& p) {
+    return {p[2], p[1], p[0]};
+}
 
 struct BrickVertex {
     LatticePosition position;
@@ -22,11 +24,14 @@ struct BrickVertex {
 Mesh weld_bricks(std::span<const DecodedBrick> unordered, double cell_size, std::uint32_t offset_bits) {
     std::vector<const DecodedBrick*> bricks;
     for (const DecodedBrick& b : unordered) bricks.push_back(&b);
-    std::sort(bricks.begin(), bricks.end(), [](const auto* a, const auto* b) { return zyx(a->coordinate) < zyx(b->coordinate); });
-    const auto twice = std::adjacent_find(bricks.begin(), bricks.end(), [](const auto* a, const auto* b) { return a->coordinate == b->coordinate; });
+    std::sort(bricks.begin(), bricks.end(),
+              [](const auto* a, const auto* b) { return zyx(a->coordinate) < zyx(b->coordinate); });
+    const auto twice = std::adjacent_find(bricks.begin(), bricks.end(),
+                                          [](const auto* a, const auto* b) { return a->coordinate == b->coordinate; });
     if (twice != bricks.end()) {
         const auto& c = (*twice)->coordinate;
-        throw InvalidInput("brick (" + std::to_string(c[0]) + ", " + std::to_string(c[1]) + ", " + std::to_string(c[2]) + ") occurs twice");
+        throw InvalidInput("brick (" + std::to_string(c[0]) + ", " + std::to_string(c[1]) + ", " +
+                           std::to_string(c[2]) + ") occurs twice");
     }
 
     Mesh mesh;
@@ -41,7 +46,9 @@ Mesh weld_bricks(std::span<const DecodedBrick> unordered, double cell_size, std:
     std::sort(all.begin(), all.end(), [](const BrickVertex& a, const BrickVertex& b) {
         return a.position != b.position ? zyx(a.position) < zyx(b.position) : a.brick < b.brick;
     });
-    const bool has_normals = !bricks.empty() && std::all_of(bricks.begin(), bricks.end(), [](const auto* b) { return b->normals.size() == b->vertices.size(); });
+    const bool has_normals = !bricks.empty() && std::all_of(bricks.begin(), bricks.end(), [](const auto* b) {
+        return b->normals.size() == b->vertices.size();
+    });
     for (const BrickVertex& v : all) {
         if (mesh.vertices.empty() || mesh.vertices.back() != v.position) {
             mesh.vertices.push_back(v.position);

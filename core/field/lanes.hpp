@@ -43,16 +43,30 @@ struct Lanes {
     friend Lanes operator*(Lanes a, Lanes b) { return _mm256_mul_ps(a.v, b.v); }
     friend Lanes operator/(Lanes a, Lanes b) { return _mm256_div_ps(a.v, b.v); }
 };
-inline Lanes fused(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
+inline Lanes fused(Lanes a, Lanes b, Lanes c) {
+    return _mm256_fmadd_ps(a.v, b.v, c.v);
+}
 /// c - a b, rounded once.
-inline Lanes fused_minus(Lanes a, Lanes b, Lanes c) { return _mm256_fnmadd_ps(a.v, b.v, c.v); }
-inline Lanes root(Lanes a) { return _mm256_sqrt_ps(a.v); }
-inline Lanes larger(Lanes a, Lanes b) { return _mm256_max_ps(a.v, b.v); }
-inline Lanes smaller(Lanes a, Lanes b) { return _mm256_min_ps(a.v, b.v); }
+inline Lanes fused_minus(Lanes a, Lanes b, Lanes c) {
+    return _mm256_fnmadd_ps(a.v, b.v, c.v);
+}
+inline Lanes root(Lanes a) {
+    return _mm256_sqrt_ps(a.v);
+}
+inline Lanes larger(Lanes a, Lanes b) {
+    return _mm256_max_ps(a.v, b.v);
+}
+inline Lanes smaller(Lanes a, Lanes b) {
+    return _mm256_min_ps(a.v, b.v);
+}
 /// Rounded toward zero.
-inline Lanes truncated(Lanes a) { return _mm256_round_ps(a.v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC); }
+inline Lanes truncated(Lanes a) {
+    return _mm256_round_ps(a.v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+}
 /// The set of lanes in which a <= b.
-inline unsigned not_above(Lanes a, Lanes b) { return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ))); }
+inline unsigned not_above(Lanes a, Lanes b) {
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
+}
 /// Stores the lanes of a set one after the other; writes eight floats in all.
 inline void store_set(float* p, Lanes a, unsigned set) {
     const __m256i order = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(lanes_of_set[set].data()));
@@ -70,15 +84,35 @@ struct Lanes {
     static constexpr int count = 8;
     float v[count];
     Lanes() = default;
-    Lanes(float value) { for (float& x : v) x = value; }
-    static Lanes load(const float* p) { Lanes r; for (int i = 0; i < count; ++i) r.v[i] = p[i]; return r; }
-    void store(float* p) const { for (int i = 0; i < count; ++i) p[i] = v[i]; }
+    Lanes(float value) {
+        for (float& x : v) x = value;
+    }
+    static Lanes load(const float* p) {
+        Lanes r;
+        for (int i = 0; i < count; ++i) r.v[i] = p[i];
+        return r;
+    }
+    void store(float* p) const {
+        for (int i = 0; i < count; ++i) p[i] = v[i];
+    }
     template <class Operation>
-    static Lanes each(Operation operation) { Lanes r; for (int i = 0; i < count; ++i) r.v[i] = operation(i); return r; }
-    friend Lanes operator+(const Lanes& a, const Lanes& b) { return each([&](int i) { return a.v[i] + b.v[i]; }); }
-    friend Lanes operator-(const Lanes& a, const Lanes& b) { return each([&](int i) { return a.v[i] - b.v[i]; }); }
-    friend Lanes operator*(const Lanes& a, const Lanes& b) { return each([&](int i) { return a.v[i] * b.v[i]; }); }
-    friend Lanes operator/(const Lanes& a, const Lanes& b) { return each([&](int i) { return a.v[i] / b.v[i]; }); }
+    static Lanes each(Operation operation) {
+        Lanes r;
+        for (int i = 0; i < count; ++i) r.v[i] = operation(i);
+        return r;
+    }
+    friend Lanes operator+(const Lanes& a, const Lanes& b) {
+        return each([&](int i) { return a.v[i] + b.v[i]; });
+    }
+    friend Lanes operator-(const Lanes& a, const Lanes& b) {
+        return each([&](int i) { return a.v[i] - b.v[i]; });
+    }
+    friend Lanes operator*(const Lanes& a, const Lanes& b) {
+        return each([&](int i) { return a.v[i] * b.v[i]; });
+    }
+    friend Lanes operator/(const Lanes& a, const Lanes& b) {
+        return each([&](int i) { return a.v[i] / b.v[i]; });
+    }
 };
 inline Lanes fused(const Lanes& a, const Lanes& b, const Lanes& c) {
     return Lanes::each([&](int i) { return std::fmaf(a.v[i], b.v[i], c.v[i]); });
@@ -86,14 +120,18 @@ inline Lanes fused(const Lanes& a, const Lanes& b, const Lanes& c) {
 inline Lanes fused_minus(const Lanes& a, const Lanes& b, const Lanes& c) {
     return Lanes::each([&](int i) { return std::fmaf(-a.v[i], b.v[i], c.v[i]); });
 }
-inline Lanes root(const Lanes& a) { return Lanes::each([&](int i) { return std::sqrt(a.v[i]); }); }
+inline Lanes root(const Lanes& a) {
+    return Lanes::each([&](int i) { return std::sqrt(a.v[i]); });
+}
 inline Lanes larger(const Lanes& a, const Lanes& b) {
     return Lanes::each([&](int i) { return a.v[i] > b.v[i] ? a.v[i] : b.v[i]; });
 }
 inline Lanes smaller(const Lanes& a, const Lanes& b) {
     return Lanes::each([&](int i) { return a.v[i] < b.v[i] ? a.v[i] : b.v[i]; });
 }
-inline Lanes truncated(const Lanes& a) { return Lanes::each([&](int i) { return std::trunc(a.v[i]); }); }
+inline Lanes truncated(const Lanes& a) {
+    return Lanes::each([&](int i) { return std::trunc(a.v[i]); });
+}
 inline unsigned not_above(const Lanes& a, const Lanes& b) {
     unsigned set = 0;
     for (unsigned i = 0; i < Lanes::count; ++i) set |= (a.v[i] <= b.v[i] ? 1U : 0U) << i;
@@ -110,7 +148,9 @@ inline float smallest_lane(const Lanes& a) {
 
 #endif
 
-inline float largest_lane(Lanes a) { return -smallest_lane(Lanes(0.0F) - a); }
+inline float largest_lane(Lanes a) {
+    return -smallest_lane(Lanes(0.0F) - a);
+}
 
 #endif
 
@@ -121,7 +161,9 @@ MENISCUS_HD inline float fused(float a, float b, float c) {
     return __builtin_fmaf(a, b, c);
 #endif
 }
-MENISCUS_HD inline float fused_minus(float a, float b, float c) { return fused(-a, b, c); }
+MENISCUS_HD inline float fused_minus(float a, float b, float c) {
+    return fused(-a, b, c);
+}
 MENISCUS_HD inline float root(float a) {
 #ifdef __CUDA_ARCH__
     return sqrtf(a);
@@ -136,7 +178,11 @@ MENISCUS_HD inline float truncated(float a) {
     return __builtin_truncf(a);
 #endif
 }
-MENISCUS_HD inline float larger(float a, float b) { return a > b ? a : b; }
-MENISCUS_HD inline float smaller(float a, float b) { return a < b ? a : b; }
+MENISCUS_HD inline float larger(float a, float b) {
+    return a > b ? a : b;
+}
+MENISCUS_HD inline float smaller(float a, float b) {
+    return a < b ? a : b;
+}
 
 }  // namespace meniscus

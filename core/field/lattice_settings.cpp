@@ -32,20 +32,26 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     cell_size = world_cell_size(s);
     units_per_length = units_per_cell / cell_size;
     const double support_units = 2.0 * s.smoothing_length / s.cell_size * units_per_cell;
-    for (unsigned k = 0; k < particle_level_count; ++k) support[k] = static_cast<float>(std::ldexp(support_units, static_cast<int>(k)));
+    for (unsigned k = 0; k < particle_level_count; ++k)
+        support[k] = static_cast<float>(std::ldexp(support_units, static_cast<int>(k)));
     const double l = s.smoothing_length;
     weight = static_cast<float>(16.0 / (std::numbers::pi * l * l * l));
     iso = static_cast<float>(s.iso);
     if (s.field == Field::color) deep_inside = static_cast<float>(s.iso * (0.85 / 0.6));
-    // A lone particle's blob in the color field: W(q) = iso W(0). At iso 0.6 that is q = 0.28; a quarter support is enough there.
-    if (s.field == Field::color && s.iso < 1.0) blob_closest = static_cast<float>(1.0 - std::min(0.25 * lone_particle_reach(s.iso) / lone_particle_reach(0.6), 1.0));
+    // A lone particle's blob in the color field: W(q) = iso W(0). At iso 0.6 that is q = 0.28; a quarter support is
+    // enough there.
+    if (s.field == Field::color && s.iso < 1.0)
+        blob_closest =
+            static_cast<float>(1.0 - std::min(0.25 * lone_particle_reach(s.iso) / lone_particle_reach(0.6), 1.0));
     if (s.cell_size > 0.17 * 2.0 * s.smoothing_length) blob_level = 3;
     offset_bits = meniscus::offset_bits(s);
     if (s.domain) {
         has_domain = true;
         const auto& [low, high] = *s.domain;
-        domain_low = {to_cell(std::floor(low[0] / cell_size)), to_cell(std::floor(low[1] / cell_size)), to_cell(std::floor(low[2] / cell_size))};
-        domain_high = {to_cell(std::ceil(high[0] / cell_size)), to_cell(std::ceil(high[1] / cell_size)), to_cell(std::ceil(high[2] / cell_size))};
+        domain_low = {to_cell(std::floor(low[0] / cell_size)), to_cell(std::floor(low[1] / cell_size)),
+                      to_cell(std::floor(low[2] / cell_size))};
+        domain_high = {to_cell(std::ceil(high[0] / cell_size)), to_cell(std::ceil(high[1] / cell_size)),
+                       to_cell(std::ceil(high[2] / cell_size))};
     }
 }
 

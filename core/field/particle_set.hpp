@@ -30,35 +30,43 @@ struct ParticleSetView {
     const float* x = nullptr;
     const float* y = nullptr;
     const float* z = nullptr;
-    const float* weight = nullptr;         ///< mass (color: mass over density) times the kernel's W0
-    std::int64_t cell_units = 0;           ///< edge of a support cell
-    float support = 0.0F;                  ///< h, units
+    const float* weight = nullptr;  ///< mass (color: mass over density) times the kernel's W0
+    std::int64_t cell_units = 0;    ///< edge of a support cell
+    float support = 0.0F;           ///< h, units
 
     MENISCUS_HD Int3 cell_of(std::int64_t px, std::int64_t py, std::int64_t pz) const {
-        return {static_cast<std::int32_t>(floor_div(px, cell_units)), static_cast<std::int32_t>(floor_div(py, cell_units)),
+        return {static_cast<std::int32_t>(floor_div(px, cell_units)),
+                static_cast<std::int32_t>(floor_div(py, cell_units)),
                 static_cast<std::int32_t>(floor_div(pz, cell_units))};
     }
 
-    /// Particles farther from a box than this may be passed over. A little more than the support, since a rounded distance just
-    /// below it still adds a tiny term.
+    /// Particles farther from a box than this may be passed over. A little more than the support, since a rounded
+    /// distance just below it still adds a tiny term.
     MENISCUS_HD float reach() const { return support + 1.0F; }
 
-    /// Calls visit(first particle, one past the last, shift) for runs of particles, in their order, that hold all those within
-    /// reach of the box. A particle's position plus shift (x, y, z) is relative to `origin`, a multiple of 16 units.
+    /// Calls visit(first particle, one past the last, shift) for runs of particles, in their order, that hold all those
+    /// within reach of the box. A particle's position plus shift (x, y, z) is relative to `origin`, a multiple of 16
+    /// units.
     template <class Guesses, class Visit>
-    MENISCUS_HD void for_each_run_near(const Units3& origin, const UnitBox& box, Guesses& guesses, Visit&& visit) const {
+    MENISCUS_HD void for_each_run_near(const Units3& origin, const UnitBox& box, Guesses& guesses,
+                                       Visit&& visit) const {
         // Positions are whole units: one that is a support away or farther along an axis adds exactly zero.
         const auto below = [this](float v) { return static_cast<std::int64_t>(floorf(v - support)); };
         const auto above = [this](float v) { return static_cast<std::int64_t>(ceilf(v + support)) - 1; };
-        const Int3 low = cell_of(origin.x + below(box.low[0]), origin.y + below(box.low[1]), origin.z + below(box.low[2]));
-        const Int3 high = cell_of(origin.x + above(box.high[0]), origin.y + above(box.high[1]), origin.z + above(box.high[2]));
+        const Int3 low =
+            cell_of(origin.x + below(box.low[0]), origin.y + below(box.low[1]), origin.z + below(box.low[2]));
+        const Int3 high =
+            cell_of(origin.x + above(box.high[0]), origin.y + above(box.high[1]), origin.z + above(box.high[2]));
         const std::int64_t edge = cell_units * brick_size;
-        cells.for_each_brick(low, high, guesses, [&](const Brick& brick, const Int3& first_cell, const Int3& last_cell) {
-            const float shift[3] = {static_cast<float>(brick.coordinate.x * edge - origin.x), static_cast<float>(brick.coordinate.y * edge - origin.y),
-                                    static_cast<float>(brick.coordinate.z * edge - origin.z)};
-            brick.for_each_run(first_cell, last_cell,
-                               [&](std::uint32_t cell, std::uint32_t count) { visit(first[cell], first[cell + count], shift); });
-        });
+        cells.for_each_brick(
+            low, high, guesses, [&](const Brick& brick, const Int3& first_cell, const Int3& last_cell) {
+                const float shift[3] = {static_cast<float>(brick.coordinate.x * edge - origin.x),
+                                        static_cast<float>(brick.coordinate.y * edge - origin.y),
+                                        static_cast<float>(brick.coordinate.z * edge - origin.z)};
+                brick.for_each_run(first_cell, last_cell, [&](std::uint32_t cell, std::uint32_t count) {
+                    visit(first[cell], first[cell + count], shift);
+                });
+            });
     }
 
     /// Calls visit(x, y, z) for all particles of those runs, relative to `origin`.

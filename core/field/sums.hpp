@@ -20,22 +20,26 @@ struct CandidateView {
 
 /// Adds to the values at G points (F = float) or G times eight (F = Lanes).
 template <int G, class F>
-MENISCUS_HD inline void sum_values(const CandidateView& c, const F (&x)[G], const F (&y)[G], const F (&z)[G], F (&sum)[G]) {
+MENISCUS_HD inline void sum_values(const CandidateView& c, const F (&x)[G], const F (&y)[G], const F (&z)[G],
+                                   F (&sum)[G]) {
     for (std::size_t j = 0; j < c.count; ++j)
         for (int g = 0; g < G; ++g)
-            sum[g] = add_value(sum[g], x[g] - F(c.x[j]), y[g] - F(c.y[j]), z[g] - F(c.z[j]), c.weight[j], c.inverse_support);
+            sum[g] =
+                add_value(sum[g], x[g] - F(c.x[j]), y[g] - F(c.y[j]), z[g] - F(c.z[j]), c.weight[j], c.inverse_support);
 }
 
 /// The same for a grid of points: NY x NZ, lane by lane at (x, y[i], z[j]), i running first in `sum`.
 template <int NY, int NZ, class F>
-MENISCUS_HD inline void sum_grid_values(const CandidateView& c, F x, const F (&y)[NY], const float (&z)[NZ], F (&sum)[NY * NZ]) {
+MENISCUS_HD inline void sum_grid_values(const CandidateView& c, F x, const F (&y)[NY], const float (&z)[NZ],
+                                        F (&sum)[NY * NZ]) {
     for (std::size_t j = 0; j < c.count; ++j) {
         const F dx = x - F(c.x[j]);
         F dy[NY];
         for (int i = 0; i < NY; ++i) dy[i] = y[i] - F(c.y[j]);
         for (int k = 0; k < NZ; ++k) {
             const F dz(z[k] - c.z[j]);
-            for (int i = 0; i < NY; ++i) sum[NY * k + i] = add_value(sum[NY * k + i], dx, dy[i], dz, c.weight[j], c.inverse_support);
+            for (int i = 0; i < NY; ++i)
+                sum[NY * k + i] = add_value(sum[NY * k + i], dx, dy[i], dz, c.weight[j], c.inverse_support);
         }
     }
 }
@@ -56,7 +60,8 @@ MENISCUS_HD inline void sum_bounds(const CandidateView& c, F x, F y, F z, float 
 template <class F>
 MENISCUS_HD inline void sum_gradients(const CandidateView& c, F x, F y, F z, F& gx, F& gy, F& gz) {
     for (std::size_t j = 0; j < c.count; ++j)
-        add_gradient(gx, gy, gz, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]), c.weight[j] * c.inverse_support, c.inverse_support);
+        add_gradient(gx, gy, gz, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]), c.weight[j] * c.inverse_support,
+                     c.inverse_support);
 }
 
 /// A gradient becomes the unit vector against it; not-a-numbers where it vanishes.

@@ -11,10 +11,16 @@ namespace meniscus {
 using BlockMask = std::uint64_t;
 
 /// The distance of two bits one point apart along an axis (0 x, 1 y, 2 z).
-MENISCUS_HD constexpr int bit_step(int axis) { return axis == 0 ? 1 : axis == 1 ? 4 : 16; }
+MENISCUS_HD constexpr int bit_step(int axis) {
+    return axis == 0 ? 1 : axis == 1 ? 4 : 16;
+}
 
-MENISCUS_HD constexpr int point_bit(int x, int y, int z) { return x + 4 * y + 16 * z; }
-MENISCUS_HD constexpr int point_coordinate(int bit, int axis) { return (bit >> (2 * axis)) & 3; }
+MENISCUS_HD constexpr int point_bit(int x, int y, int z) {
+    return x + 4 * y + 16 * z;
+}
+MENISCUS_HD constexpr int point_coordinate(int bit, int axis) {
+    return (bit >> (2 * axis)) & 3;
+}
 
 /// The points whose coordinate along the axis is 0.
 MENISCUS_HD constexpr BlockMask low_face(int axis) {
@@ -30,7 +36,9 @@ MENISCUS_HD constexpr unsigned occupied_slabs(BlockMask points, int axis) {
 }
 
 /// Edge of a level's subcell in finest cells: 4, 2, 1 for levels 1, 2, 3.
-MENISCUS_HD constexpr int level_stride(int level) { return 8 >> level; }
+MENISCUS_HD constexpr int level_stride(int level) {
+    return 8 >> level;
+}
 
 /// The points that a cell of this stride owns: all coordinates divisible by it.
 MENISCUS_HD constexpr BlockMask stride_points(int stride) {

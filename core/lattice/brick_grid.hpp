@@ -17,9 +17,13 @@ inline constexpr int brick_size = 16;  ///< members a side
 inline constexpr int brick_volume = brick_size * brick_size * brick_size;
 inline constexpr std::uint32_t no_index = 0xFFFFFFFFU;
 
-MENISCUS_HD constexpr Int3 brick_of(const Int3& c) { return {c.x >> 4, c.y >> 4, c.z >> 4}; }
+MENISCUS_HD constexpr Int3 brick_of(const Int3& c) {
+    return {c.x >> 4, c.y >> 4, c.z >> 4};
+}
 /// Index inside a brick: x + 16 y + 256 z.
-MENISCUS_HD constexpr int index_in_brick(const Int3& c) { return (c.x & 15) | (c.y & 15) << 4 | (c.z & 15) << 8; }
+MENISCUS_HD constexpr int index_in_brick(const Int3& c) {
+    return (c.x & 15) | (c.y & 15) << 4 | (c.z & 15) << 8;
+}
 
 /// Orders bricks by (z, y, x); 20 bits a side hold every brick of either grid.
 MENISCUS_HD constexpr std::uint64_t brick_key(const Int3& b) {
@@ -30,19 +34,22 @@ MENISCUS_HD constexpr std::uint64_t brick_key(const Int3& b) {
 MENISCUS_HD inline Int3 brick_coordinate(std::uint64_t brick_key) {
     constexpr std::uint64_t mask = (1U << 20) - 1;
     constexpr std::int32_t bias = 1 << 19;
-    return {static_cast<std::int32_t>(brick_key & mask) - bias, static_cast<std::int32_t>(brick_key >> 20 & mask) - bias,
+    return {static_cast<std::int32_t>(brick_key & mask) - bias,
+            static_cast<std::int32_t>(brick_key >> 20 & mask) - bias,
             static_cast<std::int32_t>(brick_key >> 40) - bias};
 }
 
 struct Brick {
     static constexpr int words = brick_volume / 64;
     Int3 coordinate;
-    std::uint32_t first = 0;          ///< number of its first member
-    std::uint64_t occupied[words];    ///< word w: the rows y = 4 (w % 4) ... + 3 of the slice z = w / 4
-    std::uint16_t rank[words];        ///< members in the words before
+    std::uint32_t first = 0;        ///< number of its first member
+    std::uint64_t occupied[words];  ///< word w: the rows y = 4 (w % 4) ... + 3 of the slice z = w / 4
+    std::uint16_t rank[words];      ///< members in the words before
 
     /// Its lowest place.
-    MENISCUS_HD Int3 corner() const { return {coordinate.x * brick_size, coordinate.y * brick_size, coordinate.z * brick_size}; }
+    MENISCUS_HD Int3 corner() const {
+        return {coordinate.x * brick_size, coordinate.y * brick_size, coordinate.z * brick_size};
+    }
     MENISCUS_HD bool holds(int index) const { return (occupied[index >> 6] >> (index & 63) & 1) != 0; }
     /// Number of the member at `index`, or of the next one after it.
     MENISCUS_HD std::uint32_t number(int index) const {
@@ -61,8 +68,8 @@ struct Brick {
     MENISCUS_HD void clear() {
         for (std::uint64_t& word : occupied) word = 0;
     }
-    /// Calls visit(first number, count) for every run of members in a row along x of the box [low, high] inside the brick, in
-    /// ascending order of their numbers.
+    /// Calls visit(first number, count) for every run of members in a row along x of the box [low, high] inside the
+    /// brick, in ascending order of their numbers.
     template <class Visit>
     MENISCUS_HD void for_each_run(const Int3& low, const Int3& high, Visit&& visit) const {
         const std::uint64_t span = (std::uint64_t{2} << high.x) - (std::uint64_t{1} << low.x);
@@ -94,8 +101,8 @@ struct NoBrickGuesses {
 
 struct BrickGridView {
     const Brick* bricks = nullptr;
-    const std::uint64_t* keys = nullptr;            ///< brick_key of each, ascending
-    const BrickNeighbors* neighbors = nullptr;      ///< present only where neighbor() is used
+    const std::uint64_t* keys = nullptr;        ///< brick_key of each, ascending
+    const BrickNeighbors* neighbors = nullptr;  ///< present only where neighbor() is used
     std::uint32_t brick_count = 0;
 
     /// Index of the first brick whose key is not below this one. Right at once if it is `guess`.
@@ -105,8 +112,10 @@ struct BrickGridView {
         std::uint32_t high = brick_count;
         while (low < high) {
             const std::uint32_t middle = low + (high - low) / 2;
-            if (keys[middle] < key) low = middle + 1;
-            else high = middle;
+            if (keys[middle] < key)
+                low = middle + 1;
+            else
+                high = middle;
         }
         return low;
     }
@@ -117,7 +126,8 @@ struct BrickGridView {
         return at < brick_count && keys[at] == key ? at : no_index;
     }
 
-    /// Number of the member at an offset from one in this brick, no farther than the bricks around; no_index if there is none.
+    /// Number of the member at an offset from one in this brick, no farther than the bricks around; no_index if there
+    /// is none.
     MENISCUS_HD std::uint32_t neighbor(std::uint32_t brick, int index, const Int3& offset) const {
         const int x = (index & 15) + offset.x;
         const int y = (index >> 4 & 15) + offset.y;
@@ -136,7 +146,8 @@ struct BrickGridView {
     };
     MENISCUS_HD Pair neighbor_pair(std::uint32_t brick, int index, const Int3& offset) const {
         // In a row, members are numbered one after the other.
-        if ((index & 15) == brick_size - 1) return {neighbor(brick, index, offset), neighbor(brick, index, {1, offset.y, offset.z})};
+        if ((index & 15) == brick_size - 1)
+            return {neighbor(brick, index, offset), neighbor(brick, index, {1, offset.y, offset.z})};
         const int y = (index >> 4 & 15) + offset.y;
         const int z = (index >> 8) + offset.z;
         if (((y | z) & ~15) != 0) {
@@ -150,8 +161,9 @@ struct BrickGridView {
         return {first ? number : no_index, (members & 2) != 0 ? number + static_cast<std::uint32_t>(first) : no_index};
     }
 
-    /// Calls visit(brick, low, high) for every brick that the box [low, high] meets, in ascending order, with the part of the box
-    /// inside it. `guesses` are where the last call found its rows of bricks; one that has not gone far finds them there again.
+    /// Calls visit(brick, low, high) for every brick that the box [low, high] meets, in ascending order, with the part
+    /// of the box inside it. `guesses` are where the last call found its rows of bricks; one that has not gone far
+    /// finds them there again.
     template <class Guesses, class Visit>
     MENISCUS_HD void for_each_brick(const Int3& low, const Int3& high, Guesses& guesses, Visit&& visit) const {
         const Int3 brick_low = brick_of(low);
@@ -165,8 +177,10 @@ struct BrickGridView {
                 for (std::uint32_t i = guess; i < brick_count && keys[i] <= last; ++i) {
                     const std::int32_t x = bricks[i].coordinate.x;
                     visit(bricks[i],
-                          Int3{x == brick_low.x ? low.x & end : 0, y == brick_low.y ? low.y & end : 0, z == brick_low.z ? low.z & end : 0},
-                          Int3{x == brick_high.x ? high.x & end : end, y == brick_high.y ? high.y & end : end, z == brick_high.z ? high.z & end : end});
+                          Int3{x == brick_low.x ? low.x & end : 0, y == brick_low.y ? low.y & end : 0,
+                               z == brick_low.z ? low.z & end : 0},
+                          Int3{x == brick_high.x ? high.x & end : end, y == brick_high.y ? high.y & end : end,
+                               z == brick_high.z ? high.z & end : end});
                 }
             }
     }
@@ -175,7 +189,8 @@ struct BrickGridView {
 /// Owner of a grid's arrays.
 struct BrickGrid {
     explicit BrickGrid(const std::shared_ptr<MemoryAccount>& account)
-        : bricks(AccountAllocator<Brick>(account)), keys(AccountAllocator<std::uint64_t>(account)),
+        : bricks(AccountAllocator<Brick>(account)),
+          keys(AccountAllocator<std::uint64_t>(account)),
           neighbors(AccountAllocator<BrickNeighbors>(account)) {}
 
     Array<Brick> bricks;

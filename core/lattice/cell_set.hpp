@@ -13,7 +13,9 @@ struct CellSetView {
     BrickGridView grid;
     std::uint64_t* words = nullptr;
 
-    MENISCUS_HD std::uint64_t& word(std::uint32_t brick, int w) const { return words[static_cast<std::size_t>(brick) * Brick::words + static_cast<std::size_t>(w)]; }
+    MENISCUS_HD std::uint64_t& word(std::uint32_t brick, int w) const {
+        return words[static_cast<std::size_t>(brick) * Brick::words + static_cast<std::size_t>(w)];
+    }
 
     /// place: index_in_brick.
     MENISCUS_HD void put(std::uint32_t brick, int place, bool member) const {

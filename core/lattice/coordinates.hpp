@@ -37,8 +37,8 @@ inline constexpr std::int64_t max_cell = (std::int64_t{max_base_cell} - 128) * b
 /// Largest kernel support, in cells: keeps every difference that a kernel sees exact in float32.
 inline constexpr int max_support_cells = 256;
 
-/// The quotient rounded down; |a| < 2^53, b > 0. In double, which is faster than int64 and as exact: a quotient that is not whole is
-/// at least 1/b below the next whole number, and rounding moves it by less.
+/// The quotient rounded down; |a| < 2^53, b > 0. In double, which is faster than int64 and as exact: a quotient that is
+/// not whole is at least 1/b below the next whole number, and rounding moves it by less.
 MENISCUS_HD inline std::int64_t floor_div(std::int64_t a, std::int64_t b) {
     return static_cast<std::int64_t>(floor(static_cast<double>(a) / static_cast<double>(b)));
 }

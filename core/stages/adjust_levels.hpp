@@ -1,6 +1,6 @@
-// Step 3: levels of face neighbors differ by at most one, and no lattice edge has fine and coarse cells in turn around it.
-// Both bodies name the cells of a word that go up one level, by one state of all levels, so that the result does not depend
-// on an order.
+// Step 3: levels of face neighbors differ by at most one, and no lattice edge has fine and coarse cells in turn around
+// it. Both bodies name the cells of a word that go up one level, by one state of all levels, so that the result does
+// not depend on an order.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ MENISCUS_HD inline std::uint64_t unbalanced_cells(const LevelSets& levels, std::
     return coarsest == 0 ? 0 : coarsest & levels.beside(3, brick, w);
 }
 
-/// The coarse cells that, at one of their twelve edges, face another coarse cell across the edge with two cells between them that are
-/// finer than both, and come first in the order (z, y, x): four crack fillings would share a chord there.
+/// The coarse cells that, at one of their twelve edges, face another coarse cell across the edge with two cells between
+/// them that are finer than both, and come first in the order (z, y, x): four crack fillings would share a chord there.
 MENISCUS_HD inline std::uint64_t cells_to_promote(const LevelSets& levels, std::uint32_t brick, int w) {
     const std::uint64_t coarse = levels.band(brick, w) & ~levels.is_at_least(3, brick, w);
     if (coarse == 0) return 0;

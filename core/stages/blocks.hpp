@@ -27,13 +27,13 @@ struct TriangleSlots {
 struct BlocksView {
     BrickGridView grid;
     std::uint32_t count = 0;
-    const std::uint32_t* brick = nullptr;           ///< index of its brick
-    const std::uint16_t* place = nullptr;           ///< index_in_brick
-    std::uint8_t* level = nullptr;                  ///< 1, 2, 3; 0 outside the surface band
-    BlockMask* sampled = nullptr;                   ///< its points with a field value
-    BlockMask* inside = nullptr;                    ///< those inside the fluid
+    const std::uint32_t* brick = nullptr;  ///< index of its brick
+    const std::uint16_t* place = nullptr;  ///< index_in_brick
+    std::uint8_t* level = nullptr;         ///< 1, 2, 3; 0 outside the surface band
+    BlockMask* sampled = nullptr;          ///< its points with a field value
+    BlockMask* inside = nullptr;           ///< those inside the fluid
     std::uint32_t* first_sample = nullptr;
-    float* samples = nullptr;                       ///< field values, those of a block in the order of its points
+    float* samples = nullptr;  ///< field values, those of a block in the order of its points
     EdgeMasks* edges = nullptr;
     std::uint32_t* first_vertex = nullptr;
     TriangleSlots* slots = nullptr;

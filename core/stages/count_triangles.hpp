@@ -10,7 +10,8 @@
 
 namespace meniscus {
 
-/// For every point of a block as a subcell's lower corner: the signs of the subcell's eight corners (i = x + 2 y + 4 z).
+/// For every point of a block as a subcell's lower corner: the signs of the subcell's eight corners (i = x + 2 y + 4
+/// z).
 struct SubcellCorners {
     BlockMask corner[8];
 
@@ -54,7 +55,8 @@ MENISCUS_HD void for_each_subcell(const BlocksView& blocks, const ClosedCell& ce
     }
 }
 
-MENISCUS_HD inline std::uint32_t count_cell_triangles(const BlocksView& blocks, std::uint32_t block, const CubeCase* table) {
+MENISCUS_HD inline std::uint32_t count_cell_triangles(const BlocksView& blocks, std::uint32_t block,
+                                                      const CubeCase* table) {
     std::uint32_t count = 0;
     for_each_subcell(blocks, ClosedCell(blocks, block), level_stride(blocks.level[block]),
                      [&](int, int cube_case) { count += table[cube_case].triangles; });

@@ -76,13 +76,15 @@ MENISCUS_HD inline Point3<F> newton_step(const FieldJet<F>& jet, float iso, cons
 template <class F>
 MENISCUS_HD inline Point3<F> clamped_to_cell(const Point3<F>& p, const Point3<F>& corner) {
     const F edge(static_cast<float>(units_per_base_cell));
-    return {curvature_detail::clamped(p.x, corner.x, corner.x + edge), curvature_detail::clamped(p.y, corner.y, corner.y + edge),
+    return {curvature_detail::clamped(p.x, corner.x, corner.x + edge),
+            curvature_detail::clamped(p.y, corner.y, corner.y + edge),
             curvature_detail::clamped(p.z, corner.z, corner.z + edge)};
 }
 
-/// How much the surface bends near a point of a jet: both its principal curvatures, absolute, added; per unit. Those of the point's
-/// own level set are the eigenvalues of the Hessian's tangential part over the length of the gradient. Level sets are taken as
-/// parallel: the surface's radii of curvature differ from these by its distance, which tells a drop's size from outside of it.
+/// How much the surface bends near a point of a jet: both its principal curvatures, absolute, added; per unit. Those of
+/// the point's own level set are the eigenvalues of the Hessian's tangential part over the length of the gradient.
+/// Level sets are taken as parallel: the surface's radii of curvature differ from these by its distance, which tells a
+/// drop's size from outside of it.
 template <class F>
 MENISCUS_HD inline F total_curvature(const FieldJet<F>& j, float iso) {
     const F size = larger(root(fused(j.x, j.x, fused(j.y, j.y, j.z * j.z))), F(1e-15F));
@@ -94,8 +96,9 @@ MENISCUS_HD inline F total_curvature(const FieldJet<F>& j, float iso) {
     // n . adjugate(H) n is the product of the two tangential eigenvalues.
     const F cxx = j.yy * j.zz - j.yz * j.yz, cyy = j.xx * j.zz - j.xz * j.xz, czz = j.xx * j.yy - j.xy * j.xy;
     const F cxy = j.xz * j.yz - j.xy * j.zz, cxz = j.xy * j.yz - j.xz * j.yy, cyz = j.xy * j.xz - j.yz * j.xx;
-    const F product = fused(nx, fused(cxx, nx, fused(cxy, ny, cxz * nz)),
-                            fused(ny, fused(cxy, nx, fused(cyy, ny, cyz * nz)), nz * fused(cxz, nx, fused(cyz, ny, czz * nz))));
+    const F product =
+        fused(nx, fused(cxx, nx, fused(cxy, ny, cxz * nz)),
+              fused(ny, fused(cxy, nx, fused(cyy, ny, cyz * nz)), nz * fused(cxz, nx, fused(cyz, ny, czz * nz))));
     const F half = F(0.5F) * trace;
     const F spread = root(larger(half * half - product, F(0.0F)));
     const F climb = (F(iso) - j.value) / size;  // the surface's distance along the gradient
@@ -114,12 +117,12 @@ struct SurfaceSearch {
     F inside;     ///< distance of the point found from the cell's nearest face, units; negative if it left the cell
 };
 
-/// Looks for the surface in a cell: from the trilinear root where the corners' signs are mixed (1), from the middle where they
-/// agree (0), one Newton step, held inside the cell; then curvature, and where a second step leads.
-/// corner: the cell's lowest point, units. jet_at: from a Point3<F> to the FieldJet<F> there.
+/// Looks for the surface in a cell: from the trilinear root where the corners' signs are mixed (1), from the middle
+/// where they agree (0), one Newton step, held inside the cell; then curvature, and where a second step leads. corner:
+/// the cell's lowest point, units. jet_at: from a Point3<F> to the FieldJet<F> there.
 template <class F, class JetAt>
-MENISCUS_HD inline SurfaceSearch<F> search_surface(const CellCorners<F>& corners, F mixed, const Point3<F>& corner, float iso,
-                                                   const JetAt& jet_at) {
+MENISCUS_HD inline SurfaceSearch<F> search_surface(const CellCorners<F>& corners, F mixed, const Point3<F>& corner,
+                                                   float iso, const JetAt& jet_at) {
     const F edge(static_cast<float>(units_per_base_cell));
     const Point3<F> start = trilinear_root(corners);
     const auto blend = [&](F from, F s) { return from + edge * fused(mixed, s - F(0.5F), F(0.5F)); };

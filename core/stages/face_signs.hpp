@@ -6,8 +6,8 @@
 
 namespace meniscus {
 
-/// For every point of a face as the lowest corner of a coarse subface: the signs of the subface's 3 x 3 points, `stride` apart,
-/// u + 3 v with u x v = the face's axis.
+/// For every point of a face as the lowest corner of a coarse subface: the signs of the subface's 3 x 3 points,
+/// `stride` apart, u + 3 v with u x v = the face's axis.
 struct FaceSigns {
     BlockMask inside[9];
     BlockMask subfaces;  ///< lowest corners of the coarse subfaces, in the upper cell's block

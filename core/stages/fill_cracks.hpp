@@ -20,7 +20,8 @@ struct CrackFace {
     int corner[3];  ///< lowest point, in the fine cell's closed coordinates
 };
 
-/// Calls visit(face, crack case) for every subface of a fine cell that has a coarser neighbor beyond and sees both signs.
+/// Calls visit(face, crack case) for every subface of a fine cell that has a coarser neighbor beyond and sees both
+/// signs.
 template <class Visit>
 MENISCUS_HD void for_each_crack(const BlocksView& blocks, std::uint32_t block, Visit&& visit) {
     const int level = blocks.level[block];
@@ -35,20 +36,23 @@ MENISCUS_HD void for_each_crack(const BlocksView& blocks, std::uint32_t block, V
             const FaceSigns signs(blocks, face.side == 1 ? other : block, face.axis, face.stride);
             for (BlockMask left = signs.mixed(); left != 0; left &= left - 1) {
                 const int bit = lowest_bit(left);
-                for (int axis = 0; axis < 3; ++axis) face.corner[axis] = axis == face.axis ? face.side * base_cell_size : point_coordinate(bit, axis);
+                for (int axis = 0; axis < 3; ++axis)
+                    face.corner[axis] = axis == face.axis ? face.side * base_cell_size : point_coordinate(bit, axis);
                 visit(face, signs.pattern(bit));
             }
         }
 }
 
-MENISCUS_HD inline std::uint32_t count_crack_triangles(const BlocksView& blocks, std::uint32_t block, const CrackCase* table) {
+MENISCUS_HD inline std::uint32_t count_crack_triangles(const BlocksView& blocks, std::uint32_t block,
+                                                       const CrackCase* table) {
     std::uint32_t count = 0;
     for_each_crack(blocks, block, [&](const CrackFace&, int crack_case) { count += table[crack_case].triangles; });
     return count;
 }
 
 /// Writes the filling of a fine cell's faces from `out` on. cell: the block's.
-MENISCUS_HD inline void emit_crack_triangles(const BlocksView& blocks, std::uint32_t block, const ClosedCell& cell, const CrackCase* table, Triangle* out) {
+MENISCUS_HD inline void emit_crack_triangles(const BlocksView& blocks, std::uint32_t block, const ClosedCell& cell,
+                                             const CrackCase* table, Triangle* out) {
     for_each_crack(blocks, block, [&](const CrackFace& face, int crack_case) {
         const CrackCase& pattern = table[crack_case];
         for (int t = 0; t < pattern.triangles; ++t, ++out)
@@ -59,7 +63,9 @@ MENISCUS_HD inline void emit_crack_triangles(const BlocksView& blocks, std::uint
                 const int along_u = (edge < 6 ? edge % 2 : (edge - 6) % 3) * face.stride;
                 const int along_v = (edge < 6 ? edge / 2 : (edge - 6) / 3) * face.stride;
                 // Asked for by constants alone: a GPU would keep an array that is not in its slow local memory.
-                const auto point = [&](int axis) { return face.corner[axis] + (axis == u ? along_u : axis == v ? along_v : 0); };
+                const auto point = [&](int axis) {
+                    return face.corner[axis] + (axis == u ? along_u : axis == v ? along_v : 0);
+                };
                 // The patterns are oriented for the fine cell lying up the axis.
                 const int place = face.side == 0 ? corner : 2 - corner;
                 (*out)[static_cast<std::size_t>(place)] =

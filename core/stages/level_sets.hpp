@@ -13,7 +13,9 @@ struct LevelSets {
     CellSetView at_least[4];  ///< by level, 1 to 3: the cells of at least that level; 1: the surface band
 
     MENISCUS_HD std::uint64_t band(std::uint32_t brick, int w) const { return at_least[1].word(brick, w); }
-    MENISCUS_HD std::uint64_t is_at_least(int level, std::uint32_t brick, int w) const { return at_least[level].word(brick, w); }
+    MENISCUS_HD std::uint64_t is_at_least(int level, std::uint32_t brick, int w) const {
+        return at_least[level].word(brick, w);
+    }
     /// Cells with a face neighbor of at least this level.
     MENISCUS_HD std::uint64_t beside(int level, std::uint32_t brick, int w) const {
         std::uint64_t cells = 0;

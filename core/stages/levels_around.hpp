@@ -29,10 +29,12 @@ struct LevelsAround {
 class LevelSetsAround {
 public:
     MENISCUS_HD LevelSetsAround(const LevelSets& levels, std::uint32_t brick, int w) {
-        for (int i = 0; i < 8; ++i) sharing_ |= at_least_[0][i] = levels.at_least[1].moved(brick, w, LevelsAround::offset(i));
+        for (int i = 0; i < 8; ++i)
+            sharing_ |= at_least_[0][i] = levels.at_least[1].moved(brick, w, LevelsAround::offset(i));
         if (sharing_ == 0) return;
         for (int level = 2; level <= 3; ++level)
-            for (int i = 0; i < 8; ++i) at_least_[level - 1][i] = levels.at_least[level].moved(brick, w, LevelsAround::offset(i));
+            for (int i = 0; i < 8; ++i)
+                at_least_[level - 1][i] = levels.at_least[level].moved(brick, w, LevelsAround::offset(i));
     }
     /// The places whose points a cell of the band has as corners.
     MENISCUS_HD std::uint64_t with_corner_points() const { return sharing_; }

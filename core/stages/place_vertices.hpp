@@ -14,8 +14,8 @@
 
 namespace meniscus {
 
-/// Lower ends of a block's edges along an axis that cells of the band of this level use. A cell of level 3 uses all of its block's
-/// finest edges, among them those that longer edges come down to.
+/// Lower ends of a block's edges along an axis that cells of the band of this level use. A cell of level 3 uses all of
+/// its block's finest edges, among them those that longer edges come down to.
 MENISCUS_HD inline BlockMask used_edges(const LevelsAround& around, int axis, int level) {
     const BlockMask points = stride_points(level_stride(level));
     if (around.own_is_finest()) return level == 3 ? points : 0;
@@ -27,14 +27,15 @@ MENISCUS_HD inline BlockMask used_edges(const LevelsAround& around, int axis, in
            of_cell(1 << u | 1 << v, points & low_face(u) & low_face(v));
 }
 
-/// The edges of a block along one axis that a cell of the band uses and that cross the surface, by their length in finest
-/// cells, as masks of their lower ends.
+/// The edges of a block along one axis that a cell of the band uses and that cross the surface, by their length in
+/// finest cells, as masks of their lower ends.
 struct CrossedEdges {
     BlockMask length4 = 0, length2 = 0, length1 = 0;
     BlockMask change1 = 0, change2 = 0;  ///< points whose sign differs one and two points further
     int axis = 0;
 
-    MENISCUS_HD CrossedEdges(const BlocksView& blocks, std::uint32_t block, const LevelsAround& around, int along) : axis(along) {
+    MENISCUS_HD CrossedEdges(const BlocksView& blocks, std::uint32_t block, const LevelsAround& around, int along)
+        : axis(along) {
         const BlockMask own = blocks.inside[block];
         const BlockMask next = blocks.inside_or_none(blocks.neighbor(block, axis_offset(axis)));
         if (own == next && (own == 0 || own == ~BlockMask{0})) return;
@@ -65,9 +66,10 @@ MENISCUS_HD inline std::uint32_t vertex_number(const BlocksView& blocks, std::ui
     return blocks.first_vertex[block] + static_cast<std::uint32_t>(before);
 }
 
-/// Number of the vertex on the edge of this stride that starts at a point of a closed cell (coordinates 0 to 4) and crosses
-/// the surface.
-MENISCUS_HD inline std::uint32_t vertex_on_edge(const BlocksView& blocks, const ClosedCell& cell, int x, int y, int z, int axis, int stride) {
+/// Number of the vertex on the edge of this stride that starts at a point of a closed cell (coordinates 0 to 4) and
+/// crosses the surface.
+MENISCUS_HD inline std::uint32_t vertex_on_edge(const BlocksView& blocks, const ClosedCell& cell, int x, int y, int z,
+                                                int axis, int stride) {
     const std::uint32_t block = cell.owner(x, y, z);
     int bit = ClosedCell::bit(x, y, z);
     for (int half = stride / 2 * bit_step(axis); half >= bit_step(axis); half /= 2)
@@ -95,8 +97,8 @@ MENISCUS_HD inline EdgeValues edge_values(const Values& own, const Values& next,
     return {own(bit), point_coordinate(bit, axis) < 3 ? own(bit + bit_step(axis)) : next(bit - 3 * bit_step(axis))};
 }
 
-/// Place of the vertex on a finest edge between field values `low` and `high`, on both sides of the iso-value, by linear
-/// interpolation: in steps of c / 2^bits, 1 to 2^bits - 1. F is float or Lanes.
+/// Place of the vertex on a finest edge between field values `low` and `high`, on both sides of the iso-value, by
+/// linear interpolation: in steps of c / 2^bits, 1 to 2^bits - 1. F is float or Lanes.
 template <class F>
 MENISCUS_HD inline F interpolated_offset(F low, F high, float iso, int bits) {
     const F t = (F(iso) - low) / (high - low);
@@ -114,6 +116,8 @@ MENISCUS_HD inline Normal outward_normal(const Normal& of_field, bool cropped, i
 }
 
 /// A cropped edge has its vertex next to the border.
-MENISCUS_HD inline float cropped_offset(bool low_inside, int bits) { return static_cast<float>(low_inside ? (1 << bits) - 1 : 1); }
+MENISCUS_HD inline float cropped_offset(bool low_inside, int bits) {
+    return static_cast<float>(low_inside ? (1 << bits) - 1 : 1);
+}
 
 }  // namespace meniscus

@@ -26,9 +26,9 @@ struct PositionsView {
     MENISCUS_HD Units3 snapped(std::size_t i) const {
         std::int64_t p[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double x = quantized != nullptr
-                                 ? low[axis] + static_cast<double>(quantized[3 * i + axis]) * (high[axis] - low[axis]) / 65535.0
-                                 : static_cast<double>(positions[3 * i + axis]);
+            const double x = quantized != nullptr ? low[axis] + static_cast<double>(quantized[3 * i + axis]) *
+                                                                    (high[axis] - low[axis]) / 65535.0
+                                                  : static_cast<double>(positions[3 * i + axis]);
             p[axis] = snap(x, units_per_length);
         }
         return {p[0], p[1], p[2]};
@@ -38,8 +38,10 @@ struct PositionsView {
 /// Of a valid frame.
 inline PositionsView positions_view(const ParticleFrame& frame, double units_per_length) {
     PositionsView view;
-    if (frame.is_quantized()) view.quantized = frame.quantized.data();
-    else view.positions = frame.positions.data();
+    if (frame.is_quantized())
+        view.quantized = frame.quantized.data();
+    else
+        view.positions = frame.positions.data();
     for (std::size_t axis = 0; axis < 3; ++axis) {
         view.low[axis] = frame.quantization_box.min[axis];
         view.high[axis] = frame.quantization_box.max[axis];
@@ -48,8 +50,8 @@ inline PositionsView positions_view(const ParticleFrame& frame, double units_per
     return view;
 }
 
-/// Where a particle stands in the one order in which the field is summed: by brick of support cells, by support cell, by
-/// position. Two particles with the same key are the same.
+/// Where a particle stands in the one order in which the field is summed: by brick of support cells, by support cell,
+/// by position. Two particles with the same key are the same.
 struct ParticleKey {
     std::uint64_t cell;   ///< brick (z, y, x), then index_in_brick
     std::uint64_t place;  ///< units from the cell's corner: z, y, x, 21 bits each
@@ -57,8 +59,8 @@ struct ParticleKey {
     MENISCUS_HD bool operator<(const ParticleKey& o) const { return cell != o.cell ? cell < o.cell : place < o.place; }
 };
 
-/// How many particles may share a support cell, in the mean over the particles. Water has 8; summing the field takes so much longer that a
-/// frame in the wrong unit, or with all its particles in one place, would take hours.
+/// How many particles may share a support cell, in the mean over the particles. Water has 8; summing the field takes so
+/// much longer that a frame in the wrong unit, or with all its particles in one place, would take hours.
 inline constexpr double most_crowded = 1024.0;
 
 /// In the same mean, for frames of any size. crowd: the sum of the squares of the cells' numbers of particles.
@@ -67,14 +69,17 @@ MENISCUS_HD inline bool is_crowded(std::uint64_t crowd, std::uint64_t particles,
     // Support cells are as large as base cells where those are larger than the support.
     const double cell = static_cast<double>(units_per_base_cell) / static_cast<double>(settings.support[0]);
     const double room = cell > 1.0 ? cell * cell * cell : 1.0;
-    return static_cast<double>(crowd) > most_crowded * room * static_cast<double>(particles < small ? small : particles);
+    return static_cast<double>(crowd) >
+           most_crowded * room * static_cast<double>(particles < small ? small : particles);
 }
 
 /// Throws LimitExceeded for a frame that is_crowded().
 inline void require_uncrowded(std::uint64_t crowd, std::uint64_t particles, const LatticeSettings& settings) {
     if (!is_crowded(crowd, particles, settings)) return;
-    throw LimitExceeded("a particle shares its surroundings of one kernel support with " + std::to_string(crowd / particles) +
-                        " others in the mean, far more than the field can be summed over (about " + std::to_string(static_cast<int>(most_crowded)) +
+    throw LimitExceeded("a particle shares its surroundings of one kernel support with " +
+                        std::to_string(crowd / particles) +
+                        " others in the mean, far more than the field can be summed over (about " +
+                        std::to_string(static_cast<int>(most_crowded)) +
                         "): are the positions in the unit of the particle radius, and not all in one place?");
 }
 
@@ -84,11 +89,14 @@ static_assert(std::int64_t{max_support_cells} * units_per_cell < (std::int64_t{1
 
 MENISCUS_HD inline ParticleKey particle_key(const Units3& p, std::int64_t cell_units) {
     constexpr std::int64_t bias = std::int64_t{1} << (brick_axis_bits - 1);
-    const Int3 cell{static_cast<std::int32_t>(floor_div(p.x, cell_units)), static_cast<std::int32_t>(floor_div(p.y, cell_units)),
+    const Int3 cell{static_cast<std::int32_t>(floor_div(p.x, cell_units)),
+                    static_cast<std::int32_t>(floor_div(p.y, cell_units)),
                     static_cast<std::int32_t>(floor_div(p.z, cell_units))};
     const Int3 brick = brick_of(cell);
-    const std::int64_t bricks = ((brick.z + bias) << brick_axis_bits | (brick.y + bias)) << brick_axis_bits | (brick.x + bias);
-    const std::int64_t place = ((p.z - cell.z * cell_units) << place_axis_bits | (p.y - cell.y * cell_units)) << place_axis_bits |
+    const std::int64_t bricks =
+        ((brick.z + bias) << brick_axis_bits | (brick.y + bias)) << brick_axis_bits | (brick.x + bias);
+    const std::int64_t place = ((p.z - cell.z * cell_units) << place_axis_bits | (p.y - cell.y * cell_units))
+                                   << place_axis_bits |
                                (p.x - cell.x * cell_units);
     return {static_cast<std::uint64_t>(bricks << 12 | index_in_brick(cell)), static_cast<std::uint64_t>(place)};
 }
@@ -97,10 +105,13 @@ MENISCUS_HD inline Int3 key_brick(std::uint64_t cell_key) {
     constexpr std::int64_t mask = (std::int64_t{1} << brick_axis_bits) - 1;
     constexpr std::int32_t bias = 1 << (brick_axis_bits - 1);
     const auto bricks = static_cast<std::int64_t>(cell_key >> 12);
-    return {static_cast<std::int32_t>(bricks & mask) - bias, static_cast<std::int32_t>(bricks >> brick_axis_bits & mask) - bias,
+    return {static_cast<std::int32_t>(bricks & mask) - bias,
+            static_cast<std::int32_t>(bricks >> brick_axis_bits & mask) - bias,
             static_cast<std::int32_t>(bricks >> (2 * brick_axis_bits)) - bias};
 }
-MENISCUS_HD inline int key_index(std::uint64_t cell_key) { return static_cast<int>(cell_key & 0xFFF); }
+MENISCUS_HD inline int key_index(std::uint64_t cell_key) {
+    return static_cast<int>(cell_key & 0xFFF);
+}
 
 /// A support cell's corner, in units.
 MENISCUS_HD inline Units3 cell_corner(std::uint64_t cell_key, std::int64_t cell_units) {
@@ -125,7 +136,9 @@ MENISCUS_HD inline ReachedBricks reached_bricks(std::uint64_t cell_key, std::int
     const std::int64_t reach = static_cast<std::int64_t>(support) + 32;
     const Units3 corner = cell_corner(cell_key, cell_units);
     const auto low = [&](std::int64_t p) { return static_cast<std::int32_t>(floor_div(p - reach, edge)); };
-    const auto high = [&](std::int64_t p) { return static_cast<std::int32_t>(floor_div(p + cell_units + reach, edge)); };
+    const auto high = [&](std::int64_t p) {
+        return static_cast<std::int32_t>(floor_div(p + cell_units + reach, edge));
+    };
     return {{low(corner.x), low(corner.y), low(corner.z)}, {high(corner.x), high(corner.y), high(corner.z)}};
 }
 
@@ -148,8 +161,9 @@ struct BrickMarks {
     MENISCUS_HD void add(int w, std::uint64_t cells) const { brick.occupied[w] |= cells; }
 };
 
-/// Marks the base cells of a brick whose closed box lies within a particle's support. Position and support in units, relative to
-/// the brick's corner; rounded outward by some units. marks: word(w) reads a word of Brick::occupied, add(w, cells) adds to it.
+/// Marks the base cells of a brick whose closed box lies within a particle's support. Position and support in units,
+/// relative to the brick's corner; rounded outward by some units. marks: word(w) reads a word of Brick::occupied,
+/// add(w, cells) adds to it.
 template <class Marks>
 MENISCUS_HD inline void mark_reached(const Marks& marks, float x, float y, float z, float support) {
     constexpr float edge = units_per_base_cell;
@@ -203,7 +217,8 @@ MENISCUS_HD inline void mark_reached(const Marks& marks, float x, float y, float
     }
 }
 
-/// The base cells, as bits, of a row of a brick (y + 16 z) whose closed box touches the closed domain [low, high], in cells.
+/// The base cells, as bits, of a row of a brick (y + 16 z) whose closed box touches the closed domain [low, high], in
+/// cells.
 MENISCUS_HD inline std::uint64_t row_in_domain(const Int3& brick, int row, const Int3& low, const Int3& high) {
     const auto beyond = [](std::int32_t cell, std::int32_t first, std::int32_t last) {
         return cell * base_cell_size > last || (cell + 1) * base_cell_size < first;

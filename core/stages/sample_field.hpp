@@ -12,7 +12,8 @@
 
 namespace meniscus {
 
-/// The points of a block that the cells around it need as corners: all cells of the band whose closed box holds the point.
+/// The points of a block that the cells around it need as corners: all cells of the band whose closed box holds the
+/// point.
 MENISCUS_HD inline BlockMask corner_points(const LevelsAround& around) {
     if (around.own_is_finest()) return ~BlockMask{0};
     BlockMask wanted = around.at_least[1] != 0 ? stride_points(level_stride(1)) : 0;
@@ -37,7 +38,9 @@ MENISCUS_HD inline BlockMask edge_middles(const BlocksView& blocks, std::uint32_
 }
 
 /// The middle of the level-1 edge that starts at a block along an axis.
-MENISCUS_HD constexpr BlockMask level1_middle(int axis) { return BlockMask{1} << 2 * bit_step(axis); }
+MENISCUS_HD constexpr BlockMask level1_middle(int axis) {
+    return BlockMask{1} << 2 * bit_step(axis);
+}
 inline constexpr BlockMask level1_middles = level1_middle(0) | level1_middle(1) | level1_middle(2);
 
 /// Once the middles of crossing level-1 edges are sampled: the middles of those halves that cross the surface.
@@ -53,24 +56,29 @@ MENISCUS_HD inline BlockMask half_edge_middles(BlockMask inside, BlockMask middl
 }
 
 /// Whether a cell's points `stride` apart on its face at one side (0 below, 1 above) along an axis show both signs.
-MENISCUS_HD inline bool face_is_mixed(const BlocksView& blocks, const ClosedCell& cell, int axis, int side, int stride) {
+MENISCUS_HD inline bool face_is_mixed(const BlocksView& blocks, const ClosedCell& cell, int axis, int side,
+                                      int stride) {
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;
     const int first = side << axis;
     const BlockMask face = stride_points(stride) & low_face(axis);
     const BlockMask own = blocks.inside_or_none(cell.block[first]) & face;
     if (own != 0 && own != face) return true;
-    const auto differs = [&](int i, BlockMask points) { return ((blocks.inside_or_none(cell.block[first | i]) ^ own) & points) != 0; };
-    return differs(1 << u, face & low_face(u)) || differs(1 << v, face & low_face(v)) || differs(1 << u | 1 << v, face & low_face(u) & low_face(v));
+    const auto differs = [&](int i, BlockMask points) {
+        return ((blocks.inside_or_none(cell.block[first | i]) ^ own) & points) != 0;
+    };
+    return differs(1 << u, face & low_face(u)) || differs(1 << v, face & low_face(v)) ||
+           differs(1 << u | 1 << v, face & low_face(u) & low_face(v));
 }
 
-/// Whether a stored cell outside the band must join it: a neighbor in the band sees both signs on their common face, so that
-/// skipping the cell would leave the mesh open.
+/// Whether a stored cell outside the band must join it: a neighbor in the band sees both signs on their common face, so
+/// that skipping the cell would leave the mesh open.
 MENISCUS_HD inline bool joins_band(const BlocksView& blocks, std::uint32_t block) {
     const ClosedCell cell(blocks, block);
     for (int axis = 0; axis < 3; ++axis)
         for (int side = 0; side < 2; ++side) {
-            const int level = blocks.level_or_none(side == 1 ? cell.block[1 << axis] : blocks.neighbor(block, axis_offset(axis, -1)));
+            const int level =
+                blocks.level_or_none(side == 1 ? cell.block[1 << axis] : blocks.neighbor(block, axis_offset(axis, -1)));
             if (level != 0 && face_is_mixed(blocks, cell, axis, side, level_stride(level))) return true;
         }
     return false;
@@ -84,8 +92,8 @@ MENISCUS_HD inline std::uint64_t cells_beside_finer(const LevelSets& levels, std
     return (coarse & ~level2 & levels.beside(2, brick, w)) | (coarse & level2 & levels.beside(3, brick, w));
 }
 
-/// Whether a finer neighbor sees surface on their common face where this cell's own corners show none: its part there would
-/// end in a closed sliver at the face.
+/// Whether a finer neighbor sees surface on their common face where this cell's own corners show none: its part there
+/// would end in a closed sliver at the face.
 MENISCUS_HD inline bool misses_surface_on_face(const BlocksView& blocks, std::uint32_t block) {
     const int level = blocks.level[block];
     if (level == 0 || level == 3) return false;
@@ -101,7 +109,8 @@ MENISCUS_HD inline bool misses_surface_on_face(const BlocksView& blocks, std::ui
 
 /// The points of a block that lie strictly inside the domain [low, high], in cells.
 MENISCUS_HD inline BlockMask domain_points(const Int3& base_cell, const Int3& low, const Int3& high) {
-    const std::int32_t corner[3] = {base_cell.x * base_cell_size, base_cell.y * base_cell_size, base_cell.z * base_cell_size};
+    const std::int32_t corner[3] = {base_cell.x * base_cell_size, base_cell.y * base_cell_size,
+                                    base_cell.z * base_cell_size};
     const std::int32_t lows[3] = {low.x, low.y, low.z};
     const std::int32_t highs[3] = {high.x, high.y, high.z};
     BlockMask points = ~BlockMask{0};

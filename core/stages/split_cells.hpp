@@ -40,8 +40,8 @@ struct CellBend {
 };
 
 /// A face of edge s that is blended between its corners departs from a surface of principal curvatures k and m by
-/// (|k| + |m|) s^2 / 12 in the mean, which may be at most `tolerance` cells. A cell bends at least half as much as its face
-/// neighbors, so that levels do not fall off faster than the surface calms.
+/// (|k| + |m|) s^2 / 12 in the mean, which may be at most `tolerance` cells. A cell bends at least half as much as its
+/// face neighbors, so that levels do not fall off faster than the surface calms.
 struct CurvatureCriterion {
     const CellBend* cells = nullptr;  ///< per block
     float tolerance = 0.15F;          ///< in cells
@@ -66,7 +66,8 @@ struct CellReach {
     float closest;  ///< largest 1 - distance/h of a particle from the cell
 };
 
-/// Drops that no corner shows: a cell whose corners are all outside, but with a particle so near that its own blob may reach in.
+/// Drops that no corner shows: a cell whose corners are all outside, but with a particle so near that its own blob may
+/// reach in.
 struct BlobRule {
     float closest = 0.75F;  ///< see CellReach
     int level = 2;          ///< 3 where the finest cells are large against the support
@@ -76,7 +77,9 @@ struct BlobRule {
     }
 };
 
-MENISCUS_HD inline bool is_mixed(int inside_corners) { return inside_corners != 0 && inside_corners != 8; }
+MENISCUS_HD inline bool is_mixed(int inside_corners) {
+    return inside_corners != 0 && inside_corners != 8;
+}
 
 /// A surface this near outside of a cell bends for the cell's neighbors, whose own search may meet a calmer part of it.
 inline constexpr float surface_margin = 0.5F * units_per_cell;

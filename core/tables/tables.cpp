@@ -9,7 +9,9 @@ namespace {
 
 constexpr int none = -1;
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr std::size_t at(int i) {
+    return static_cast<std::size_t>(i);
+}
 
 /// From every edge point the next one of its loop, or none; then all loops in triangles.
 template <class Case, class Allowed>
@@ -30,7 +32,9 @@ constexpr Case triangulate_loops(const std::array<int, 12>& next, const Allowed&
 
 // ---- cube -------------------------------------------------------------------------------------------------------
 
-constexpr int corner_coordinate(int corner, int axis) { return corner >> axis & 1; }
+constexpr int corner_coordinate(int corner, int axis) {
+    return corner >> axis & 1;
+}
 
 /// The edge between two corners that differ in one coordinate.
 constexpr int cube_edge(int a, int b) {
@@ -59,7 +63,9 @@ constexpr unsigned faces_of_cube_edge(int edge) {
 }
 
 /// A diagonal in a face of the cube could meet the same one of the neighboring cube.
-constexpr bool off_the_faces(int a, int b) { return (faces_of_cube_edge(a) & faces_of_cube_edge(b)) == 0; }
+constexpr bool off_the_faces(int a, int b) {
+    return (faces_of_cube_edge(a) & faces_of_cube_edge(b)) == 0;
+}
 
 constexpr CubeCase make_cube_case(int inside) {
     std::array<int, 12> next{};
@@ -80,8 +86,12 @@ constexpr CubeCase make_cube_case(int inside) {
 
 // ---- crack ------------------------------------------------------------------------------------------------------
 
-constexpr int fine_edge_u(int u, int v) { return u + 2 * v; }
-constexpr int fine_edge_v(int u, int v) { return 6 + u + 3 * v; }
+constexpr int fine_edge_u(int u, int v) {
+    return u + 2 * v;
+}
+constexpr int fine_edge_v(int u, int v) {
+    return 6 + u + 3 * v;
+}
 
 /// The fine edge between two neighboring points of the 3 x 3 grid.
 constexpr int fine_edge(int a, int b) {
@@ -107,8 +117,11 @@ constexpr CrackCase make_crack_case(int inside) {
     std::array<int, 12> next{};
     for (int& n : next) n = none;
 
-    // The walk around a face that is counter-clockwise seen from outside the fine cells, which lie in the direction of the axis.
-    const auto walk = [](int base, int step) { return std::array<int, 4>{base, base + 3 * step, base + 4 * step, base + step}; };
+    // The walk around a face that is counter-clockwise seen from outside the fine cells, which lie in the direction of
+    // the axis.
+    const auto walk = [](int base, int step) {
+        return std::array<int, 4>{base, base + 3 * step, base + 4 * step, base + step};
+    };
     const auto join = [&](const std::array<int, 4>& corners, auto&& connect) {
         std::array<bool, 4> signs{};
         for (int i = 0; i < 4; ++i) signs[at(i)] = is_inside(corners[at(i)]);
@@ -131,7 +144,8 @@ constexpr CrackCase make_crack_case(int inside) {
             return crossed(a, middle) ? fine_edge(a, middle) : fine_edge(middle, b);
         };
         join(corners, [&](const FaceSegment& s) { next[at(edge(s.enter))] = edge(s.leave); });
-        // A coarse edge that both its halves cross: a chord from the point without a successor to the one without a predecessor.
+        // A coarse edge that both its halves cross: a chord from the point without a successor to the one without a
+        // predecessor.
         for (int i = 0; i < 4; ++i) {
             const int a = corners[at(i)];
             const int b = corners[at((i + 1) % 4)];

@@ -9,8 +9,8 @@
 namespace meniscus {
 
 /// Triangles of one cube case, as edges of the cube, counter-clockwise seen from outside the fluid.
-/// Corner i is at (i & 1, i >> 1 & 1, i >> 2). Edge 4 d + k runs along axis d from the corner whose other two coordinates
-/// (in the order x, y, z) are k & 1 and k >> 1.
+/// Corner i is at (i & 1, i >> 1 & 1, i >> 2). Edge 4 d + k runs along axis d from the corner whose other two
+/// coordinates (in the order x, y, z) are k & 1 and k >> 1.
 struct CubeCase {
     std::uint8_t triangles = 0;
     std::array<std::uint8_t, 15> edges{};
@@ -24,8 +24,8 @@ MENISCUS_HD constexpr int edge_start(int edge) {
 }
 
 /// Triangles that close the gap on one face between a coarse cell and the fine cells beyond, as edges of the fine side.
-/// The face's points are u + 3 v, with u x v = the face's axis. Edge u + 2 v (0 to 5) runs along u, edge 6 + u + 3 v (6 to 11) along v.
-/// Oriented for the fine side being the one in the direction of the axis; reversed otherwise.
+/// The face's points are u + 3 v, with u x v = the face's axis. Edge u + 2 v (0 to 5) runs along u, edge 6 + u + 3 v (6
+/// to 11) along v. Oriented for the fine side being the one in the direction of the axis; reversed otherwise.
 struct CrackCase {
     std::uint8_t triangles = 0;
     std::array<std::uint8_t, 24> edges{};

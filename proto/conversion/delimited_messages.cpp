@@ -18,8 +18,8 @@ std::optional<std::string> DelimitedMessages::next(std::size_t limit) {
         more = digit >= 0x80U;
     }
     if (size > limit)
-        file_->fail("a message of " + std::to_string(size) + " bytes at byte " + std::to_string(position_) + "; at most " +
-                   std::to_string(limit) + " are expected there");
+        file_->fail("a message of " + std::to_string(size) + " bytes at byte " + std::to_string(position_) +
+                    "; at most " + std::to_string(limit) + " are expected there");
     const std::uint64_t first = position_ + used;
     if (size > end_ - first) return std::nullopt;
     position_ = first + size;

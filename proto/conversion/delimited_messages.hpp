@@ -20,8 +20,8 @@ public:
     bool at_end() const noexcept { return position_ == end_; }
     void skip(std::uint64_t bytes) { position_ += bytes; }
 
-    /// The next message's bytes; none, without a step ahead, if the end cuts them. Throws InvalidInput for a length beyond
-    /// the limit, before memory is allocated by it.
+    /// The next message's bytes; none, without a step ahead, if the end cuts them. Throws InvalidInput for a length
+    /// beyond the limit, before memory is allocated by it.
     std::optional<std::string> next(std::size_t limit);
 
 private:

@@ -17,7 +17,8 @@ struct ByteRange {
     std::uint64_t size = 0;
 };
 
-/// Reads entries, and not the messages that follow them. Everything wrong is InvalidInput, in one line that names file and byte.
+/// Reads entries, and not the messages that follow them. Everything wrong is InvalidInput, in one line that names file
+/// and byte.
 class RecordingScan {
 public:
     /// The file outlives this object. Throws unless it begins as a recording of this version.

@@ -55,7 +55,7 @@ Statistics from_wire(const v1::FrameStatistics& wire) {
     statistics.field_evaluations = wire.field_evaluations();
 
     const v1::StageSeconds& stages = wire.stage_seconds();
-    statistics.stage_seconds = {stages.register_particles(), stages.split_cells(),    stages.adjust_levels(),
+    statistics.stage_seconds = {stages.register_particles(), stages.split_cells(),     stages.adjust_levels(),
                                 stages.sample_field(),       stages.count_triangles(), stages.place_vertices(),
                                 stages.emit_triangles(),     stages.fill_cracks()};
 

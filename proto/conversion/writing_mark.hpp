@@ -1,4 +1,5 @@
-// Tells readers of a file that it is still being written: a lock that ends with the descriptor, however the writer ends.
+// Tells readers of a file that it is still being written: a lock that ends with the descriptor, however the writer
+// ends.
 #pragma once
 
 namespace meniscus::conversion {

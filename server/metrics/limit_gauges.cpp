@@ -10,7 +10,8 @@ namespace {
 
 prometheus::MetricFamily build_info(const BackendDescription& backend) {
     prometheus::MetricFamily family = gauge("meniscus_build_info", "Always 1; its labels tell what runs.", 1);
-    family.metric.front().label = {{"version", std::string(version())}, {"backend", backend.name}, {"device", backend.device}};
+    family.metric.front().label = {
+        {"version", std::string(version())}, {"backend", backend.name}, {"device", backend.device}};
     return family;
 }
 

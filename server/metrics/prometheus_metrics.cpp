@@ -16,8 +16,8 @@ namespace meniscus::server {
 namespace {
 
 /// Three per decade, from the stages of a small frame to a frame of many millions of particles.
-const prometheus::Histogram::BucketBoundaries seconds_buckets{0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05,
-                                                              0.1,    0.25,    0.5,    1.0,   2.5,    5.0,   10.0, 25.0,  50.0};
+const prometheus::Histogram::BucketBoundaries seconds_buckets{
+    0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 25.0, 50.0};
 
 double number(std::uint64_t count) {
     return static_cast<double>(count);
@@ -36,7 +36,8 @@ struct PrometheusMetrics::Instruments {
         return seconds("meniscus_frame_stage_seconds", "Time of one step of a frame.", {{"stage", std::string(name)}});
     }
     prometheus::Counter& dropped(const char* reason) {
-        return counter("meniscus_frames_dropped_total", "Frames dropped by the policy of their stream.", {{"reason", reason}});
+        return counter("meniscus_frames_dropped_total", "Frames dropped by the policy of their stream.",
+                       {{"reason", reason}});
     }
     prometheus::Counter& sent(const char* to) {
         return counter("meniscus_sent_bytes_total", "Bytes of the messages of Stream and Watch.", {{"to", to}});
@@ -47,12 +48,14 @@ struct PrometheusMetrics::Instruments {
     prometheus::Counter& frames = counter("meniscus_frames_total", "Frames reconstructed and answered.");
     prometheus::Counter& particles = counter("meniscus_particles_total", "Particles of those frames.");
     prometheus::Counter& triangles = counter("meniscus_triangles_total", "Triangles of their meshes.");
-    prometheus::Counter& upload_bytes = counter("meniscus_upload_bytes_total", "Particle bytes of frames received whole.");
-    prometheus::Counter& mesh_bytes = counter("meniscus_mesh_bytes_total", "Bytes of encoded bricks, each encoding counted once.");
+    prometheus::Counter& upload_bytes =
+        counter("meniscus_upload_bytes_total", "Particle bytes of frames received whole.");
+    prometheus::Counter& mesh_bytes =
+        counter("meniscus_mesh_bytes_total", "Bytes of encoded bricks, each encoding counted once.");
     std::array<prometheus::Counter*, 2> drops{&dropped("replaced"), &dropped("not_nth")};
     std::array<prometheus::Counter*, 3> sent_bytes{&sent("simulator"), &sent("watcher"), &sent("recording_reader")};
-    prometheus::Counter& skipped =
-        counter("meniscus_watcher_frames_skipped_total", "Frames that a watcher had not taken before a newer one came.");
+    prometheus::Counter& skipped = counter("meniscus_watcher_frames_skipped_total",
+                                           "Frames that a watcher had not taken before a newer one came.");
 
     std::array<prometheus::Histogram*, stage_count> stages = [this] {
         std::array<prometheus::Histogram*, stage_count> all{};
@@ -61,13 +64,17 @@ struct PrometheusMetrics::Instruments {
     }();
     prometheus::Histogram& download = stage("download");
     prometheus::Histogram& encode = stage("encode");
-    prometheus::Histogram& reconstruction = seconds("meniscus_frame_reconstruction_seconds", "All steps of a frame but its download and encoding.");
-    prometheus::Histogram& latency = seconds("meniscus_frame_latency_seconds", "From a frame's last byte to the end of its encoding.");
-    prometheus::Histogram& lag =
-        seconds("meniscus_watcher_lag_seconds", "From a frame's last byte until a watcher has taken the end of its mesh.");
+    prometheus::Histogram& reconstruction =
+        seconds("meniscus_frame_reconstruction_seconds", "All steps of a frame but its download and encoding.");
+    prometheus::Histogram& latency =
+        seconds("meniscus_frame_latency_seconds", "From a frame's last byte to the end of its encoding.");
+    prometheus::Histogram& lag = seconds("meniscus_watcher_lag_seconds",
+                                         "From a frame's last byte until a watcher has taken the end of its mesh.");
 
-    prometheus::Family<prometheus::Counter>& calls =
-        prometheus::BuildCounter().Name("meniscus_calls_total").Help("gRPC calls that have ended, by status code.").Register(registry);
+    prometheus::Family<prometheus::Counter>& calls = prometheus::BuildCounter()
+                                                         .Name("meniscus_calls_total")
+                                                         .Help("gRPC calls that have ended, by status code.")
+                                                         .Register(registry);
 };
 
 PrometheusMetrics::PrometheusMetrics() : instruments_(std::make_unique<Instruments>()) {}

@@ -19,7 +19,8 @@ std::optional<std::uint32_t> number_of(const std::filesystem::path& path) {
     const std::string stem = path.stem().string();
     std::uint32_t number = 0;
     std::from_chars(stem.data(), stem.data() + stem.size(), number);
-    if (number == 0 || path.filename() != fmt::format("{:06}{}", number, conversion::recording_extension)) return std::nullopt;
+    if (number == 0 || path.filename() != fmt::format("{:06}{}", number, conversion::recording_extension))
+        return std::nullopt;
     return number;
 }
 
@@ -31,8 +32,8 @@ const std::map<RecordingName, RecordingCatalog::Entry>& RecordingCatalog::list()
         return !std::filesystem::exists(entry.second.path, error);
     });
     std::error_code error;
-    for (auto i = std::filesystem::directory_iterator(directory_, error); !error && i != std::filesystem::directory_iterator();
-         i.increment(error))
+    for (auto i = std::filesystem::directory_iterator(directory_, error);
+         !error && i != std::filesystem::directory_iterator(); i.increment(error))
         look_into(i->path());
     return entries_;
 }
@@ -58,7 +59,8 @@ RecordingCatalog::Opened RecordingCatalog::open(const RecordingName& name) {
     if (entries_.contains(name))
         if (auto file = refresh(name)) return {.file = std::move(file), .index = entries_.at(name).index};
     throw Refusal(Refusal::Kind::not_found,
-                  fmt::format("no recording {} of session {}; ListRecordings tells which there are", name.number, name.session_id));
+                  fmt::format("no recording {} of session {}; ListRecordings tells which there are", name.number,
+                              name.session_id));
 }
 
 std::shared_ptr<const conversion::RandomAccessFile> RecordingCatalog::refresh(const RecordingName& name) {

@@ -16,7 +16,8 @@ namespace meniscus::server {
 struct RecordingName {
     std::string session_id;
     std::uint32_t number = 0;
-    auto operator<=>(const RecordingName&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
+    auto operator<=>(const RecordingName&) const =
+        default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
 };
 
 /// Blocks on the disk; of one thread.
@@ -28,7 +29,8 @@ public:
         std::filesystem::path path;
         RecordingIndex index;
     };
-    /// All that can be read, as they are now. A file without a recording's beginning is none, nor is one in another session's folder.
+    /// All that can be read, as they are now. A file without a recording's beginning is none, nor is one in another
+    /// session's folder.
     const std::map<RecordingName, Entry>& list();
 
     struct Opened {
@@ -40,7 +42,8 @@ public:
 
 private:
     void look_into(const std::filesystem::path& session_folder);
-    /// Opens the file and brings the entry up to date; forgets the entry and returns none if it is no recording any more.
+    /// Opens the file and brings the entry up to date; forgets the entry and returns none if it is no recording any
+    /// more.
     std::shared_ptr<const conversion::RandomAccessFile> refresh(const RecordingName& name);
 
     const std::filesystem::path directory_;

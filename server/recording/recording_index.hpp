@@ -18,8 +18,9 @@ struct MeshPlace {
 
 class RecordingIndex {
 public:
-    /// Takes in what the file holds beyond what is known of it: entries alone, never a frame. A file that has taken the place of
-    /// the one before is read anew. Damage ends the index there, and is logged. Throws InvalidInput if the file is no recording.
+    /// Takes in what the file holds beyond what is known of it: entries alone, never a frame. A file that has taken the
+    /// place of the one before is read anew. Damage ends the index there, and is logged. Throws InvalidInput if the
+    /// file is no recording.
     void update(const conversion::RandomAccessFile& file);
 
     const v1::RecordingBegin& begin() const noexcept { return begin_; }

@@ -16,7 +16,8 @@ void require_recordable(const RecordingOptions& options) {
     const bool there = std::filesystem::exists(options.directory, ignored);
     if (there && !std::filesystem::is_directory(options.directory, ignored))
         throw InvalidInput(fmt::format("--record {}: not a directory", options.directory.string()));
-    const std::filesystem::path place = there ? options.directory : std::filesystem::absolute(options.directory).parent_path();
+    const std::filesystem::path place =
+        there ? options.directory : std::filesystem::absolute(options.directory).parent_path();
     if (::access(place.c_str(), W_OK | X_OK) != 0)
         throw InvalidInput(fmt::format("--record {}: cannot be {}: {}", options.directory.string(),
                                        there ? "written to" : "created", std::generic_category().message(errno)));

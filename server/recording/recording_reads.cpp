@@ -18,9 +18,10 @@ RecordingReads::Place RecordingReads::admit() {
     const std::uint32_t others = readers_++;
     Place place(&readers_, [](void* readers) { --*static_cast<std::atomic<std::uint32_t>*>(readers); });
     if (limit_ != 0 && others >= limit_)
-        throw LimitExceeded(fmt::format("{} recordings are being read; the server takes at most {} readers at a time "
-                                        "(--max-recording-readers): try again later",
-                                        others, limit_));
+        throw LimitExceeded(
+            fmt::format("{} recordings are being read; the server takes at most {} readers at a time "
+                        "(--max-recording-readers): try again later",
+                        others, limit_));
     return place;
 }
 

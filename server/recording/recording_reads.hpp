@@ -1,4 +1,5 @@
-// What the calls that read recordings share: one thread that waits for the disk, so that no thread of gRPC does, and no session.
+// What the calls that read recordings share: one thread that waits for the disk, so that no thread of gRPC does, and no
+// session.
 #pragma once
 
 #include <atomic>
@@ -23,8 +24,8 @@ public:
     Place admit();
     std::uint32_t readers() const noexcept { return readers_; }
 
-    /// Runs the job on the thread that reads, after those posted before. It throws nothing. Readers post one message at a time,
-    /// and so take turns.
+    /// Runs the job on the thread that reads, after those posted before. It throws nothing. Readers post one message at
+    /// a time, and so take turns.
     void post(std::function<void(RecordingCatalog&)> job);
 
     /// Readers end at their next message.
@@ -36,7 +37,7 @@ private:
     const std::uint32_t limit_;
     std::atomic<std::uint32_t> readers_{0};
     std::atomic<bool> ending_{false};
-    RecordingCatalog catalog_;           ///< of the thread
+    RecordingCatalog catalog_;  ///< of the thread
     boost::asio::thread_pool thread_{1};
 };
 

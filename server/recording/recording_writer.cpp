@@ -99,8 +99,8 @@ void RecordingWriter::perform(Job& job) {
     } catch (const std::exception& error) {
         session.stopped = true;
         ++stopped_;
-        log_error({.session = session.id, .frame = job.frame_index}, "its recording stops here, the session goes on: {}",
-                  error.what());
+        log_error({.session = session.id, .frame = job.frame_index},
+                  "its recording stops here, the session goes on: {}", error.what());
     }
 }
 
@@ -127,8 +127,8 @@ void RecordingWriter::append(RecordedRun& run, const RecordingBytes& bytes) {
 void RecordingWriter::admit(std::uint64_t bytes) {
     if (options_.limit == 0 || (used_ <= options_.limit && bytes <= options_.limit - used_)) return;
     throw LimitExceeded(
-        fmt::format("{} bytes of recordings are in {}, {} more would pass --record-limit {}: delete some, or raise it", used_,
-                    options_.directory.string(), bytes, options_.limit));
+        fmt::format("{} bytes of recordings are in {}, {} more would pass --record-limit {}: delete some, or raise it",
+                    used_, options_.directory.string(), bytes, options_.limit));
 }
 
 }  // namespace meniscus::server

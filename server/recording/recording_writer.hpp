@@ -49,7 +49,8 @@ public:
     RecordingWriter(const RecordingWriter&) = delete;
     RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-    /// Whether there is room for this many bytes; write() or cancel() follows. If not, the frame is counted as left out.
+    /// Whether there is room for this many bytes; write() or cancel() follows. If not, the frame is counted as left
+    /// out.
     bool reserve(std::size_t bytes);
     void cancel(std::size_t bytes);
     /// Particles, or a mesh.

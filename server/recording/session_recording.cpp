@@ -84,7 +84,8 @@ std::shared_ptr<RecordedRun> SessionRecording::run_of(const InputFrame& frame) {
 
 void SessionRecording::left_out(std::uint64_t index, const char* what) {
     if (said_so_.exchange(true)) return;
-    log_warning({.session = session_->id, .frame = index}, "the frame or its mesh is not recorded, and others may not be: {}", what);
+    log_warning({.session = session_->id, .frame = index},
+                "the frame or its mesh is not recorded, and others may not be: {}", what);
 }
 
 }  // namespace meniscus::server

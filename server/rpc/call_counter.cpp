@@ -10,9 +10,10 @@ namespace {
 
 std::string_view name_of(grpc::StatusCode code) {
     static constexpr std::array<std::string_view, 17> names{
-        "OK",           "CANCELLED",         "UNKNOWN",            "INVALID_ARGUMENT",    "DEADLINE_EXCEEDED", "NOT_FOUND",
-        "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION", "ABORTED",           "OUT_OF_RANGE",
-        "UNIMPLEMENTED", "INTERNAL",         "UNAVAILABLE",        "DATA_LOSS",           "UNAUTHENTICATED"};
+        "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
+        "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
+        "ABORTED",   "OUT_OF_RANGE",   "UNIMPLEMENTED",     "INTERNAL",           "UNAVAILABLE",
+        "DATA_LOSS", "UNAUTHENTICATED"};
     const auto index = static_cast<std::size_t>(code);
     return index < names.size() ? names[index] : "UNKNOWN";
 }
@@ -45,7 +46,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call_counter(std::shared_ptr<Metrics> metrics) {
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call_counter(
+    std::shared_ptr<Metrics> metrics) {
     return std::make_unique<CallCounters>(std::move(metrics));
 }
 

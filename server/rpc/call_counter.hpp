@@ -10,6 +10,7 @@
 namespace meniscus::server {
 
 /// Sees every call of every service, whoever ends it.
-std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call_counter(std::shared_ptr<Metrics> metrics);
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call_counter(
+    std::shared_ptr<Metrics> metrics);
 
 }  // namespace meniscus::server

@@ -9,9 +9,9 @@
 
 namespace meniscus::server {
 
-/// Reads a StreamRequest that holds one FrameChunk with its bytes and nothing else, as every protobuf library writes it.
-/// Whatever differs from that by a byte - another message, unknown or repeated fields, lengths that do not match, longer
-/// varints than needed - is left to protobuf's parser, which alone decides what it means.
+/// Reads a StreamRequest that holds one FrameChunk with its bytes and nothing else, as every protobuf library writes
+/// it. Whatever differs from that by a byte - another message, unknown or repeated fields, lengths that do not match,
+/// longer varints than needed - is left to protobuf's parser, which alone decides what it means.
 class FrameChunkReader {
 public:
     /// message: borrowed, at its beginning; of so many bytes.

@@ -8,6 +8,7 @@
 namespace meniscus::server {
 
 /// Throws what the call is to be refused with.
-v1::GetSessionResponse get_session(SessionRegistry& registry, const Caller& caller, const v1::GetSessionRequest& request);
+v1::GetSessionResponse get_session(SessionRegistry& registry, const Caller& caller,
+                                   const v1::GetSessionRequest& request);
 
 }  // namespace meniscus::server

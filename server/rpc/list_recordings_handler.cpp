@@ -33,7 +33,8 @@ v1::ListRecordingsResponse list_recordings(RecordingCatalog& catalog, const Call
     v1::ListRecordingsResponse response;
     auto& recordings = *response.mutable_recordings();
     for (const auto& [name, entry] : catalog.list())
-        if (Authorizer::may_see(caller, entry.index.begin().owner())) recordings.Add(recording_message(name, entry.index));
+        if (Authorizer::may_see(caller, entry.index.begin().owner()))
+            recordings.Add(recording_message(name, entry.index));
     std::stable_sort(recordings.begin(), recordings.end(),
                      [](const v1::Recording& a, const v1::Recording& b) { return a.started_at() > b.started_at(); });
     if (recordings.size() > most) recordings.DeleteSubrange(most, recordings.size() - most);

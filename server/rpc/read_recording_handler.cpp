@@ -66,12 +66,12 @@ private:
     const std::shared_ptr<const conversion::RandomAccessFile> file_;
     const std::string name_;
     std::vector<MeshPlace> meshes_;
-    std::size_t at_ = 0;                                    ///< the next of meshes_
-    std::optional<conversion::DelimitedMessages> messages_; ///< of the one before
+    std::size_t at_ = 0;                                     ///< the next of meshes_
+    std::optional<conversion::DelimitedMessages> messages_;  ///< of the one before
 };
 
-/// Holds one message at a time: the next one is read when gRPC has taken the one before. At any moment either a job of the thread
-/// that reads or a write is under way, and only that goes on, or finishes; after a cancellation, too.
+/// Holds one message at a time: the next one is read when gRPC has taken the one before. At any moment either a job of
+/// the thread that reads or a write is under way, and only that goes on, or finishes; after a cancellation, too.
 class ReadRecordingReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
                                    public std::enable_shared_from_this<ReadRecordingReactor> {
 public:
@@ -157,8 +157,9 @@ RecordingReads& require_recorded(RecordingReads* reads) {
     return *reads;
 }
 
-grpc::ServerWriteReactor<grpc::ByteBuffer>* start_reading(RecordingReads* reads, const Authorizer& authorizer, Metrics& metrics,
-                                                          ActiveCalls& calls, grpc::CallbackServerContext& context,
+grpc::ServerWriteReactor<grpc::ByteBuffer>* start_reading(RecordingReads* reads, const Authorizer& authorizer,
+                                                          Metrics& metrics, ActiveCalls& calls,
+                                                          grpc::CallbackServerContext& context,
                                                           const grpc::ByteBuffer& request) {
     const auto reactor = std::make_shared<ReadRecordingReactor>(metrics, calls);
     reactor->start(reads, authorizer, context, request);

@@ -13,8 +13,9 @@
 namespace meniscus::server {
 
 /// The call's reactor, which owns itself until the call is done. reads: none where nothing is recorded.
-grpc::ServerWriteReactor<grpc::ByteBuffer>* start_reading(RecordingReads* reads, const Authorizer& authorizer, Metrics& metrics,
-                                                          ActiveCalls& calls, grpc::CallbackServerContext& context,
+grpc::ServerWriteReactor<grpc::ByteBuffer>* start_reading(RecordingReads* reads, const Authorizer& authorizer,
+                                                          Metrics& metrics, ActiveCalls& calls,
+                                                          grpc::CallbackServerContext& context,
                                                           const grpc::ByteBuffer& request);
 
 /// Throws Refusal, unimplemented, if there are none.

@@ -25,7 +25,8 @@ public:
 
     void Intercept(grpc::experimental::InterceptorBatchMethods* methods) override {
         using Point = grpc::experimental::InterceptionHookPoints;
-        // A call that ends at once has initial metadata only where its handler gives some: that is how watchers tell a refusal.
+        // A call that ends at once has initial metadata only where its handler gives some: that is how watchers tell a
+        // refusal.
         if (methods->QueryInterceptionHookPoint(Point::PRE_SEND_STATUS))
             methods->GetSendTrailingMetadata()->emplace(key, name_);
         else if (methods->QueryInterceptionHookPoint(Point::PRE_SEND_INITIAL_METADATA))

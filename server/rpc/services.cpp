@@ -62,13 +62,15 @@ grpc::ServerUnaryReactor* ServerServiceImpl::GetServerInfo(grpc::CallbackServerC
 grpc::ServerUnaryReactor* SessionServiceImpl::CreateSession(grpc::CallbackServerContext* context,
                                                             const v1::CreateSessionRequest* request,
                                                             v1::CreateSessionResponse* response) {
-    return answer_about_session(authorizer_, *context, Action::create_session, registry_, *request, *response, create_session);
+    return answer_about_session(authorizer_, *context, Action::create_session, registry_, *request, *response,
+                                create_session);
 }
 
 grpc::ServerUnaryReactor* SessionServiceImpl::GetSession(grpc::CallbackServerContext* context,
                                                          const v1::GetSessionRequest* request,
                                                          v1::GetSessionResponse* response) {
-    return answer_about_session(authorizer_, *context, Action::get_session, registry_, *request, *response, get_session);
+    return answer_about_session(authorizer_, *context, Action::get_session, registry_, *request, *response,
+                                get_session);
 }
 
 grpc::ServerUnaryReactor* SessionServiceImpl::ListSessions(grpc::CallbackServerContext* context,
@@ -81,7 +83,8 @@ grpc::ServerUnaryReactor* SessionServiceImpl::ListSessions(grpc::CallbackServerC
 grpc::ServerUnaryReactor* SessionServiceImpl::DeleteSession(grpc::CallbackServerContext* context,
                                                             const v1::DeleteSessionRequest* request,
                                                             v1::DeleteSessionResponse* response) {
-    return answer_about_session(authorizer_, *context, Action::delete_session, registry_, *request, *response, delete_session);
+    return answer_about_session(authorizer_, *context, Action::delete_session, registry_, *request, *response,
+                                delete_session);
 }
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* SurfaceServiceImpl::Stream(

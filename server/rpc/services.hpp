@@ -17,7 +17,8 @@ class ServerServiceImpl final : public v1::ServerService::CallbackService {
 public:
     ServerServiceImpl(const Authorizer& authorizer, BackendDescription backend, unsigned threads, const Limits& limits);
 
-    grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context, const v1::GetServerInfoRequest* request,
+    grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
+                                            const v1::GetServerInfoRequest* request,
                                             v1::GetServerInfoResponse* response) override;
 
 private:
@@ -32,13 +33,15 @@ public:
     SessionServiceImpl(SessionRegistry& registry, const Authorizer& authorizer)
         : registry_(registry), authorizer_(authorizer) {}
 
-    grpc::ServerUnaryReactor* CreateSession(grpc::CallbackServerContext* context, const v1::CreateSessionRequest* request,
+    grpc::ServerUnaryReactor* CreateSession(grpc::CallbackServerContext* context,
+                                            const v1::CreateSessionRequest* request,
                                             v1::CreateSessionResponse* response) override;
     grpc::ServerUnaryReactor* GetSession(grpc::CallbackServerContext* context, const v1::GetSessionRequest* request,
                                          v1::GetSessionResponse* response) override;
     grpc::ServerUnaryReactor* ListSessions(grpc::CallbackServerContext* context, const v1::ListSessionsRequest* request,
                                            v1::ListSessionsResponse* response) override;
-    grpc::ServerUnaryReactor* DeleteSession(grpc::CallbackServerContext* context, const v1::DeleteSessionRequest* request,
+    grpc::ServerUnaryReactor* DeleteSession(grpc::CallbackServerContext* context,
+                                            const v1::DeleteSessionRequest* request,
                                             v1::DeleteSessionResponse* response) override;
 
 private:
@@ -47,8 +50,8 @@ private:
 };
 
 /// Raw, so that one encoded message is shared by all who receive it.
-using RawSurfaceService = v1::SurfaceService::WithRawCallbackMethod_Stream<
-    v1::SurfaceService::WithRawCallbackMethod_Watch<
+using RawSurfaceService =
+    v1::SurfaceService::WithRawCallbackMethod_Stream<v1::SurfaceService::WithRawCallbackMethod_Watch<
         v1::SurfaceService::WithRawCallbackMethod_WatchParticles<v1::SurfaceService::Service>>>;
 
 class SurfaceServiceImpl final : public RawSurfaceService {
@@ -78,7 +81,8 @@ public:
     RecordingServiceImpl(RecordingReads* reads, const Authorizer& authorizer, Metrics& metrics, ActiveCalls& calls)
         : reads_(reads), authorizer_(authorizer), metrics_(metrics), calls_(calls) {}
 
-    grpc::ServerUnaryReactor* ListRecordings(grpc::CallbackServerContext* context, const v1::ListRecordingsRequest* request,
+    grpc::ServerUnaryReactor* ListRecordings(grpc::CallbackServerContext* context,
+                                             const v1::ListRecordingsRequest* request,
                                              v1::ListRecordingsResponse* response) override;
     grpc::ServerWriteReactor<grpc::ByteBuffer>* ReadRecording(grpc::CallbackServerContext* context,
                                                               const grpc::ByteBuffer* request) override;

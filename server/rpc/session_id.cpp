@@ -15,8 +15,8 @@ constexpr std::string_view metadata_key = "x-session-id";
 void require_session_id(std::string_view name, std::string_view id) {
     constexpr std::size_t shown = 64;
     if (!is_session_id(id))
-        throw InvalidInput(fmt::format("{} is \"{}\"; it must be a UUID of 8-4-4-4-12 lower-case hexadecimal digits", name,
-                                       id.substr(0, shown)));
+        throw InvalidInput(fmt::format("{} is \"{}\"; it must be a UUID of 8-4-4-4-12 lower-case hexadecimal digits",
+                                       name, id.substr(0, shown)));
 }
 
 }  // namespace
@@ -36,7 +36,8 @@ std::string metadata_session_id(const grpc::ServerContextBase& context) {
     const auto& metadata = context.client_metadata();
     const auto [first, last] = metadata.equal_range(grpc::string_ref(metadata_key.data(), metadata_key.size()));
     if (first == last) throw InvalidInput(fmt::format("the call has no metadata {}", metadata_key));
-    if (std::next(first) != last) throw InvalidInput(fmt::format("the call has metadata {} more than once", metadata_key));
+    if (std::next(first) != last)
+        throw InvalidInput(fmt::format("the call has metadata {} more than once", metadata_key));
     std::string id(first->second.data(), first->second.size());
     require_session_id(metadata_key, id);
     return id;

@@ -58,8 +58,8 @@ void add_standard_services(grpc::ServerBuilder& builder, const StandardServices&
 
 void set_serving(grpc::Server& server, bool serving) {
     grpc::HealthCheckServiceInterface& health = *server.GetHealthCheckService();
-    for (const char* service :
-         {"", v1::ServerService::service_full_name(), v1::SessionService::service_full_name(), v1::SurfaceService::service_full_name()})
+    for (const char* service : {"", v1::ServerService::service_full_name(), v1::SessionService::service_full_name(),
+                                v1::SurfaceService::service_full_name()})
         health.SetServingStatus(service, serving);
 }
 

@@ -26,9 +26,10 @@ namespace meniscus::server {
 namespace {
 
 /// Two sides run side by side. The reading side is one thread at a time: a read is under way, or a free input slot is
-/// waited for, or reading has ended. It owns the input slot while it works on a message; otherwise whoever holds the lock
-/// does, so that a call that ends gives its slot back however dead its connection is. The writing side sends what the upload's output holds and finishes the call after
-/// its end. It also finishes after a cancellation, as soon as no write is under way, so that no call outlives its client.
+/// waited for, or reading has ended. It owns the input slot while it works on a message; otherwise whoever holds the
+/// lock does, so that a call that ends gives its slot back however dead its connection is. The writing side sends what
+/// the upload's output holds and finishes the call after its end. It also finishes after a cancellation, as soon as no
+/// write is under way, so that no call outlives its client.
 class StreamReactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
                             public std::enable_shared_from_this<StreamReactor> {
 public:
@@ -198,8 +199,8 @@ private:
         write();
     }
 
-    /// The next read starts once a slot is free, and the simulator reads what it is told: until then gRPC's flow control
-    /// slows it down.
+    /// The next read starts once a slot is free, and the simulator reads what it is told: until then gRPC's flow
+    /// control slows it down.
     void request_input() {
         {
             const std::lock_guard lock(mutex_);

@@ -106,10 +106,11 @@ private:
     /// A new alarm each time: one that has been set is not set again, only given up.
     void write_at(Watch::Clock::time_point time) {
         alarm_ = std::make_unique<grpc::Alarm>();
-        alarm_->Set(std::chrono::system_clock::now() + (time - Watch::Clock::now()), [self = weak_from_this()](bool rang) {
-            if (!rang) return;
-            if (const auto reactor = self.lock()) reactor->write();
-        });
+        alarm_->Set(std::chrono::system_clock::now() + (time - Watch::Clock::now()),
+                    [self = weak_from_this()](bool rang) {
+                        if (!rang) return;
+                        if (const auto reactor = self.lock()) reactor->write();
+                    });
     }
 
     void finish(const grpc::Status& status) {
@@ -137,16 +138,17 @@ private:
 
 template <class Request>
 grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, const Authorizer& authorizer,
-                                                        ActiveCalls& calls,
-                                                        grpc::CallbackServerContext& context,
+                                                        ActiveCalls& calls, grpc::CallbackServerContext& context,
                                                         const grpc::ByteBuffer& request) {
     const auto reactor = std::make_shared<WatchReactor>(registry.metrics(), calls, context);
     reactor->start<Request>(registry, authorizer, context, request);
     return reactor.get();
 }
 
-template grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch<v1::WatchRequest>(
-    SessionRegistry&, const Authorizer&, ActiveCalls&, grpc::CallbackServerContext&, const grpc::ByteBuffer&);
+template grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch<v1::WatchRequest>(SessionRegistry&, const Authorizer&,
+                                                                                   ActiveCalls&,
+                                                                                   grpc::CallbackServerContext&,
+                                                                                   const grpc::ByteBuffer&);
 template grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch<v1::WatchParticlesRequest>(
     SessionRegistry&, const Authorizer&, ActiveCalls&, grpc::CallbackServerContext&, const grpc::ByteBuffer&);
 

@@ -11,11 +11,11 @@
 
 namespace meniscus::server {
 
-/// The call's reactor, which owns itself until the call is done. Request: v1::WatchRequest or v1::WatchParticlesRequest.
+/// The call's reactor, which owns itself until the call is done. Request: v1::WatchRequest or
+/// v1::WatchParticlesRequest.
 template <class Request>
 grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, const Authorizer& authorizer,
-                                                        ActiveCalls& calls,
-                                                        grpc::CallbackServerContext& context,
+                                                        ActiveCalls& calls, grpc::CallbackServerContext& context,
                                                         const grpc::ByteBuffer& request);
 
 }  // namespace meniscus::server

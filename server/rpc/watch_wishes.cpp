@@ -17,14 +17,16 @@ int position_bits_of(const v1::WatchRequest& request, const Settings& settings) 
     if (!request.has_position_bits()) return static_cast<int>(finest);
     const std::uint32_t bits = request.position_bits();
     if (bits < 2 || bits > finest)
-        throw InvalidInput(fmt::format("position_bits is {}; it must be 2 to {}, the session's, or not set", bits, finest));
+        throw InvalidInput(
+            fmt::format("position_bits is {}; it must be 2 to {}, the session's, or not set", bits, finest));
     return static_cast<int>(bits);
 }
 
 int max_level_of(const v1::WatchRequest& request) {
     if (!request.has_max_level()) return 3;
     const std::uint32_t level = request.max_level();
-    if (level < 1 || level > 3) throw InvalidInput(fmt::format("max_level is {}; it must be 1 to 3, or not set", level));
+    if (level < 1 || level > 3)
+        throw InvalidInput(fmt::format("max_level is {}; it must be 1 to 3, or not set", level));
     return static_cast<int>(level);
 }
 
@@ -34,8 +36,9 @@ Box region_of(const v1::Box& wire) {
         const double low = box.min[axis];
         const double high = box.max[axis];
         if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
-            throw InvalidInput(fmt::format("region runs from {} to {} on the {} axis; it must be finite, its min less than its max",
-                                           low, high, "xyz"[axis]));
+            throw InvalidInput(
+                fmt::format("region runs from {} to {} on the {} axis; it must be finite, its min less than its max",
+                            low, high, "xyz"[axis]));
     }
     return box;
 }

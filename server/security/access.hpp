@@ -25,8 +25,8 @@ public:
     /// For the HTTP port; none without TLS.
     std::shared_ptr<const TlsContext> http_tls() const { return http_tls_; }
 
-    /// Takes over what has changed in the files. Where one cannot be used, that is logged, and what was there before stays.
-    /// One thread at a time.
+    /// Takes over what has changed in the files. Where one cannot be used, that is logged, and what was there before
+    /// stays. One thread at a time.
     void reload();
 
 private:
@@ -38,9 +38,9 @@ private:
     Certificates certificates_;
     Tokens tokens_;
     Authorizer authorizer_;
-    std::shared_ptr<TlsCredentials> tls_;  ///< none without TLS
-    std::shared_ptr<TlsContext> http_tls_; ///< likewise
-    std::string problems_;                 ///< logged already
+    std::shared_ptr<TlsCredentials> tls_;   ///< none without TLS
+    std::shared_ptr<TlsContext> http_tls_;  ///< likewise
+    std::string problems_;                  ///< logged already
 };
 
 }  // namespace meniscus::server

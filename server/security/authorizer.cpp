@@ -79,11 +79,12 @@ bool Authorizer::may_see(const Caller& caller, std::string_view owner) {
     return caller.role != Role::uploader || caller.name == owner;
 }
 
-void Authorizer::require_access(const Caller& caller, Action action, const std::string& session, std::string_view owner) {
+void Authorizer::require_access(const Caller& caller, Action action, const std::string& session,
+                                std::string_view owner) {
     if (may_see(caller, owner)) return;
     throw Refusal(Refusal::Kind::permission_denied,
-                  fmt::format("session {} is not one of {}'s: {} needs its owner's token, or one of the role admin{}", session,
-                              caller.name, name_of(action), only_looks(action) ? " or watcher" : ""));
+                  fmt::format("session {} is not one of {}'s: {} needs its owner's token, or one of the role admin{}",
+                              session, caller.name, name_of(action), only_looks(action) ? " or watcher" : ""));
 }
 
 }  // namespace meniscus::server

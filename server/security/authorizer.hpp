@@ -24,20 +24,21 @@ enum class Action {
     delete_session
 };
 
-/// A watcher describes the server, lists, describes and watches all sessions, lists and reads their recordings. An uploader does everything with sessions of
-/// its own, and sees no others. An admin does everything. Thread-safe.
+/// A watcher describes the server, lists, describes and watches all sessions, lists and reads their recordings. An
+/// uploader does everything with sessions of its own, and sees no others. An admin does everything. Thread-safe.
 class Authorizer {
 public:
     /// For calls from now on. Before the first time everyone may do everything.
     void replace(Tokens tokens);
 
-    /// authorization: the values of the call's header of that name. Throws Refusal: unauthenticated without one token that
-    /// is known, permission_denied if its role is not enough.
+    /// authorization: the values of the call's header of that name. Throws Refusal: unauthenticated without one token
+    /// that is known, permission_denied if its role is not enough.
     Caller admit(std::span<const std::string_view> authorization, Action action) const;
 
     /// Whether sessions of this owner exist for this caller.
     static bool may_see(const Caller& caller, std::string_view owner);
-    /// Throws Refusal, permission_denied, unless the caller may do this with the session. admit() has let the action pass.
+    /// Throws Refusal, permission_denied, unless the caller may do this with the session. admit() has let the action
+    /// pass.
     static void require_access(const Caller& caller, Action action, const std::string& session, std::string_view owner);
 
 private:

@@ -34,7 +34,8 @@ Owned<BIO> open(const std::string& pem) {
 std::vector<Owned<X509>> parse_certificates(const std::string& pem, const std::string& path) {
     const Owned<BIO> bio = open(pem);
     std::vector<Owned<X509>> certificates;
-    while (Owned<X509> next{PEM_read_bio_X509(bio.get(), nullptr, nullptr, nullptr)}) certificates.push_back(std::move(next));
+    while (Owned<X509> next{PEM_read_bio_X509(bio.get(), nullptr, nullptr, nullptr)})
+        certificates.push_back(std::move(next));
     const bool at_end = ERR_GET_REASON(ERR_peek_last_error()) == PEM_R_NO_START_LINE;
     ERR_clear_error();
     if (!at_end) throw InvalidInput(fmt::format("{}: certificate {} in it is damaged", path, certificates.size() + 1));
@@ -74,13 +75,15 @@ Certificates load_certificates(const TlsFiles& files) {
     if (files.certificate.empty() || files.key.empty())
         throw InvalidInput(fmt::format("TLS needs --tls-cert and --tls-key; {} is not given",
                                        files.certificate.empty() ? "--tls-cert" : "--tls-key"));
-    Certificates loaded{.chain = read_small_file(files.certificate), .key = read_small_file(files.key), .client_ca = {}};
+    Certificates loaded{
+        .chain = read_small_file(files.certificate), .key = read_small_file(files.key), .client_ca = {}};
     const auto chain = parse_certificates(loaded.chain, files.certificate);
     require_valid_now(*chain.front(), files.certificate);
     const Owned<EVP_PKEY> key = parse_key(loaded.key, files.key);
     const bool matches = X509_check_private_key(chain.front().get(), key.get()) == 1;
     ERR_clear_error();
-    if (!matches) throw InvalidInput(fmt::format("{} is not the key of the certificate in {}", files.key, files.certificate));
+    if (!matches)
+        throw InvalidInput(fmt::format("{} is not the key of the certificate in {}", files.key, files.certificate));
     if (!files.client_ca.empty()) {
         loaded.client_ca = read_small_file(files.client_ca);
         parse_certificates(loaded.client_ca, files.client_ca);

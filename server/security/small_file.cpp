@@ -30,7 +30,8 @@ void require_private(const std::string& path) {
     const perms mode = std::filesystem::status(path, error).permissions();
     if (error) throw InvalidInput(fmt::format("{} cannot be read: {}", path, error.message()));
     if ((mode & (perms::others_read | perms::others_write)) != perms::none)
-        throw InvalidInput(fmt::format("{} holds secrets, and everyone may read or write it: chmod 600 {}", path, path));
+        throw InvalidInput(
+            fmt::format("{} holds secrets, and everyone may read or write it: chmod 600 {}", path, path));
 }
 
 }  // namespace meniscus::server

@@ -24,10 +24,12 @@ std::shared_ptr<ssl::context> make_context(const Certificates& certificates) {
         context->use_private_key(boost::asio::buffer(certificates.key), ssl::context::pem);
         // Whoever resumes a session shows no certificate again: its owner must be this server's client.
         constexpr std::string_view name = "meniscusd";
-        SSL_CTX_set_session_id_context(context->native_handle(), reinterpret_cast<const unsigned char*>(name.data()), name.size());
+        SSL_CTX_set_session_id_context(context->native_handle(), reinterpret_cast<const unsigned char*>(name.data()),
+                                       name.size());
         if (!certificates.client_ca.empty()) {
             context->add_certificate_authority(boost::asio::buffer(certificates.client_ca));
-            // One that is shown must be good. None is taken as well: probes have none, and calls are looked at one by one.
+            // One that is shown must be good. None is taken as well: probes have none, and calls are looked at one by
+            // one.
             context->set_verify_mode(ssl::verify_peer);
         }
         return context;

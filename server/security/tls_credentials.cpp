@@ -30,7 +30,8 @@ grpc_ssl_certificate_config_reload_status TlsCredentials::fetch(void* self,
     const std::lock_guard lock(credentials.mutex_);
     if (std::exchange(credentials.fetched_, true)) return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_UNCHANGED;
     const Certificates& certificates = credentials.certificates_;
-    const grpc_ssl_pem_key_cert_pair pair{.private_key = certificates.key.c_str(), .cert_chain = certificates.chain.c_str()};
+    const grpc_ssl_pem_key_cert_pair pair{.private_key = certificates.key.c_str(),
+                                          .cert_chain = certificates.chain.c_str()};
     // gRPC insists on client CAs, also where it asks no client for a certificate and never looks at them.
     const std::string& client_ca = certificates.client_ca.empty() ? certificates.chain : certificates.client_ca;
     *config = grpc_ssl_server_certificate_config_create(client_ca.c_str(), &pair, 1);

@@ -12,9 +12,9 @@
 
 namespace meniscus::server {
 
-/// For one port. gRPC asks for the certificates at every handshake; connections that exist keep those that they began with.
-/// (grpc::experimental::FileWatcherCertificateProvider would take a damaged file over, and then refuse every connection.)
-/// Must outlive the server.
+/// For one port. gRPC asks for the certificates at every handshake; connections that exist keep those that they began
+/// with. (grpc::experimental::FileWatcherCertificateProvider would take a damaged file over, and then refuse every
+/// connection.) Must outlive the server.
 class TlsCredentials final : public grpc::ServerCredentials {
 public:
     /// Whether clients need a certificate is decided here: by the certificates that come first.
@@ -28,7 +28,8 @@ public:
 
 private:
     int AddPortToServer(const std::string& address, grpc_server* server) override;
-    static grpc_ssl_certificate_config_reload_status fetch(void* self, grpc_ssl_server_certificate_config** config) noexcept;
+    static grpc_ssl_certificate_config_reload_status fetch(void* self,
+                                                           grpc_ssl_server_certificate_config** config) noexcept;
 
     std::mutex mutex_;  ///< for what follows
     Certificates certificates_;

@@ -54,11 +54,11 @@ Tokens Tokens::load(const std::string& path) {
         const auto role = role_by_name(role_name);
         if (!role) throw InvalidInput(fmt::format("{}:{}: the role must be uploader, watcher or admin", path, number));
         if (token.size() < shortest_token)
-            throw InvalidInput(fmt::format("{}:{}: the token has {} characters; it needs at least {} (make one with "
-                                           "openssl rand -hex 32)",
-                                           path, number, token.size(), shortest_token));
-        if (tokens.find(token))
-            throw InvalidInput(fmt::format("{}:{}: the token is there twice", path, number));
+            throw InvalidInput(
+                fmt::format("{}:{}: the token has {} characters; it needs at least {} (make one with "
+                            "openssl rand -hex 32)",
+                            path, number, token.size(), shortest_token));
+        if (tokens.find(token)) throw InvalidInput(fmt::format("{}:{}: the token is there twice", path, number));
         tokens.entries_.push_back({digest_of(token), {std::move(name), *role}});
     }
     if (tokens.entries_.empty()) throw InvalidInput(fmt::format("{} has no tokens: nobody could call", path));
@@ -77,7 +77,8 @@ std::optional<Caller> Tokens::find(std::string_view token) const {
 bool Tokens::operator==(const Tokens& other) const {
     return std::equal(entries_.begin(), entries_.end(), other.entries_.begin(), other.entries_.end(),
                       [](const Entry& a, const Entry& b) {
-                          return a.digest == b.digest && a.caller.name == b.caller.name && a.caller.role == b.caller.role;
+                          return a.digest == b.digest && a.caller.name == b.caller.name &&
+                                 a.caller.role == b.caller.role;
                       });
 }
 

@@ -26,8 +26,8 @@ bool equal(const TokenDigest& a, const TokenDigest& b);
 
 class Tokens {
 public:
-    /// Lines `role name token`; those that begin with # are comments. Throws InvalidInput that names file and line, never a
-    /// token.
+    /// Lines `role name token`; those that begin with # are comments. Throws InvalidInput that names file and line,
+    /// never a token.
     static Tokens load(const std::string& path);
 
     /// In a time that does not depend on the token, but on how many there are.

@@ -20,7 +20,8 @@ struct MeshFormat {
     int max_level = 3;      ///< finest level of grid, 1 to 3
     int position_bits = 0;  ///< vertices lie on multiples of c / 2^position_bits; 0: as reconstructed
     int normal_bits = 0;    ///< per octahedral component; 0: no normals
-    auto operator<=>(const MeshFormat&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
+    auto operator<=>(const MeshFormat&) const =
+        default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
 };
 
 /// One brick, or its parts in order. The same in every frame in which the brick is the same.

@@ -36,8 +36,9 @@ Box quantization_box(const v1::FrameBegin& message) {
         const double min = box.min[axis];
         const double max = box.max[axis];
         if (!std::isfinite(min) || !std::isfinite(max))
-            throw InvalidInput(fmt::format("frame {}: quantization_box runs from {} to {} on the {} axis; it must be finite",
-                                           message.frame_index(), min, max, name));
+            throw InvalidInput(
+                fmt::format("frame {}: quantization_box runs from {} to {} on the {} axis; it must be finite",
+                            message.frame_index(), min, max, name));
         if (min > max)
             throw InvalidInput(
                 fmt::format("frame {}: quantization_box runs from {} to {} on the {} axis; max must not be below min",
@@ -57,8 +58,9 @@ std::size_t FrameAssembler::admitted_bytes(const v1::FrameBegin& message, bool q
     const std::uint64_t limit =
         limits_.bytes_per_session != 0 ? limits_.bytes_per_session : std::numeric_limits<std::ptrdiff_t>::max();
     if (count > limit / particle_bytes)
-        throw LimitExceeded(fmt::format("frame {}: {} particles of {} bytes; the server holds at most {} bytes per session",
-                                        message.frame_index(), count, particle_bytes, limit));
+        throw LimitExceeded(
+            fmt::format("frame {}: {} particles of {} bytes; the server holds at most {} bytes per session",
+                        message.frame_index(), count, particle_bytes, limit));
     return static_cast<std::size_t>(count * particle_bytes);
 }
 
@@ -103,8 +105,9 @@ std::span<std::byte> FrameAssembler::append(std::size_t bytes, InputFrame& frame
         throw InvalidInput(
             fmt::format("frame {}: a chunk of {} bytes; at most {} are allowed", *index_, bytes, chunk_bytes));
     if (limits_.chunks_per_frame != 0 && chunks_ >= limits_.chunks_per_frame)
-        throw LimitExceeded(fmt::format("frame {}: more than {} chunks; the server takes at most {} per frame: send larger ones",
-                                        *index_, chunks_, limits_.chunks_per_frame));
+        throw LimitExceeded(
+            fmt::format("frame {}: more than {} chunks; the server takes at most {} per frame: send larger ones",
+                        *index_, chunks_, limits_.chunks_per_frame));
     if (bytes > expected_ - filled_)
         throw InvalidInput(fmt::format("frame {}: at least {} bytes for {} particles; {} were announced", *index_,
                                        filled_ + bytes, frame.particle_count, expected_));

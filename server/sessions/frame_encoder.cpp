@@ -81,7 +81,8 @@ v1::StreamResponse statistics_response(const ReconstructedFrame& frame, const Me
 }  // namespace
 
 std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
-                                                 const EncodedFrame* before, WorkerPool& workers, const MessageSink& sink) {
+                                                 const EncodedFrame* before, WorkerPool& workers,
+                                                 const MessageSink& sink) {
     const MeshDownload& download = frame.download_at(format.max_level);
     download.start();
     const auto start = Clock::now();

@@ -53,10 +53,12 @@ struct ReconstructedFrame {
 /// Called with every message as soon as it is there, one call at a time. The parts of a brick follow one another.
 using MessageSink = std::function<void(const SharedMessage&)>;
 
-/// Brings the mesh down, and encodes the bricks in parallel, but those whose content `before` has already: an earlier frame of the session in the same
-/// format, or none. The frame has the mesh of that format. sink may be empty. Throws DeviceError if the mesh cannot come down.
+/// Brings the mesh down, and encodes the bricks in parallel, but those whose content `before` has already: an earlier
+/// frame of the session in the same format, or none. The frame has the mesh of that format. sink may be empty. Throws
+/// DeviceError if the mesh cannot come down.
 std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
-                                                 const EncodedFrame* before, WorkerPool& workers, const MessageSink& sink);
+                                                 const EncodedFrame* before, WorkerPool& workers,
+                                                 const MessageSink& sink);
 
 /// The statistics alone, for a simulator that wants no meshes.
 SharedMessage encode_statistics(const ReconstructedFrame& frame);

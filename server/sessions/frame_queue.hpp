@@ -26,8 +26,8 @@ struct Received {
     std::exception_ptr error = nullptr;        ///< or that the upload ends, with this
 };
 
-/// A frame can still be replaced or withdrawn until it is taken; therefore whoever takes frames is first told of one, makes
-/// ready, and then takes what is there. One thread takes.
+/// A frame can still be replaced or withdrawn until it is taken; therefore whoever takes frames is first told of one,
+/// makes ready, and then takes what is there. One thread takes.
 class FrameQueue {
 public:
     enum class Next { frame, note, closed };

@@ -12,7 +12,8 @@
 
 namespace meniscus::server {
 
-/// Which bricks a watcher has, of the last frame that it has been sent whole. Refers to no encode, so that it keeps none alive.
+/// Which bricks a watcher has, of the last frame that it has been sent whole. Refers to no encode, so that it keeps
+/// none alive.
 struct WatcherMesh {
     struct Brick {
         std::array<std::int32_t, 3> place{};

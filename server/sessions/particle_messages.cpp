@@ -54,16 +54,19 @@ std::string bytes_of(const ParticleFrame& particles, const Box& box, std::size_t
         for (std::size_t axis = 0; axis < 3; ++axis)
             position[axis] = particles.is_quantized()
                                  ? particles.quantized[from + axis]
-                                 : static_cast<std::uint16_t>(std::lrint((particles.positions[from + axis] - box.min[axis]) * scale[axis]));
+                                 : static_cast<std::uint16_t>(
+                                       std::lrint((particles.positions[from + axis] - box.min[axis]) * scale[axis]));
         std::memcpy(bytes.data() + i * position_bytes, position.data(), position_bytes);
-        if (!particles.levels.empty()) bytes[sent * position_bytes + i] = static_cast<char>(particles.levels[stride * i]);
+        if (!particles.levels.empty())
+            bytes[sent * position_bytes + i] = static_cast<char>(particles.levels[stride * i]);
     }
     return bytes;
 }
 
 }  // namespace
 
-ParticleMessages encode_particles(const InputFrame& frame, std::uint64_t run_id, double particle_radius, std::uint64_t max_particles) {
+ParticleMessages encode_particles(const InputFrame& frame, std::uint64_t run_id, double particle_radius,
+                                  std::uint64_t max_particles) {
     const ParticleFrame particles = frame.view();
     const std::uint64_t stride = stride_for(particles.count(), max_particles);
     const std::uint64_t sent = (particles.count() + stride - 1) / stride;

@@ -14,12 +14,13 @@ namespace meniscus::server {
 /// Immutable, shared by all who receive it.
 struct ParticleMessages {
     std::chrono::steady_clock::time_point received_at;  ///< the last byte of the particles
-    std::vector<SharedMessage> messages;                ///< WatchParticlesResponses in protobuf's wire format, in their order
-    std::size_t bytes = 0;                              ///< of them
+    std::vector<SharedMessage> messages;  ///< WatchParticlesResponses in protobuf's wire format, in their order
+    std::size_t bytes = 0;                ///< of them
 };
 
-/// Positions that came quantized go out as they came; others are quantized over the box of those that are sent. All are finite.
-/// particle_radius: of level 0, world units. max_particles: of more, only every k-th is sent; 0: all.
-ParticleMessages encode_particles(const InputFrame& frame, std::uint64_t run_id, double particle_radius, std::uint64_t max_particles);
+/// Positions that came quantized go out as they came; others are quantized over the box of those that are sent. All are
+/// finite. particle_radius: of level 0, world units. max_particles: of more, only every k-th is sent; 0: all.
+ParticleMessages encode_particles(const InputFrame& frame, std::uint64_t run_id, double particle_radius,
+                                  std::uint64_t max_particles);
 
 }  // namespace meniscus::server

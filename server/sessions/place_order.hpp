@@ -11,7 +11,8 @@ namespace meniscus::server {
 struct PlaceOrder {
     explicit PlaceOrder(const std::array<std::int32_t, 3>& place) : z(place[2]), y(place[1]), x(place[0]) {}
     std::int32_t z, y, x;
-    auto operator<=>(const PlaceOrder&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
+    auto operator<=>(const PlaceOrder&) const =
+        default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
 };
 
 }  // namespace meniscus::server

@@ -24,8 +24,8 @@ struct ReconstructFunctions {
     /// Replaces the mesh by the frame's surface, which is there once it has been downloaded; throws what
     /// Reconstructor::reconstruct_for_download throws.
     std::function<Reconstructed(const ParticleFrame& frame, Mesh& mesh)> reconstruct;
-    /// Replaces the mesh by the last frame's surface with its levels capped; throws what Reconstructor::emit_capped throws.
-    /// None if no watcher will wish for a level cap.
+    /// Replaces the mesh by the last frame's surface with its levels capped; throws what Reconstructor::emit_capped
+    /// throws. None if no watcher will wish for a level cap.
     std::function<void(int max_level, Mesh& mesh)> emit_capped{};
 };
 

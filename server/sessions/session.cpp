@@ -11,8 +11,8 @@
 
 namespace meniscus::server {
 
-Session::Session(SessionIdentity identity, const Settings& settings, const Limits& limits, ReconstructFunctions functions,
-                 SharedResources shared, std::shared_ptr<SessionObserver> observer)
+Session::Session(SessionIdentity identity, const Settings& settings, const Limits& limits,
+                 ReconstructFunctions functions, SharedResources shared, std::shared_ptr<SessionObserver> observer)
     : identity_(std::move(identity)),
       settings_(settings),
       limits_(limits),
@@ -62,7 +62,8 @@ std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::
         if (draining_) throw shutting_down();
         upload->run = run_of(options);
         if (upload_ && upload->run != run_)
-            throw Refusal(Refusal::Kind::failed_precondition, fmt::format("another stream uploads to session {}", id()));
+            throw Refusal(Refusal::Kind::failed_precondition,
+                          fmt::format("another stream uploads to session {}", id()));
         before = std::exchange(upload_, upload);
         run_ = upload->run;
         unanswered_.push_back(upload);
@@ -103,9 +104,10 @@ void Session::return_input(InputFrame& input) {
 void Session::admit_frame(std::uint64_t index) {
     const std::lock_guard lock(mutex_);
     if (!frame_rate_.take(std::chrono::steady_clock::now()))
-        throw LimitExceeded(fmt::format("frame {}: more than {} frames in a second; the server takes at most {} frames per "
-                                        "second of a session",
-                                        index, limits_.frames_per_second, limits_.frames_per_second));
+        throw LimitExceeded(
+            fmt::format("frame {}: more than {} frames in a second; the server takes at most {} frames per "
+                        "second of a session",
+                        index, limits_.frames_per_second, limits_.frames_per_second));
 }
 
 void Session::submit(std::shared_ptr<Upload> upload, InputFrame& input) {
@@ -186,7 +188,8 @@ void Session::close_watch(const std::shared_ptr<Watch>& watch) {
     if (std::erase(watches_, watch) != 0) state_.frames_skipped += watch->progress().frames_skipped;
     last_used_ = std::chrono::steady_clock::now();
     const auto& wish = watch->wishes().max_particles;
-    if (wish && std::ranges::none_of(watches_, [&](const auto& other) { return other->wishes().max_particles == wish; }))
+    if (wish &&
+        std::ranges::none_of(watches_, [&](const auto& other) { return other->wishes().max_particles == wish; }))
         particles_.erase(*wish);
 }
 
@@ -214,14 +217,15 @@ bool Session::end_idle(std::chrono::steady_clock::time_point now) {
     std::shared_ptr<Upload> idle;
     {
         const std::lock_guard lock(mutex_);
-        if (!upload_)
-            return unanswered_.empty() && watches_.empty() && now - last_used_ >= limits_.idle_time;
-        if (upload_->owed == 0 && now - upload_->last_activity.load() >= limits_.idle_time) idle = std::exchange(upload_, nullptr);
+        if (!upload_) return unanswered_.empty() && watches_.empty() && now - last_used_ >= limits_.idle_time;
+        if (upload_->owed == 0 && now - upload_->last_activity.load() >= limits_.idle_time)
+            idle = std::exchange(upload_, nullptr);
     }
     if (idle)
-        idle->output.finish(std::make_exception_ptr(LimitExceeded(fmt::format(
-            "nothing has arrived for {:.3g} s; the server keeps an idle stream for {:.3g} s: open another when there are frames",
-            Seconds(now - idle->last_activity.load()).count(), Seconds(limits_.idle_time).count()))));
+        idle->output.finish(std::make_exception_ptr(LimitExceeded(
+            fmt::format("nothing has arrived for {:.3g} s; the server keeps an idle stream for {:.3g} s: open another "
+                        "when there are frames",
+                        Seconds(now - idle->last_activity.load()).count(), Seconds(limits_.idle_time).count()))));
     return false;
 }
 
@@ -232,8 +236,8 @@ void Session::touch() {
 
 void Session::close() {
     const Attached attached = detach();
-    const auto error = std::make_exception_ptr(
-        Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id())));
+    const auto error =
+        std::make_exception_ptr(Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id())));
     for (const auto& upload : attached.uploads) upload->output.abort(error);
     for (const auto& watch : attached.watches) watch->finish(nullptr);
 }

@@ -40,8 +40,8 @@ struct SessionState {
     std::optional<v1::FrameStatistics> last_frame;  ///< of the frame answered last
     std::uint64_t frames_dropped_replaced = 0;
     std::uint64_t frames_dropped_not_nth = 0;
-    std::uint64_t frames_skipped = 0;                 ///< over all watchers, those that have gone included
-    std::chrono::duration<double> watcher_lag{0.0};   ///< of the watcher that lags most
+    std::uint64_t frames_skipped = 0;                ///< over all watchers, those that have gone included
+    std::chrono::duration<double> watcher_lag{0.0};  ///< of the watcher that lags most
 };
 
 struct SessionIdentity {
@@ -50,9 +50,10 @@ struct SessionIdentity {
 };
 
 /// A pipeline of three steps that overlap: a frame is received (by its stream, into one of two input slots) while the
-/// one before is reconstructed (first thread, into one of two meshes) and the one before that comes down from the GPU and
-/// is encoded (second thread). A step waits for the next one only through these slots, which is also all the memory that frames take.
-/// UploadPolicy::latest has a third input slot: for the frame that waits, and is replaced once a newer one is complete.
+/// one before is reconstructed (first thread, into one of two meshes) and the one before that comes down from the GPU
+/// and is encoded (second thread). A step waits for the next one only through these slots, which is also all the memory
+/// that frames take. UploadPolicy::latest has a third input slot: for the frame that waits, and is replaced once a
+/// newer one is complete.
 ///
 /// join() must have returned before the last reference goes, unless no other thread has one.
 class Session {
@@ -72,8 +73,8 @@ public:
 
     // Uploading. Frames go: request_input, submit or return_input, ..., end_upload.
 
-    /// A stream that resumes the session's run takes the place of the one before, which ends. Throws Refusal if a stream
-    /// of another run uploads, or the session ends.
+    /// A stream that resumes the session's run takes the place of the one before, which ends. Throws Refusal if a
+    /// stream of another run uploads, or the session ends.
     std::shared_ptr<Upload> open_upload(const UploadOptions& options, std::function<void()> wake,
                                         std::function<void()> drain);
     void request_input(SlotPool<InputFrame>::Waiter waiter);
@@ -88,12 +89,13 @@ public:
 
     // Watching.
 
-    /// Gets the newest mesh, or its particles, at once where they are there. Throws LimitExceeded, or Refusal if the session ends.
+    /// Gets the newest mesh, or its particles, at once where they are there. Throws LimitExceeded, or Refusal if the
+    /// session ends.
     std::shared_ptr<Watch> open_watch(const WatchWishes& wishes, std::function<void()> wake);
     void close_watch(const std::shared_ptr<Watch>& watch);
 
-    /// Lets the frame on its way in be the last, then ends the watchers. Streams and watchers are told that they have so long.
-    /// Returns at once.
+    /// Lets the frame on its way in be the last, then ends the watchers. Streams and watchers are told that they have
+    /// so long. Returns at once.
     void drain(std::chrono::duration<double> grace);
     /// Ends an upload that has been idle for Limits::idle_time. Returns whether the session has been without a stream,
     /// a watcher or a call for so long.
@@ -150,7 +152,8 @@ private:
     /// False if the session ends.
     bool reconstruct_next(Received received);
     void reconstruct(const Received& received, ReconstructedFrame& frame);
-    /// To the observer and to those who watch particles, unless they have seen the frame already, before its run was resumed.
+    /// To the observer and to those who watch particles, unless they have seen the frame already, before its run was
+    /// resumed.
     void show(const Received& received);
     /// With the level caps that watchers wish for now.
     void cap_levels(ReconstructedFrame& frame);
@@ -206,19 +209,20 @@ private:
     InputFrame* newest_input_ = nullptr;       ///< of the same: of the frame that was shown last
     std::shared_ptr<Upload> failed_;           ///< of the same: its frames that follow are dropped
     ReconstructedFrame* newest_ = nullptr;     ///< of the encoding thread
-    Encodings before_;                         ///< of the frame before the newest, whose bricks may serve again; of the same thread
+    Encodings before_;  ///< of the frame before the newest, whose bricks may serve again; of the same thread
 
     mutable std::mutex mutex_;  ///< for what follows
     SessionState state_;
     FrameRate frame_rate_;
     std::chrono::steady_clock::time_point last_used_ = std::chrono::steady_clock::now();
-    std::shared_ptr<Run> run_;                           ///< of the stream opened last
+    std::shared_ptr<Run> run_;  ///< of the stream opened last
     bool third_input_in_use_ = false;
-    std::shared_ptr<Upload> upload_;                     ///< the one that sends
-    std::vector<std::shared_ptr<Upload>> unanswered_;    ///< and those whose last frames are still on their way
+    std::shared_ptr<Upload> upload_;                   ///< the one that sends
+    std::vector<std::shared_ptr<Upload>> unanswered_;  ///< and those whose last frames are still on their way
     std::vector<std::shared_ptr<Watch>> watches_;
     Encodings published_;  ///< the newest mesh
-    std::map<std::uint64_t, std::shared_ptr<const ParticleMessages>> particles_;  ///< of the newest frame, by max_particles
+    std::map<std::uint64_t, std::shared_ptr<const ParticleMessages>>
+        particles_;  ///< of the newest frame, by max_particles
     bool draining_ = false;
     bool closed_ = false;
 

@@ -159,7 +159,8 @@ void Session::perform(AddCapped& task) {
 
 std::shared_ptr<const EncodedFrame> Session::encode_newest(const MeshFormat& format, const MessageSink& sink) {
     const auto before = before_.find(format);
-    return encode_frame(*newest_, format, before != before_.end() ? before->second.get() : nullptr, *shared_.workers, sink);
+    return encode_frame(*newest_, format, before != before_.end() ? before->second.get() : nullptr, *shared_.workers,
+                        sink);
 }
 
 void Session::publish(const MeshFormat& format, const std::shared_ptr<const EncodedFrame>& frame) {
@@ -207,7 +208,9 @@ std::optional<MeshFormat> Session::unpublished_format() const {
     const std::lock_guard lock(mutex_);
     for (const auto& watch : watches_) {
         const MeshFormat& format = watch->wishes().format;
-        if (watch->wishes().wants(format) && !published_.contains(format) && newest_->mesh_at(format.max_level) != nullptr) return format;
+        if (watch->wishes().wants(format) && !published_.contains(format) &&
+            newest_->mesh_at(format.max_level) != nullptr)
+            return format;
     }
     return std::nullopt;
 }

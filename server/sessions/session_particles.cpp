@@ -18,7 +18,8 @@ void Session::show_particles(const InputFrame& input) {
             publish(*max_particles, std::make_shared<const ParticleMessages>(encode_particles(
                                         input, *input.shown_in_run, settings_.particle_radius, *max_particles)));
     } catch (const std::exception& error) {
-        log_error({.session = id(), .frame = input.index}, "no particles for its watchers, who keep those before: {}", error.what());
+        log_error({.session = id(), .frame = input.index}, "no particles for its watchers, who keep those before: {}",
+                  error.what());
     }
 }
 

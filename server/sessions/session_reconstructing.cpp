@@ -129,15 +129,16 @@ bool Session::emit_capped(int max_level, Mesh& mesh) {
     } catch (const DeviceError&) {
         throw;
     } catch (const std::exception& error) {
-        log_error({.session = id()}, "no mesh of levels up to {} for its watchers, who keep the one before: {}", max_level,
-                  error.what());
+        log_error({.session = id()}, "no mesh of levels up to {} for its watchers, who keep the one before: {}",
+                  max_level, error.what());
         return false;
     }
 }
 
 bool Session::is_wished_for(int max_level) const {
     const std::lock_guard lock(mutex_);
-    return std::ranges::any_of(watches_, [&](const auto& watch) { return watch->wishes().format.max_level == max_level; });
+    return std::ranges::any_of(watches_,
+                               [&](const auto& watch) { return watch->wishes().format.max_level == max_level; });
 }
 
 }  // namespace meniscus::server

@@ -20,8 +20,8 @@
 namespace meniscus::server {
 
 /// Makes the observer of a new session.
-using Observe =
-    std::function<std::shared_ptr<SessionObserver>(const std::string& id, const Settings& settings, const std::string& owner)>;
+using Observe = std::function<std::shared_ptr<SessionObserver>(const std::string& id, const Settings& settings,
+                                                               const std::string& owner)>;
 
 /// What a new session reconstructs with.
 using MakeReconstruct = std::function<ReconstructFunctions(const Settings& settings, const BackendOptions& backend)>;
@@ -31,7 +31,8 @@ ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOpt
 
 class SessionRegistry {
 public:
-    /// encoding_threads: at least 1. devices: the GPUs that sessions may use; all if none is named. observe: may be empty.
+    /// encoding_threads: at least 1. devices: the GPUs that sessions may use; all if none is named. observe: may be
+    /// empty.
     SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
                     std::vector<int> devices = {}, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>(),
                     Observe observe = nullptr, MakeReconstruct make = make_reconstruct);
@@ -39,15 +40,15 @@ public:
     SessionRegistry(const SessionRegistry&) = delete;
     SessionRegistry& operator=(const SessionRegistry&) = delete;
 
-    /// Joins the session that exists with equal settings. Throws InvalidInput (settings), LimitExceeded, Refusal, DeviceError.
-    /// owner: of the session if it is new.
+    /// Joins the session that exists with equal settings. Throws InvalidInput (settings), LimitExceeded, Refusal,
+    /// DeviceError. owner: of the session if it is new.
     std::shared_ptr<Session> create(const std::string& id, const Settings& settings, const std::string& owner = {});
     /// Throws Refusal if there is none.
     std::shared_ptr<Session> find(const std::string& id);
     /// Ordered by id.
     std::vector<std::shared_ptr<Session>> list();
-    /// Ends the session, its stream and its watchers; its threads end in the background. Throws Refusal if it has gone, also
-    /// where another one has its id by now.
+    /// Ends the session, its stream and its watchers; its threads end in the background. Throws Refusal if it has gone,
+    /// also where another one has its id by now.
     void remove(const std::shared_ptr<Session>& session);
 
     /// No new sessions and uploads; those that run end after the frame on its way in. Returns at once.

@@ -7,8 +7,8 @@
 
 namespace meniscus::server {
 
-/// Bytes come in at the rate, up to what comes in one second. Whoever finds any may spend more than there are, so that whole
-/// frames go out whatever their size; the next then waits until the debt is paid. Times must not decrease.
+/// Bytes come in at the rate, up to what comes in one second. Whoever finds any may spend more than there are, so that
+/// whole frames go out whatever their size; the next then waits until the debt is paid. Times must not decrease.
 class TokenBucket {
 public:
     using Clock = std::chrono::steady_clock;

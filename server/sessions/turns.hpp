@@ -10,7 +10,8 @@
 
 namespace meniscus::server {
 
-/// One turn at a time, first come, first served. A session asks for one turn per frame, so that those who have frames go round.
+/// One turn at a time, first come, first served. A session asks for one turn per frame, so that those who have frames
+/// go round.
 class Turns {
 public:
     /// Ends when it is destroyed.
@@ -46,7 +47,7 @@ private:
     std::uint64_t asked_ = 0;
     std::uint64_t current_ = 0;
     std::optional<Clock::time_point> began_;  ///< the turn that goes on; none: nobody's
-    Clock::duration taken_{};  ///< by those that ended
+    Clock::duration taken_{};                 ///< by those that ended
 };
 
 }  // namespace meniscus::server

@@ -39,7 +39,8 @@ struct Run {
 struct Upload {
     using Clock = std::chrono::steady_clock;
 
-    /// wake: as OutputQueue has it. stop_receiving: called when the session is to take no further frame than the one on its way in.
+    /// wake: as OutputQueue has it. stop_receiving: called when the session is to take no further frame than the one on
+    /// its way in.
     Upload(const UploadOptions& wishes, std::function<void()> wake, std::function<void()> stop_receiving)
         : options(wishes), output(std::move(wake)), drain(std::move(stop_receiving)) {}
 

@@ -8,7 +8,9 @@ namespace {
 
 /// What to send of a frame, against the mesh that was sent before.
 struct Update {
-    FrameUpdate operator()(const std::shared_ptr<const EncodedFrame>& frame) const { return update_mesh(*frame, wishes, base); }
+    FrameUpdate operator()(const std::shared_ptr<const EncodedFrame>& frame) const {
+        return update_mesh(*frame, wishes, base);
+    }
     FrameUpdate operator()(const std::shared_ptr<const ParticleMessages>& frame) const {
         return {.messages = {frame->messages.begin(), frame->messages.end()}, .bytes = frame->bytes};
     }

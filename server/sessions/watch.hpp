@@ -30,8 +30,8 @@ class Watch {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// A write that has taken so long means that the watcher has stopped reading. The rest of its frame is then given up for the
-    /// next one that is put, so that who does not read keeps no old encode alive.
+    /// A write that has taken so long means that the watcher has stopped reading. The rest of its frame is then given
+    /// up for the next one that is put, so that who does not read keeps no old encode alive.
     static constexpr Clock::duration stalled_after = std::chrono::seconds(2);
 
     struct Nothing {};  ///< for now: `wake` will be called
@@ -49,7 +49,8 @@ public:
     };
 
     /// wake: called once, by a producing thread, after take() has found nothing and there is something again.
-    Watch(const WatchWishes& wishes, std::function<void()> wake, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>());
+    Watch(const WatchWishes& wishes, std::function<void()> wake,
+          std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>());
 
     const WatchWishes& wishes() const noexcept { return wishes_; }
 
@@ -77,14 +78,14 @@ private:
     const std::function<void()> wake_;
     const std::shared_ptr<Metrics> metrics_;
 
-    mutable std::mutex mutex_;  ///< for what follows
-    std::optional<WatchedFrame> newest_;          ///< not begun yet
-    Clock::time_point newest_since_;              ///< when this slot was last filled while it was empty
-    FrameUpdate update_;                          ///< what is left of the frame that is being sent
-    std::optional<WatcherMesh> sent_;             ///< the last mesh that went out whole
+    mutable std::mutex mutex_;            ///< for what follows
+    std::optional<WatchedFrame> newest_;  ///< not begun yet
+    Clock::time_point newest_since_;      ///< when this slot was last filled while it was empty
+    FrameUpdate update_;                  ///< what is left of the frame that is being sent
+    std::optional<WatcherMesh> sent_;     ///< the last mesh that went out whole
     std::optional<TokenBucket> bucket_;
-    Clock::time_point received_at_;               ///< that frame's particles
-    bool ending_ = false;                         ///< its last message is being written
+    Clock::time_point received_at_;  ///< that frame's particles
+    bool ending_ = false;            ///< its last message is being written
     std::optional<Clock::time_point> writing_since_;
     std::optional<Clock::time_point> behind_since_;
     std::uint64_t skipped_ = 0;

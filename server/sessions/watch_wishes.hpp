@@ -16,7 +16,8 @@ struct WatchWishes {
     std::uint64_t bytes_per_second = 0;  ///< in the mean; 0: no limit
     /// The frames' particles in place of their meshes: of a frame with more than so many, only every k-th; 0: all.
     std::optional<std::uint64_t> max_particles{};
-    std::optional<std::array<double, 3>> viewpoint{};  ///< world units: nearest bricks first; else those with the most triangles
+    std::optional<std::array<double, 3>>
+        viewpoint{};  ///< world units: nearest bricks first; else those with the most triangles
 
     bool wants(const MeshFormat& mesh) const { return !max_particles && format == mesh; }
 };

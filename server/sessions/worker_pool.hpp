@@ -20,16 +20,17 @@ public:
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
 
-    /// Calls body(0) ... body(count - 1), in parallel and in any order, and waits for all. The caller works too, so that
-    /// a loop never waits for another session's. Rethrows the first exception; the indices not yet begun are then left out.
+    /// Calls body(0) ... body(count - 1), in parallel and in any order, and waits for all. The caller works too, so
+    /// that a loop never waits for another session's. Rethrows the first exception; the indices not yet begun are then
+    /// left out.
     void for_each(std::size_t count, const std::function<void(std::size_t)>& body);
 
 private:
     struct Loop {
         std::size_t count = 0;
         const std::function<void(std::size_t)>* body = nullptr;
-        std::size_t next = 0;    ///< index to begin with next
-        unsigned workers = 0;    ///< threads inside
+        std::size_t next = 0;  ///< index to begin with next
+        unsigned workers = 0;  ///< threads inside
         std::exception_ptr error;
     };
 

@@ -22,7 +22,8 @@ bool accepts_gzip(std::string_view accept_encoding) {
         const std::size_t comma = accept_encoding.find(',');
         const std::string_view item = accept_encoding.substr(0, comma);
         const std::size_t semicolon = item.find(';');
-        const std::string_view weight = semicolon == std::string_view::npos ? std::string_view() : trimmed(item.substr(semicolon + 1));
+        const std::string_view weight =
+            semicolon == std::string_view::npos ? std::string_view() : trimmed(item.substr(semicolon + 1));
         if (trimmed(item.substr(0, semicolon)) == "gzip") return !refuses(weight);
         accept_encoding.remove_prefix(comma == std::string_view::npos ? accept_encoding.size() : comma + 1);
     }

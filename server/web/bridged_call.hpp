@@ -1,5 +1,5 @@
-// A call from a browser to the handlers of native gRPC, over a channel within the process: the same errors, limits, tokens and
-// metrics, and the same bytes.
+// A call from a browser to the handlers of native gRPC, over a channel within the process: the same errors, limits,
+// tokens and metrics, and the same bytes.
 #pragma once
 
 #include <grpcpp/channel.h>
@@ -41,7 +41,8 @@ public:
     BridgedCall(std::shared_ptr<boost::asio::io_context> context, Receiver receiver);
 
     void start(const std::shared_ptr<grpc::Channel>& channel, Request request);
-    /// Only once the one before was answered: a client that does not take its messages holds the handler up, as in native gRPC.
+    /// Only once the one before was answered: a client that does not take its messages holds the handler up, as in
+    /// native gRPC.
     void read();
     /// The end follows, as canceled.
     void cancel();

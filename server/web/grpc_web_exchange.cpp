@@ -67,11 +67,12 @@ void GrpcWebExchange::start(const std::shared_ptr<grpc::Channel>& channel, const
     keep_alive_ = chunked_ && request.keep_alive() && !stream;
     header_.emplace(header_for(request));
     call_ = std::make_shared<BridgedCall>(
-        context_, BridgedCall::Receiver{
-                      .admitted = [self = shared_from_this()] { self->write_header(); },
-                      .message = [self = shared_from_this()](const grpc::ByteBuffer& received) { self->receive(received); },
-                      .end = [self = shared_from_this()](const grpc::Status& status) { self->finish(status); },
-                  });
+        context_,
+        BridgedCall::Receiver{
+            .admitted = [self = shared_from_this()] { self->write_header(); },
+            .message = [self = shared_from_this()](const grpc::ByteBuffer& received) { self->receive(received); },
+            .end = [self = shared_from_this()](const grpc::Status& status) { self->finish(status); },
+        });
     call_->start(channel, std::move(call));
     if (stream) watch_for_departure();
 }
@@ -99,9 +100,10 @@ void GrpcWebExchange::write_header() {
     serializer_.emplace(*header_);
     writing_ = true;
     stream_.tcp().expires_after(patience_);
-    http::async_write_header(stream_, *serializer_, [self = shared_from_this()](boost::beast::error_code error, std::size_t) {
-        self->written(error, &GrpcWebExchange::header_written);
-    });
+    http::async_write_header(stream_, *serializer_,
+                             [self = shared_from_this()](boost::beast::error_code error, std::size_t) {
+                                 self->written(error, &GrpcWebExchange::header_written);
+                             });
 }
 
 void GrpcWebExchange::header_written() {
@@ -142,7 +144,9 @@ void GrpcWebExchange::finish(const grpc::Status& status) {
 void GrpcWebExchange::write(Handler next) {
     writing_ = true;
     stream_.tcp().expires_after(patience_);
-    const auto done = [self = shared_from_this(), next](boost::beast::error_code error, std::size_t) { self->written(error, next); };
+    const auto done = [self = shared_from_this(), next](boost::beast::error_code error, std::size_t) {
+        self->written(error, next);
+    };
     if (chunked_)
         boost::asio::async_write(stream_, http::make_chunk(buffers_), done);
     else
@@ -163,9 +167,10 @@ void GrpcWebExchange::finished() {
         answered_ = true;
         writing_ = true;
         stream_.tcp().expires_after(patience_);
-        boost::asio::async_write(stream_, http::make_chunk_last(), [self = shared_from_this()](boost::beast::error_code error, std::size_t) {
-            self->written(error, &GrpcWebExchange::finished);
-        });
+        boost::asio::async_write(stream_, http::make_chunk_last(),
+                                 [self = shared_from_this()](boost::beast::error_code error, std::size_t) {
+                                     self->written(error, &GrpcWebExchange::finished);
+                                 });
         return;
     }
     answered_ = true;
@@ -176,12 +181,14 @@ void GrpcWebExchange::finished() {
 void GrpcWebExchange::watch_for_departure() {
     watching_ = true;
     stream_.tcp().expires_never();
-    // Whoever sends more, to a stream that is the connection's last answer, is cut off as well: it could not be watched any more.
-    stream_.async_read_some(boost::asio::buffer(unexpected_), [self = shared_from_this()](boost::beast::error_code, std::size_t) {
-        self->watching_ = false;
-        self->departed_ = true;
-        self->depart();
-    });
+    // Whoever sends more, to a stream that is the connection's last answer, is cut off as well: it could not be watched
+    // any more.
+    stream_.async_read_some(boost::asio::buffer(unexpected_),
+                            [self = shared_from_this()](boost::beast::error_code, std::size_t) {
+                                self->watching_ = false;
+                                self->departed_ = true;
+                                self->depart();
+                            });
 }
 
 /// Once nothing of the exchange is under way any more, the connection is given back.

@@ -40,9 +40,10 @@ public:
         bool keep_alive = false;  ///< whether another request may follow
     };
 
-    /// patience: for one message to be taken. The stream stays in use until `ended` is called, which is the last that happens.
-    GrpcWebExchange(HttpStream& stream, std::shared_ptr<boost::asio::io_context> context, std::chrono::milliseconds patience,
-                    std::function<void(Ending)> ended);
+    /// patience: for one message to be taken. The stream stays in use until `ended` is called, which is the last that
+    /// happens.
+    GrpcWebExchange(HttpStream& stream, std::shared_ptr<boost::asio::io_context> context,
+                    std::chrono::milliseconds patience, std::function<void(Ending)> ended);
 
     void start(const std::shared_ptr<grpc::Channel>& channel, const GrpcWebRequest& request, BridgedCall::Request call);
     /// Ends the call; `ended` follows.
@@ -81,7 +82,7 @@ private:
     std::array<char, 1> unexpected_{};
     bool chunked_ = true;
     bool keep_alive_ = false;
-    bool watching_ = false;     ///< a read is pending
+    bool watching_ = false;  ///< a read is pending
     bool writing_ = false;
     bool call_ended_ = false;
     bool header_sent_ = false;

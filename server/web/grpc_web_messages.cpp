@@ -39,16 +39,22 @@ GrpcWebHeader grpc_web_header(std::size_t bytes) {
 }
 
 grpc::Status grpc_web_request(std::string_view body, grpc::ByteBuffer& message) {
-    const auto malformed = [](const std::string& text) { return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, text); };
+    const auto malformed = [](const std::string& text) {
+        return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, text);
+    };
     constexpr std::size_t header_bytes = GrpcWebHeader{}.size();
     if (body.size() < header_bytes)
-        return malformed(fmt::format("the body has {} bytes; a gRPC-Web message has at least {}", body.size(), header_bytes));
+        return malformed(
+            fmt::format("the body has {} bytes; a gRPC-Web message has at least {}", body.size(), header_bytes));
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(body[i]); };
-    if (byte(0) == compressed_flag) return {grpc::StatusCode::UNIMPLEMENTED, "the message is compressed; send it as it is"};
+    if (byte(0) == compressed_flag)
+        return {grpc::StatusCode::UNIMPLEMENTED, "the message is compressed; send it as it is"};
     if (byte(0) != 0) return malformed(fmt::format("the message has the flags {}; only 0 is taken", byte(0)));
-    const std::uint32_t length = std::uint32_t{byte(1)} << 24 | std::uint32_t{byte(2)} << 16 | std::uint32_t{byte(3)} << 8 | byte(4);
+    const std::uint32_t length =
+        std::uint32_t{byte(1)} << 24 | std::uint32_t{byte(2)} << 16 | std::uint32_t{byte(3)} << 8 | byte(4);
     const std::string_view bytes = body.substr(header_bytes);
-    if (bytes.size() != length) return malformed(fmt::format("the message announces {} bytes, but {} follow", length, bytes.size()));
+    if (bytes.size() != length)
+        return malformed(fmt::format("the message announces {} bytes, but {} follow", length, bytes.size()));
     const grpc::Slice slice(bytes.data(), bytes.size());
     message = grpc::ByteBuffer(&slice, 1);
     return grpc::Status::OK;
@@ -76,7 +82,8 @@ std::chrono::nanoseconds grpc_timeout(std::string_view text) {
 
 std::string grpc_web_trailers(const grpc::Status& status) {
     std::string text = fmt::format("grpc-status: {}\r\n", static_cast<int>(status.error_code()));
-    if (!status.error_message().empty()) text += fmt::format("grpc-message: {}\r\n", percent_encoded(status.error_message()));
+    if (!status.error_message().empty())
+        text += fmt::format("grpc-message: {}\r\n", percent_encoded(status.error_message()));
     GrpcWebHeader header = grpc_web_header(text.size());
     header[0] = trailers_flag;
     return std::string(header.begin(), header.end()) + text;

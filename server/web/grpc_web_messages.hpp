@@ -17,8 +17,8 @@ using GrpcWebHeader = std::array<unsigned char, 5>;
 /// Of a message of so many bytes.
 GrpcWebHeader grpc_web_header(std::size_t bytes);
 
-/// The one message of a request's body, into `message`. Otherwise the status to answer with: INVALID_ARGUMENT, or UNIMPLEMENTED
-/// for a compressed message.
+/// The one message of a request's body, into `message`. Otherwise the status to answer with: INVALID_ARGUMENT, or
+/// UNIMPLEMENTED for a compressed message.
 grpc::Status grpc_web_request(std::string_view body, grpc::ByteBuffer& message);
 
 /// The time that a client gives its call, as gRPC writes it: "100m" is 100 ms. Throws InvalidInput for anything else.

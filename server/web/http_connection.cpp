@@ -35,14 +35,16 @@ std::string_view view(boost::beast::string_view text) {
 }
 
 constexpr std::string_view not_tls =
-    "HTTP/1.1 400 Bad Request\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: 49\r\nConnection: close\r\n\r\n"
+    "HTTP/1.1 400 Bad Request\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: 49\r\nConnection: "
+    "close\r\n\r\n"
     "This port speaks TLS: the address is https://...\n";
 
 /// To a browser that asks whether a page may make a call.
 Page preflight_page(std::string_view origin) {
     Page page{.status = 204, .headers = cross_origin_headers(origin)};
     page.headers.emplace_back("Access-Control-Allow-Methods", "POST");
-    page.headers.emplace_back("Access-Control-Allow-Headers", "authorization, content-type, grpc-timeout, x-grpc-web, x-session-id, x-user-agent");
+    page.headers.emplace_back("Access-Control-Allow-Headers",
+                              "authorization, content-type, grpc-timeout, x-grpc-web, x-session-id, x-user-agent");
     page.headers.emplace_back("Access-Control-Max-Age", "600");
     return page;
 }
@@ -50,8 +52,8 @@ Page preflight_page(std::string_view origin) {
 }  // namespace
 
 HttpConnection::HttpConnection(boost::asio::ip::tcp::socket socket, std::shared_ptr<boost::asio::ssl::context> tls,
-                               std::shared_ptr<boost::asio::io_context> context, Content content, const HttpLimits& limits,
-                               Observer observer)
+                               std::shared_ptr<boost::asio::io_context> context, Content content,
+                               const HttpLimits& limits, Observer observer)
     : stream_(std::move(socket), std::move(tls)),
       context_(std::move(context)),
       content_(content),
@@ -85,7 +87,8 @@ void HttpConnection::shake_hands() {
     stream_.tcp().expires_after(limits_.patience);
     stream_.async_handshake([self = shared_from_this()](boost::beast::error_code error) {
         if (!error) return self->read();
-        if (error.category() == boost::asio::error::get_ssl_category() && ERR_GET_REASON(static_cast<unsigned long>(error.value())) == SSL_R_HTTP_REQUEST)
+        if (error.category() == boost::asio::error::get_ssl_category() &&
+            ERR_GET_REASON(static_cast<unsigned long>(error.value())) == SSL_R_HTTP_REQUEST)
             self->name_tls();
     });
 }
@@ -105,8 +108,9 @@ void HttpConnection::read() {
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // none is read: answer() refuses them
     // For the whole header: who sends it byte by byte gains nothing.
     stream_.tcp().expires_after(limits_.patience);
-    http::async_read_header(stream_, buffer_, *parser_,
-                            [self = shared_from_this()](boost::beast::error_code error, std::size_t) { self->receive(error); });
+    http::async_read_header(
+        stream_, buffer_, *parser_,
+        [self = shared_from_this()](boost::beast::error_code error, std::size_t) { self->receive(error); });
 }
 
 void HttpConnection::receive(boost::beast::error_code error) {
@@ -128,18 +132,22 @@ void HttpConnection::answer() {
     if (request.count(http::field::host) > 1) return refuse(400, "The request names more than one host.\n");
     const bool is_call = content_.grpc_web.channel && is_method(path);
     if ((is_call || content_.router.is_for_browsers(path)) && !origins.knows_host(host))
-        return refuse(421, fmt::format("This server is not known as {0}; use its address, or start it with --web-origin http://{0}\n",
-                                       host.substr(0, shown_bytes)));
+        return refuse(
+            421,
+            fmt::format("This server is not known as {0}; use its address, or start it with --web-origin http://{0}\n",
+                        host.substr(0, shown_bytes)));
     if (is_call) {
         const std::string_view origin = view(request[http::field::origin]);
         if (!origins.admits(origin, host))
-            return refuse(403, fmt::format("Pages of {} may not call this server; --web-origin allows them.\n", origin.substr(0, shown_bytes)));
+            return refuse(403, fmt::format("Pages of {} may not call this server; --web-origin allows them.\n",
+                                           origin.substr(0, shown_bytes)));
         if (request.method() == http::verb::post) return receive_call();
         if (request.method() == http::verb::options) return write(preflight_page(origin), request.keep_alive());
         return refuse(405, fmt::format("{} is not allowed here; POST is.\n", std::string(request.method_string())));
     }
     if (request.method() != http::verb::get && request.method() != http::verb::head)
-        return refuse(405, fmt::format("{} is not allowed here; GET and HEAD are.\n", std::string(request.method_string())));
+        return refuse(405,
+                      fmt::format("{} is not allowed here; GET and HEAD are.\n", std::string(request.method_string())));
     if (!parser_->is_done()) return refuse(413, "A body is not taken here.\n");
     write(content_.router.answer(path, {.accept_encoding = view(request[http::field::accept_encoding]),
                                         .if_none_match = view(request[http::field::if_none_match])}),
@@ -148,13 +156,16 @@ void HttpConnection::answer() {
 
 grpc::Status HttpConnection::call_refusal(std::string_view path) {
     if (!content_.grpc_web.serves(path))
-        return {grpc::StatusCode::UNIMPLEMENTED, fmt::format("{} is not served to browsers, only what reads", path.substr(0, shown_bytes))};
+        return {grpc::StatusCode::UNIMPLEMENTED,
+                fmt::format("{} is not served to browsers, only what reads", path.substr(0, shown_bytes))};
     if (content_.grpc_web.needs_certificate && !stream_.has_client_certificate())
         return {grpc::StatusCode::UNAUTHENTICATED, "calls need a client's certificate"};
     if (is_stream(path) && !observer_.may_stream())
-        return {grpc::StatusCode::RESOURCE_EXHAUSTED, fmt::format("the HTTP port carries {} streams, its limit; watch by gRPC", limits_.streams)};
+        return {grpc::StatusCode::RESOURCE_EXHAUSTED,
+                fmt::format("the HTTP port carries {} streams, its limit; watch by gRPC", limits_.streams)};
     if (const auto bytes = parser_->content_length().value_or(0); bytes > limits_.body_bytes)
-        return {grpc::StatusCode::RESOURCE_EXHAUSTED, fmt::format("the request has {} bytes; at most {} are taken", bytes, limits_.body_bytes)};
+        return {grpc::StatusCode::RESOURCE_EXHAUSTED,
+                fmt::format("the request has {} bytes; at most {} are taken", bytes, limits_.body_bytes)};
     return grpc::Status::OK;
 }
 
@@ -171,22 +182,27 @@ void HttpConnection::receive_call() {
         if (++chunks_ > limits_.body_chunks) error = http::make_error_code(http::error::body_limit);
     };
     call_parser_->on_chunk_header(on_chunk_);
-    http::async_read(stream_, buffer_, *call_parser_,
-                     [self = shared_from_this()](boost::beast::error_code error, std::size_t) { self->answer_call(error); });
+    http::async_read(
+        stream_, buffer_, *call_parser_,
+        [self = shared_from_this()](boost::beast::error_code error, std::size_t) { self->answer_call(error); });
 }
 
 void HttpConnection::answer_call(boost::beast::error_code error) {
     if (error == http::error::body_limit)
-        return refuse_call({grpc::StatusCode::RESOURCE_EXHAUSTED,
-                            fmt::format("the request has more than {} bytes or {} chunks", limits_.body_bytes, limits_.body_chunks)});
-    if (error.category() == http::make_error_code(http::error::bad_chunk).category() && error != http::error::partial_message)
+        return refuse_call(
+            {grpc::StatusCode::RESOURCE_EXHAUSTED,
+             fmt::format("the request has more than {} bytes or {} chunks", limits_.body_bytes, limits_.body_chunks)});
+    if (error.category() == http::make_error_code(http::error::bad_chunk).category() &&
+        error != http::error::partial_message)
         return refuse(400, fmt::format("This is no HTTP body: {}.\n", error.message()));
     if (error) return;  // gone, or too slow
     BridgedCall::Request call;
-    if (const grpc::Status refusal = bridged_request(call_parser_->get(), call); !refusal.ok()) return refuse_call(refusal);
+    if (const grpc::Status refusal = bridged_request(call_parser_->get(), call); !refusal.ok())
+        return refuse_call(refusal);
     streams_ = is_stream(call.method);
     exchange_ = std::make_shared<GrpcWebExchange>(
-        stream_, context_, limits_.patience, [self = shared_from_this()](GrpcWebExchange::Ending ending) { self->call_ended(ending); });
+        stream_, context_, limits_.patience,
+        [self = shared_from_this()](GrpcWebExchange::Ending ending) { self->call_ended(ending); });
     exchange_->start(content_.grpc_web.channel, call_parser_->get(), std::move(call));
 }
 
@@ -205,7 +221,9 @@ void HttpConnection::refuse(unsigned status, std::string sentence) {
 
 void HttpConnection::refuse_call(const grpc::Status& status) {
     const http::fields& request = call_parser_ ? static_cast<const http::fields&>(call_parser_->get()) : parser_->get();
-    write({.content_type = "application/grpc-web+proto", .body = grpc_web_trailers(status), .headers = cross_origin_headers(view(request[http::field::origin]))},
+    write({.content_type = "application/grpc-web+proto",
+           .body = grpc_web_trailers(status),
+           .headers = cross_origin_headers(view(request[http::field::origin]))},
           false);
 }
 
@@ -216,14 +234,18 @@ void HttpConnection::write(Page page, bool keep_alive) {
     response_->set(http::field::cache_control, page_.cache_control);
     response_->set("X-Content-Type-Options", "nosniff");
     for (const auto& [name, value] : page_.headers) response_->set(name, value);
-    if (page_.status == 405) response_->set(http::field::allow, content_.grpc_web.serves(view(parser_->get().target())) ? "POST, OPTIONS" : "GET, HEAD");
+    if (page_.status == 405)
+        response_->set(http::field::allow,
+                       content_.grpc_web.serves(view(parser_->get().target())) ? "POST, OPTIONS" : "GET, HEAD");
     response_->keep_alive(keep_alive && !leaving_);
     const std::string_view body = page_.lasting_body.empty() ? std::string_view(page_.body) : page_.lasting_body;
     response_->body() = {body.data(), body.size()};
     response_->prepare_payload();
     serializer_.emplace(*response_);
     stream_.tcp().expires_after(limits_.patience);
-    const auto done = [self = shared_from_this()](boost::beast::error_code error, std::size_t) { self->written(error); };
+    const auto done = [self = shared_from_this()](boost::beast::error_code error, std::size_t) {
+        self->written(error);
+    };
     if (!call_parser_ && parser_->get().method() == http::verb::head)
         http::async_write_header(stream_, *serializer_, done);
     else

@@ -42,7 +42,8 @@ public:
 
     /// tls: none for HTTP alone.
     HttpConnection(boost::asio::ip::tcp::socket socket, std::shared_ptr<boost::asio::ssl::context> tls,
-                   std::shared_ptr<boost::asio::io_context> context, Content content, const HttpLimits& limits, Observer observer);
+                   std::shared_ptr<boost::asio::io_context> context, Content content, const HttpLimits& limits,
+                   Observer observer);
     ~HttpConnection();
     HttpConnection(const HttpConnection&) = delete;
     HttpConnection& operator=(const HttpConnection&) = delete;
@@ -95,10 +96,10 @@ private:
     std::uint32_t chunks_ = 0;  ///< of the call's body
     std::function<void(std::uint64_t, boost::beast::string_view, boost::beast::error_code&)> on_chunk_;
     std::shared_ptr<GrpcWebExchange> exchange_;  ///< the call that is answered now
-    Page page_;  ///< whose body the response shows
+    Page page_;                                  ///< whose body the response shows
     std::optional<Response> response_;
     std::optional<boost::beast::http::response_serializer<boost::beast::http::span_body<const char>>> serializer_;
-    bool busy_ = false;     ///< from a request's last byte to its answer's
+    bool busy_ = false;  ///< from a request's last byte to its answer's
     bool streams_ = false;
     bool leaving_ = false;
 };

@@ -10,9 +10,9 @@ namespace meniscus::server {
 struct HttpLimits {
     /// Beyond it, a new connection takes the place of the one that has been silent longest and carries no stream.
     std::size_t connections = 512;
-    std::size_t streams = 384;  ///< fewer than connections, so that there is always room for probes
+    std::size_t streams = 384;          ///< fewer than connections, so that there is always room for probes
     std::uint32_t header_bytes = 8192;  ///< of the request line, and of all fields
-    std::uint32_t body_bytes = 65536;  ///< of a gRPC-Web request, in at most body_chunks chunks
+    std::uint32_t body_bytes = 65536;   ///< of a gRPC-Web request, in at most body_chunks chunks
     std::uint32_t body_chunks = 64;
     /// For a whole request to come, and for an answer to be taken.
     std::chrono::milliseconds patience = std::chrono::seconds(30);

@@ -22,14 +22,18 @@ using boost::asio::ip::tcp;
 /// After an accept that failed, for want of descriptors most likely.
 constexpr auto accept_pause = std::chrono::milliseconds(100);
 constexpr int unsent_bytes = 256 << 10;
-/// Seconds until a silent client is asked whether it is there, between two such questions, and how many may fail: as on the gRPC port.
+/// Seconds until a silent client is asked whether it is there, between two such questions, and how many may fail: as on
+/// the gRPC port.
 constexpr int silence = 30;
 constexpr int question_gap = 5;
 constexpr int questions = 4;
 
 void set_options(int socket) {
-    const auto set = [socket](int level, int name, int value) { ::setsockopt(socket, level, name, &value, sizeof value); };
-    // What waits in the kernel for a slow viewer is old by the time it is shown: little of it, and newer frames take its place.
+    const auto set = [socket](int level, int name, int value) {
+        ::setsockopt(socket, level, name, &value, sizeof value);
+    };
+    // What waits in the kernel for a slow viewer is old by the time it is shown: little of it, and newer frames take
+    // its place.
     set(IPPROTO_TCP, TCP_NOTSENT_LOWAT, unsent_bytes);
     // A viewer that vanished without a goodbye is noticed, though its session may be still.
     set(SOL_SOCKET, SO_KEEPALIVE, 1);
@@ -131,15 +135,20 @@ void HttpServer::welcome(tcp::socket socket) {
         closed.close();
     }
     const auto connection = std::make_shared<HttpConnection>(
-        std::move(socket), tls_ ? tls_->current() : nullptr, context_, HttpConnection::Content{router_, grpc_web_}, limits_,
-        HttpConnection::Observer{
-            .answered =
-                [this](HttpConnection& active) {
-                    connections_.remove(&active);
-                    connections_.push_back(&active);
-                },
-            .gone = [this](HttpConnection& ended) { remove(ended); },
-            .may_stream = [this] { return std::cmp_less(std::ranges::count_if(connections_, &HttpConnection::streams), limits_.streams); }});
+        std::move(socket), tls_ ? tls_->current() : nullptr, context_, HttpConnection::Content{router_, grpc_web_},
+        limits_,
+        HttpConnection::Observer{.answered =
+                                     [this](HttpConnection& active) {
+                                         connections_.remove(&active);
+                                         connections_.push_back(&active);
+                                     },
+                                 .gone = [this](HttpConnection& ended) { remove(ended); },
+                                 .may_stream =
+                                     [this] {
+                                         return std::cmp_less(
+                                             std::ranges::count_if(connections_, &HttpConnection::streams),
+                                             limits_.streams);
+                                     }});
     connections_.push_back(connection.get());
     connection->start();
 }

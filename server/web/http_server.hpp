@@ -21,8 +21,8 @@ namespace meniscus::server {
 
 class HttpServer {
 public:
-    /// listen: "HOST:PORT", port 0 for a free one. tls: none for HTTP alone. Listens when it returns. Throws InvalidInput if it
-    /// cannot.
+    /// listen: "HOST:PORT", port 0 for a free one. tls: none for HTTP alone. Listens when it returns. Throws
+    /// InvalidInput if it cannot.
     HttpServer(const std::string& listen, Router router, GrpcWeb grpc_web = {}, const HttpLimits& limits = {},
                std::shared_ptr<const TlsContext> tls = nullptr);
     /// Cuts the connections off.

@@ -24,7 +24,8 @@ std::string_view authority_of(std::string_view origin) {
 std::string host_of(std::string_view authority) {
     if (authority.starts_with('[')) return std::string(authority.substr(1, authority.find(']') - 1));
     std::string host(authority.substr(0, authority.rfind(':')));
-    std::ranges::transform(host, host.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    std::ranges::transform(host, host.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     return host;
 }
 
@@ -40,11 +41,13 @@ bool is_loopback(std::string_view authority) {
 
 }  // namespace
 
-AllowedOrigins::AllowedOrigins(std::vector<std::string> allowed, std::string_view listen) : allowed_(std::move(allowed)) {
+AllowedOrigins::AllowedOrigins(std::vector<std::string> allowed, std::string_view listen)
+    : allowed_(std::move(allowed)) {
     for (const std::string& origin : allowed_) {
         const std::string_view authority = authority_of(origin);
         if (authority.empty() || authority.find_first_of("/*, ") != std::string_view::npos)
-            throw InvalidInput(fmt::format("--web-origin is \"{}\"; it must be as https://example.org or https://example.org:8443", origin));
+            throw InvalidInput(fmt::format(
+                "--web-origin is \"{}\"; it must be as https://example.org or https://example.org:8443", origin));
         names_.push_back(host_of(authority));
     }
     if (!listen.empty()) names_.push_back(host_of(listen));
@@ -64,7 +67,9 @@ bool AllowedOrigins::knows_host(std::string_view host) const {
 
 std::vector<std::pair<std::string, std::string>> cross_origin_headers(std::string_view origin) {
     if (origin.empty()) return {};
-    return {{"Access-Control-Allow-Origin", std::string(origin)}, {"Access-Control-Expose-Headers", "grpc-status, grpc-message"}, {"Vary", "Origin"}};
+    return {{"Access-Control-Allow-Origin", std::string(origin)},
+            {"Access-Control-Expose-Headers", "grpc-status, grpc-message"},
+            {"Vary", "Origin"}};
 }
 
 }  // namespace meniscus::server

@@ -10,16 +10,16 @@ namespace meniscus::server {
 
 class AllowedOrigins {
 public:
-    /// allowed: as "https://example.org"; pages of this machine and of the server itself need not be named. listen: the server's
-    /// "HOST:PORT". Throws InvalidInput for what is no origin.
+    /// allowed: as "https://example.org"; pages of this machine and of the server itself need not be named. listen: the
+    /// server's "HOST:PORT". Throws InvalidInput for what is no origin.
     explicit AllowedOrigins(std::vector<std::string> allowed, std::string_view listen = {});
     AllowedOrigins() = default;
 
     /// origin: as the browser sends it; empty: no browser asks. host: the request's, which the server is known by.
     bool admits(std::string_view origin, std::string_view host) const;
-    /// Whether a request for this host ("HOST:PORT", "HOST", or empty: none was named) can be meant for this server: by address, as
-    /// localhost, or by a name that it was given. Any other name may be an attacker's, whose DNS tells a browser that this machine
-    /// is its page's own (DNS rebinding).
+    /// Whether a request for this host ("HOST:PORT", "HOST", or empty: none was named) can be meant for this server: by
+    /// address, as localhost, or by a name that it was given. Any other name may be an attacker's, whose DNS tells a
+    /// browser that this machine is its page's own (DNS rebinding).
     bool knows_host(std::string_view host) const;
 
 private:

@@ -8,7 +8,8 @@
 namespace meniscus::server {
 
 void Router::add(std::string path, Handler handler) {
-    entries_.insert_or_assign(std::move(path), Entry{.handler = [handler = std::move(handler)](const PageRequest&) { return handler(); }});
+    entries_.insert_or_assign(
+        std::move(path), Entry{.handler = [handler = std::move(handler)](const PageRequest&) { return handler(); }});
 }
 
 void Router::add_for_browsers(std::string path, BrowserHandler handler) {

@@ -27,8 +27,8 @@ public:
     /// Only for requests to a name that the server is known by.
     void add_for_browsers(std::string path, BrowserHandler handler);
     bool is_for_browsers(std::string_view target) const;
-    /// target: as in the request line; what follows a question mark is ignored. A path without a handler is answered with
-    /// 404, a handler that throws with 500.
+    /// target: as in the request line; what follows a question mark is ignored. A path without a handler is answered
+    /// with 404, a handler that throws with 500.
     Page answer(std::string_view target, const PageRequest& request = {}) const;
 
 private:
@@ -38,7 +38,9 @@ private:
     };
     using Entries = std::map<std::string, Entry, std::less<>>;
 
-    Entries::const_iterator find(std::string_view target) const { return entries_.find(target.substr(0, target.find('?'))); }
+    Entries::const_iterator find(std::string_view target) const {
+        return entries_.find(target.substr(0, target.find('?')));
+    }
 
     Entries entries_;
 };

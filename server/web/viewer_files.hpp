@@ -7,10 +7,10 @@
 namespace meniscus::server {
 
 struct ViewerFile {
-    std::string_view path;          ///< as "/" or "/assets/index-1a2b3c.js"
+    std::string_view path;  ///< as "/" or "/assets/index-1a2b3c.js"
     std::string_view content_type;
-    bool hashed = false;            ///< whether the path changes with the content
-    bool compressed = false;        ///< whether the bytes are gzip
+    bool hashed = false;      ///< whether the path changes with the content
+    bool compressed = false;  ///< whether the bytes are gzip
     std::span<const unsigned char> bytes;
 };
 

@@ -86,9 +86,9 @@ private:
 
 void add_viewer_pages(Router& router) {
     for (const ViewerFile& file : viewer_files())
-        router.add_for_browsers(std::string(file.path), [page = std::make_shared<ViewerPage>(file)](const PageRequest& request) {
-            return page->answer(request);
-        });
+        router.add_for_browsers(
+            std::string(file.path),
+            [page = std::make_shared<ViewerPage>(file)](const PageRequest& request) { return page->answer(request); });
 }
 
 }  // namespace meniscus::server

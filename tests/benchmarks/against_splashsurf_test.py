@@ -32,12 +32,30 @@ def main():
         stand_in.write_text(STAND_IN)
         stand_in.chmod(0o755)
         # 2,000 particles have twice the reference radius; the script takes them for overlapping ones, which serves.
-        subprocess.run([meniscus, "simulate", "--particles", "2000", "--frames", "2", "--particles-out", folder], check=True)
+        subprocess.run(
+            [meniscus, "simulate", "--particles", "2000", "--frames", "2", "--particles-out", folder], check=True
+        )
         (folder / "frame_000000.vtk").rename(folder / "frame_040.vtk")
         (folder / "frame_000001.vtk").rename(folder / "frame_258.vtk")
         script = Path(__file__).with_name("against-splashsurf")
-        subprocess.run([sys.executable, script, meniscus, folder, "--splashsurf", stand_in, "--runs", "1", "--tiles", "2", "1",
-                        "--out", folder], check=True)
+        subprocess.run(
+            [
+                sys.executable,
+                script,
+                meniscus,
+                folder,
+                "--splashsurf",
+                stand_in,
+                "--runs",
+                "1",
+                "--tiles",
+                "2",
+                "1",
+                "--out",
+                folder,
+            ],
+            check=True,
+        )
         report = json.loads((folder / "against-splashsurf.json").read_text())
         speed, frame, large = report["frame_040_speed"], report["frame_040"], report["large"]
         check(report["splashsurf"] == "0.0.0", "the version of splashsurf")

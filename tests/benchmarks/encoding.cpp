@@ -80,13 +80,13 @@ Row measure(const Mesh& mesh, const std::string& mode, const CodingOptions& codi
 
 void print(const Row& row) {
     const auto number = [&row](const char* name) { return row[name].get<double>(); };
-    std::cout << std::left << std::setw(9) << row["mode"].get<std::string>() << std::right << std::fixed << std::setprecision(2)
-              << std::setw(6) << row["speed"].get<int>() << std::setw(8) << row["normal_bits"].get<int>() << std::setw(13)
-              << 1e-6 * number("bricks_triangles_per_second") << std::setw(11) << number("bricks_bits_per_triangle")
-              << std::setw(9) << number("level_bits_per_triangle") << std::setw(16)
-              << 1e-6 * number("one_piece_triangles_per_second") << std::setw(10) << number("one_piece_bits_per_triangle")
-              << std::setprecision(1) << std::setw(10) << 100.0 * (number("bricks_over_one_piece_bytes") - 1.0) << " %"
-              << std::defaultfloat << std::endl;
+    std::cout << std::left << std::setw(9) << row["mode"].get<std::string>() << std::right << std::fixed
+              << std::setprecision(2) << std::setw(6) << row["speed"].get<int>() << std::setw(8)
+              << row["normal_bits"].get<int>() << std::setw(13) << 1e-6 * number("bricks_triangles_per_second")
+              << std::setw(11) << number("bricks_bits_per_triangle") << std::setw(9)
+              << number("level_bits_per_triangle") << std::setw(16) << 1e-6 * number("one_piece_triangles_per_second")
+              << std::setw(10) << number("one_piece_bits_per_triangle") << std::setprecision(1) << std::setw(10)
+              << 100.0 * (number("bricks_over_one_piece_bytes") - 1.0) << " %" << std::defaultfloat << std::endl;
 }
 
 void run_encoding(const EncodingOptions& options) {
@@ -105,10 +105,12 @@ void run_encoding(const EncodingOptions& options) {
         settings.mode = mode;
         Mesh mesh;
         Reconstructor(settings).reconstruct(frame, mesh);
-        if (mesh.triangles.empty()) throw InvalidInput("there is no surface to encode: " + std::to_string(frame.count()) + " particles");
+        if (mesh.triangles.empty())
+            throw InvalidInput("there is no surface to encode: " + std::to_string(frame.count()) + " particles");
         for (const int speed : options.speeds)
             for (const int bits : options.normal_bits) {
-                rows.push_back(measure(mesh, mode == Mode::uniform ? "uniform" : "adaptive", {.normal_bits = bits, .speed = speed}, options.repeats));
+                rows.push_back(measure(mesh, mode == Mode::uniform ? "uniform" : "adaptive",
+                                       {.normal_bits = bits, .speed = speed}, options.repeats));
                 print(rows.back());
             }
     }
@@ -124,14 +126,16 @@ void run_encoding(const EncodingOptions& options) {
 
 void add_encoding(CLI::App& app) {
     auto options = std::make_shared<EncodingOptions>();
-    CLI::App& command = *app.add_subcommand("encoding", "Draco by bricks: speed, bits per triangle, overhead against one piece");
+    CLI::App& command =
+        *app.add_subcommand("encoding", "Draco by bricks: speed, bits per triangle, overhead against one piece");
     command.add_option("IN", options->in, "Particles; without it water is generated");
     command.add_option("--particle-radius", options->particle_radius, "World units")->capture_default_str();
     command.add_option("--water", options->water, "Generated water: splashing or calm")->capture_default_str();
     command.add_option("--particles", options->particles, "Of generated water")->capture_default_str();
     command.add_option("--cell-size", options->cell_size, "In particle radii")->capture_default_str();
     command.add_option("--speed", options->speeds, "Draco's speeds, 0 to 10")->capture_default_str();
-    command.add_option("--normal-bits", options->normal_bits, "Per component of a normal; 0: no normals")->capture_default_str();
+    command.add_option("--normal-bits", options->normal_bits, "Per component of a normal; 0: no normals")
+        ->capture_default_str();
     command.add_option("--repeats", options->repeats, "Runs of each case, of which the median counts")
         ->check(CLI::Range(1U, 1000U))
         ->capture_default_str();

@@ -137,7 +137,8 @@ void write_plots(const std::filesystem::path& directory, const BothSeries& serie
     }
     write("experiment-c-stages.svg", "(c) Time of each step, adaptive", time_unit, std::move(stages));
 
-    constexpr std::array<const char*, triangle_level_count> level_names{"level 1", "level 2", "level 3", "crack filling"};
+    constexpr std::array<const char*, triangle_level_count> level_names{"level 1", "level 2", "level 3",
+                                                                        "crack filling"};
     std::vector<Line> levels;
     for (std::size_t i = 0; i < triangle_level_count; ++i)
         levels.push_back({level_names[i], adaptive.figures([i](const Statistics& s) {
@@ -179,7 +180,9 @@ void add_experiment(CLI::App& app) {
     command.add_option("--frames", options->frames, "Number of frames")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1000000}))
         ->capture_default_str();
-    command.add_option("--frame-seconds", options->frame_seconds, "Simulated time between two frames; the paper's time step")
+    command
+        .add_option("--frame-seconds", options->frame_seconds,
+                    "Simulated time between two frames; the paper's time step")
         ->check(CLI::Range(1e-4, 1.0))
         ->capture_default_str();
     command.add_option("--repeats", options->repeats, "Runs of each frame and mode, of which the median counts")

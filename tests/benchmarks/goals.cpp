@@ -34,7 +34,8 @@ Json gpu_rows(const std::filesystem::path& folder, const char* command) {
 std::optional<double> of_a_million(const Json& scaling, WaterKind water, const char* mode, const char* figure) {
     constexpr std::size_t particles = 64 * basin_particles;
     for (const Json& row : scaling)
-        if (row.at("water") == name_of(water) && row.at("mode") == mode && row.at("cell_size") == 1.0 && row.at("particles") == particles)
+        if (row.at("water") == name_of(water) && row.at("mode") == mode && row.at("cell_size") == 1.0 &&
+            row.at("particles") == particles)
             return row.at(figure).get<double>();
     return {};
 }
@@ -61,7 +62,8 @@ enum class Bound { at_most, at_least };
 
 /// Nothing measured: null.
 Json row(const char* goal, const char* unit, Bound bound, double limit, std::optional<double> measured) {
-    Json out{{"goal", goal}, {"unit", unit}, {"bound", bound == Bound::at_most ? "at most" : "at least"}, {"limit", limit}, {"measured", nullptr}, {"holds", nullptr}};
+    Json out{{"goal", goal},   {"unit", unit},        {"bound", bound == Bound::at_most ? "at most" : "at least"},
+             {"limit", limit}, {"measured", nullptr}, {"holds", nullptr}};
     if (measured) {
         out["measured"] = *measured;
         out["holds"] = bound == Bound::at_most ? *measured <= limit : *measured >= limit;
@@ -72,14 +74,19 @@ Json row(const char* goal, const char* unit, Bound bound, double limit, std::opt
 Json judge(const std::filesystem::path& folder) {
     const Json scaling = gpu_rows(folder, "scaling");
     const Json experiment = gpu_rows(folder, "experiment");
-    const auto figure = [&](WaterKind water, const char* mode, const char* name) { return of_a_million(scaling, water, mode, name); };
+    const auto figure = [&](WaterKind water, const char* mode, const char* name) {
+        return of_a_million(scaling, water, mode, name);
+    };
     constexpr const char* seconds = "reconstruction_seconds";
     constexpr const char* bytes = "device_peak_bytes";
     using enum WaterKind;
     return Json::array({
-        row("a million splashing particles, c = 1.0, adaptive", "ms", Bound::at_most, 8.0, milliseconds(figure(splashing, "adaptive", seconds))),
-        row("a million splashing particles, c = 1.0, uniform", "ms", Bound::at_most, 20.0, milliseconds(figure(splashing, "uniform", seconds))),
-        row("the paper's dam break, adaptive, median frame", "ms", Bound::at_most, 0.5, milliseconds(median_frame(experiment))),
+        row("a million splashing particles, c = 1.0, adaptive", "ms", Bound::at_most, 8.0,
+            milliseconds(figure(splashing, "adaptive", seconds))),
+        row("a million splashing particles, c = 1.0, uniform", "ms", Bound::at_most, 20.0,
+            milliseconds(figure(splashing, "uniform", seconds))),
+        row("the paper's dam break, adaptive, median frame", "ms", Bound::at_most, 0.5,
+            milliseconds(median_frame(experiment))),
         row("a million calm particles, c = 1.0: time of uniform over adaptive", "times", Bound::at_least, 3.0,
             ratio(figure(calm, "uniform", seconds), figure(calm, "adaptive", seconds))),
         row("a million calm particles, c = 1.0: memory of adaptive over uniform", "times", Bound::at_most, 1.0 / 3.0,
@@ -92,8 +99,9 @@ Json judge(const std::filesystem::path& folder) {
 void run_goals(const std::filesystem::path& folder) {
     const Json goals = judge(folder);
     for (const Json& goal : goals)
-        std::cout << goal.at("goal").get<std::string>() << ": " << goal.at("bound").get<std::string>() << ' ' << goal.at("limit") << ' '
-                  << goal.at("unit").get<std::string>() << ", measured " << goal.at("measured") << '\n';
+        std::cout << goal.at("goal").get<std::string>() << ": " << goal.at("bound").get<std::string>() << ' '
+                  << goal.at("limit") << ' ' << goal.at("unit").get<std::string>() << ", measured "
+                  << goal.at("measured") << '\n';
     formats::make_directory(folder);
     formats::write_file(folder / "goals.json", goals.dump(2) + "\n");
 }
@@ -102,7 +110,9 @@ void run_goals(const std::filesystem::path& folder) {
 
 void add_goals(CLI::App& app) {
     auto folder = std::make_shared<std::string>("tests/benchmarks/results");
-    CLI::App& command = *app.add_subcommand("goals", "What a GPU is to reach, beside what experiment and scaling have measured on one; null where they have not");
+    CLI::App& command = *app.add_subcommand(
+        "goals",
+        "What a GPU is to reach, beside what experiment and scaling have measured on one; null where they have not");
     command.add_option("--out", *folder, "Folder with their results, and for goals.json")->capture_default_str();
     command.callback([folder] { run_goals(*folder); });
 }

@@ -85,14 +85,15 @@ void draw_axes(std::ostream& out, const LinePlot& plot, const Axis& x, const Axi
     }
     draw_segment(out, left, bottom, right, bottom, stroke.c_str());
     draw_text(out, 0.5 * (left + right), bottom + 39.0, "middle", plot.x_label);
-    out << "<text transform=\"translate(16 " << 0.5 * (top + bottom)
-        << ") rotate(-90)\" text-anchor=\"middle\">" << plot.y_label << "</text>\n";
+    out << "<text transform=\"translate(16 " << 0.5 * (top + bottom) << ") rotate(-90)\" text-anchor=\"middle\">"
+        << plot.y_label << "</text>\n";
     out << "<text x=\"" << left << "\" y=\"18\" font-size=\"15\">" << plot.title << "</text>\n";
 }
 
 void draw_line(std::ostream& out, const std::vector<double>& xs, const Line& line, const char* color, const Axis& x,
                const Axis& y) {
-    out << "<polyline fill=\"none\" stroke-width=\"1.6\" stroke-linejoin=\"round\" stroke=\"" << color << "\" points=\"";
+    out << "<polyline fill=\"none\" stroke-width=\"1.6\" stroke-linejoin=\"round\" stroke=\"" << color
+        << "\" points=\"";
     for (std::size_t i = 0; i < xs.size(); ++i)
         out << (i == 0 ? "" : " ") << x.pixel(xs[i]) << ',' << y.pixel(line.values[i]);
     out << "\"/>\n";
@@ -103,8 +104,9 @@ void draw_line(std::ostream& out, const std::vector<double>& xs, const Line& lin
 std::string to_svg(const LinePlot& plot) {
     std::ostringstream out;
     out << std::fixed << std::setprecision(1);
-    out << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << width << ' ' << height << "\" width=\"" << width
-        << "\" height=\"" << height << "\" font-family=\"sans-serif\" font-size=\"13\" fill=\"" << ink << "\">\n";
+    out << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << width << ' ' << height << "\" width=\""
+        << width << "\" height=\"" << height << "\" font-family=\"sans-serif\" font-size=\"13\" fill=\"" << ink
+        << "\">\n";
     const Axis x = x_axis(plot.x);
     const Axis y = y_axis(plot.lines);
     draw_axes(out, plot, x, y);

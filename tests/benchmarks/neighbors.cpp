@@ -32,7 +32,8 @@ double mean_neighbors(std::span<const float> particles, std::span<const float> p
         for (std::int64_t dz = -1; dz <= 1; ++dz)
             for (std::int64_t dy = -1; dy <= 1; ++dy)
                 for (std::int64_t dx = -1; dx <= 1; ++dx)
-                    points_near[key(cell(points[p]) + dx, cell(points[p + 1]) + dy, cell(points[p + 2]) + dz)].push_back(p);
+                    points_near[key(cell(points[p]) + dx, cell(points[p + 1]) + dy, cell(points[p + 2]) + dz)]
+                        .push_back(p);
     std::uint64_t pairs = 0;
     for (std::size_t i = 0; i < particles.size(); i += 3) {
         const auto found = points_near.find(key(cell(particles[i]), cell(particles[i + 1]), cell(particles[i + 2])));

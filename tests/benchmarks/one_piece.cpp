@@ -27,7 +27,8 @@ template <class Number>
 void add_positions(draco::Mesh& out, draco::DataType data_type, const Mesh& mesh, const LatticePosition& low) {
     add_attribute<Number>(out, draco::GeometryAttribute::POSITION, data_type, mesh.vertices.size(), [&](std::size_t i) {
         std::array<Number, 3> value;
-        for (std::size_t axis = 0; axis < 3; ++axis) value[axis] = static_cast<Number>(mesh.vertices[i][axis] - low[axis]);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            value[axis] = static_cast<Number>(mesh.vertices[i][axis] - low[axis]);
         return value;
     });
 }

@@ -63,7 +63,9 @@ double reconstruction_seconds(const Statistics& s) {
     return s.backend == "cuda" ? std::accumulate(s.stage_seconds.begin(), s.stage_seconds.end(), 0.0) : s.total_seconds;
 }
 
-std::uint64_t reconstruction_bytes(const Statistics& s) { return s.backend == "cuda" ? s.device_peak_bytes : s.peak_bytes; }
+std::uint64_t reconstruction_bytes(const Statistics& s) {
+    return s.backend == "cuda" ? s.device_peak_bytes : s.peak_bytes;
+}
 
 void add_statistics(Row& row, const Statistics& s) {
     row["total_seconds"] = s.total_seconds;
@@ -81,8 +83,8 @@ void add_statistics(Row& row, const Statistics& s) {
     row["allocations"] = s.allocations;
 }
 
-void write_report(const std::filesystem::path& directory, const std::string& name, const nlohmann::ordered_json& summary,
-                  const Rows& rows) {
+void write_report(const std::filesystem::path& directory, const std::string& name,
+                  const nlohmann::ordered_json& summary, const Rows& rows) {
     nlohmann::ordered_json all;
     all["machine"] = describe_backend(Backend::cpu).device;
     all["compiler"] = __VERSION__;

@@ -17,7 +17,8 @@ using Rows = nlohmann::ordered_json;
 /// Kept for the reports, with only the last part of absolute paths: the rest says nothing elsewhere.
 void remember_command(int argc, const char* const* argv);
 
-/// What a reconstruction takes, in seconds: on a GPU between CUDA's events, from the upload on, without the mesh's way to the host.
+/// What a reconstruction takes, in seconds: on a GPU between CUDA's events, from the upload on, without the mesh's way
+/// to the host.
 double reconstruction_seconds(const Statistics& statistics);
 /// The bytes that it takes place in: of the GPU, or of the host with the mesh.
 std::uint64_t reconstruction_bytes(const Statistics& statistics);
@@ -26,7 +27,7 @@ std::uint64_t reconstruction_bytes(const Statistics& statistics);
 void add_statistics(Row& row, const Statistics& statistics);
 
 /// Writes `name`.csv, the rows, and `name`.json: machine, commit, command, what `summary` holds, and the rows.
-void write_report(const std::filesystem::path& directory, const std::string& name, const nlohmann::ordered_json& summary,
-                  const Rows& rows);
+void write_report(const std::filesystem::path& directory, const std::string& name,
+                  const nlohmann::ordered_json& summary, const Rows& rows);
 
 }  // namespace meniscus::benchmarks

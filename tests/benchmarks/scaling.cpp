@@ -68,8 +68,8 @@ void add_floor(Row& row, const Statistics& s, const Neighborhood& neighbors, con
     row["share_of_copy_bandwidth"] = copy_seconds / reconstruction_seconds(s);
 }
 
-Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<float>& positions, double cell_size, Mode mode,
-            const MachinePeaks& peaks) {
+Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<float>& positions, double cell_size,
+            Mode mode, const MachinePeaks& peaks) {
     Settings settings;
     settings.particle_radius = particle_radius;
     settings.cell_size = cell_size;
@@ -99,11 +99,11 @@ Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<flo
 }
 
 void print(const Row& row) {
-    std::cout << std::left << std::setw(10) << row["water"].get<std::string>() << std::setw(5) << row["cell_size"].get<double>()
-              << std::setw(9) << row["mode"].get<std::string>() << std::right << std::setw(10)
-              << row["particles"].get<std::uint64_t>() << std::fixed << std::setprecision(3) << std::setw(10)
-              << row["seconds_per_million_particles"].get<double>() << std::setprecision(2) << std::setw(8)
-              << row["first_over_warm"].get<double>() << std::setprecision(0) << std::setw(10)
+    std::cout << std::left << std::setw(10) << row["water"].get<std::string>() << std::setw(5)
+              << row["cell_size"].get<double>() << std::setw(9) << row["mode"].get<std::string>() << std::right
+              << std::setw(10) << row["particles"].get<std::uint64_t>() << std::fixed << std::setprecision(3)
+              << std::setw(10) << row["seconds_per_million_particles"].get<double>() << std::setprecision(2)
+              << std::setw(8) << row["first_over_warm"].get<double>() << std::setprecision(0) << std::setw(10)
               << row["bytes_per_particle"].get<double>() << std::setw(10) << row["bytes_per_triangle"].get<double>()
               << std::setw(8) << row["allocations"].get<std::uint64_t>() << std::setprecision(3) << std::setw(8)
               << row["share_of_multiply_add_peak"].get<double>() << std::setw(8)
@@ -115,9 +115,12 @@ Rows compare_sizes(const Rows& rows) {
     Rows out = Rows::array();
     for (const Row& largest : rows) {
         const auto same_series = [&](const Row& row) {
-            return row["water"] == largest["water"] && row["cell_size"] == largest["cell_size"] && row["mode"] == largest["mode"];
+            return row["water"] == largest["water"] && row["cell_size"] == largest["cell_size"] &&
+                   row["mode"] == largest["mode"];
         };
-        const auto is_larger = [&](const Row& row) { return same_series(row) && row["particles"] > largest["particles"]; };
+        const auto is_larger = [&](const Row& row) {
+            return same_series(row) && row["particles"] > largest["particles"];
+        };
         if (std::any_of(rows.begin(), rows.end(), is_larger)) continue;
         const Row& smallest = *std::find_if(rows.begin(), rows.end(), same_series);
         const auto ratio = [&](const char* name) { return largest[name].get<double>() / smallest[name].get<double>(); };
@@ -133,10 +136,10 @@ Rows compare_sizes(const Rows& rows) {
 }
 
 void print_comparison(const Row& row) {
-    std::cout << std::left << std::setw(10) << row["water"].get<std::string>() << std::setw(5) << row["cell_size"].get<double>()
-              << std::setw(9) << row["mode"].get<std::string>() << std::right << std::fixed << std::setprecision(2)
-              << std::setw(8) << row["time_per_particle_ratio"].get<double>() << std::setw(8)
-              << row["memory_per_particle_ratio"].get<double>() << std::defaultfloat << '\n';
+    std::cout << std::left << std::setw(10) << row["water"].get<std::string>() << std::setw(5)
+              << row["cell_size"].get<double>() << std::setw(9) << row["mode"].get<std::string>() << std::right
+              << std::fixed << std::setprecision(2) << std::setw(8) << row["time_per_particle_ratio"].get<double>()
+              << std::setw(8) << row["memory_per_particle_ratio"].get<double>() << std::defaultfloat << '\n';
 }
 
 void run_scaling(const ScalingOptions& options) {
@@ -185,7 +188,8 @@ void add_scaling(CLI::App& app) {
     command.add_option("--max-particles-fine", options->max_particles_fine, "Largest scene at cell size 0.5")
         ->capture_default_str();
     add_backend_options(command, options->backend);
-    command.add_option("--tolerance", options->tolerance, "Of the curvature criterion, in cells")->capture_default_str();
+    command.add_option("--tolerance", options->tolerance, "Of the curvature criterion, in cells")
+        ->capture_default_str();
     command.add_option("--repeats", options->limits.runs, "Warm runs of each case, of which the median counts")
         ->check(CLI::Range(1U, 1000U))
         ->capture_default_str();

@@ -32,7 +32,8 @@ pid_t start(std::vector<std::string> command) {
     pid_t pid = -1;
     const int error = ::posix_spawnp(&pid, argv.front(), nullptr, nullptr, argv.data(), environ);
     if (error != 0)
-        throw std::runtime_error("cannot run " + command.front() + ": " + std::strerror(error) + "; --meniscusd says where it is");
+        throw std::runtime_error("cannot run " + command.front() + ": " + std::strerror(error) +
+                                 "; --meniscusd says where it is");
     return pid;
 }
 
@@ -47,7 +48,8 @@ bool listens(const std::string& address) {
 }  // namespace
 
 ServerProgram::ServerProgram(const std::string& program, const std::vector<std::string>& options)
-    : address_("unix:" + (std::filesystem::temp_directory_path() / ("meniscus-bench-" + std::to_string(::getpid()))).string()) {
+    : address_("unix:" +
+               (std::filesystem::temp_directory_path() / ("meniscus-bench-" + std::to_string(::getpid()))).string()) {
     std::vector<std::string> command{program, "--listen", address_};
     command.insert(command.end(), options.begin(), options.end());
     pid_ = start(std::move(command));

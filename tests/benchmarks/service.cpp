@@ -1,4 +1,5 @@
-// meniscus-bench service: processor time of meniscusd, against that of reconstructing and encoding the same frames here.
+// meniscus-bench service: processor time of meniscusd, against that of reconstructing and encoding the same frames
+// here.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <future>
@@ -46,8 +47,9 @@ ParticleFrame frame_of(const std::vector<float>& positions) {
     return frame;
 }
 
-/// Of one frame, in this process: one thread reconstructs while another one encodes the frame before. Two cores may be one
-/// core's two threads, and each then takes more processor time than alone: as in the server, so that the two compare.
+/// Of one frame, in this process: one thread reconstructs while another one encodes the frame before. Two cores may be
+/// one core's two threads, and each then takes more processor time than alone: as in the server, so that the two
+/// compare.
 double processor_seconds_here(const Frames& frames, const Settings& settings, const CodingOptions& coding) {
     Reconstructor reconstructor(settings, one_cpu_thread);
     std::array<Mesh, 2> meshes;
@@ -124,8 +126,9 @@ void run_service(const ServiceOptions& options) {
         rows.push_back(row);
     }
     nlohmann::ordered_json summary;
-    summary["runs"] = "processor time per frame, frames overlapping, one thread reconstructs and one encodes; median of " +
-                      std::to_string(options.repeats) + " pairs";
+    summary["runs"] =
+        "processor time per frame, frames overlapping, one thread reconstructs and one encodes; median of " +
+        std::to_string(options.repeats) + " pairs";
     summary["frames"] = options.frames;
     summary["cell_size"] = options.cell_size;
     summary["normal_bits"] = options.normal_bits;
@@ -137,13 +140,15 @@ void run_service(const ServiceOptions& options) {
 void add_service(CLI::App& app) {
     auto options = std::make_shared<ServiceOptions>();
     CLI::App& command = *app.add_subcommand("service", "Processor time that meniscusd adds to reconstruct and encode");
-    command.add_option("--meniscusd", options->program, "The program; looked for in PATH if it is a name alone")->capture_default_str();
+    command.add_option("--meniscusd", options->program, "The program; looked for in PATH if it is a name alone")
+        ->capture_default_str();
     command.add_option("--particles", options->particles, "Of a frame of splashing water")->capture_default_str();
     command.add_option("--cell-size", options->cell_size, "In particle radii")->capture_default_str();
     command.add_option("--frames", options->frames, "Of a run, after as many that do not count")
         ->check(CLI::Range(1U, 100'000U))
         ->capture_default_str();
-    command.add_option("--normal-bits", options->normal_bits, "Per component of a normal; 0: no normals")->capture_default_str();
+    command.add_option("--normal-bits", options->normal_bits, "Per component of a normal; 0: no normals")
+        ->capture_default_str();
     command.add_option("--repeats", options->repeats, "Pairs of runs, of which the median counts")
         ->check(CLI::Range(1U, 1000U))
         ->capture_default_str();

@@ -34,10 +34,22 @@ def check_goals(bench):
             subprocess.run([bench, "goals", "--out", folder], check=True, capture_output=True)
             return json.loads((folder / "goals.json").read_text())
 
-        check([(g["measured"], g["holds"]) for g in goals()] == [(None, None)] * 6, "goals: something is measured without results")
+        check(
+            [(g["measured"], g["holds"]) for g in goals()] == [(None, None)] * 6,
+            "goals: something is measured without results",
+        )
         cases = (("splashing", "adaptive"), ("splashing", "uniform"), ("calm", "adaptive"), ("calm", "uniform"))
-        scaling = [{"water": water, "mode": mode, "cell_size": 1.0, "particles": 64 * 16000, "reconstruction_seconds": 0.001 * (5 + 20 * i),
-                    "device_peak_bytes": 100 * (i + 1)} for i, (water, mode) in enumerate(cases)]
+        scaling = [
+            {
+                "water": water,
+                "mode": mode,
+                "cell_size": 1.0,
+                "particles": 64 * 16000,
+                "reconstruction_seconds": 0.001 * (5 + 20 * i),
+                "device_peak_bytes": 100 * (i + 1),
+            }
+            for i, (water, mode) in enumerate(cases)
+        ]
         experiment = [{"mode": "adaptive", "reconstruction_seconds": s} for s in (0.0007, 0.0001, 0.0004)]
         for backend in ("cpu", "cuda"):
             for name, rows in (("scaling", scaling), ("experiment", experiment)):
@@ -53,7 +65,9 @@ def check_service(bench, meniscusd, folder):
     subprocess.run([bench, "service", "--meniscusd", meniscusd, *tiny], check=True)
     (row,) = read_rows(folder, "service")
     check(float(row["here_processor_seconds"]) > 0 and float(row["served_over_here"]) > 0.5, f"service: {row}")
-    missing = subprocess.run([bench, "service", "--meniscusd", folder / "nowhere", *tiny], capture_output=True, text=True)
+    missing = subprocess.run(
+        [bench, "service", "--meniscusd", folder / "nowhere", *tiny], capture_output=True, text=True
+    )
     check(missing.returncode == 1 and "nowhere" in missing.stderr, f"service: a missing program gives {missing}")
 
 
@@ -70,14 +84,19 @@ def main():
             check(len(report["rows"]) == rows, f"{name}: the JSON has other rows than the CSV")
             for key in ("machine", "commit", "command"):
                 check(report[key], f"{name}: the JSON has no {key}")
-        check(all(float(row["total_seconds"]) > 0 for row in read_rows(folder, "experiment")), "experiment: a time of 0")
+        check(
+            all(float(row["total_seconds"]) > 0 for row in read_rows(folder, "experiment")), "experiment: a time of 0"
+        )
         plots = sorted(folder.glob("experiment-*.svg"))
         check(len(plots) == 4, f"experiment: {len(plots)} plots, should be 4")
         lines = [len(xml.etree.ElementTree.parse(p).findall("{http://www.w3.org/2000/svg}polyline")) for p in plots]
         check(lines == [2, 2, 8, 4], f"experiment: lines in the plots are {lines}")
         check_service(bench, sys.argv[2], folder)
     check_goals(bench)
-    check(subprocess.run([bench, "encoding", "--water", "ice"], capture_output=True).returncode == 2, "wrong input is refused")
+    check(
+        subprocess.run([bench, "encoding", "--water", "ice"], capture_output=True).returncode == 2,
+        "wrong input is refused",
+    )
     for name in ("experiment", "scaling"):
         refused = subprocess.run([bench, name, "--backend", "abacus"], capture_output=True, text=True)
         check(refused.returncode == 2 and "abacus" in refused.stderr, f"{name}: a wrong backend is refused by its name")

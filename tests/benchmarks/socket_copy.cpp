@@ -27,8 +27,8 @@ Ends connected_tcp() {
     auto* generic = reinterpret_cast<sockaddr*>(&address);
     socklen_t size = sizeof address;
     const int client = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    if (::bind(listening, generic, size) != 0 || ::listen(listening, 1) != 0 || ::getsockname(listening, generic, &size) != 0 ||
-        ::connect(client, generic, size) != 0)
+    if (::bind(listening, generic, size) != 0 || ::listen(listening, 1) != 0 ||
+        ::getsockname(listening, generic, &size) != 0 || ::connect(client, generic, size) != 0)
         throw std::runtime_error("no TCP connection on the loopback address");
     const int server = ::accept(listening, nullptr, nullptr);
     ::close(listening);
@@ -38,7 +38,8 @@ Ends connected_tcp() {
 Ends connected(Transport transport) {
     if (transport == Transport::tcp) return connected_tcp();
     Ends ends{};
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) throw std::runtime_error("no Unix socket");
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+        throw std::runtime_error("no Unix socket");
     return ends;
 }
 

@@ -51,12 +51,17 @@ public:
     const std::string& address() const { return address_; }
 
 private:
-    server::SessionRegistry registry_{
-        server::Limits{}, BackendOptions{.backend = Backend::cpu}, 1, {}, std::make_shared<server::Metrics>(), nullptr,
-        [](const Settings&, const BackendOptions&) {
-            return server::ReconstructFunctions{.reconstruct = [](const ParticleFrame&, Mesh&) { return Statistics{}; },
-                                                .emit_capped = nullptr};
-        }};
+    server::SessionRegistry registry_{server::Limits{},
+                                      BackendOptions{.backend = Backend::cpu},
+                                      1,
+                                      {},
+                                      std::make_shared<server::Metrics>(),
+                                      nullptr,
+                                      [](const Settings&, const BackendOptions&) {
+                                          return server::ReconstructFunctions{
+                                              .reconstruct = [](const ParticleFrame&, Mesh&) { return Statistics{}; },
+                                              .emit_capped = nullptr};
+                                      }};
     const server::Authorizer everyone_;
     server::ActiveCalls calls_;
     server::SessionServiceImpl session_service_{registry_, everyone_};
@@ -121,8 +126,9 @@ void run_upload(const UploadOptions& options) {
         const Row row = measure(transport, options);
         const auto number = [&row](const char* name) { return row[name].get<double>(); };
         std::cout << std::left << std::setw(9) << row["transport"].get<std::string>() << std::right << std::setw(13)
-                  << 1e-9 * number("upload_bytes_per_second") << std::setw(6) << 1e-9 * number("best_upload_bytes_per_second")
-                  << std::setw(19) << 1e-9 * number("socket_bytes_per_second") << std::setw(7) << number("upload_over_socket")
+                  << 1e-9 * number("upload_bytes_per_second") << std::setw(6)
+                  << 1e-9 * number("best_upload_bytes_per_second") << std::setw(19)
+                  << 1e-9 * number("socket_bytes_per_second") << std::setw(7) << number("upload_over_socket")
                   << std::endl;
         rows.push_back(row);
     }
@@ -139,14 +145,18 @@ void run_upload(const UploadOptions& options) {
 
 void add_upload(CLI::App& app) {
     auto options = std::make_shared<UploadOptions>();
-    CLI::App& command =
-        *app.add_subcommand("upload", "Particle bytes into a session's buffer, over TCP and a Unix socket of this machine");
+    CLI::App& command = *app.add_subcommand(
+        "upload", "Particle bytes into a session's buffer, over TCP and a Unix socket of this machine");
     command.add_option("--particles", options->particles, "Of a frame")->capture_default_str();
-    command.add_option("--frames", options->frames, "Of a run")->check(CLI::Range(1U, 1'000'000U))->capture_default_str();
+    command.add_option("--frames", options->frames, "Of a run")
+        ->check(CLI::Range(1U, 1'000'000U))
+        ->capture_default_str();
     command.add_option("--repeats", options->repeats, "Runs, of which the median counts")
         ->check(CLI::Range(1U, 1000U))
         ->capture_default_str();
-    command.add_option("--reconnect", options->reconnect, "Seconds; above 0 the client keeps frames until they are answered")
+    command
+        .add_option("--reconnect", options->reconnect,
+                    "Seconds; above 0 the client keeps frames until they are answered")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
     command.add_option("--out", options->out, "Folder for the results")->capture_default_str();

@@ -13,8 +13,8 @@ struct RepeatLimits {
 };
 
 struct WarmRuns {
-    Statistics first;   ///< of a new reconstructor, whose memory is not there yet
-    Statistics median;  ///< the warm run of median total time (the lower of two in the middle)
+    Statistics first;    ///< of a new reconstructor, whose memory is not there yet
+    Statistics median;   ///< the warm run of median total time (the lower of two in the middle)
     unsigned count = 0;  ///< warm runs
 };
 

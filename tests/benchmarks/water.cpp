@@ -34,9 +34,7 @@ public:
     Basin(std::vector<float>& positions, float distance, float x, float z, std::uint32_t seed)
         : positions_(positions), distance_(distance), x_(x), z_(z), noise_(seed) {}
 
-    void fill(WaterKind kind) {
-        kind == WaterKind::calm ? add_calm_block() : add_splash();
-    }
+    void fill(WaterKind kind) { kind == WaterKind::calm ? add_calm_block() : add_splash(); }
 
 private:
     void add(float x, float y, float z, float jitter) {
@@ -118,8 +116,8 @@ std::vector<float> make_water(WaterKind kind, std::size_t particles, float parti
     positions.reserve(3 * basins * basin_particles);
     for (std::size_t i = 0; i < basins; ++i) {
         const std::size_t row = i / along_x;
-        Basin(positions, 2.0F * particle_radius, pitch * static_cast<float>(i % along_x), pitch * static_cast<float>(row),
-              static_cast<std::uint32_t>(i + 1))
+        Basin(positions, 2.0F * particle_radius, pitch * static_cast<float>(i % along_x),
+              pitch * static_cast<float>(row), static_cast<std::uint32_t>(i + 1))
             .fill(kind);
     }
     return positions;

@@ -30,7 +30,9 @@ compare::Comparison compare_modes(const test::Particles& particles, double toler
     return compare::compare_surfaces({a, adaptive.triangles}, {b, uniform.triangles}, 20'000);
 }
 
-double cell_size() { return world_cell_size(test::default_settings()); }
+double cell_size() {
+    return world_cell_size(test::default_settings());
+}
 
 /// Drops too far apart to meet, anywhere between the lattice's points.
 test::Particles lone_drops(unsigned seed) {
@@ -91,7 +93,8 @@ TEST(Adaptivity, ACubeOfEightDropsIsNearTheUniformOneWhereverItLies) {
         test::Particles cube;
         for (int i = 0; i < 8; ++i) {
             const float at = 0.0125F * static_cast<float>(shift);
-            cube.add(0.05F * static_cast<float>(i & 1) + at, 0.05F * static_cast<float>(i >> 1 & 1) + at, 0.05F * static_cast<float>(i >> 2) + at);
+            cube.add(0.05F * static_cast<float>(i & 1) + at, 0.05F * static_cast<float>(i >> 1 & 1) + at,
+                     0.05F * static_cast<float>(i >> 2) + at);
         }
         SCOPED_TRACE(shift);
         expect_near(cube);

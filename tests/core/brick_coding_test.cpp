@@ -18,7 +18,8 @@ namespace {
 
 Mesh round_trip(const Mesh& mesh, const CodingOptions& options) {
     std::vector<DecodedBrick> bricks;
-    for (std::size_t b = 0; b < mesh.bricks.size(); ++b) bricks.push_back(decode_brick(encode_brick(mesh, b, options), mesh.offset_bits));
+    for (std::size_t b = 0; b < mesh.bricks.size(); ++b)
+        bricks.push_back(decode_brick(encode_brick(mesh, b, options), mesh.offset_bits));
     return weld_bricks(bricks, mesh.cell_size, mesh.offset_bits);
 }
 
@@ -62,7 +63,8 @@ TEST(BrickCoding, KeepsAMeshClosedAndItsLevelsOnEveryCoarserLattice) {
                 const CodingOptions options{.position_bits = static_cast<int>(bits)};
                 EXPECT_EQ(encoded_offset_bits(mesh, options), bits);
                 std::vector<DecodedBrick> bricks;
-                for (std::size_t b = 0; b < mesh.bricks.size(); ++b) bricks.push_back(decode_brick(encode_brick(mesh, b, options), bits));
+                for (std::size_t b = 0; b < mesh.bricks.size(); ++b)
+                    bricks.push_back(decode_brick(encode_brick(mesh, b, options), bits));
                 const Mesh coarser = weld_bricks(bricks, mesh.cell_size, bits);
                 EXPECT_TRUE(test::check(coarser).closed_manifold()) << test::check(coarser).text();
                 EXPECT_EQ(coarser.vertices.size(), mesh.vertices.size());
@@ -115,7 +117,8 @@ TEST(BrickCoding, KeepsNormalsWithinTwoDegreesAtEightBits) {
     const Mesh received = round_trip(mesh, {});
     std::vector<std::pair<LatticePosition, Normal>> before, after;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) before.emplace_back(mesh.vertices[v], mesh.normals[v]);
-    for (std::size_t v = 0; v < received.vertices.size(); ++v) after.emplace_back(received.vertices[v], received.normals[v]);
+    for (std::size_t v = 0; v < received.vertices.size(); ++v)
+        after.emplace_back(received.vertices[v], received.normals[v]);
     std::sort(before.begin(), before.end());
     std::sort(after.begin(), after.end());
     ASSERT_EQ(before.size(), after.size());
@@ -215,9 +218,12 @@ TEST(BrickCoding, RefusesCountsBeforeDracoAllocatesByThem) {
     EXPECT_EQ(refusal(whole), "");
     // Draco would ask for 30 GB.
     constexpr std::uint32_t many = 1'000'000'000;
-    EXPECT_NE(refusal(with_counts(whole, many / 2, many, many)).find("has 1000000000 triangles, announced were"), std::string::npos);
-    EXPECT_NE(refusal(with_counts(whole, many, whole.triangles, whole.triangles)).find("1000000000 vertices"), std::string::npos);
-    EXPECT_NE(refusal(with_counts(whole, whole.vertices, whole.triangles, many)).find("1000000000 symbols"), std::string::npos);
+    EXPECT_NE(refusal(with_counts(whole, many / 2, many, many)).find("has 1000000000 triangles, announced were"),
+              std::string::npos);
+    EXPECT_NE(refusal(with_counts(whole, many, whole.triangles, whole.triangles)).find("1000000000 vertices"),
+              std::string::npos);
+    EXPECT_NE(refusal(with_counts(whole, whole.vertices, whole.triangles, many)).find("1000000000 symbols"),
+              std::string::npos);
     EncodedBrick announced = with_counts(whole, 2'000'000, 4'000'000, 4'000'000);
     announced.triangles = 4'000'000;
     EXPECT_NE(refusal(announced).find("more than 64 per byte"), std::string::npos);

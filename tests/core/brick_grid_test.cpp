@@ -48,13 +48,15 @@ TEST(BrickGrid, NumbersMembersFindsNeighborsAndRunsAsASortedSetDoes) {
         for (int i = 0; i < 27; ++i) {
             const Int3 offset{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
             const auto other = members.find(c + offset);
-            ASSERT_EQ(view.neighbor(brick, index_in_brick(c), offset), other == members.end() ? no_index : other->second);
+            ASSERT_EQ(view.neighbor(brick, index_in_brick(c), offset),
+                      other == members.end() ? no_index : other->second);
         }
     }
     BrickGuesses guesses;
     for (int round = 0; round < 200; ++round) {
         const Int3 a{place(random), place(random), place(random)}, b{place(random), place(random), place(random)};
-        const Int3 low{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}, high{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+        const Int3 low{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
+            high{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
         std::vector<std::uint32_t> found, expected;
         view.for_each_brick(low, high, guesses, [&](const Brick& brick, const Int3& brick_low, const Int3& brick_high) {
             brick.for_each_run(brick_low, brick_high, [&](std::uint32_t first, std::uint32_t count) {
@@ -62,7 +64,8 @@ TEST(BrickGrid, NumbersMembersFindsNeighborsAndRunsAsASortedSetDoes) {
             });
         });
         for (const auto& [c, n] : members)
-            if (c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z && c.z <= high.z) expected.push_back(n);
+            if (c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z && c.z <= high.z)
+                expected.push_back(n);
         ASSERT_EQ(found, expected);
     }
 }

@@ -39,8 +39,10 @@ TEST(CappedLevels, GiveClosedManifoldsWithoutFinerTriangles) {
             for (const int max_level : {1, 2}) {
                 reconstructor.emit_capped(max_level, mesh);
                 const test::MeshReport report = test::check(mesh);
-                EXPECT_TRUE(report.closed_manifold()) << name << ", levels up to " << max_level << ": " << report.text();
-                for (std::size_t level = static_cast<std::size_t>(max_level); level < 3; ++level) EXPECT_EQ(mesh.levels[level].count, 0U) << name;
+                EXPECT_TRUE(report.closed_manifold())
+                    << name << ", levels up to " << max_level << ": " << report.text();
+                for (std::size_t level = static_cast<std::size_t>(max_level); level < 3; ++level)
+                    EXPECT_EQ(mesh.levels[level].count, 0U) << name;
                 EXPECT_LE(mesh.triangles.size(), full) << name;
             }
         }
@@ -81,7 +83,8 @@ TEST(CappedLevels, KeepTheVolumeOfTheFluid) {
 TEST(CappedLevels, AreTheSameOnAnyNumberOfThreads) {
     const test::Particles particles = test::splash(5);
     Mesh one, three;
-    Reconstructor on_one(test::default_settings(), {Backend::cpu, 1}), on_three(test::default_settings(), {Backend::cpu, 3});
+    Reconstructor on_one(test::default_settings(), {Backend::cpu, 1}),
+        on_three(test::default_settings(), {Backend::cpu, 3});
     on_one.reconstruct(particles.frame(), one);
     on_three.reconstruct(particles.frame(), three);
     for (const int max_level : {1, 2}) {

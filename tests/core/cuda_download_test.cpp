@@ -1,4 +1,5 @@
-// Meshes that come down while later frames are reconstructed, on a device in software whose streams do nothing before they are waited for.
+// Meshes that come down while later frames are reconstructed, on a device in software whose streams do nothing before
+// they are waited for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -126,7 +127,8 @@ TEST_F(CudaDownload, TrianglesComeDownBrickByBrickAfterTheVertices) {
     const auto is_there = [&](const MeshBrick& brick) {
         return std::all_of(brick.ranges.begin(), brick.ranges.end(), [&](const TriangleRange& range) {
             const auto at = static_cast<std::ptrdiff_t>(range.first);
-            return std::equal(frame.mesh.triangles.begin() + at, frame.mesh.triangles.begin() + at + range.count, frame.expected.triangles.begin() + at);
+            return std::equal(frame.mesh.triangles.begin() + at, frame.mesh.triangles.begin() + at + range.count,
+                              frame.expected.triangles.begin() + at);
         });
     };
     ASSERT_GT(frame.mesh.bricks.size(), 1U);

@@ -1,4 +1,5 @@
-// The CUDA backend's kernels, run by a device in software, give the CPU's mesh to the bit. (What only a GPU can show: cuda_test.cpp.)
+// The CUDA backend's kernels, run by a device in software, give the CPU's mesh to the bit. (What only a GPU can show:
+// cuda_test.cpp.)
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -18,7 +19,8 @@ bool same_bytes(const Array<T>& a, const Array<T>& b) {
 class EmulatedDevice {
 public:
     explicit EmulatedDevice(const Settings& settings, std::size_t limit = 0)
-        : settings_(settings), device_account_(std::make_shared<MemoryAccount>(limit, "on the GPU")),
+        : settings_(settings),
+          device_account_(std::make_shared<MemoryAccount>(limit, "on the GPU")),
           backend_(cuda::make_reconstruction(settings, 0, std::make_shared<MemoryAccount>(), device_account_)) {}
 
     void expect_the_cpus_mesh(const ParticleFrame& frame) {
@@ -41,7 +43,9 @@ public:
         }
     }
 
-    void expect_a_refusal(const ParticleFrame& frame) { EXPECT_THROW(static_cast<void>(backend_->reconstruct(frame, mesh_, statistics_)), LimitExceeded); }
+    void expect_a_refusal(const ParticleFrame& frame) {
+        EXPECT_THROW(static_cast<void>(backend_->reconstruct(frame, mesh_, statistics_)), LimitExceeded);
+    }
 
     const MemoryAccount& device_account() const { return *device_account_; }
 
@@ -52,7 +56,8 @@ private:
         EXPECT_TRUE(same_bytes(mesh_.normals, expected.normals));
         EXPECT_TRUE(same_bytes(mesh_.triangles, expected.triangles));
         EXPECT_TRUE(same_bytes(mesh_.bricks, expected.bricks));
-        for (std::size_t l = 0; l < triangle_level_count; ++l) EXPECT_EQ(mesh_.levels[l].first, expected.levels[l].first);
+        for (std::size_t l = 0; l < triangle_level_count; ++l)
+            EXPECT_EQ(mesh_.levels[l].first, expected.levels[l].first);
     }
 
     Settings settings_;
@@ -67,7 +72,8 @@ TEST(CudaEmulated, GivesTheCpusMeshForASplash) {
     for (const Field field : {Field::color, Field::density})
         for (const Mode mode : {Mode::adaptive, Mode::uniform})
             for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
-                SCOPED_TRACE(testing::Message() << "field " << int(field) << " mode " << int(mode) << " edge points " << int(edge_points));
+                SCOPED_TRACE(testing::Message()
+                             << "field " << int(field) << " mode " << int(mode) << " edge points " << int(edge_points));
                 Settings settings = test::default_settings();
                 settings.field = field;
                 settings.mode = mode;
@@ -106,7 +112,8 @@ TEST(CudaEmulated, GivesTheCpusMeshForParticleLevelsDomainsAndQuantizedPositions
     EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
 
     std::vector<std::uint16_t> quantized;
-    for (std::size_t i = 0; i < particles.positions.size(); ++i) quantized.push_back(static_cast<std::uint16_t>(i * 7919 % 65536));
+    for (std::size_t i = 0; i < particles.positions.size(); ++i)
+        quantized.push_back(static_cast<std::uint16_t>(i * 7919 % 65536));
     ParticleFrame frame;
     frame.quantized = quantized;
     frame.quantization_box = {{-0.1, 0.2, -0.3}, {0.4, 0.6, 0.5}};
@@ -147,7 +154,8 @@ TEST(CudaEmulated, TheFirstFrameFindsItsRoomInFewRuns) {
     settings.cell_size = 1.0;
     EmulatedDevice device(settings);
     device.expect_the_cpus_mesh(test::splash(6, 20).frame());
-    EXPECT_LE(device.device_account().allocations(), 6U) << "for particles and a least mesh, blocks, samples, more samples, the mesh";
+    EXPECT_LE(device.device_account().allocations(), 6U)
+        << "for particles and a least mesh, blocks, samples, more samples, the mesh";
 }
 
 TEST(CudaEmulated, AFrameBeyondTheMemoryLimitIsRefusedBeforeItIsAllocated) {
@@ -158,7 +166,8 @@ TEST(CudaEmulated, AFrameBeyondTheMemoryLimitIsRefusedBeforeItIsAllocated) {
     limited.expect_the_cpus_mesh(test::splash(6, 6).frame());
     limited.expect_a_refusal(test::splash(6, 16).frame());
     EXPECT_LE(limited.device_account().peak_bytes(), limit);
-    EXPECT_LT(limited.device_account().bytes(), limit / 2) << "the room of the frame before, its mesh aside, is given back first";
+    EXPECT_LT(limited.device_account().bytes(), limit / 2)
+        << "the room of the frame before, its mesh aside, is given back first";
 }
 
 }  // namespace

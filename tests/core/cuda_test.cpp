@@ -1,4 +1,5 @@
-// The CUDA backend on a GPU: the CPU's mesh to the bit, memory limits, memory that does not grow. Skipped, saying why, where there is none.
+// The CUDA backend on a GPU: the CPU's mesh to the bit, memory limits, memory that does not grow. Skipped, saying why,
+// where there is none.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -56,8 +57,8 @@ TEST_F(CudaSmall, GivesTheCpusMeshForEveryModeCriterionFieldAndEdgePoint) {
         for (const Mode mode : {Mode::adaptive, Mode::uniform})
             for (const Criterion criterion : {Criterion::curvature, Criterion::count})
                 for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
-                    SCOPED_TRACE(testing::Message() << "field " << int(field) << " mode " << int(mode) << " criterion " << int(criterion)
-                                                    << " edge points " << int(edge_points));
+                    SCOPED_TRACE(testing::Message() << "field " << int(field) << " mode " << int(mode) << " criterion "
+                                                    << int(criterion) << " edge points " << int(edge_points));
                     Settings settings = test::default_settings();
                     settings.field = field;
                     settings.mode = mode;
@@ -73,7 +74,8 @@ TEST_F(CudaSmall, GivesTheCpusMeshForParticleLevelsQuantizedPositionsAndDomains)
     const test::Particles uniform = particles;
     for (std::size_t i = 0; i < particles.count(); ++i) particles.levels.push_back(i % 7 == 0 ? 2 : i % 3 == 0 ? 1 : 0);
     std::vector<std::uint16_t> quantized;
-    for (std::size_t i = 0; i < particles.positions.size(); ++i) quantized.push_back(static_cast<std::uint16_t>(i * 7919 % 65536));
+    for (std::size_t i = 0; i < particles.positions.size(); ++i)
+        quantized.push_back(static_cast<std::uint16_t>(i * 7919 % 65536));
     ParticleFrame frame;
     frame.quantized = quantized;
     frame.quantization_box = {{-0.1, 0.2, -0.3}, {0.4, 0.6, 0.5}};
@@ -195,7 +197,8 @@ TEST_F(Cuda, EveryStageOfAWarmFrameIsTimedAndNothingIsAllocated) {
     for (int i = 0; i < 4; ++i) gpu.reconstruct(particles.frame(), mesh);
     EXPECT_EQ(gpu.statistics().allocations, 0U);
     EXPECT_GT(gpu.statistics().device_bytes, 0U);
-    for (std::size_t stage = 0; stage < stage_count; ++stage) EXPECT_GT(gpu.statistics().stage_seconds[stage], 0.0) << stage_names[stage];
+    for (std::size_t stage = 0; stage < stage_count; ++stage)
+        EXPECT_GT(gpu.statistics().stage_seconds[stage], 0.0) << stage_names[stage];
 }
 
 TEST_F(Cuda, ThousandFramesDoNotGrowDeviceMemory) {
@@ -215,7 +218,8 @@ TEST_F(Cuda, ThousandFramesDoNotGrowDeviceMemory) {
 
 TEST(CudaWithoutGpu, AMissingDriverIsSaidPlainly) {
     const bool has_driver = dlopen("libcuda.so.1", RTLD_LAZY) != nullptr;
-    EXPECT_EQ(describe_backend(Backend::automatic).reason == "no NVIDIA driver found", !has_driver) << describe_backend(Backend::automatic).reason;
+    EXPECT_EQ(describe_backend(Backend::automatic).reason == "no NVIDIA driver found", !has_driver)
+        << describe_backend(Backend::automatic).reason;
 }
 
 TEST(CudaWithoutGpu, TheCpuBackendHasNoMeshOnADeviceAndSaysSo) {

@@ -10,7 +10,9 @@ namespace {
 
 TEST(Domain, CropsTheSurfaceClosedAtItsBorder) {
     const test::Particles particles = test::splash(31);
-    const std::vector<Box> boxes{{{0.11, -0.02, 0.13}, {0.42, 0.2, 0.37}}, {{0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}}, {{-9, 0.07, -9}, {9, 0.08, 9}},
+    const std::vector<Box> boxes{{{0.11, -0.02, 0.13}, {0.42, 0.2, 0.37}},
+                                 {{0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}},
+                                 {{-9, 0.07, -9}, {9, 0.08, 9}},
                                  {{0.2, -1, 0.2}, {0.2001, 1, 0.2001}}};
     for (const Box& box : boxes)
         for (const Mode mode : {Mode::adaptive, Mode::uniform})
@@ -39,7 +41,9 @@ TEST(Domain, CutsFullWaterFlatNextToTheBorder) {
     test::Particles particles;
     for (int z = 0; z < 12; ++z)
         for (int y = 0; y < 12; ++y)
-            for (int x = 0; x < 12; ++x) particles.add(static_cast<float>(x) * 0.05F, static_cast<float>(y) * 0.05F, static_cast<float>(z) * 0.05F);
+            for (int x = 0; x < 12; ++x)
+                particles.add(static_cast<float>(x) * 0.05F, static_cast<float>(y) * 0.05F,
+                              static_cast<float>(z) * 0.05F);
     Settings settings = test::default_settings();
     settings.domain = Box{{0.2, 0.2, 0.2}, {0.35, 0.35, 0.35}};
     settings.mode = Mode::uniform;

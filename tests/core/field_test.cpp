@@ -39,17 +39,21 @@ public:
         double sum = 0;
         for (std::size_t i = 0; i < weights_.size(); ++i) {
             const auto p = position(i);
-            sum += weights_[i] * spline(std::hypot(x - p[0], y - p[1], z - p[2]), 2 * settings_.smoothing_length * radius(i));
+            sum += weights_[i] *
+                   spline(std::hypot(x - p[0], y - p[1], z - p[2]), 2 * settings_.smoothing_length * radius(i));
         }
         return sum;
     }
 
 private:
-    double radius(std::size_t i) const { return settings_.particle_radius * (particles_.levels.empty() ? 1 : 1 << particles_.levels[i]); }
+    double radius(std::size_t i) const {
+        return settings_.particle_radius * (particles_.levels.empty() ? 1 : 1 << particles_.levels[i]);
+    }
     /// Snapped as the lattice has it.
     std::array<double, 3> position(std::size_t i) const {
         const double unit = world_cell_size(settings_) / 4096;
-        return {std::nearbyint(particles_.positions[3 * i] / unit) * unit, std::nearbyint(particles_.positions[3 * i + 1] / unit) * unit,
+        return {std::nearbyint(particles_.positions[3 * i] / unit) * unit,
+                std::nearbyint(particles_.positions[3 * i + 1] / unit) * unit,
                 std::nearbyint(particles_.positions[3 * i + 2] / unit) * unit};
     }
     Settings settings_;
@@ -74,13 +78,16 @@ void expect_naive_values(const Settings& user, const test::Particles& particles)
     for (int round = 0; round < 60; ++round) {
         const Int3 base{cell(random), cell(random), cell(random)};
         cpu::PointList points;
-        for (int i = 0; i < 13; ++i) points.add(static_cast<float>(unit(random)), static_cast<float>(unit(random)), static_cast<float>(unit(random)));
+        for (int i = 0; i < 13; ++i)
+            points.add(static_cast<float>(unit(random)), static_cast<float>(unit(random)),
+                       static_cast<float>(unit(random)));
         alignas(32) float values[cpu::max_points], gx[cpu::max_points], gy[cpu::max_points], gz[cpu::max_points];
         field.values(base, points, values, 0);
         field.normals(base, points, gx, gy, gz, 0);
         const double c = settings.cell_size;
         for (std::size_t i = 0; i < points.count; ++i) {
-            const double p[3] = {(base.x * 4 + points.x[i] / 4096.0) * c, (base.y * 4 + points.y[i] / 4096.0) * c, (base.z * 4 + points.z[i] / 4096.0) * c};
+            const double p[3] = {(base.x * 4 + points.x[i] / 4096.0) * c, (base.y * 4 + points.y[i] / 4096.0) * c,
+                                 (base.z * 4 + points.z[i] / 4096.0) * c};
             const double expected = naive.value(p[0], p[1], p[2]);
             ASSERT_NEAR(values[i], expected, 2e-5 * (1 + expected));
             if (expected < 0.05) continue;
@@ -106,11 +113,14 @@ TEST(Field, DensityIsTheSumOverAllParticles) {
     expect_naive_values(settings, test::splash(21, 10));
 }
 
-TEST(Field, ColorIsTheSumOverAllParticlesDividedByTheirDensity) { expect_naive_values(test::default_settings(), test::splash(22, 10)); }
+TEST(Field, ColorIsTheSumOverAllParticlesDividedByTheirDensity) {
+    expect_naive_values(test::default_settings(), test::splash(22, 10));
+}
 
 TEST(Field, ParticleLevelsScaleRadiusSupportAndMass) {
     test::Particles particles = test::splash(23, 8);
-    for (std::size_t i = 0; i < particles.count(); ++i) particles.levels.push_back(static_cast<std::uint8_t>(i % 11 == 0 ? 3 : i % 4));
+    for (std::size_t i = 0; i < particles.count(); ++i)
+        particles.levels.push_back(static_cast<std::uint8_t>(i % 11 == 0 ? 3 : i % 4));
     for (const Field field : {Field::density, Field::color}) {
         Settings settings = test::default_settings();
         settings.field = field;
@@ -128,7 +138,8 @@ TEST(Field, EightLanesGiveTheBitsOfOneFloat) {
             y[i] = std::round(distance(random));
             z[i] = std::round(distance(random));
         }
-        const Lanes sum = add_value(Lanes(0.25F), Lanes::load(x), Lanes::load(y), Lanes::load(z), 0.318F, 1.0F / 32768.0F);
+        const Lanes sum =
+            add_value(Lanes(0.25F), Lanes::load(x), Lanes::load(y), Lanes::load(z), 0.318F, 1.0F / 32768.0F);
         sum.store(lanes);
         Lanes gx(0.0F), gy(0.0F), gz(0.0F);
         add_gradient(gx, gy, gz, Lanes::load(x), Lanes::load(y), Lanes::load(z), 0.318F, 1.0F / 32768.0F);
@@ -147,7 +158,8 @@ TEST(Field, TheKernelIntegratesToOne) {
     const int steps = 20000;
     for (int i = 0; i < steps; ++i) {
         const double q = (i + 0.5) / steps;
-        integral += 4 * std::numbers::pi * q * q / steps * static_cast<double>(cubic_spline(static_cast<float>(q))) * 16 / std::numbers::pi;
+        integral += 4 * std::numbers::pi * q * q / steps * static_cast<double>(cubic_spline(static_cast<float>(q))) *
+                    16 / std::numbers::pi;
     }
     EXPECT_NEAR(integral, 1.0, 1e-5);
 }

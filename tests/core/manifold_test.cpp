@@ -11,7 +11,8 @@
 namespace meniscus {
 namespace {
 
-void expect_closed_in_all_settings(const std::string& name, const test::Particles& particles, std::initializer_list<double> cell_sizes) {
+void expect_closed_in_all_settings(const std::string& name, const test::Particles& particles,
+                                   std::initializer_list<double> cell_sizes) {
     for (const double cell_size : cell_sizes)
         for (const Mode mode : {Mode::adaptive, Mode::uniform})
             for (const Field field : {Field::color, Field::density})
@@ -21,24 +22,31 @@ void expect_closed_in_all_settings(const std::string& name, const test::Particle
                     settings.mode = mode;
                     settings.field = field;
                     settings.edge_points = edge_points;
-                    // One particle alone has a density of 0.32 at its place: low enough an iso-value shows it in both fields.
+                    // One particle alone has a density of 0.32 at its place: low enough an iso-value shows it in both
+                    // fields.
                     settings.iso = field == Field::density ? 0.2 : 0.6;
                     const Mesh mesh = test::reconstruct(settings, particles.frame());
                     const test::MeshReport report = test::check(mesh);
-                    SCOPED_TRACE(name + ", cell size " + std::to_string(cell_size) + (mode == Mode::uniform ? ", uniform" : ", adaptive") +
-                                 (field == Field::density ? ", density" : ", color") + (edge_points == EdgePoints::bisect ? ", bisect" : ""));
+                    SCOPED_TRACE(name + ", cell size " + std::to_string(cell_size) +
+                                 (mode == Mode::uniform ? ", uniform" : ", adaptive") +
+                                 (field == Field::density ? ", density" : ", color") +
+                                 (edge_points == EdgePoints::bisect ? ", bisect" : ""));
                     EXPECT_TRUE(report.closed_manifold()) << report.text();
-                    // The paper's criterion takes crowded cells for calm water, so that a lone crowded drop may be lost.
+                    // The paper's criterion takes crowded cells for calm water, so that a lone crowded drop may be
+                    // lost.
                     if (mode == Mode::uniform) {
                         EXPECT_GT(report.volume, 0.0);
                     }
                 }
 }
 
-TEST(Manifold, HoldsForASplash) { expect_closed_in_all_settings("splash", test::splash(1), {0.5, 1.0}); }
+TEST(Manifold, HoldsForASplash) {
+    expect_closed_in_all_settings("splash", test::splash(1), {0.5, 1.0});
+}
 
 TEST(Manifold, HoldsForAdversarialParticles) {
-    for (const auto& [name, particles] : test::adversarial(0.025F)) expect_closed_in_all_settings(name, particles, {0.5, 1.0});
+    for (const auto& [name, particles] : test::adversarial(0.025F))
+        expect_closed_in_all_settings(name, particles, {0.5, 1.0});
 }
 
 TEST(Manifold, HoldsForCellsLargerThanTheSupport) {
@@ -64,7 +72,8 @@ TEST(Manifold, HoldsForManyRandomClouds) {
 
 TEST(Manifold, HoldsForAdaptiveSph) {
     test::Particles particles = test::splash(3);
-    for (std::size_t i = 0; i < particles.count(); ++i) particles.levels.push_back(static_cast<std::uint8_t>(i % 7 == 0 ? 2 : i % 3 == 0 ? 1 : 0));
+    for (std::size_t i = 0; i < particles.count(); ++i)
+        particles.levels.push_back(static_cast<std::uint8_t>(i % 7 == 0 ? 2 : i % 3 == 0 ? 1 : 0));
     for (const double cell_size : {0.5, 1.0})
         for (const std::uint32_t threshold : {1U, 2U}) {
             Settings settings = test::default_settings();

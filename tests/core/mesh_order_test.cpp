@@ -18,7 +18,8 @@ TEST(MeshOrder, BricksPartitionEveryLevelInOrderAndHoldTheirTriangles) {
     reconstructor.reconstruct(test::splash(51).frame(), mesh);
     ASSERT_GT(mesh.bricks.size(), 8U);
     ASSERT_TRUE(std::is_sorted(mesh.bricks.begin(), mesh.bricks.end(), [](const MeshBrick& a, const MeshBrick& b) {
-        return std::lexicographical_compare(a.coordinate.rbegin(), a.coordinate.rend(), b.coordinate.rbegin(), b.coordinate.rend());
+        return std::lexicographical_compare(a.coordinate.rbegin(), a.coordinate.rend(), b.coordinate.rbegin(),
+                                            b.coordinate.rend());
     }));
     std::uint32_t next = 0;
     const std::int32_t edge = brick_cells << mesh.offset_bits;
@@ -71,10 +72,12 @@ TEST(MeshOrder, BisectionAndInterpolationAgreeWithinAFractionOfACell) {
     ASSERT_EQ(interpolated.vertices.size(), bisected.vertices.size());
     ASSERT_EQ(interpolated.offset_bits, 6U);
     ASSERT_EQ(bisected.offset_bits, 6U);
-    EXPECT_TRUE(std::equal(interpolated.triangles.begin(), interpolated.triangles.end(), bisected.triangles.begin(), bisected.triangles.end()));
+    EXPECT_TRUE(std::equal(interpolated.triangles.begin(), interpolated.triangles.end(), bisected.triangles.begin(),
+                           bisected.triangles.end()));
     double sum = 0.0;
     for (std::size_t v = 0; v < interpolated.vertices.size(); ++v)
-        for (std::size_t axis = 0; axis < 3; ++axis) sum += std::abs(interpolated.vertices[v][axis] - bisected.vertices[v][axis]);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            sum += std::abs(interpolated.vertices[v][axis] - bisected.vertices[v][axis]);
     EXPECT_LT(sum / static_cast<double>(interpolated.vertices.size()), 3.0);  // of 64 steps
 }
 

@@ -17,7 +17,8 @@ bool same_bytes(const Array<T>& a, const Array<T>& b) {
 }
 
 bool same(const Mesh& a, const Mesh& b) {
-    return same_bytes(a.vertices, b.vertices) && same_bytes(a.normals, b.normals) && same_bytes(a.triangles, b.triangles);
+    return same_bytes(a.vertices, b.vertices) && same_bytes(a.normals, b.normals) &&
+           same_bytes(a.triangles, b.triangles);
 }
 
 TEST(Reproducibility, AnyNumberOfThreadsGivesTheSameBytes) {
@@ -29,7 +30,8 @@ TEST(Reproducibility, AnyNumberOfThreadsGivesTheSameBytes) {
             settings.edge_points = edge_points;
             const Mesh one = test::reconstruct(settings, particles.frame(), 1);
             ASSERT_FALSE(one.triangles.empty());
-            for (const unsigned threads : {2U, 3U, 8U}) EXPECT_TRUE(same(one, test::reconstruct(settings, particles.frame(), threads))) << threads;
+            for (const unsigned threads : {2U, 3U, 8U})
+                EXPECT_TRUE(same(one, test::reconstruct(settings, particles.frame(), threads))) << threads;
         }
 }
 
@@ -45,7 +47,8 @@ TEST(Reproducibility, TheOrderOfParticlesDoesNotMatter) {
         shuffled.levels.push_back(particles.levels[i]);
     }
     const Settings settings = test::default_settings();
-    EXPECT_TRUE(same(test::reconstruct(settings, particles.frame(), 1), test::reconstruct(settings, shuffled.frame(), 2)));
+    EXPECT_TRUE(
+        same(test::reconstruct(settings, particles.frame(), 1), test::reconstruct(settings, shuffled.frame(), 2)));
 }
 
 TEST(Reproducibility, AUsedReconstructorGivesTheSameBytesAsANewOne) {
@@ -81,7 +84,8 @@ TEST(Reproducibility, AFluidMovedByWholeBricksKeepsItsShapeToTheBit) {
     EXPECT_TRUE(same_bytes(a.normals, b.normals));
     const std::int32_t step = 64 * 64 * 64;
     for (std::size_t v = 0; v < a.vertices.size(); ++v)
-        ASSERT_EQ(b.vertices[v], (LatticePosition{a.vertices[v][0] + step, a.vertices[v][1] - step, a.vertices[v][2] + 2 * step}));
+        ASSERT_EQ(b.vertices[v],
+                  (LatticePosition{a.vertices[v][0] + step, a.vertices[v][1] - step, a.vertices[v][2] + 2 * step}));
 }
 
 TEST(Reproducibility, TheHashDoesNotDependOnTheOrderOfTriangles) {
@@ -98,7 +102,8 @@ TEST(Reproducibility, TheHashDoesNotDependOnTheOrderOfTriangles) {
 }
 
 TEST(Reproducibility, TheHashOfAKnownMeshIsKnown) {
-    // One triangle, computed independently: struct.pack('<dIQ', 0.5, 6, 1) + struct.pack('<B9i', 3, -1, 2, 3, 4, 5, 6, 7, 8, -9).
+    // One triangle, computed independently: struct.pack('<dIQ', 0.5, 6, 1) + struct.pack('<B9i', 3, -1, 2, 3, 4, 5, 6,
+    // 7, 8, -9).
     Mesh mesh;
     mesh.cell_size = 0.5;
     mesh.offset_bits = 6;

@@ -14,7 +14,9 @@ namespace {
 
 using DirectedEdges = std::map<std::pair<int, int>, int>;  ///< (from, to), smaller first, to signed use
 
-void use(DirectedEdges& edges, int from, int to) { edges[{std::min(from, to), std::max(from, to)}] += from < to ? 1 : -1; }
+void use(DirectedEdges& edges, int from, int to) {
+    edges[{std::min(from, to), std::max(from, to)}] += from < to ? 1 : -1;
+}
 
 void drop_balanced(DirectedEdges& edges) {
     std::erase_if(edges, [](const auto& e) { return e.second == 0; });
@@ -32,8 +34,8 @@ DirectedEdges boundary(const Case& pattern) {
     return edges;
 }
 
-/// Segments of a square face whose corners are walked counter-clockwise seen from outside: around each run of inside corners,
-/// from the side where the walk enters to the side where it leaves.
+/// Segments of a square face whose corners are walked counter-clockwise seen from outside: around each run of inside
+/// corners, from the side where the walk enters to the side where it leaves.
 template <class EdgeOf>
 void add_face_segments(const std::array<bool, 4>& inside, const EdgeOf& edge_of, int sign, DirectedEdges& edges) {
     const auto in = [&](int i) { return inside[static_cast<std::size_t>(i & 3)]; };
@@ -41,8 +43,10 @@ void add_face_segments(const std::array<bool, 4>& inside, const EdgeOf& edge_of,
         if (in(enter) || !in(enter + 1)) continue;
         int leave = enter + 1;
         while (in(leave + 1)) ++leave;
-        if (sign > 0) use(edges, edge_of(enter), edge_of(leave & 3));
-        else use(edges, edge_of(leave & 3), edge_of(enter));
+        if (sign > 0)
+            use(edges, edge_of(enter), edge_of(leave & 3));
+        else
+            use(edges, edge_of(leave & 3), edge_of(enter));
     }
 }
 
@@ -69,7 +73,8 @@ int cube_edge_between(int a, int b) {
 
 const std::vector<std::array<int, 4>>& cube_faces() {
     // Counter-clockwise seen from outside, written out by hand.
-    static const std::vector<std::array<int, 4>> faces{{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    static const std::vector<std::array<int, 4>> faces{{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     return faces;
 }
 
@@ -79,7 +84,13 @@ TEST(CubeTable, ItsTrianglesBoundExactlyTheFaceSegmentsOfEveryCase) {
         for (const auto& face : cube_faces()) {
             std::array<bool, 4> inside{};
             for (std::size_t i = 0; i < 4; ++i) inside[i] = (c >> face[i] & 1) != 0;
-            add_face_segments(inside, [&](int i) { return cube_edge_between(face[static_cast<std::size_t>(i)], face[static_cast<std::size_t>((i + 1) & 3)]); }, 1, expected);
+            add_face_segments(
+                inside,
+                [&](int i) {
+                    return cube_edge_between(face[static_cast<std::size_t>(i)],
+                                             face[static_cast<std::size_t>((i + 1) & 3)]);
+                },
+                1, expected);
         }
         drop_balanced(expected);
         EXPECT_EQ(boundary(cube_table[static_cast<std::size_t>(c)]), expected) << "case " << c;
@@ -111,7 +122,9 @@ TEST(CubeTable, HasNoDiagonalInAFaceOfTheCube) {
                 for (const auto& face : cube_faces()) {
                     const auto on_face = [&](int e) {
                         const CubeEdge edge = corners_of_cube_edge(e);
-                        return std::count(face.begin(), face.end(), edge.a) + std::count(face.begin(), face.end(), edge.b) == 2;
+                        return std::count(face.begin(), face.end(), edge.a) +
+                                   std::count(face.begin(), face.end(), edge.b) ==
+                               2;
                     };
                     EXPECT_FALSE(on_face(p) && on_face(q)) << "case " << c << ", diagonal " << p << " to " << q;
                 }
@@ -126,7 +139,8 @@ TEST(CubeTable, HasAtMostFiveTrianglesAndLoopsOfAtMostSevenPoints) {
         most = std::max<int>(most, pattern.triangles);
         // The outline's edges form the loops: follow each.
         std::map<int, int> next;
-        for (const auto& [edge, sign] : boundary(pattern)) next[sign > 0 ? edge.first : edge.second] = sign > 0 ? edge.second : edge.first;
+        for (const auto& [edge, sign] : boundary(pattern))
+            next[sign > 0 ? edge.first : edge.second] = sign > 0 ? edge.second : edge.first;
         while (!next.empty()) {
             std::size_t length = 0;
             for (auto at = next.begin(); at != next.end(); ++length) {
@@ -172,11 +186,17 @@ CrackOutline crack_outline(int c) {
     CrackOutline outline;
     const auto in = [&](int p) { return (c >> p & 1) != 0; };
     // Seen from below the axis, outside of the fine cells above: v before u.
-    const auto face = [](int corner, int step) { return std::array<int, 4>{corner, corner + 3 * step, corner + 4 * step, corner + step}; };
+    const auto face = [](int corner, int step) {
+        return std::array<int, 4>{corner, corner + 3 * step, corner + 4 * step, corner + step};
+    };
     for (const int corner : {0, 1, 3, 4}) {
         const auto p = face(corner, 1);
-        add_face_segments({in(p[0]), in(p[1]), in(p[2]), in(p[3])},
-                          [&](int i) { return fine_edge_between(p[static_cast<std::size_t>(i)], p[static_cast<std::size_t>((i + 1) & 3)]); }, 1, outline.fine);
+        add_face_segments(
+            {in(p[0]), in(p[1]), in(p[2]), in(p[3])},
+            [&](int i) {
+                return fine_edge_between(p[static_cast<std::size_t>(i)], p[static_cast<std::size_t>((i + 1) & 3)]);
+            },
+            1, outline.fine);
     }
     const auto p = face(0, 2);
     const auto coarse_point = [&](int i) {
@@ -191,7 +211,8 @@ CrackOutline crack_outline(int c) {
         const int a = p[static_cast<std::size_t>(i)];
         const int b = p[static_cast<std::size_t>((i + 1) & 3)];
         const int middle = (a + b) / 2;
-        if (in(a) == in(b) && in(a) != in(middle)) outline.chords[std::minmax(fine_edge_between(a, middle), fine_edge_between(middle, b))] = 1;
+        if (in(a) == in(b) && in(a) != in(middle))
+            outline.chords[std::minmax(fine_edge_between(a, middle), fine_edge_between(middle, b))] = 1;
     }
     return outline;
 }

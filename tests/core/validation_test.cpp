@@ -38,11 +38,30 @@ TEST(Validation, RefusesEverySettingOutOfRangeNamingItsValue) {
         {[](Settings& s) { s.iso = 0.0; }, "iso value is 0"},
         {[](Settings& s) { s.iso = 1e-60; }, "iso value is 0"},
         {[](Settings& s) { s.count_threshold = 0; }, "count threshold is 0"},
-        {[](Settings& s) { s.edge_points = EdgePoints::bisect; s.bisection_steps = 8; }, "bisection steps are 8"},
-        {[](Settings& s) { s.edge_points = EdgePoints::bisect; s.bisection_steps = 0; }, "bisection steps are 0"},
-        {[](Settings& s) { s.domain = Box{{0, 0, 0}, {1, -1, 1}}; }, "along y"},
-        {[&](Settings& s) { s.domain = Box{{0, 0, nan}, {1, 1, 1}}; }, "along z"},
-        {[](Settings& s) { s.particle_radius = 1e-300; s.cell_size = 1e-50; s.smoothing_length = 1e-50; }, "cell size in world units is 0"},
+        {[](Settings& s) {
+             s.edge_points = EdgePoints::bisect;
+             s.bisection_steps = 8;
+         },
+         "bisection steps are 8"},
+        {[](Settings& s) {
+             s.edge_points = EdgePoints::bisect;
+             s.bisection_steps = 0;
+         },
+         "bisection steps are 0"},
+        {[](Settings& s) {
+             s.domain = Box{{0, 0, 0}, {1, -1, 1}};
+         },
+         "along y"},
+        {[&](Settings& s) {
+             s.domain = Box{{0, 0, nan}, {1, 1, 1}};
+         },
+         "along z"},
+        {[](Settings& s) {
+             s.particle_radius = 1e-300;
+             s.cell_size = 1e-50;
+             s.smoothing_length = 1e-50;
+         },
+         "cell size in world units is 0"},
     };
     for (const Case& c : cases) {
         Settings settings = test::default_settings();
@@ -71,8 +90,10 @@ TEST(Validation, RefusesEveryBadFrameNamingTheParticleAndGoesOn) {
         test::Particles particles;
         std::string named;
     };
-    std::vector<Case> cases{{with(7, nan), "particle 2 has y = nan"}, {with(9, inf), "particle 3 has x = inf"},
-                            {with(11, -inf), "particle 3 has z = -inf"}, {with(0, 3e7F), "particle 0 has x = 30000000"}};
+    std::vector<Case> cases{{with(7, nan), "particle 2 has y = nan"},
+                            {with(9, inf), "particle 3 has x = inf"},
+                            {with(11, -inf), "particle 3 has z = -inf"},
+                            {with(0, 3e7F), "particle 0 has x = 30000000"}};
     Case& uneven = cases.emplace_back(Case{good, "coordinates, must be three per particle"});
     uneven.particles.positions.pop_back();
     Case& short_levels = cases.emplace_back(Case{good, "5 levels for"});
@@ -101,7 +122,8 @@ TEST(Validation, AcceptsTheFarthestPositionAndRefusesTheNext) {
     beyond.add(limit + 1.0F, 0.0F, 0.0F);
     reconstructor.reconstruct(last.frame(), mesh);
     EXPECT_FALSE(mesh.triangles.empty());
-    EXPECT_NE(refusal([&] { reconstructor.reconstruct(beyond.frame(), mesh); }).find("farther from the origin"), std::string::npos);
+    EXPECT_NE(refusal([&] { reconstructor.reconstruct(beyond.frame(), mesh); }).find("farther from the origin"),
+              std::string::npos);
 }
 
 TEST(Validation, RefusesAQuantizationBoxThatIsNotOne) {
@@ -111,16 +133,20 @@ TEST(Validation, RefusesAQuantizationBoxThatIsNotOne) {
     ParticleFrame frame;
     frame.quantized = positions;
     frame.quantization_box = {{0, 0, 0}, {1, -1, 1}};
-    EXPECT_NE(refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("quantization box runs from 0 to -1 along y"), std::string::npos);
+    EXPECT_NE(
+        refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("quantization box runs from 0 to -1 along y"),
+        std::string::npos);
     frame.quantization_box = {{0, 0, 0}, {1, 1e12, 1}};
-    EXPECT_NE(refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("farther from the origin"), std::string::npos);
+    EXPECT_NE(refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("farther from the origin"),
+              std::string::npos);
     frame.quantization_box = {{0, 0, 0}, {1, 0, 1}};  // flat is fine
     reconstructor.reconstruct(frame, mesh);
     EXPECT_FALSE(mesh.triangles.empty());
 }
 
 TEST(Validation, RefusesParticlesThatCrowdBeforeTheirFieldIsSummed) {
-    // As with all particles in one place, or positions in meters and a radius in millimeters: minutes for this one, hours for more.
+    // As with all particles in one place, or positions in meters and a radius in millimeters: minutes for this one,
+    // hours for more.
     test::Particles crowd;
     for (int i = 0; i < 200'000; ++i) crowd.add(1e-7F * static_cast<float>(i), 0.0F, 0.0F);
     const test::Particles good = test::splash(1, 6);
@@ -145,7 +171,9 @@ TEST(Validation, RefusesParticlesThatCrowdBeforeTheirFieldIsSummed) {
 
 TEST(Validation, TheCudaBackendSaysWhyItCannotBeUsed) {
     const int no_device = 1000;
-    EXPECT_NE(refusal([&] { Reconstructor reconstructor(test::default_settings(), {Backend::cuda, 1, 0, no_device}); }).find("CUDA backend cannot be used: "),
+    EXPECT_NE(refusal([&] {
+                  Reconstructor reconstructor(test::default_settings(), {Backend::cuda, 1, 0, no_device});
+              }).find("CUDA backend cannot be used: "),
               std::string::npos);
     const BackendDescription description = describe_backend(Backend::automatic, no_device);
     EXPECT_EQ(description.name, "cpu");

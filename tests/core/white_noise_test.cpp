@@ -24,13 +24,16 @@ public:
     void values(const Int3& base_cell, cpu::PointList& points, float* out, unsigned) override {
         for (std::size_t i = 0; i < points.count; ++i) out[i] = value(base_cell, points.x[i], points.y[i], points.z[i]);
     }
-    void cluster_values(const Int3& lowest_base_cell, const cpu::ClusterPoints& points, cpu::ClusterValues& out, unsigned) override {
+    void cluster_values(const Int3& lowest_base_cell, const cpu::ClusterPoints& points, cpu::ClusterValues& out,
+                        unsigned) override {
         for (std::size_t i = 0; i < points.size(); ++i)
             for (BlockMask left = points[i]; left != 0; left &= left - 1) {
                 const int bit = lowest_bit(left);
-                const auto coordinate = [bit](int axis) { return static_cast<float>(point_coordinate(bit, axis) * units_per_cell); };
-                out[i][static_cast<std::size_t>(bit)] =
-                    value(lowest_base_cell + cpu::cluster_step(static_cast<int>(i)), coordinate(0), coordinate(1), coordinate(2));
+                const auto coordinate = [bit](int axis) {
+                    return static_cast<float>(point_coordinate(bit, axis) * units_per_cell);
+                };
+                out[i][static_cast<std::size_t>(bit)] = value(lowest_base_cell + cpu::cluster_step(static_cast<int>(i)),
+                                                              coordinate(0), coordinate(1), coordinate(2));
             }
     }
     void normals(const Int3&, cpu::PointList& points, float* x, float* y, float* z, unsigned) override {
@@ -158,19 +161,33 @@ void expect_closed(const World& world, std::uint64_t first, std::uint64_t count)
     }
 }
 
-TEST(WhiteNoise, GivesClosedManifoldsOverRandomLevels) { expect_closed({.raise_at_slivers = false}, 1, 500); }
-TEST(WhiteNoise, GivesClosedManifoldsWhereSliversAreRaised) { expect_closed({}, 7001, 150); }
-TEST(WhiteNoise, GivesClosedManifoldsWhereFewPointsAreInside) { expect_closed({.share = 0.15, .raise_at_slivers = false}, 1001, 150); }
-TEST(WhiteNoise, GivesClosedManifoldsWhereFewPointsAreOutside) { expect_closed({.share = 0.85, .raise_at_slivers = false}, 2001, 150); }
-TEST(WhiteNoise, GivesClosedManifoldsWhereValuesLieOnTheIsoValue) { expect_closed({.ties = true, .raise_at_slivers = false}, 3001, 100); }
+TEST(WhiteNoise, GivesClosedManifoldsOverRandomLevels) {
+    expect_closed({.raise_at_slivers = false}, 1, 500);
+}
+TEST(WhiteNoise, GivesClosedManifoldsWhereSliversAreRaised) {
+    expect_closed({}, 7001, 150);
+}
+TEST(WhiteNoise, GivesClosedManifoldsWhereFewPointsAreInside) {
+    expect_closed({.share = 0.15, .raise_at_slivers = false}, 1001, 150);
+}
+TEST(WhiteNoise, GivesClosedManifoldsWhereFewPointsAreOutside) {
+    expect_closed({.share = 0.85, .raise_at_slivers = false}, 2001, 150);
+}
+TEST(WhiteNoise, GivesClosedManifoldsWhereValuesLieOnTheIsoValue) {
+    expect_closed({.ties = true, .raise_at_slivers = false}, 3001, 100);
+}
 TEST(WhiteNoise, GivesClosedManifoldsWhenTheBandMustGrow) {
     expect_closed({.share = 0.02, .raise_at_slivers = false, .band_share = 0.1}, 4001, 150);
 }
 TEST(WhiteNoise, GivesClosedManifoldsWhereLevelsAreCapped) {
     for (const int max_level : {1, 2}) expect_closed({.raise_at_slivers = false, .max_level = max_level}, 8001, 150);
 }
-TEST(WhiteNoise, GivesClosedManifoldsInUniformMode) { expect_closed({.side = 3, .uniform = true}, 5001, 50); }
-TEST(WhiteNoise, GivesClosedManifoldsWithBisection) { expect_closed({.edge_points = EdgePoints::bisect}, 6001, 50); }
+TEST(WhiteNoise, GivesClosedManifoldsInUniformMode) {
+    expect_closed({.side = 3, .uniform = true}, 5001, 50);
+}
+TEST(WhiteNoise, GivesClosedManifoldsWithBisection) {
+    expect_closed({.edge_points = EdgePoints::bisect}, 6001, 50);
+}
 
 }  // namespace
 }  // namespace meniscus

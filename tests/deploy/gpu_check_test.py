@@ -92,18 +92,32 @@ class GpuCheck(unittest.TestCase):
         self.host.mkdir()
         self.script = shutil.copy(GPU_CHECK, bundle)
         (bundle / "VERSION").write_text("meniscus 0.1.0\ncommit 0123456789ab\n")
-        for path, body in ((bundle / "bin/meniscus", MENISCUS), (bundle / "bin/cuda_test", CUDA_TEST),
-                           (bundle / "bin/meniscus-bench", MENISCUS_BENCH), (self.host / "nvidia-smi", NVIDIA_SMI),
-                           (self.host / "compute-sanitizer", COMPUTE_SANITIZER)):
+        for path, body in (
+            (bundle / "bin/meniscus", MENISCUS),
+            (bundle / "bin/cuda_test", CUDA_TEST),
+            (bundle / "bin/meniscus-bench", MENISCUS_BENCH),
+            (self.host / "nvidia-smi", NVIDIA_SMI),
+            (self.host / "compute-sanitizer", COMPUTE_SANITIZER),
+        ):
             path.write_text("#!/usr/bin/env bash\n" + body)
             path.chmod(0o755)
 
     def run_script(self, *arguments, **fakes):
         """Returns exit code, output and, where there are some, results."""
-        environment = {"PATH": f"{self.host}:/usr/bin:/bin", **{f"FAKE_{name.upper()}": str(value) for name, value in fakes.items()}}
+        environment = {
+            "PATH": f"{self.host}:/usr/bin:/bin",
+            **{f"FAKE_{name.upper()}": str(value) for name, value in fakes.items()},
+        }
         results = self.folder / "results"
-        done = subprocess.run([self.script, "--out", results, "--frames", str(FRAMES), *arguments], env=environment,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", errors="replace", check=False)
+        done = subprocess.run(
+            [self.script, "--out", results, "--frames", str(FRAMES), *arguments],
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            encoding="utf-8",
+            errors="replace",
+            check=False,
+        )
         written = results / "results.json"
         return done.returncode, done.stdout, json.loads(written.read_text()) if written.exists() else None
 
@@ -119,26 +133,51 @@ class GpuCheck(unittest.TestCase):
         code, _, results = self.run_script()
         self.assertEqual((code, results["result"]), (0, "passed"))
         names = [s["name"].split(",")[0] for s in results["steps"]]
-        self.assertEqual(names, ["gpu", "tests", *["hashes"] * SETTINGS, "memcheck", "racecheck", "initcheck", "synccheck",
-                                 "thousand-frames", "experiment", "scaling"])
-        self.assertTrue(all(s["result"] == "passed" and s["failed"] == 0 and s["skipped"] == 0 for s in results["steps"]))
+        self.assertEqual(
+            names,
+            [
+                "gpu",
+                "tests",
+                *["hashes"] * SETTINGS,
+                "memcheck",
+                "racecheck",
+                "initcheck",
+                "synccheck",
+                "thousand-frames",
+                "experiment",
+                "scaling",
+            ],
+        )
+        self.assertTrue(
+            all(s["result"] == "passed" and s["failed"] == 0 and s["skipped"] == 0 for s in results["steps"])
+        )
         counts = {s["name"].split(",")[0]: s["passed"] for s in results["steps"]}
         self.assertEqual((counts["tests"], counts["hashes"]), (7, FRAMES))
         self.assertEqual(len({s["name"] for s in results["steps"]}), len(results["steps"]))
 
     def test_tells_what_was_proven_on_what(self):
         _, _, results = self.run_script("tests")
-        self.assertEqual((results["version"], results["commit"], results["device"]), ("0.1.0", "0123456789ab", "Some GPU"))
+        self.assertEqual(
+            (results["version"], results["commit"], results["device"]), ("0.1.0", "0123456789ab", "Some GPU")
+        )
         gpu = results["gpus"][0]
-        self.assertEqual((gpu["name"], gpu["driver_version"], gpu["clocks_max_sm"]), ('Some "GPU"', "580.1", "1980 MHz"))
+        self.assertEqual(
+            (gpu["name"], gpu["driver_version"], gpu["clocks_max_sm"]), ('Some "GPU"', "580.1", "1980 MHz")
+        )
         self.assertTrue(results["machine"]["processor"])
 
     def test_embeds_the_benchmarks(self):
         _, _, results = self.run_script("benchmark")
-        self.assertEqual(results["benchmarks"], dict.fromkeys(("experiment", "scaling"), {"commit": "0123456789ab", "rows": [1, 2]}))
+        self.assertEqual(
+            results["benchmarks"], dict.fromkeys(("experiment", "scaling"), {"commit": "0123456789ab", "rows": [1, 2]})
+        )
 
     def test_has_a_row_for_every_goal_measured_or_not(self):
-        for arguments, fakes, measured in ((["tests"], {}, None), (["benchmark"], {}, 7.5), ([], {"refusal": "none", "no_gpu": 1}, None)):
+        for arguments, fakes, measured in (
+            (["tests"], {}, None),
+            (["benchmark"], {}, 7.5),
+            ([], {"refusal": "none", "no_gpu": 1}, None),
+        ):
             _, _, results = self.run_script(*arguments, **fakes)
             self.assertEqual(results["goals"], [{"goal": "8 ms", "measured": measured}], arguments)
 

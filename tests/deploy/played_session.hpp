@@ -38,7 +38,8 @@ public:
 
     const std::string& id() const { return id_; }
 
-    /// From now on frames are pushed without waiting for the watcher, who may miss some: there are several on their way.
+    /// From now on frames are pushed without waiting for the watcher, who may miss some: there are several on their
+    /// way.
     void stop_waiting_for_the_watcher() {
         const std::lock_guard lock(mutex_);
         in_step_ = false;
@@ -50,11 +51,15 @@ public:
         return pushed_;
     }
 
-    /// Waits until simulator and watcher have this frame or a later one. Returns when that was; none: not for a long time.
+    /// Waits until simulator and watcher have this frame or a later one. Returns when that was; none: not for a long
+    /// time.
     std::optional<Clock::time_point> when_all_have(std::uint64_t index) {
         std::unique_lock lock(mutex_);
-        const auto has = [&](const std::vector<Noted>& frames) { return !frames.empty() && frames.back().index >= index; };
-        const bool all = changed_.wait_for(lock, std::chrono::seconds(30), [&] { return has(received_) && has(shown_); });
+        const auto has = [&](const std::vector<Noted>& frames) {
+            return !frames.empty() && frames.back().index >= index;
+        };
+        const bool all =
+            changed_.wait_for(lock, std::chrono::seconds(30), [&] { return has(received_) && has(shown_); });
         if (!all) return std::nullopt;
         return std::max(first_from(received_, index), first_from(shown_, index));
     }
@@ -71,7 +76,9 @@ public:
         receiving_.join();
         {
             std::unique_lock lock(mutex_);
-            changed_.wait_for(lock, std::chrono::seconds(30), [&] { return !in_step_ || pushed_ == 0 || (!shown_.empty() && shown_.back().index + 1 >= pushed_); });
+            changed_.wait_for(lock, std::chrono::seconds(30), [&] {
+                return !in_step_ || pushed_ == 0 || (!shown_.empty() && shown_.back().index + 1 >= pushed_);
+            });
         }
         watcher_->cancel();
         watching_.join();
@@ -80,8 +87,11 @@ public:
     /// For messages: how far it is, and what went wrong.
     std::string state() const {
         const std::lock_guard lock(mutex_);
-        const auto last = [](const std::vector<Noted>& frames) { return frames.empty() ? "none" : std::to_string(frames.back().index); };
-        std::string text = id_ + ": pushed " + std::to_string(pushed_) + ", received to " + last(received_) + ", shown to " + last(shown_);
+        const auto last = [](const std::vector<Noted>& frames) {
+            return frames.empty() ? "none" : std::to_string(frames.back().index);
+        };
+        std::string text = id_ + ": pushed " + std::to_string(pushed_) + ", received to " + last(received_) +
+                           ", shown to " + last(shown_);
         for (const std::string& error : errors_) text += "; " + error;
         return text;
     }
@@ -128,7 +138,9 @@ private:
         for (std::uint64_t i = 0;; ++i) {
             {
                 std::unique_lock lock(mutex_);
-                changed_.wait(lock, [&] { return finished_ || !in_step_ || i == 0 || (!shown_.empty() && shown_.back().index + 1 >= i); });
+                changed_.wait(lock, [&] {
+                    return finished_ || !in_step_ || i == 0 || (!shown_.empty() && shown_.back().index + 1 >= i);
+                });
                 if (changed_.wait_for(lock, tempo, [&] { return finished_; })) break;
             }
             stream_->push(wave(3, static_cast<double>(i)).view(), i, 0.0);

@@ -47,7 +47,9 @@ public:
     Proxy(const Proxy&) = delete;
     Proxy& operator=(const Proxy&) = delete;
 
-    static const char* program(ProxyKind kind) { return kind == ProxyKind::nginx ? "/usr/sbin/nginx" : "/usr/sbin/haproxy"; }
+    static const char* program(ProxyKind kind) {
+        return kind == ProxyKind::nginx ? "/usr/sbin/nginx" : "/usr/sbin/haproxy";
+    }
 
     const std::string& address() const { return grpc_; }
     /// HAProxy's: of the viewer.
@@ -69,9 +71,10 @@ private:
     /// What a distribution's nginx.conf has around the file, for a user who may not write where that does.
     std::string nginx_around(const std::string& configuration) const {
         return "daemon off; master_process off; error_log stderr crit; pid " + (folder_ / "pid") +
-               "; events { worker_connections 4096; }\nhttp { client_body_temp_path " + (folder_ / "body") + "; proxy_temp_path " +
-               (folder_ / "proxy") + "; fastcgi_temp_path " + (folder_ / "f") + "; uwsgi_temp_path " + (folder_ / "u") +
-               "; scgi_temp_path " + (folder_ / "s") + ";\ninclude " + folder_.write("meniscus.conf", configuration) + "; }\n";
+               "; events { worker_connections 4096; }\nhttp { client_body_temp_path " + (folder_ / "body") +
+               "; proxy_temp_path " + (folder_ / "proxy") + "; fastcgi_temp_path " + (folder_ / "f") +
+               "; uwsgi_temp_path " + (folder_ / "u") + "; scgi_temp_path " + (folder_ / "s") + ";\ninclude " +
+               folder_.write("meniscus.conf", configuration) + "; }\n";
     }
 
     void start(std::vector<std::string> arguments) {

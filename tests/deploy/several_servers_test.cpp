@@ -51,13 +51,15 @@ public:
 
     const std::string& address() const { return address_; }
     const std::string& http_address() const { return http_; }
-    std::vector<client::SessionInfo> sessions() const { return client::Client(address_, {.wait = std::chrono::seconds(30)}).sessions(); }
+    std::vector<client::SessionInfo> sessions() const {
+        return client::Client(address_, {.wait = std::chrono::seconds(30)}).sessions();
+    }
 
 private:
     void start(const std::string& port, const std::string& http_port) {
         // Room for all sessions on the servers that are left.
-        process_.emplace(std::vector<std::string>{"--listen", "127.0.0.1:" + port, "--http", "127.0.0.1:" + http_port, "--threads", "1",
-                                                  "--backend", "cpu", "--max-sessions", "64"});
+        process_.emplace(std::vector<std::string>{"--listen", "127.0.0.1:" + port, "--http", "127.0.0.1:" + http_port,
+                                                  "--threads", "1", "--backend", "cpu", "--max-sessions", "64"});
         address_ = process_->address();
         http_ = process_->http_address();
         reading_ = std::thread([this] { log_ += process_->rest(); });
@@ -73,7 +75,8 @@ private:
 class SeveralServers : public testing::TestWithParam<ProxyKind> {
 protected:
     void SetUp() override {
-        if (::access(Proxy::program(GetParam()), X_OK) != 0) GTEST_SKIP() << Proxy::program(GetParam()) << " is not there";
+        if (::access(Proxy::program(GetParam()), X_OK) != 0)
+            GTEST_SKIP() << Proxy::program(GetParam()) << " is not there";
         proxy.emplace(GetParam(), std::map<std::string, std::string>{{"50051", port_of(servers[0].address())},
                                                                      {"50052", port_of(servers[1].address())},
                                                                      {"50053", port_of(servers[2].address())},
@@ -122,12 +125,14 @@ protected:
 /// Whether all sessions with these ids are uploaded to on the server.
 bool has_all(const ServerProcess& server, const std::set<std::string>& ids) {
     const auto there = server.sessions();
-    return std::ranges::count_if(there, [&](const auto& session) { return session.uploading && ids.contains(session.id); }) ==
-           static_cast<std::ptrdiff_t>(ids.size());
+    return std::ranges::count_if(there, [&](const auto& session) {
+               return session.uploading && ids.contains(session.id);
+           }) == static_cast<std::ptrdiff_t>(ids.size());
 }
 
 /// The longest that somebody who comes to watch has to try until there is a frame, from now until told to stop.
-Clock::duration longest_way_to_a_frame(const std::string& address, const std::string& id, const std::atomic<bool>& stop) {
+Clock::duration longest_way_to_a_frame(const std::string& address, const std::string& id,
+                                       const std::atomic<bool>& stop) {
     Clock::duration longest{};
     client::Client client(address);
     while (!stop) {
@@ -136,7 +141,8 @@ Clock::duration longest_way_to_a_frame(const std::string& address, const std::st
                 if (client.watch(id).next()) break;
             } catch (const client::ServerError&) {
                 if (stop) return longest;
-                std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the next attempt of a person, or of a page
+                std::this_thread::sleep_for(
+                    std::chrono::milliseconds(20));  // the next attempt of a person, or of a page
             }
         longest = std::max(longest, Clock::now() - start);
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -179,10 +185,12 @@ TEST_P(Sessions, GoOnElsewhereWhenTheirServerIsKilledAndComeBackWithItWhileOther
         ASSERT_TRUE(there) << session.state();
         if (moved.contains(session.id())) longest = std::max(longest, *there - killed);
     }
-    std::cout << "from the kill to the first new frame of the last of its sessions, its watcher included: " << milliseconds(longest) << " ms\n";
+    std::cout << "from the kill to the first new frame of the last of its sessions, its watcher included: "
+              << milliseconds(longest) << " ms\n";
     EXPECT_LT(longest, std::chrono::seconds(10));
     for (const std::size_t i : {1U, 2U})
-        for (const client::SessionInfo& session : servers[i].sessions()) EXPECT_TRUE(session.settings == settings()) << session.id;
+        for (const client::SessionInfo& session : servers[i].sessions())
+            EXPECT_TRUE(session.settings == settings()) << session.id;
 
     servers[0].start_again();
     const auto back = Clock::now();
@@ -192,13 +200,16 @@ TEST_P(Sessions, GoOnElsewhereWhenTheirServerIsKilledAndComeBackWithItWhileOther
     comers.reserve(moved.size());
     auto way = ways.begin();
     for (const std::string& id : moved)
-        comers.emplace_back([&, id, &longest_way = *way++] { longest_way = longest_way_to_a_frame(proxy->address(), id, all_back); });
-    while (!has_all(servers[0], moved) && Clock::now() - back < std::chrono::seconds(60)) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        comers.emplace_back(
+            [&, id, &longest_way = *way++] { longest_way = longest_way_to_a_frame(proxy->address(), id, all_back); });
+    while (!has_all(servers[0], moved) && Clock::now() - back < std::chrono::seconds(60))
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
     const auto returned = Clock::now() - back;
     all_back = true;
     for (std::thread& comer : comers) comer.join();
-    std::cout << "from its return until it has all of them again: " << milliseconds(returned) << " ms; longest way of a new watcher to a frame: "
-              << milliseconds(*std::ranges::max_element(ways)) << " ms\n";
+    std::cout << "from its return until it has all of them again: " << milliseconds(returned)
+              << " ms; longest way of a new watcher to a frame: " << milliseconds(*std::ranges::max_element(ways))
+              << " ms\n";
     EXPECT_LT(returned, std::chrono::seconds(10));
     for (PlayedSession& session : sessions) ASSERT_TRUE(session.when_all_have(session.pushed() + 2)) << session.state();
     EXPECT_EQ(places(), before);
@@ -210,7 +221,8 @@ TEST_P(Sessions, GoOnElsewhereWhenTheirServerIsKilledAndComeBackWithItWhileOther
         std::iota(all.begin(), all.end(), 0U);
         EXPECT_EQ(session.received(), all) << session.id();
         const std::vector<std::uint64_t> shown = session.shown();
-        EXPECT_TRUE(std::ranges::adjacent_find(shown, std::greater_equal<>()) == shown.end()) << session.id() << " was shown a frame again";
+        EXPECT_TRUE(std::ranges::adjacent_find(shown, std::greater_equal<>()) == shown.end())
+            << session.id() << " was shown a frame again";
         EXPECT_TRUE(moved.contains(session.id()) || shown == all) << session.id() << " missed a frame";
     }
     for (std::size_t i = 1; i < servers.size(); ++i) {
@@ -235,7 +247,8 @@ TEST_P(SeveralServers, AnswerThroughTheProxyInTheirOwnWords) {
     }
     auto watcher = near.watch(id, {.reconnect = std::chrono::seconds(60)});
     const auto refused = std::async(std::launch::async, [&] { EXPECT_THROW(watcher.next(), client::ServerError); });
-    EXPECT_EQ(refused.wait_for(std::chrono::seconds(10)), std::future_status::ready) << "tried again, as if there had been a session";
+    EXPECT_EQ(refused.wait_for(std::chrono::seconds(10)), std::future_status::ready)
+        << "tried again, as if there had been a session";
     watcher.cancel();
     near.create_session(id, settings());
     auto stream = near.stream(id);
@@ -249,7 +262,8 @@ TEST_P(SeveralServers, AnswerThroughTheProxyInTheirOwnWords) {
 
 TEST_P(SeveralServers, AnswerCallsAboutNoSessionFromOneOfThem) {
     for (std::size_t i = 0; i < servers.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j) client::Client(servers[i].address()).create_session(client::new_session_id(), settings());
+        for (std::size_t j = 0; j < i; ++j)
+            client::Client(servers[i].address()).create_session(client::new_session_id(), settings());
     auto near = connect();
     const std::size_t there = near.sessions().size();
     for (int i = 0; i < 6; ++i) EXPECT_EQ(near.sessions().size(), there);

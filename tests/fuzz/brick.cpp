@@ -32,7 +32,8 @@ void brick(Bytes bytes) {
         require(decoded.triangles.size() == encoded.triangles, "as many triangles as announced");
         require(decoded.levels.size() == encoded.triangles, "a level for each triangle");
         for (const Triangle& triangle : decoded.triangles)
-            for (const std::uint32_t vertex : triangle) require(vertex < encoded.vertices, "triangles name vertices that are there");
+            for (const std::uint32_t vertex : triangle)
+                require(vertex < encoded.vertices, "triangles name vertices that are there");
     });
 }
 

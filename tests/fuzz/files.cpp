@@ -22,7 +22,8 @@ void read_particles(formats::Particles (*read)(const std::string&, Bytes), Bytes
     may_refuse([&] {
         const formats::Particles particles = read(name, bytes);
         require(particles.positions.size() % 3 == 0, "three coordinates per particle");
-        require(particles.levels.empty() || particles.levels.size() == particles.positions.size() / 3, "a level per particle or none");
+        require(particles.levels.empty() || particles.levels.size() == particles.positions.size() / 3,
+                "a level per particle or none");
     });
 }
 
@@ -31,7 +32,8 @@ void read_mesh(formats::TriangleMesh (*read)(const std::string&, Bytes), Bytes b
         const formats::TriangleMesh mesh = read(name, bytes);
         require(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size(), "a normal per vertex or none");
         for (const Triangle& triangle : mesh.triangles)
-            for (const std::uint32_t vertex : triangle) require(vertex < mesh.positions.size(), "faces name vertices that are there");
+            for (const std::uint32_t vertex : triangle)
+                require(vertex < mesh.positions.size(), "faces name vertices that are there");
     });
 }
 

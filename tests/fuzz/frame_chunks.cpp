@@ -20,8 +20,10 @@ void frame_chunks(Bytes bytes) {
     std::string data(*reader.bytes(), '\0');
     reader.copy_to(std::as_writable_bytes(std::span(data)));
     v1::StreamRequest request;
-    require(request.ParseFromArray(message.data(), static_cast<int>(message.size())), "what the reader takes is a message");
-    require(request.has_frame_chunk() && request.frame_chunk().data() == data, "the reader finds the bytes that protobuf finds");
+    require(request.ParseFromArray(message.data(), static_cast<int>(message.size())),
+            "what the reader takes is a message");
+    require(request.has_frame_chunk() && request.frame_chunk().data() == data,
+            "the reader finds the bytes that protobuf finds");
     require(request.SerializeAsString() == message, "the message holds nothing else");
 }
 

@@ -32,7 +32,8 @@ void grpc_web(Bytes bytes) {
     origins.admits(header, body.substr(0, 64));
     server::accepts_gzip(header);
     const std::string trailers = server::grpc_web_trailers({grpc::StatusCode::UNKNOWN, std::string(body)});
-    require(trailers.find('\0', server::GrpcWebHeader{}.size()) == std::string::npos, "a status's message is printable");
+    require(trailers.find('\0', server::GrpcWebHeader{}.size()) == std::string::npos,
+            "a status's message is printable");
 }
 
 Seeds grpc_web_seeds() {

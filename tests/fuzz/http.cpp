@@ -45,8 +45,9 @@ private:
 };
 
 std::string call(const std::string& fields, const std::string& body) {
-    return "POST /meniscus.v1.SurfaceService/Watch HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/grpc-web+proto\r\n" + fields +
-           "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+    return "POST /meniscus.v1.SurfaceService/Watch HTTP/1.1\r\nHost: localhost\r\nContent-Type: "
+           "application/grpc-web+proto\r\n" +
+           fields + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
 }
 
 }  // namespace
@@ -64,7 +65,8 @@ void http(Bytes bytes) {
     bool gone = false;
     std::make_shared<server::HttpConnection>(
         acceptor.accept(), nullptr, context, server::HttpConnection::Content{router, grpc_web}, server::HttpLimits{},
-        server::HttpConnection::Observer{.answered = [](auto&) {}, .gone = [&gone](auto&) { gone = true; }, .may_stream = [] { return true; }})
+        server::HttpConnection::Observer{
+            .answered = [](auto&) {}, .gone = [&gone](auto&) { gone = true; }, .may_stream = [] { return true; }})
         ->start();
     boost::system::error_code ignored;
     boost::asio::write(client, boost::asio::buffer(bytes.data(), std::min(bytes.size(), most)), ignored);
@@ -75,15 +77,19 @@ void http(Bytes bytes) {
 }
 
 Seeds http_seeds() {
-    return {"GET /healthz HTTP/1.1\r\nHost: a\r\n\r\nHEAD /none?a=b HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n",
-            "GET /none HTTP/1.0\r\n\r\n", "POST /healthz HTTP/1.1\r\nContent-Length: 3\r\n\r\nabc",
-            "GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n3\r\nabc\r\n0\r\n\r\n",
-            "GET / HTTP/1.1\r\nHost: 10.0.0.1:9464\r\nAccept-Encoding: br, gzip;q=0.5\r\nIf-None-Match: W/\"1a\"\r\n\r\n",
-            "OPTIONS /meniscus.v1.SurfaceService/Watch HTTP/1.1\r\nHost: [::1]:9464\r\nOrigin: http://localhost:5173\r\n\r\n",
-            call("grpc-timeout: 100m\r\nX-Session-Id: a\r\n", std::string(5, '\0')),
-            call("Authorization: Bearer a\r\nOrigin: http://localhost\r\n", std::string("\0\0\0\0\3abc", 8)),
-            "POST /meniscus.v1.ServerService/GetServerInfo HTTP/1.1\r\nContent-Type: application/grpc-web\r\nTransfer-Encoding: chunked\r\n\r\n" +
-                std::string("5\r\n\0\0\0\0\0\r\n0\r\n\r\n", 15)};
+    return {
+        "GET /healthz HTTP/1.1\r\nHost: a\r\n\r\nHEAD /none?a=b HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n",
+        "GET /none HTTP/1.0\r\n\r\n",
+        "POST /healthz HTTP/1.1\r\nContent-Length: 3\r\n\r\nabc",
+        "GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n3\r\nabc\r\n0\r\n\r\n",
+        "GET / HTTP/1.1\r\nHost: 10.0.0.1:9464\r\nAccept-Encoding: br, gzip;q=0.5\r\nIf-None-Match: W/\"1a\"\r\n\r\n",
+        "OPTIONS /meniscus.v1.SurfaceService/Watch HTTP/1.1\r\nHost: [::1]:9464\r\nOrigin: "
+        "http://localhost:5173\r\n\r\n",
+        call("grpc-timeout: 100m\r\nX-Session-Id: a\r\n", std::string(5, '\0')),
+        call("Authorization: Bearer a\r\nOrigin: http://localhost\r\n", std::string("\0\0\0\0\3abc", 8)),
+        "POST /meniscus.v1.ServerService/GetServerInfo HTTP/1.1\r\nContent-Type: "
+        "application/grpc-web\r\nTransfer-Encoding: chunked\r\n\r\n" +
+            std::string("5\r\n\0\0\0\0\0\r\n0\r\n\r\n", 15)};
 }
 
 }  // namespace meniscus::fuzz

@@ -14,7 +14,8 @@ namespace {
 class MemoryFile {
 public:
     explicit MemoryFile(Bytes bytes) : descriptor_(::memfd_create("recording", MFD_CLOEXEC)) {
-        require(::write(descriptor_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()), "the input is a file");
+        require(::write(descriptor_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()),
+                "the input is a file");
     }
     ~MemoryFile() { ::close(descriptor_); }
     MemoryFile(const MemoryFile&) = delete;

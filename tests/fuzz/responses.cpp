@@ -89,7 +89,8 @@ std::vector<v1::WatchParticlesResponse> particles() {
     begin.set_particle_radius(0.1);
     begin.mutable_quantization_box()->mutable_min()->set_x(-1.0);
     begin.mutable_quantization_box()->mutable_max()->set_x(1.0);
-    for (const char* data : {"123456789012", "\x01\x02"}) responses.emplace_back().mutable_frame_chunk()->set_data(data);
+    for (const char* data : {"123456789012", "\x01\x02"})
+        responses.emplace_back().mutable_frame_chunk()->set_data(data);
     responses.emplace_back().mutable_frame_end();
     return responses;
 }
@@ -106,7 +107,8 @@ void particle_responses(Bytes bytes) {
             if (!response.ParseFromArray(message.data(), static_cast<int>(message.size()))) return;
             const auto frame = receiver.take(response);
             if (!frame) continue;
-            require(frame->levels.empty() || 3 * frame->levels.size() == frame->quantized.size(), "each particle has a level, or none");
+            require(frame->levels.empty() || 3 * frame->levels.size() == frame->quantized.size(),
+                    "each particle has a level, or none");
         }
         receiver.end_of_stream();
     });

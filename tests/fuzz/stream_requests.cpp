@@ -23,7 +23,8 @@ void receive(const v1::StreamRequest& request, server::FrameAssembler& assembler
             assembler.end(input);
             const ParticleFrame view = input.view();
             require(view.count() == input.particle_count, "a frame that has ended holds the particles announced");
-            require(view.positions.size_bytes() + view.quantized.size_bytes() + view.levels.size_bytes() == input.bytes.size(),
+            require(view.positions.size_bytes() + view.quantized.size_bytes() + view.levels.size_bytes() ==
+                        input.bytes.size(),
                     "positions and levels are all of a frame's bytes");
             break;
         }
@@ -76,7 +77,8 @@ void stream_requests(Bytes bytes) {
 Seeds stream_request_seeds() {
     v1::StreamRequest end;
     end.mutable_frame_end();
-    return {join<v1::StreamRequest>({begin(1, false, false), chunk(24), end, begin(2, true, true), chunk(5), chunk(9), end}),
+    return {join<v1::StreamRequest>(
+                {begin(1, false, false), chunk(24), end, begin(2, true, true), chunk(5), chunk(9), end}),
             join<v1::StreamRequest>({begin(std::numeric_limits<std::uint64_t>::max(), false, true), chunk(26), end})};
 }
 

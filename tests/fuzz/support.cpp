@@ -9,7 +9,8 @@ Mesh sample_mesh() {
     constexpr float spacing = 0.2F;
     std::vector<float> positions{3.0F, 3.0F, 3.0F};
     for (int i = 0; i < 27; ++i)
-        for (const int step : {i % 3, i / 3 % 3, i / 9}) positions.push_back(spacing * static_cast<float>(step) - spacing);
+        for (const int step : {i % 3, i / 3 % 3, i / 9})
+            positions.push_back(spacing * static_cast<float>(step) - spacing);
     ParticleFrame frame;
     frame.positions = positions;
     Settings settings;

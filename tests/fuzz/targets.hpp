@@ -1,5 +1,6 @@
-// What reads bytes that nobody vouches for. Each target takes any bytes: it may refuse them, and must not crash, hang or ask for
-// memory that the bytes do not justify. libFuzzer makes the bytes (tests/fuzz/run); the test suite tries the seeds and damage to them.
+// What reads bytes that nobody vouches for. Each target takes any bytes: it may refuse them, and must not crash, hang
+// or ask for memory that the bytes do not justify. libFuzzer makes the bytes (tests/fuzz/run); the test suite tries the
+// seeds and damage to them.
 #pragma once
 
 #include <string>
@@ -15,8 +16,8 @@ using Seeds = std::vector<std::string>;
 void stream_requests(Bytes bytes);
 Seeds stream_request_seeds();
 
-/// The piece size in which a message lies in memory (1 byte), and a message of a Stream call: what the reader of particle bytes
-/// takes for a chunk, protobuf takes for the same.
+/// The piece size in which a message lies in memory (1 byte), and a message of a Stream call: what the reader of
+/// particle bytes takes for a chunk, protobuf takes for the same.
 void frame_chunks(Bytes bytes);
 Seeds frame_chunk_seeds();
 

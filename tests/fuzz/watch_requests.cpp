@@ -12,7 +12,8 @@ void watch_requests(Bytes bytes) {
     may_refuse([&] {
         const server::WatchWishes wishes = server::watch_wishes_of(request, settings);
         require(wishes.format.max_level >= 1 && wishes.format.max_level <= 3, "a level cap is a level");
-        require(wishes.format.position_bits >= 2 && wishes.format.position_bits <= 6, "positions are no finer than the mesh");
+        require(wishes.format.position_bits >= 2 && wishes.format.position_bits <= 6,
+                "positions are no finer than the mesh");
         require(wishes.format.normal_bits == 0 || (wishes.format.normal_bits >= 2 && wishes.format.normal_bits <= 16),
                 "normals have bits that Draco takes");
     });

@@ -21,7 +21,8 @@ struct FrameAssembly : testing::Test {
     v1::FrameBegin begin_quantized(double min, double max) const {
         v1::FrameBegin message = begin(0, 1);
         message.set_encoding(v1::POSITION_ENCODING_UINT16);
-        for (auto* corner : {message.mutable_quantization_box()->mutable_min(), message.mutable_quantization_box()->mutable_max()}) {
+        for (auto* corner :
+             {message.mutable_quantization_box()->mutable_min(), message.mutable_quantization_box()->mutable_max()}) {
             corner->set_x(0);
             corner->set_y(0);
             corner->set_z(0);

@@ -37,7 +37,8 @@ TEST(FrameChunkReader, ReadsChunksOfEverySizeHoweverTheyAreCut) {
     for (const std::size_t size : {1U, 2U, 126U, 127U, 128U, 16383U, 16384U, 1U << 20U}) {
         std::string data(size, 'a');
         for (std::size_t i = 0; i < size; ++i) data[i] = static_cast<char>(i * 7);
-        for (const int block : {1, 2, 3, 5, 4096, -1}) EXPECT_EQ(read(chunk_message(data), block), data) << size << ' ' << block;
+        for (const int block : {1, 2, 3, 5, 4096, -1})
+            EXPECT_EQ(read(chunk_message(data), block), data) << size << ' ' << block;
     }
 }
 
@@ -48,7 +49,8 @@ TEST(FrameChunkReader, LeavesOtherMessagesToProtobuf) {
     end.mutable_frame_end();
     v1::StreamRequest open;
     open.mutable_open()->set_session_id("x");
-    for (const v1::StreamRequest& request : {begin, end, open, v1::StreamRequest{}}) EXPECT_FALSE(read(request.SerializeAsString()));
+    for (const v1::StreamRequest& request : {begin, end, open, v1::StreamRequest{}})
+        EXPECT_FALSE(read(request.SerializeAsString()));
     EXPECT_FALSE(read(chunk_message("")));  // its data is not on the wire
 }
 

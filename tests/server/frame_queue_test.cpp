@@ -15,7 +15,8 @@ struct Queue : testing::Test {
         for (std::size_t i = 0; i < inputs.size(); ++i) inputs[i].index = i;
     }
     std::shared_ptr<Upload> upload() const {
-        return std::make_shared<Upload>(UploadOptions{}, [] {}, [] {});
+        return std::make_shared<Upload>(
+            UploadOptions{}, [] {}, [] {});
     }
 
     FrameQueue queue;

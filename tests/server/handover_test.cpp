@@ -43,8 +43,14 @@ TEST(SlotPool, LendsASlotToWhoAskedFirst) {
     SlotPool<int> pool;
     int slot = 0;
     std::vector<int> order;
-    pool.request([&](int&) { order.push_back(1); return true; });
-    pool.request([&](int&) { order.push_back(2); return true; });
+    pool.request([&](int&) {
+        order.push_back(1);
+        return true;
+    });
+    pool.request([&](int&) {
+        order.push_back(2);
+        return true;
+    });
     pool.give(slot);
     EXPECT_EQ(order, (std::vector<int>{1}));
     pool.give(slot);
@@ -56,7 +62,10 @@ TEST(SlotPool, OffersADeclinedSlotToTheNext) {
     int slot = 0;
     int* taken = nullptr;
     pool.request([](int&) { return false; });
-    pool.request([&](int& s) { taken = &s; return true; });
+    pool.request([&](int& s) {
+        taken = &s;
+        return true;
+    });
     pool.give(slot);
     EXPECT_EQ(taken, &slot);
 }
@@ -64,10 +73,16 @@ TEST(SlotPool, OffersADeclinedSlotToTheNext) {
 TEST(SlotPool, ForgetsWhoWaitsWhenClosed) {
     SlotPool<int> pool;
     int slot = 0;
-    pool.request([](int&) { ADD_FAILURE(); return true; });
+    pool.request([](int&) {
+        ADD_FAILURE();
+        return true;
+    });
     pool.close();
     pool.give(slot);
-    pool.request([](int&) { ADD_FAILURE(); return true; });
+    pool.request([](int&) {
+        ADD_FAILURE();
+        return true;
+    });
 }
 
 TEST(SlotPool, NeverLendsASlotTwice) {
@@ -83,7 +98,10 @@ TEST(SlotPool, NeverLendsASlotTwice) {
         borrowers.emplace_back([&] {
             for (std::ptrdiff_t round = 0; round < rounds; ++round) {
                 std::promise<std::atomic<int>*> lent;
-                pool.request([&](std::atomic<int>& slot) { lent.set_value(&slot); return true; });
+                pool.request([&](std::atomic<int>& slot) {
+                    lent.set_value(&slot);
+                    return true;
+                });
                 std::atomic<int>& slot = *lent.get_future().get();
                 EXPECT_EQ(slot.fetch_add(1), 0);
                 slot.fetch_sub(1);

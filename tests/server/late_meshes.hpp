@@ -1,4 +1,5 @@
-// Sessions' meshes that come down late, as from a GPU: made on the CPU at once, there when they are asked for and the test lets them.
+// Sessions' meshes that come down late, as from a GPU: made on the CPU at once, there when they are asked for and the
+// test lets them.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// spdlog makes its registry when it is first asked for it. Debian's is not compiled for the thread sanitizer, which would take that
-// for a race with every thread that logs, so it is made before there are threads.
+// spdlog makes its registry when it is first asked for it. Debian's is not compiled for the thread sanitizer, which
+// would take that for a race with every thread that logs, so it is made before there are threads.
 #include <spdlog/spdlog.h>
 
 namespace {

@@ -15,7 +15,8 @@ template <class Call>
 std::string logged(LogFormat format, const Call& call) {
     std::ostringstream out;
     const auto before = spdlog::default_logger();
-    spdlog::set_default_logger(std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out)));
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out)));
     use_log_format(format);
     call();
     spdlog::set_default_logger(before);

@@ -27,7 +27,8 @@ inline SharedMessage serialized(const v1::StreamResponse& response) {
 }
 
 /// A brick of `version` triangles, in as many parts.
-inline SharedBrick made_brick(const std::array<std::int32_t, 3>& place, std::uint32_t version, std::size_t padding = 0) {
+inline SharedBrick made_brick(const std::array<std::int32_t, 3>& place, std::uint32_t version,
+                              std::size_t padding = 0) {
     auto brick = std::make_shared<BrickMessages>();
     brick->place = place;
     brick->content_hash = version;
@@ -49,7 +50,8 @@ inline SharedBrick made_brick(const std::array<std::int32_t, 3>& place, std::uin
 }
 
 /// cell_size is such that bricks are unit cubes.
-inline std::shared_ptr<EncodedFrame> made_frame(std::uint64_t index, const Versions& versions, std::size_t padding = 0) {
+inline std::shared_ptr<EncodedFrame> made_frame(std::uint64_t index, const Versions& versions,
+                                                std::size_t padding = 0) {
     auto frame = std::make_shared<EncodedFrame>();
     frame->index = index;
     frame->cell_size = 1.0 / 64.0;

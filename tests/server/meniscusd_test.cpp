@@ -157,10 +157,26 @@ TEST(Meniscusd, RefusesAnAddressInUseInOneLine) {
 }
 
 TEST(Meniscusd, TakesLimitsWithUnits) {
-    Process process(on_free_port({"--memory-limit", "4G", "--device-memory-limit", "2G", "--max-sessions", "5",
-                                  "--max-watchers", "6", "--max-particles", "7", "--max-bytes-in-flight", "8M",
-                                  "--max-frames-per-second", "9", "--max-chunks", "10", "--max-idle", "11.5",
-                                  "--max-message-bytes", "2M"}));
+    Process process(on_free_port({"--memory-limit",
+                                  "4G",
+                                  "--device-memory-limit",
+                                  "2G",
+                                  "--max-sessions",
+                                  "5",
+                                  "--max-watchers",
+                                  "6",
+                                  "--max-particles",
+                                  "7",
+                                  "--max-bytes-in-flight",
+                                  "8M",
+                                  "--max-frames-per-second",
+                                  "9",
+                                  "--max-chunks",
+                                  "10",
+                                  "--max-idle",
+                                  "11.5",
+                                  "--max-message-bytes",
+                                  "2M"}));
     client::Client client(process.address());
     const client::ServerInfo info = client.server_info();
     EXPECT_EQ(info.max_bytes_per_session, std::uint64_t{4} << 30U);

@@ -65,8 +65,8 @@ TEST(Meniscusd, KeepsItsUnixSocketToItsUser) {
 TEST(Meniscusd, ReadsSecretsAgainAtSighup) {
     const TestFolder folder;
     const TestCertificates certificates;
-    Process process(on_free_port({"--tls-cert", certificates.file("server"), "--tls-key", certificates.key("server"), "--tokens",
-                                  folder.write("tokens", tokens)}));
+    Process process(on_free_port({"--tls-cert", certificates.file("server"), "--tls-key", certificates.key("server"),
+                                  "--tokens", folder.write("tokens", tokens)}));
     const std::string address = process.address();
     certificates.issue("next", "ca");
     certificates.replace("server", "next");

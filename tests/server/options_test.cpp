@@ -120,12 +120,14 @@ TEST(Options, ThatAreWrongAreRefusedWithTheirSource) {
         const Variable unknown("MENISCUS_LISTN", "127.0.0.1:1");
         const Variable wrong("MENISCUS_MAX_WATCHERS", "many");
         const std::string text = refusal({});
-        EXPECT_NE(text.find("MENISCUS_LISTN: there is no setting of this name; --listen is near it"), std::string::npos) << text;
+        EXPECT_NE(text.find("MENISCUS_LISTN: there is no setting of this name; --listen is near it"), std::string::npos)
+            << text;
         EXPECT_NE(text.find("MENISCUS_MAX_WATCHERS: "), std::string::npos) << text;
         EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
     }
     const std::string text = with("listen = 127.0.0.1:1\nmax-sesions = 1\nthreads = 5000\nthreads = 1\n");
-    EXPECT_NE(text.find(file + ":2: max-sesions: there is no setting of this name; --max-sessions is near it"), std::string::npos)
+    EXPECT_NE(text.find(file + ":2: max-sesions: there is no setting of this name; --max-sessions is near it"),
+              std::string::npos)
         << text;
     EXPECT_NE(text.find(file + ":3: threads: "), std::string::npos) << text;
     EXPECT_NE(text.find("5000"), std::string::npos) << text;

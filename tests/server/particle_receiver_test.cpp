@@ -84,15 +84,16 @@ TEST(ParticleReceiver, RefusesWhatContradictsItself) {
         {"have the level 4", {begin(), chunk(positions + "\1\4"), end()}},
         {"are no 0-th part", {changed([](auto& b) { b.set_stride(0); })}},
         {"3 of 4 are no 2-th part", {changed([](auto& b) { b.set_sent_count(3); })}},
-        {"more than memory can hold",
-         {changed([](auto& b) {
+        {"more than memory can hold", {changed([](auto& b) {
              b.set_stride(1);
              b.set_particle_count(std::numeric_limits<std::uint64_t>::max());
              b.set_sent_count(std::numeric_limits<std::uint64_t>::max());
          })}},
-        {"have the radius nan", {changed([](auto& b) { b.set_particle_radius(std::numeric_limits<double>::quiet_NaN()); })}},
+        {"have the radius nan",
+         {changed([](auto& b) { b.set_particle_radius(std::numeric_limits<double>::quiet_NaN()); })}},
         {"needs both its corners", {changed([](auto& b) { b.mutable_quantization_box()->clear_max(); })}},
-        {"a box from 0.000000 to -1.000000", {changed([](auto& b) { b.mutable_quantization_box()->mutable_max()->set_x(-1.0); })}},
+        {"a box from 0.000000 to -1.000000",
+         {changed([](auto& b) { b.mutable_quantization_box()->mutable_max()->set_x(-1.0); })}},
     };
     for (const Case& c : cases) {
         SCOPED_TRACE(c.words);

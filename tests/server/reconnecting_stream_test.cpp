@@ -86,7 +86,8 @@ TEST(ReconnectingStream, GoesOnWithTheServerThatTakesThePlaceOfOneThatIsShutDown
     const std::uint16_t port = port_of(running->server.address());
     const std::string id = running->session();
     client::Client client("127.0.0.1:" + std::to_string(port));
-    auto stream = client.stream(id, {.waiting_limit = 4, .reconnect = patient});  // there is always something left to send
+    auto stream =
+        client.stream(id, {.waiting_limit = 4, .reconnect = patient});  // there is always something left to send
     const auto received = exchange_frames(stream, 30, [&](std::uint64_t index) {
         if (index != 4 && index != 20) return;
         running->server.shutdown();
@@ -110,7 +111,8 @@ TEST(ReconnectingStream, WaitsForAServerThatIsFull) {
     running = std::make_unique<RunningServer>(small);
     const std::string other = running->session();
     stream.push(wave(4, 0.0).view(), 0, 0.0);
-    while (scrape(running->server.http_address())["meniscus_calls_total{code=\"RESOURCE_EXHAUSTED\"}"] == 0) std::this_thread::yield();
+    while (scrape(running->server.http_address())["meniscus_calls_total{code=\"RESOURCE_EXHAUSTED\"}"] == 0)
+        std::this_thread::yield();
     running->client.delete_session(other);
     EXPECT_EQ(stream.next()->index, 0U);
 }

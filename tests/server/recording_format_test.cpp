@@ -22,8 +22,8 @@
 namespace meniscus::server::test {
 namespace {
 
-using formats::Recording;
 using formats::RecordedFrame;
+using formats::Recording;
 using meniscus::test::refusal;
 using meniscus::test::TemporaryDirectory;
 
@@ -39,8 +39,8 @@ InputFrame input(std::uint64_t index, const Particles& particles) {
     frame.quantized = particles.view().is_quantized();
     frame.quantization_box = particles.box;
     frame.has_levels = !particles.levels.empty();
-    for (const auto bytes : {std::as_bytes(std::span(particles.positions)), std::as_bytes(std::span(particles.quantized)),
-                             std::as_bytes(std::span(particles.levels))})
+    for (const auto bytes : {std::as_bytes(std::span(particles.positions)),
+                             std::as_bytes(std::span(particles.quantized)), std::as_bytes(std::span(particles.levels))})
         frame.bytes.insert(frame.bytes.end(), bytes.begin(), bytes.end());
     return frame;
 }
@@ -61,7 +61,8 @@ std::string mesh_bytes(std::uint64_t index, const Particles& particles) {
     reconstructor.reconstruct(particles.view(), frame.mesh);
     frame.statistics = reconstructor.statistics();
     WorkerPool workers(1);
-    return bytes_of(recorded_mesh(*encode_frame(frame, {.position_bits = 6, .normal_bits = 8}, nullptr, workers, nullptr)));
+    return bytes_of(
+        recorded_mesh(*encode_frame(frame, {.position_bits = 6, .normal_bits = 8}, nullptr, workers, nullptr)));
 }
 
 std::string beginning() {
@@ -225,7 +226,8 @@ TEST_F(RecordingFormat, RefusesMessagesThatAreNotTheirFrame) {
         });
     };
     const auto chunk = [&](std::size_t size) {
-        return request([&](v1::StreamRequest& message) { message.mutable_frame_chunk()->set_data(std::string(size, 'x')); });
+        return request(
+            [&](v1::StreamRequest& message) { message.mutable_frame_chunk()->set_data(std::string(size, 'x')); });
     };
     const std::string end = request([](v1::StreamRequest& message) { message.mutable_frame_end(); });
     const std::string huge_length("\xff\xff\xff\xff\x7f", 5);

@@ -46,13 +46,15 @@ protected:
 
     static void stream(client::Client& client, const std::string& id, const std::vector<Particles>& frames) {
         auto stream = client.stream(id);
-        for (std::size_t i = 0; i < frames.size(); ++i) stream.push(frames[i].view(), index_of(i), 0.5 * static_cast<double>(i));
+        for (std::size_t i = 0; i < frames.size(); ++i)
+            stream.push(frames[i].view(), index_of(i), 0.5 * static_cast<double>(i));
         stream.finish();
         while (stream.next()) {
         }
     }
     /// Of the session, once so many frames of it have been written.
-    static RecordingInfo recording(client::Client& client, const std::string& id, std::uint64_t frames, std::uint32_t number = 1) {
+    static RecordingInfo recording(client::Client& client, const std::string& id, std::uint64_t frames,
+                                   std::uint32_t number = 1) {
         RecordingInfo found;
         EXPECT_TRUE(becomes([&] {
             for (const RecordingInfo& info : client.recordings())
@@ -85,7 +87,8 @@ std::vector<std::uint64_t> indices(client::RecordingReader reader) {
 }
 
 /// The status of reading a recording to its end, by a call of this metadata.
-grpc::Status status_of(const RunningServer& running, const v1::ReadRecordingRequest& request, const std::string& token = {}) {
+grpc::Status status_of(const RunningServer& running, const v1::ReadRecordingRequest& request,
+                       const std::string& token = {}) {
     const client::Connection connection(running.server.address(), {.token = token});
     grpc::ClientContext context;
     connection.add_metadata(context, request.session_id());
@@ -212,7 +215,8 @@ TEST_F(RecordingService, EndsWithDataLossWithinAFrameThatIsDamaged) {
     bytes.close();
     const grpc::Status status = status_of(running, request_for(id));
     EXPECT_EQ(status.error_code(), grpc::StatusCode::DATA_LOSS);
-    EXPECT_NE(status.error_message().find("recording 1 of session " + id + " is damaged at frame 10"), std::string::npos)
+    EXPECT_NE(status.error_message().find("recording 1 of session " + id + " is damaged at frame 10"),
+              std::string::npos)
         << status.error_message();
     EXPECT_EQ(status.error_message().find(folder_.path().string()), std::string::npos) << "a path of the server";
 }
@@ -241,7 +245,9 @@ TEST_F(RecordingService, ReadsAFileThatHasTakenAnothersPlace) {
     running.client.create_session(id, settings());
     stream(running.client, id, {wave(6, 0.0), wave(6, 1.0)});
     running.client.delete_session(id);
-    EXPECT_TRUE(becomes([&] { return indices(running.client.read_recording(id, 1)) == std::vector<std::uint64_t>{10, 13}; }));
+    EXPECT_TRUE(becomes([&] {
+        return indices(running.client.read_recording(id, 1)) == std::vector<std::uint64_t>{10, 13};
+    }));
 }
 
 TEST_F(RecordingService, RefusesReadersPastTheLimitUntilOneLeaves) {
@@ -254,10 +260,13 @@ TEST_F(RecordingService, RefusesReadersPastTheLimitUntilOneLeaves) {
         auto first = running.client.read_recording(id, 1);
         auto second = running.client.read_recording(id, 1);
         ASSERT_TRUE(first.next() && second.next());
-        EXPECT_EQ(scrape_until(running.server.http_address(), "meniscus_recording_readers", 2).at("meniscus_recording_readers"), 2);
+        EXPECT_EQ(scrape_until(running.server.http_address(), "meniscus_recording_readers", 2)
+                      .at("meniscus_recording_readers"),
+                  2);
         const grpc::Status status = status_of(running, request_for(id));
         EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-        EXPECT_NE(status.error_message().find("2 recordings are being read; the server takes at most 2 readers"), std::string::npos);
+        EXPECT_NE(status.error_message().find("2 recordings are being read; the server takes at most 2 readers"),
+                  std::string::npos);
         EXPECT_EQ(running.client.recordings().size(), 1U);
     }
     EXPECT_TRUE(becomes([&] { return status_of(running, request_for(id)).ok(); }));
@@ -289,7 +298,8 @@ TEST_F(RecordingService, IsNotThereWhereNothingIsRecorded) {
         ADD_FAILURE();
     } catch (const client::ServerError& error) {
         EXPECT_EQ(error.status(), "UNIMPLEMENTED");
-        EXPECT_NE(std::string(error.what()).find("this server keeps no recordings: meniscusd --record DIR does"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("this server keeps no recordings: meniscusd --record DIR does"),
+                  std::string::npos);
     }
     EXPECT_EQ(status_of(running, request_for(client::new_session_id())).error_code(), grpc::StatusCode::UNIMPLEMENTED);
 }
@@ -298,8 +308,9 @@ TEST_F(RecordingService, ShowsUploadersTheirOwnAlone) {
     const TestFolder tokens;
     const auto token = [](const std::string& name) { return "token-of-" + name + "-0123456789"; };
     ServerOptions closed = options();
-    closed.tokens = tokens.write("tokens", "uploader ada " + token("ada") + "\nuploader ben " + token("ben") + "\nwatcher eve " +
-                                               token("eve") + "\nadmin root " + token("root") + "\n");
+    closed.tokens =
+        tokens.write("tokens", "uploader ada " + token("ada") + "\nuploader ben " + token("ben") + "\nwatcher eve " +
+                                   token("eve") + "\nadmin root " + token("root") + "\n");
     Server server(closed);
     const auto as = [&](const std::string& name) { return client::Client(server.address(), {.token = token(name)}); };
     client::Client ada = as("ada");

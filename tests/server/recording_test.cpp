@@ -107,8 +107,8 @@ TEST_F(RecordedSession, ReplaysTheFramesThatAreAskedFor) {
     const std::string session = client::new_session_id();
     {
         RunningServer other(recorded_in(folder("replayed")));
-        ASSERT_EQ(meniscus({"replay", recorded.string(), "--server", other.server.address(), "--session", session, "--speed",
-                            "max", "--from", "12", "--to", "16"}),
+        ASSERT_EQ(meniscus({"replay", recorded.string(), "--server", other.server.address(), "--session", session,
+                            "--speed", "max", "--from", "12", "--to", "16"}),
                   0);
     }
     const Recording part(directory_ / "replayed" / session / "000001.recording");
@@ -127,8 +127,8 @@ TEST_F(RecordedSession, LoopsUntilItsSessionIsGone) {
             for (const client::SessionInfo& info : other.client.sessions()) looped |= info.frames > 2 * frames().size();
         other.client.delete_session(session);
     });
-    EXPECT_NE(meniscus({"replay", recorded.string(), "--server", other.server.address(), "--session", session, "--speed",
-                        "max", "--loop"}),
+    EXPECT_NE(meniscus({"replay", recorded.string(), "--server", other.server.address(), "--session", session,
+                        "--speed", "max", "--loop"}),
               0);
     deleting.join();
 }
@@ -142,10 +142,12 @@ TEST_F(RecordedSession, BecomesFilesOfMeshesAndOfParticles) {
     Mesh mesh;
     reconstructor.reconstruct(frames()[0].view(), mesh);
     EXPECT_EQ(formats::read_mesh(directory_ / "meshes" / "frame_000010.ply").triangles.size(), mesh.triangles.size());
-    EXPECT_EQ(formats::read_mesh(directory_ / "bricks" / "frame_000010.bricks").triangles.size(), mesh.triangles.size());
+    EXPECT_EQ(formats::read_mesh(directory_ / "bricks" / "frame_000010.bricks").triangles.size(),
+              mesh.triangles.size());
     EXPECT_FALSE(std::filesystem::exists(directory_ / "bricks" / "frame_000013.bricks"));
     for (const std::size_t i : {0U, 2U, 3U, 4U}) {
-        const auto particles = formats::read_particles(directory_ / "particles" / ("frame_0000" + std::to_string(index_of(i)) + ".vtk"));
+        const auto particles =
+            formats::read_particles(directory_ / "particles" / ("frame_0000" + std::to_string(index_of(i)) + ".vtk"));
         EXPECT_EQ(particles.positions, frames()[i].positions);
         EXPECT_EQ(particles.levels, frames()[i].levels);
     }
@@ -253,7 +255,8 @@ TEST_F(RecordedSession, GoesOnPastTheLimit) {
     EXPECT_LE(running.server.recordings()->counters().bytes, options.recording.limit);
     const Samples samples = scrape_until(running.server.http_address(), "meniscus_recordings_stopped_total", 1);
     EXPECT_EQ(samples.at("meniscus_recorded_frames_total"), 1);
-    EXPECT_EQ(samples.at("meniscus_recorded_bytes_total"), static_cast<double>(running.server.recordings()->counters().bytes));
+    EXPECT_EQ(samples.at("meniscus_recorded_bytes_total"),
+              static_cast<double>(running.server.recordings()->counters().bytes));
 }
 
 TEST_F(RecordedSession, DoesNotHoldFramesThatCouldNotBeUsed) {
@@ -286,7 +289,8 @@ TEST(ReplayPace, IsNoFasterThanAskedFor) {
 }
 
 TEST(ReplayPace, RefusesWhatIsNoSpeed) {
-    for (const char* speed : {"", "0", "-1", "nan", "inf", "2x", "fast"}) EXPECT_THROW(cli::ReplayPace{speed}, InvalidInput) << speed;
+    for (const char* speed : {"", "0", "-1", "nan", "inf", "2x", "fast"})
+        EXPECT_THROW(cli::ReplayPace{speed}, InvalidInput) << speed;
 }
 
 }  // namespace

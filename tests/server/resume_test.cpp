@@ -47,7 +47,8 @@ TEST_F(Resume, TakesThePlaceOfTheStreamBefore) {
         std::rethrow_exception(first.error);
     } catch (const Refusal& refusal) {
         EXPECT_EQ(refusal.kind(), Refusal::Kind::failed_precondition);
-        EXPECT_NE(std::string(refusal.what()).find("resumed run 0000000000000007"), std::string::npos) << refusal.what();
+        EXPECT_NE(std::string(refusal.what()).find("resumed run 0000000000000007"), std::string::npos)
+            << refusal.what();
     }
     session.cancel_upload(first.upload);
     second.send(0, particles);

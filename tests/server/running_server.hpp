@@ -42,8 +42,7 @@ struct RunningServer {
 
 /// The call itself, for what the client library would never send.
 struct RawStream {
-    RawStream(const std::string& address, const std::string& session_id, bool open = true)
-        : connection(address) {
+    RawStream(const std::string& address, const std::string& session_id, bool open = true) : connection(address) {
         client::add_session_id(context, session_id);
         start();
         if (open) send_open(session_id);

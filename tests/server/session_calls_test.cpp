@@ -8,7 +8,8 @@
 namespace meniscus::server::test {
 namespace {
 
-grpc::Status create_raw(RunningServer& running, const std::string& metadata, const std::string& id, v1::Settings settings) {
+grpc::Status create_raw(RunningServer& running, const std::string& metadata, const std::string& id,
+                        v1::Settings settings) {
     const client::Connection connection(running.server.address());
     grpc::ClientContext context;
     if (!metadata.empty()) client::add_session_id(context, metadata);
@@ -84,9 +85,9 @@ TEST(Sessions, NeedAUuidInMessageAndMetadata) {
     RunningServer running;
     const v1::Settings wire = conversion::to_wire(settings());
     const std::string id = client::new_session_id();
-    for (const auto& [metadata, message] : {std::pair{std::string(), id}, std::pair{id, client::new_session_id()},
-                                            std::pair{std::string("water"), std::string("water")},
-                                            std::pair{id, std::string()}})
+    for (const auto& [metadata, message] :
+         {std::pair{std::string(), id}, std::pair{id, client::new_session_id()},
+          std::pair{std::string("water"), std::string("water")}, std::pair{id, std::string()}})
         EXPECT_EQ(create_raw(running, metadata, message, wire).error_code(), grpc::StatusCode::INVALID_ARGUMENT)
             << metadata << " / " << message;
 }

@@ -112,7 +112,8 @@ TEST_F(SessionDownload, AMeshThatNobodyWantsStaysWhereItIsUntilAWatcherComes) {
     }
     EXPECT_EQ(meshes->asked_for, 0);
     std::counting_semaphore<> awake{0};
-    const auto watch = session->open_watch({.format = {.position_bits = 6, .normal_bits = 8}}, [&] { awake.release(); });
+    const auto watch =
+        session->open_watch({.format = {.position_bits = 6, .normal_bits = 8}}, [&] { awake.release(); });
     while (frames_taken(*watch) == 0) awake.acquire();
     EXPECT_EQ(meshes->asked_for, 1);
     session->close_watch(watch);
@@ -121,7 +122,8 @@ TEST_F(SessionDownload, AMeshThatNobodyWantsStaysWhereItIsUntilAWatcherComes) {
 TEST_F(SessionDownload, ADeviceThatFailsMeanwhileEndsTheSessionWithTheReason) {
     Simulator simulator(*session, with_meshes);
     std::counting_semaphore<> awake{0};
-    const auto watch = session->open_watch({.format = {.position_bits = 6, .normal_bits = 8}}, [&] { awake.release(); });
+    const auto watch =
+        session->open_watch({.format = {.position_bits = 6, .normal_bits = 8}}, [&] { awake.release(); });
     meshes->fails = true;
     simulator.send(0, first);
     simulator.send(1, second);

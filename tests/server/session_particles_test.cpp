@@ -16,7 +16,8 @@ using test::Simulator;
 /// Plays a watcher of particles.
 struct ParticleSpectator {
     ParticleSpectator(Session& s, std::uint64_t max_particles)
-        : session(s), watch(session.open_watch({.format = {}, .max_particles = max_particles}, [this] { awake.release(); })) {}
+        : session(s),
+          watch(session.open_watch({.format = {}, .max_particles = max_particles}, [this] { awake.release(); })) {}
     ~ParticleSpectator() { session.close_watch(watch); }
 
     /// The messages of the next frame, none at the end.

@@ -78,7 +78,9 @@ TEST_F(Registry, TakesNoSessionsWhileItDrains) {
     const auto session = registry.create(first_id, test::settings());
     registry.drain(std::chrono::seconds(1));
     EXPECT_THROW(registry.create(second_id, test::settings()), Refusal);
-    EXPECT_THROW(session->open_upload({}, [] {}, [] {}), Refusal);
+    EXPECT_THROW(session->open_upload(
+                     {}, [] {}, [] {}),
+                 Refusal);
 }
 
 TEST(IdleRegistry, ForgetsASessionThatNobodyHasUsedForAsLongAsTheLimitSaysAndNoneBefore) {
@@ -87,7 +89,8 @@ TEST(IdleRegistry, ForgetsASessionThatNobodyHasUsedForAsLongAsTheLimitSaysAndNon
     SessionRegistry registry{Limits{.idle_time = limit}, BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
     const auto before = Clock::now();
     const auto used = registry.create(first_id, test::settings());
-    const auto upload = used->open_upload({}, [] {}, [] {});
+    const auto upload = used->open_upload(
+        {}, [] {}, [] {});
     registry.create(second_id, test::settings());
     const auto after = Clock::now();
     registry.end_idle(before + limit - std::chrono::milliseconds(1));

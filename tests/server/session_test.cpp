@@ -142,11 +142,15 @@ TEST_F(SessionPipeline, AnswersWhatCameBeforeABadFrameAndDropsWhatCameAfter) {
 }
 
 TEST_F(SessionPipeline, TakesOneUploadAtATime) {
-    const auto upload = session.open_upload({}, [] {}, [] {});
+    const auto upload = session.open_upload(
+        {}, [] {}, [] {});
     EXPECT_TRUE(session.state().uploading);
-    EXPECT_THROW(session.open_upload({}, [] {}, [] {}), Refusal);
+    EXPECT_THROW(session.open_upload(
+                     {}, [] {}, [] {}),
+                 Refusal);
     session.end_upload(upload, nullptr);
-    EXPECT_NO_THROW(session.open_upload({}, [] {}, [] {}));
+    EXPECT_NO_THROW(session.open_upload(
+        {}, [] {}, [] {}));
 }
 
 TEST_F(SessionPipeline, SendsStatisticsAloneToWhoWantsNoMeshes) {
@@ -221,7 +225,8 @@ TEST_F(SessionPipeline, EmitsALevelCapOncePerFrameForAllWhoWishForItAndOnlyThen)
 
 TEST_F(SessionPipeline, RefusesWatchersPastTheLimit) {
     std::vector<std::shared_ptr<Watch>> watches;
-    for (std::uint32_t i = 0; i < limits.watchers_per_session; ++i) watches.push_back(session.open_watch(normals(8), [] {}));
+    for (std::uint32_t i = 0; i < limits.watchers_per_session; ++i)
+        watches.push_back(session.open_watch(normals(8), [] {}));
     EXPECT_EQ(session.state().watchers, limits.watchers_per_session);
     EXPECT_THROW(session.open_watch(normals(8), [] {}), LimitExceeded);
     session.close_watch(watches.front());
@@ -236,7 +241,9 @@ TEST_F(SessionPipeline, EndsUploadAndWatchersWhenClosed) {
     EXPECT_THROW(std::rethrow_exception(simulator.error), Refusal);
     EXPECT_TRUE(watcher.receive().empty());
     EXPECT_EQ(watcher.error, nullptr);
-    EXPECT_THROW(session.open_upload({}, [] {}, [] {}), Refusal);
+    EXPECT_THROW(session.open_upload(
+                     {}, [] {}, [] {}),
+                 Refusal);
     EXPECT_THROW(session.open_watch(normals(8), [] {}), Refusal);
 }
 
@@ -270,11 +277,13 @@ TEST_F(SessionPipeline, EndsWatchersAtOnceWhenDrainedWithoutAnUpload) {
 }
 
 TEST(SessionOnADevice, AnswersWhatCameBeforeTheDeviceFailedThenEndsItsUploadsAndWatchersWithTheReason) {
-    const auto fails_second = [cpu = reconstruct_on_the_cpu(), frames = 0](const ParticleFrame& frame, Mesh& mesh) mutable {
+    const auto fails_second = [cpu = reconstruct_on_the_cpu(), frames = 0](const ParticleFrame& frame,
+                                                                           Mesh& mesh) mutable {
         if (++frames == 2) throw DeviceError("cudaStreamSynchronize", "unspecified launch failure", 1);
         return cpu(frame, mesh);
     };
-    Session session({.id = id}, test::settings(), {}, {.reconstruct = fails_second}, {.workers = std::make_shared<WorkerPool>(1)});
+    Session session({.id = id}, test::settings(), {}, {.reconstruct = fails_second},
+                    {.workers = std::make_shared<WorkerPool>(1)});
     const auto particles = test::wave(6, 0.0);
     Spectator watcher(session);
     Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});

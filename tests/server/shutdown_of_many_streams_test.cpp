@@ -27,7 +27,8 @@ std::unique_ptr<v1::SurfaceService::Stub> surfaces(const std::string& address) {
     // Small windows: a client that does not read holds up the server after a frame or two.
     arguments.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
     arguments.SetInt(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, 1 << 16);
-    return v1::SurfaceService::NewStub(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
+    return v1::SurfaceService::NewStub(
+        grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
 }
 
 /// A call that ends when its client has read all, or is not read from at all.
@@ -108,7 +109,8 @@ private:
 
 /// Seconds from SIGTERM to the end of the process.
 double seconds_to_stop() {
-    Process process(on_free_port({"--shutdown-grace", std::to_string(grace), "--max-sessions", std::to_string(sessions)}));
+    Process process(
+        on_free_port({"--shutdown-grace", std::to_string(grace), "--max-sessions", std::to_string(sessions)}));
     const std::string address = process.address();
     client::Client client(address);
     const auto reading = surfaces(address);
@@ -140,7 +142,8 @@ TEST(ShutdownOfManyStreams, EndsWithinTheGracePeriodThoughHalfOfThemDoNotRead) {
     constexpr int rounds = 5;
     double slowest = 0.0;
     for (int i = 0; i < rounds; ++i) slowest = std::max(slowest, seconds_to_stop());
-    std::printf("200 streams, %d times: stopped after %.3f s at most; the grace period is %.1f s\n", rounds, slowest, grace);
+    std::printf("200 streams, %d times: stopped after %.3f s at most; the grace period is %.1f s\n", rounds, slowest,
+                grace);
     EXPECT_LE(slowest, grace);
 }
 

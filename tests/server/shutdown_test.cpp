@@ -48,8 +48,8 @@ TEST(Shutdown, EndsAStreamThatIsBeingOpened) {
 TEST(Shutdown, LetsAFrameThatIsOnItsWayInBeTheLast) {
     RunningServer running;
     RawStream stream(running.server.address(), running.session());
-    // More than gRPC's buffers hold, so that the server has begun to read the frame. Its answer is a refusal, which takes
-    // no time, but only a frame that is complete gets it.
+    // More than gRPC's buffers hold, so that the server has begun to read the frame. Its answer is a refusal, which
+    // takes no time, but only a frame that is complete gets it.
     constexpr std::size_t chunks = 24;
     constexpr std::size_t particles_per_chunk = chunk_bytes / 12;
     v1::StreamRequest not_finite;

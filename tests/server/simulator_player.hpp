@@ -27,7 +27,9 @@ inline constexpr const char* id = "00000000-0000-4000-8000-000000000000";
 /// Plays a stream: one thread uploads, another reads.
 struct Simulator {
     Simulator(Session& s, const UploadOptions& options)
-        : session(s), upload(session.open_upload(options, [this] { awake.release(); }, [this] { ++drained; })) {}
+        : session(s),
+          upload(session.open_upload(
+              options, [this] { awake.release(); }, [this] { ++drained; })) {}
 
     void send(std::uint64_t index, const Particles& particles) {
         std::promise<InputFrame*> lent;
@@ -73,11 +75,13 @@ struct Simulator {
         return indices;
     }
 
-    /// What the stream is told, in order: "7" for an answer, "-7 replaced" or "-7 not nth" for a dropped frame, "draining".
+    /// What the stream is told, in order: "7" for an answer, "-7 replaced" or "-7 not nth" for a dropped frame,
+    /// "draining".
     std::vector<std::string> receive_story() {
         std::vector<std::string> story;
         while (const auto response = receive()) {
-            if (response->has_frame_statistics()) story.push_back(std::to_string(response->frame_statistics().frame_index()));
+            if (response->has_frame_statistics())
+                story.push_back(std::to_string(response->frame_statistics().frame_index()));
             if (response->has_draining()) story.emplace_back("draining");
             if (!response->has_frame_dropped()) continue;
             const v1::FrameDropped& dropped = response->frame_dropped();

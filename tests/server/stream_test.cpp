@@ -11,7 +11,6 @@
 namespace meniscus::server::test {
 namespace {
 
-
 constexpr std::uint64_t frame_count = 6;
 
 TEST(Stream, ReturnsTheMeshesOfALocalReconstruction) {
@@ -86,8 +85,9 @@ TEST(Stream, BringsTheServersFigures) {
     EXPECT_EQ(remote.backend, local.backend);
     EXPECT_GT(remote.encode_seconds, 0.0);
     EXPECT_GE(remote.latency_seconds, remote.encode_seconds);
-    EXPECT_GE(remote.encoded_bytes, std::accumulate(frame->bricks.begin(), frame->bricks.end(), std::size_t{0},
-                                                    [](std::size_t sum, const auto& b) { return sum + b->draco.size(); }));
+    EXPECT_GE(remote.encoded_bytes,
+              std::accumulate(frame->bricks.begin(), frame->bricks.end(), std::size_t{0},
+                              [](std::size_t sum, const auto& b) { return sum + b->draco.size(); }));
 }
 
 TEST(Stream, SendsNoMeshesToWhoWantsNone) {

@@ -21,11 +21,13 @@ namespace meniscus::server::test {
 class TcpProxy {
 public:
     /// upstream: port on the loopback address. distance: time that a connection takes, as to a machine far away.
-    explicit TcpProxy(std::uint16_t upstream, std::chrono::milliseconds distance = {}) : upstream_(upstream), distance_(distance) {
+    explicit TcpProxy(std::uint16_t upstream, std::chrono::milliseconds distance = {})
+        : upstream_(upstream), distance_(distance) {
         listening_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
         sockaddr_in address = loopback(0);
         socklen_t size = sizeof address;
-        if (::bind(listening_, reinterpret_cast<const sockaddr*>(&address), size) != 0 || ::listen(listening_, 16) != 0 ||
+        if (::bind(listening_, reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
+            ::listen(listening_, 16) != 0 ||
             ::getsockname(listening_, reinterpret_cast<sockaddr*>(&address), &size) != 0)
             throw std::runtime_error("the proxy cannot listen");
         port_ = ntohs(address.sin_port);

@@ -25,7 +25,8 @@ inline std::string output_of(const std::string& command) {
 /// Certificates in files NAME.pem, with keys in NAME.key.
 class TestCertificates {
 public:
-    /// A CA named `ca`; one of the server for localhost and 127.0.0.1; one of a client; and a CA named `other` with a client.
+    /// A CA named `ca`; one of the server for localhost and 127.0.0.1; one of a client; and a CA named `other` with a
+    /// client.
     TestCertificates() {
         authority("ca");
         authority("other");
@@ -39,8 +40,8 @@ public:
     void issue(const std::string& name, const std::string& ca, int days = 2) const {
         const std::string request_file = folder / (name + ".csr");
         request(name, "-addext subjectAltName=DNS:localhost,IP:127.0.0.1 -out " + request_file);
-        output_of("openssl x509 -req -copy_extensions copy -in " + request_file + " -CA " + file(ca) + " -CAkey " + key(ca) +
-                  " -days " + std::to_string(days) + " -out " + file(name) + " 2>&1");
+        output_of("openssl x509 -req -copy_extensions copy -in " + request_file + " -CA " + file(ca) + " -CAkey " +
+                  key(ca) + " -days " + std::to_string(days) + " -out " + file(name) + " 2>&1");
     }
     /// Puts a certificate and its key in the place of another.
     void replace(const std::string& name, const std::string& by) const {
@@ -65,8 +66,8 @@ public:
 
 private:
     void request(const std::string& name, const std::string& more) const {
-        output_of("openssl req -new -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -subj /CN=" + name + " -keyout " +
-                  key(name) + " " + more + " 2>&1");
+        output_of("openssl req -new -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -subj /CN=" + name +
+                  " -keyout " + key(name) + " " + more + " 2>&1");
     }
     static std::string read(const std::string& path) {
         std::ifstream file(path);

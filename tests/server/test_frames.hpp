@@ -57,7 +57,8 @@ inline Particles spray(std::size_t side) {
         for (std::size_t y = 0; y < side; ++y)
             for (std::size_t x = 0; x < side; ++x)
                 for (const std::size_t i : {x, y, z})
-                    particles.positions.push_back(static_cast<float>((12.3 * static_cast<double>(i) + 0.01 * static_cast<double>(x * y)) * radius));
+                    particles.positions.push_back(static_cast<float>(
+                        (12.3 * static_cast<double>(i) + 0.01 * static_cast<double>(x * y)) * radius));
     return particles;
 }
 

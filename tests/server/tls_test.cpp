@@ -136,8 +136,8 @@ TEST(Tls, KeepsTheCertificateWhenTheNewOneCannotBeUsed) {
     const std::string serial = certificates.serial("server");
     const std::string chain = certificates.pem("server");
     certificates.issue("expired", "ca", -1);
-    for (const std::string& bad : {std::string("garbage"), std::string(), certificates.pem("client"), certificates.pem("expired"),
-                                   chain.substr(0, chain.size() / 2)}) {
+    for (const std::string& bad : {std::string("garbage"), std::string(), certificates.pem("client"),
+                                   certificates.pem("expired"), chain.substr(0, chain.size() / 2)}) {
         certificates.folder.write("server.pem", bad);
         server.reload();
         EXPECT_EQ(served_serial(server.address()), serial) << bad;
@@ -154,8 +154,8 @@ TEST(Certificates, AreRefusedWithTheFileAndTheReason) {
     const std::string locked = certificates.folder / "locked.key";
     output_of("openssl pkey -in " + certificates.key("server") + " -aes128 -passout pass:secret -out " + locked);
     const std::string chain = certificates.pem("server");
-    const std::string damaged =
-        certificates.folder.write("damaged.pem", chain + chain.substr(0, chain.size() / 2) + "!\n-----END CERTIFICATE-----\n");
+    const std::string damaged = certificates.folder.write(
+        "damaged.pem", chain + chain.substr(0, chain.size() / 2) + "!\n-----END CERTIFICATE-----\n");
     const std::string server = certificates.file("server");
     const std::string key = certificates.key("server");
     const std::string none = certificates.folder / "none.pem";
@@ -195,7 +195,8 @@ TEST(Client, RefusesTlsFilesThatCannotBeUsed) {
     const std::string ca = certificates.file("ca");
     for (const client::ConnectionOptions& options :
          {client::ConnectionOptions{.ca_file = certificates.folder / "none.pem"},
-          client::ConnectionOptions{.ca_file = ca, .certificate_file = ca}, client::ConnectionOptions{.ca_file = ca, .key_file = ca},
+          client::ConnectionOptions{.ca_file = ca, .certificate_file = ca},
+          client::ConnectionOptions{.ca_file = ca, .key_file = ca},
           client::ConnectionOptions{.certificate_file = ca, .key_file = ca}})
         EXPECT_THROW(client::Client("127.0.0.1:1", options), InvalidInput);
 }

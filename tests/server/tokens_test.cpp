@@ -97,18 +97,14 @@ public:
         call->WritesDone();
         return call->Finish();
     }
-    grpc::Status watch() const {
-        return first_answer(&v1::SurfaceService::Stub::Watch);
-    }
-    grpc::Status watch_particles() const {
-        return first_answer(&v1::SurfaceService::Stub::WatchParticles);
-    }
+    grpc::Status watch() const { return first_answer(&v1::SurfaceService::Stub::Watch); }
+    grpc::Status watch_particles() const { return first_answer(&v1::SurfaceService::Stub::WatchParticles); }
 
 private:
     /// OK once a message comes.
     template <class Request, class Response>
-    grpc::Status first_answer(std::unique_ptr<grpc::ClientReader<Response>> (v1::SurfaceService::Stub::*method)(grpc::ClientContext*,
-                                                                                                              const Request&)) const {
+    grpc::Status first_answer(std::unique_ptr<grpc::ClientReader<Response>> (v1::SurfaceService::Stub::*method)(
+        grpc::ClientContext*, const Request&)) const {
         const auto with = context();
         Request request;
         request.set_session_id(session_);
@@ -151,8 +147,8 @@ TEST_F(TokensOnAServer, AreAskedForByEveryCall) {
     };
     for (const Case& c : cases) {
         const RawCalls calls(server.address(), id, c.authorization);
-        for (const grpc::Status& status : {calls.server_info(), calls.list(), calls.get(), calls.create(), calls.stream(),
-                                           calls.watch(), calls.watch_particles(), calls.remove()}) {
+        for (const grpc::Status& status : {calls.server_info(), calls.list(), calls.get(), calls.create(),
+                                           calls.stream(), calls.watch(), calls.watch_particles(), calls.remove()}) {
             EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
             EXPECT_NE(status.error_message().find(c.words), std::string::npos) << status.error_message();
             EXPECT_EQ(status.error_message().find(ada), std::string::npos) << "a token in a message";
@@ -163,13 +159,15 @@ TEST_F(TokensOnAServer, AreAskedForByEveryCall) {
 
 TEST_F(TokensOnAServer, LetWatchersOnlyLook) {
     const RawCalls calls(server.address(), id, {"Bearer " + eve});
-    for (const grpc::Status& status : {calls.server_info(), calls.list(), calls.get(), calls.watch(), calls.watch_particles()})
+    for (const grpc::Status& status :
+         {calls.server_info(), calls.list(), calls.get(), calls.watch(), calls.watch_particles()})
         EXPECT_TRUE(status.ok()) << status.error_message();
     for (const auto& [status, name] : {std::pair{calls.create(), "CreateSession"}, std::pair{calls.stream(), "Stream"},
                                        std::pair{calls.remove(), "DeleteSession"}}) {
         EXPECT_EQ(status.error_code(), grpc::StatusCode::PERMISSION_DENIED);
-        EXPECT_EQ(status.error_message(), std::string(name) + " needs a token of the role uploader or admin; that of eve has the "
-                                                              "role watcher");
+        EXPECT_EQ(status.error_message(), std::string(name) +
+                                              " needs a token of the role uploader or admin; that of eve has the "
+                                              "role watcher");
     }
     EXPECT_EQ(client(eve).sessions().size(), 1U);
 }
@@ -177,7 +175,8 @@ TEST_F(TokensOnAServer, LetWatchersOnlyLook) {
 TEST_F(TokensOnAServer, KeepUploadersFromEachOthersSessions) {
     const RawCalls calls(server.address(), id, {"Bearer " + ben});
     EXPECT_TRUE(calls.server_info().ok());
-    for (const grpc::Status& status : {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.watch_particles(), calls.remove()}) {
+    for (const grpc::Status& status :
+         {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.watch_particles(), calls.remove()}) {
         EXPECT_EQ(status.error_code(), grpc::StatusCode::PERMISSION_DENIED);
         EXPECT_NE(status.error_message().find("session " + id + " is not one of ben's"), std::string::npos)
             << status.error_message();
@@ -188,13 +187,15 @@ TEST_F(TokensOnAServer, KeepUploadersFromEachOthersSessions) {
 
 TEST_F(TokensOnAServer, LetUploadersDoEverythingWithTheirOwn) {
     const RawCalls calls(server.address(), id, {"Bearer " + ada});
-    for (const grpc::Status& status : {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.watch_particles(), calls.remove()})
+    for (const grpc::Status& status :
+         {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.watch_particles(), calls.remove()})
         EXPECT_TRUE(status.ok()) << status.error_message();
 }
 
 TEST_F(TokensOnAServer, LetAdminsDoEverythingWithAll) {
     const RawCalls calls(server.address(), id, {"Bearer " + root});
-    for (const grpc::Status& status : {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.watch_particles(), calls.remove()})
+    for (const grpc::Status& status :
+         {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.watch_particles(), calls.remove()})
         EXPECT_TRUE(status.ok()) << status.error_message();
 }
 
@@ -281,8 +282,9 @@ TEST(Tokens, AreRefusedInAFileThatEveryoneMayRead) {
 }
 
 TEST(TokenDigests, AreSha256) {
-    const TokenDigest abc{0xba, 0x78, 0x16, 0xbf, 0x8f, 0x01, 0xcf, 0xea, 0x41, 0x41, 0x40, 0xde, 0x5d, 0xae, 0x22, 0x23,
-                          0xb0, 0x03, 0x61, 0xa3, 0x96, 0x17, 0x7a, 0x9c, 0xb4, 0x10, 0xff, 0x61, 0xf2, 0x00, 0x15, 0xad};
+    const TokenDigest abc{0xba, 0x78, 0x16, 0xbf, 0x8f, 0x01, 0xcf, 0xea, 0x41, 0x41, 0x40,
+                          0xde, 0x5d, 0xae, 0x22, 0x23, 0xb0, 0x03, 0x61, 0xa3, 0x96, 0x17,
+                          0x7a, 0x9c, 0xb4, 0x10, 0xff, 0x61, 0xf2, 0x00, 0x15, 0xad};
     EXPECT_EQ(digest_of("abc"), abc);
 }
 
@@ -299,8 +301,9 @@ TEST(TokenDigests, AreEqualInAllBytesOrNotAtAll) {
 TEST(Loopback, IsWhatNoOtherMachineReaches) {
     for (const char* address : {"localhost:1", "127.0.0.1:50051", "127.9.8.7:0", "[::1]:1", "unix:/run/meniscus"})
         EXPECT_TRUE(conversion::is_loopback(address)) << address;
-    for (const char* address : {"0.0.0.0:1", "[::]:1", "128.0.0.1:1", "10.0.0.1:1", "example.org:1", "127.0.0.1.example.org:1",
-                                "localhost.example.org:1", "127.1:1", ":1", "", "ipv4:127.0.0.1:1", "dns:///localhost:1"})
+    for (const char* address :
+         {"0.0.0.0:1", "[::]:1", "128.0.0.1:1", "10.0.0.1:1", "example.org:1", "127.0.0.1.example.org:1",
+          "localhost.example.org:1", "127.1:1", ":1", "", "ipv4:127.0.0.1:1", "dns:///localhost:1"})
         EXPECT_FALSE(conversion::is_loopback(address)) << address;
 }
 
@@ -318,7 +321,8 @@ TEST(Server, RefusesOtherMachinesWithoutTlsUnlessThatIsMeant) {
 
 TEST(Server, OffersNothingBesideItsTokensThatDoesNotAskForOne) {
     const TestFolder folder;
-    for (const StandardServices& services : {StandardServices{.reflection = true}, StandardServices{.channelz = true}}) {
+    for (const StandardServices& services :
+         {StandardServices{.reflection = true}, StandardServices{.channelz = true}}) {
         ServerOptions options = test_options();
         options.standard_services = services;
         EXPECT_TRUE(problems_of(options).empty());

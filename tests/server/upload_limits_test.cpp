@@ -125,8 +125,11 @@ TEST_F(UploadLimits, IdleTime) {
 }
 
 TEST_F(UploadLimits, AreWhatTheServerSays) {
-    options.limits = Limits{.bytes_in_flight = 1, .frames_per_second = 2, .chunks_per_frame = 3,
-                            .idle_time = std::chrono::milliseconds(4500), .message_bytes = 5'000'000};
+    options.limits = Limits{.bytes_in_flight = 1,
+                            .frames_per_second = 2,
+                            .chunks_per_frame = 3,
+                            .idle_time = std::chrono::milliseconds(4500),
+                            .message_bytes = 5'000'000};
     RunningServer running(options);
     client::Connection connection(running.server.address());
     grpc::ClientContext context;

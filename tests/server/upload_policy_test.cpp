@@ -27,8 +27,8 @@ TEST_F(Policies, EveryNthReconstructsTheFirstOfEveryN) {
     gate.release(3);
     for (std::uint64_t i = 0; i < 8; ++i) simulator.send(10 + i, particles);
     simulator.end();
-    EXPECT_EQ(simulator.receive_story(), (Story{"10", "-11 not nth", "-12 not nth", "13", "-14 not nth", "-15 not nth",
-                                                "16", "-17 not nth"}));
+    EXPECT_EQ(simulator.receive_story(),
+              (Story{"10", "-11 not nth", "-12 not nth", "13", "-14 not nth", "-15 not nth", "16", "-17 not nth"}));
     EXPECT_EQ(session.state().frames_dropped_not_nth, 5U);
 }
 
@@ -43,10 +43,12 @@ TEST_F(Policies, EveryFrameHasNoThirdInputSlotOnceThoseOfALatestStreamHaveComeBa
             });
         return lent.size();
     };
-    const auto latest = session.open_upload({.policy = UploadPolicy::latest}, [] {}, [] {});
+    const auto latest = session.open_upload(
+        {.policy = UploadPolicy::latest}, [] {}, [] {});
     EXPECT_EQ(lend_all(), 3U);
     session.end_upload(latest, nullptr);
-    const auto every_frame = session.open_upload({}, [] {}, [] {});
+    const auto every_frame = session.open_upload(
+        {}, [] {}, [] {});
     const std::vector<InputFrame*> borrowed = std::exchange(lent, {});
     for (InputFrame* input : borrowed) session.return_input(*input);  // the request left over takes the first
     EXPECT_EQ(lent.size(), 1U);

@@ -54,8 +54,10 @@ struct Figures {
         return *this;
     }
     void print() const {
-        std::printf("%zu states of a mesh, %zu frames merged from differences: each equal to its state, none begun older than the newest\n",
-                    states, completed);
+        std::printf(
+            "%zu states of a mesh, %zu frames merged from differences: each equal to its state, none begun older than "
+            "the newest\n",
+            states, completed);
     }
 };
 

@@ -19,7 +19,8 @@ void expect_near(const client::ReceivedParticles& received, const Particles& sen
     for (std::size_t i = 0; i < received.quantized.size(); ++i) {
         const std::size_t axis = i % 3;
         const double step = (box.max[axis] - box.min[axis]) / 65535.0;
-        ASSERT_NEAR(box.min[axis] + received.quantized[i] * step, sent.positions[3 * stride * (i / 3) + axis], 0.5001 * step + 1e-12);
+        ASSERT_NEAR(box.min[axis] + received.quantized[i] * step, sent.positions[3 * stride * (i / 3) + axis],
+                    0.5001 * step + 1e-12);
     }
 }
 
@@ -55,8 +56,14 @@ TEST(WatchParticles, ReceivesQuantizedPositionsAndLevelsAsTheyWereSent) {
     const std::string id = running.session();
     auto watcher = running.client.watch_particles(id);
     Particles particles = quantized(wave(6, 0.0));
-    for (std::size_t i = 0; i < particles.quantized.size() / 3; ++i) particles.levels.push_back(static_cast<std::uint8_t>(i % 4));
-    push_one(running.client, id, {.positions = {}, .quantized = particles.quantized, .quantization_box = particles.box, .levels = particles.levels}, 0);
+    for (std::size_t i = 0; i < particles.quantized.size() / 3; ++i)
+        particles.levels.push_back(static_cast<std::uint8_t>(i % 4));
+    push_one(running.client, id,
+             {.positions = {},
+              .quantized = particles.quantized,
+              .quantization_box = particles.box,
+              .levels = particles.levels},
+             0);
     const auto received = watcher.next();
     ASSERT_TRUE(received);
     EXPECT_EQ(received->quantized, particles.quantized);
@@ -201,7 +208,8 @@ TEST(WatchParticles, EndsWhenItsCallerCancels) {
     EXPECT_FALSE(watcher.next());
     canceler.join();
     const auto guard = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (running.client.session(id).watchers != 0 && std::chrono::steady_clock::now() < guard) std::this_thread::yield();
+    while (running.client.session(id).watchers != 0 && std::chrono::steady_clock::now() < guard)
+        std::this_thread::yield();
     EXPECT_EQ(running.client.session(id).watchers, 0U);
 }
 

@@ -107,7 +107,8 @@ TEST(WatchMetrics, CountSkippedFramesAndTheTimeUntilTheEndOfAFrameHasBeenWritten
         std::vector<double> lags;
     };
     const auto metrics = std::make_shared<Counted>();
-    Watch watch({}, [] {}, metrics);
+    Watch watch(
+        {}, [] {}, metrics);
     const auto now = Watch::Clock::now();
     watch.put(test::made_frame(0, {}), now);
     const auto frame = test::made_frame(1, {});
@@ -157,7 +158,8 @@ TEST_F(WatchSlot, KeepsNothingOfOldEncodesAliveForAWatcherThatHasStoppedReading)
         test::Versions versions;
         for (std::int32_t x = 0; x < 50; ++x) versions[{x, 0, 0}] = 3 * static_cast<std::uint32_t>(index) + 2;
         if (newest)
-            for (const SharedBrick& brick : newest->bricks) old.insert(old.end(), brick->messages.begin(), brick->messages.end());
+            for (const SharedBrick& brick : newest->bricks)
+                old.insert(old.end(), brick->messages.begin(), brick->messages.end());
         newest = test::made_frame(index, versions, padding);
         watch.put(newest, now);
     };

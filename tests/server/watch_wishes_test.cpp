@@ -52,7 +52,8 @@ TEST(WatchWishes, AreRefusedOutOfRangeWithValueAndLimit) {
     expect_refused("region runs from 1 to 1 on the x axis", [](auto& m) { set_region(m, 1.0, 1.0); });
     expect_refused("on the x axis", [](auto& m) { set_region(m, std::numeric_limits<double>::quiet_NaN(), 1.0); });
     expect_refused("on the x axis", [](auto& m) { set_region(m, 0.0, std::numeric_limits<double>::infinity()); });
-    expect_refused("viewpoint is (inf", [](auto& m) { m.mutable_viewpoint()->set_x(std::numeric_limits<double>::infinity()); });
+    expect_refused("viewpoint is (inf",
+                   [](auto& m) { m.mutable_viewpoint()->set_x(std::numeric_limits<double>::infinity()); });
 }
 
 TEST(WatchWishes, AreTakenOnTheirLimits) {
@@ -60,8 +61,9 @@ TEST(WatchWishes, AreTakenOnTheirLimits) {
         EXPECT_EQ(watch_wishes_of(request([&](auto& m) { m.set_normal_bits(bits); }), settings()).format.normal_bits,
                   static_cast<int>(bits));
     for (const std::uint32_t bits : {2U, 6U})
-        EXPECT_EQ(watch_wishes_of(request([&](auto& m) { m.set_position_bits(bits); }), settings()).format.position_bits,
-                  static_cast<int>(bits));
+        EXPECT_EQ(
+            watch_wishes_of(request([&](auto& m) { m.set_position_bits(bits); }), settings()).format.position_bits,
+            static_cast<int>(bits));
     for (const std::uint32_t level : {1U, 3U})
         EXPECT_EQ(watch_wishes_of(request([&](auto& m) { m.set_max_level(level); }), settings()).format.max_level,
                   static_cast<int>(level));
@@ -81,7 +83,8 @@ TEST(WatchWishes, ShareAnEncodeWhereTheyComeToTheSame) {
     EXPECT_EQ(watch_wishes_of(request(spelled_out), settings()).format, plain);
     Settings without_normals = settings();
     without_normals.normals = false;
-    EXPECT_EQ(watch_wishes_of(v1::WatchRequest(), without_normals).format, watch_wishes_of(request([](auto& m) { m.set_normal_bits(0); }), settings()).format);
+    EXPECT_EQ(watch_wishes_of(v1::WatchRequest(), without_normals).format,
+              watch_wishes_of(request([](auto& m) { m.set_normal_bits(0); }), settings()).format);
 }
 
 struct WatcherOfAFrame : testing::Test {

@@ -46,7 +46,10 @@ TEST(WorkerPool, ServesSeveralCallersAtTheSameTime) {
 
 TEST(WorkerPool, RethrowsTheFirstErrorAndRemainsUsable) {
     WorkerPool pool(3);
-    EXPECT_THROW(pool.for_each(100, [](std::size_t i) { if (i == 7) throw std::runtime_error("seven"); }),
+    EXPECT_THROW(pool.for_each(100,
+                               [](std::size_t i) {
+                                   if (i == 7) throw std::runtime_error("seven");
+                               }),
                  std::runtime_error);
     std::atomic<int> calls{0};
     pool.for_each(10, [&](std::size_t) { ++calls; });

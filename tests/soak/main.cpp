@@ -60,8 +60,8 @@ bool soak(const Arguments& arguments) {
     std::printf("%6s %12s %12s %12s %12s\n", "round", "connections", "frames", "memory MB", "descriptors");
     for (std::uint64_t round = 1; round <= rounds; ++round) {
         const auto share = [round](std::uint64_t all) { return all * round / rounds - all * (round - 1) / rounds; };
-        auto connecting = std::async(std::launch::async,
-                                     [&] { connect_many(arguments.server, share(arguments.connections)); });
+        auto connecting =
+            std::async(std::launch::async, [&] { connect_many(arguments.server, share(arguments.connections)); });
         tiny.send(share(arguments.frames));
         connecting.get();
         const ProcessSize size = settled_size(arguments.process, descriptors);
@@ -76,7 +76,8 @@ bool soak(const Arguments& arguments) {
     }
     const double grown = growth(memory);
     std::printf("after %llu rounds: memory grew by %.2f MB (at most %.2f), descriptors from %zu to %zu\n",
-                static_cast<unsigned long long>(warm_up_rounds), grown / 1e6, allowed_bytes / 1e6, descriptors, most_descriptors);
+                static_cast<unsigned long long>(warm_up_rounds), grown / 1e6, allowed_bytes / 1e6, descriptors,
+                most_descriptors);
     return grown <= allowed_bytes && most_descriptors <= descriptors;
 }
 
@@ -88,7 +89,9 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        return soak({argv[1], number<pid_t>(argv[2]), number<std::uint64_t>(argv[3]), number<std::uint64_t>(argv[4])}) ? 0 : 1;
+        return soak({argv[1], number<pid_t>(argv[2]), number<std::uint64_t>(argv[3]), number<std::uint64_t>(argv[4])})
+                   ? 0
+                   : 1;
     } catch (const std::invalid_argument& error) {
         std::fprintf(stderr, "meniscus-soak: %s\n", error.what());
         return 2;

@@ -15,7 +15,9 @@ async function violations(page) {
   return page.evaluate(async () => {
     const tags = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
     const { violations } = await window.axe.run(document, { runOnly: { type: 'tag', values: tags } });
-    return violations.flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${id}: ${target.join(' ')}: ${failureSummary}`));
+    return violations.flatMap(({ id, nodes }) =>
+      nodes.map(({ target, failureSummary }) => `${id}: ${target.join(' ')}: ${failureSummary}`),
+    );
   });
 }
 
@@ -51,9 +53,14 @@ describe('the page', { skip: missing }, () => {
       await page.keyboard.press('Tab');
     }
     const controls = await page.evaluate(() =>
-      [...document.querySelectorAll('button, input, canvas[tabindex]')].filter((control) => control.checkVisibility()).map(({ id }) => id),
+      [...document.querySelectorAll('button, input, canvas[tabindex]')]
+        .filter((control) => control.checkVisibility())
+        .map(({ id }) => id),
     );
-    assert.deepEqual(controls.filter((id) => !reached.includes(id)), []);
+    assert.deepEqual(
+      controls.filter((id) => !reached.includes(id)),
+      [],
+    );
     await page.focus('#leave');
     await page.keyboard.press('Enter');
     await entry.waitFor();
@@ -63,12 +70,25 @@ describe('the page', { skip: missing }, () => {
   it('fits a phone', async () => {
     const server = await startServer();
     const { session } = await startReplay(server);
-    const options = { viewport: { width: 360, height: 740 }, colorScheme: 'dark', hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+    const options = {
+      viewport: { width: 360, height: 740 },
+      colorScheme: 'dark',
+      hasTouch: true,
+      isMobile: true,
+      deviceScaleFactor: 2,
+    };
     const page = await open(link(server, session), options);
     await surface(page);
     const covered = await page.evaluate(() => {
-      const boxes = [...document.querySelectorAll('header button, #overlay, footer button, #scrub')].filter((e) => e.checkVisibility());
-      return boxes.filter((e) => { const { left, right, top, bottom } = e.getBoundingClientRect(); return left < 0 || right > innerWidth || top < 0 || bottom > innerHeight; }).map(({ id }) => id);
+      const boxes = [...document.querySelectorAll('header button, #overlay, footer button, #scrub')].filter((e) =>
+        e.checkVisibility(),
+      );
+      return boxes
+        .filter((e) => {
+          const { left, right, top, bottom } = e.getBoundingClientRect();
+          return left < 0 || right > innerWidth || top < 0 || bottom > innerHeight;
+        })
+        .map(({ id }) => id);
     });
     assert.deepEqual(covered, []);
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 360);

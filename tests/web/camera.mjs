@@ -40,7 +40,8 @@ describe('the camera', { skip: missing }, () => {
       return cameraOf(page.url());
     };
     const first = await place();
-    const until = (frames) => page.waitForFunction((n) => Number(document.getElementById('view').dataset.frame) > n, frames);
+    const until = (frames) =>
+      page.waitForFunction((n) => Number(document.getElementById('view').dataset.frame) > n, frames);
     await until(50);
     assert.notDeepEqual(await place(), first);
     await page.focus('#view');
@@ -56,8 +57,11 @@ describe('the camera', { skip: missing }, () => {
     const page = await open(link(server, simulator.session), { viewport: { width: 480, height: 400 } });
     await surface(page);
     const asked = [];
-    page.on('request', (request) => { if (request.url().endsWith('/Watch')) asked.push(request.postDataBuffer().length); });
-    const quality = (text) => page.waitForFunction((words) => document.getElementById('quality').textContent.startsWith(words), text);
+    page.on('request', (request) => {
+      if (request.url().endsWith('/Watch')) asked.push(request.postDataBuffer().length);
+    });
+    const quality = (text) =>
+      page.waitForFunction((words) => document.getElementById('quality').textContent.startsWith(words), text);
     await page.mouse.move(200, 200);
     await page.mouse.down();
     await page.mouse.move(260, 220, { steps: 4 });
@@ -66,7 +70,12 @@ describe('the camera', { skip: missing }, () => {
     const released = performance.now();
     await quality('full');
     await state(page, 'live');
-    console.log(`asked for the full mesh ${(performance.now() - released).toFixed(0)} ms after the camera came to rest`);
-    assert.ok(asked.length >= 2 && asked[0] > asked.at(-1), `wishes of ${asked} bytes: some while it moves, none when it rests`);
+    console.log(
+      `asked for the full mesh ${(performance.now() - released).toFixed(0)} ms after the camera came to rest`,
+    );
+    assert.ok(
+      asked.length >= 2 && asked[0] > asked.at(-1),
+      `wishes of ${asked} bytes: some while it moves, none when it rests`,
+    );
   });
 });

@@ -27,7 +27,9 @@ describe('the first surface', { skip: missing }, () => {
     const direct = await open(link(server, session));
     await surface(direct);
     const fromLink = performance.now() - opened;
-    console.log(`first surface of 16,000 particles: ${fromList.toFixed(0)} ms from the list, ${fromLink.toFixed(0)} ms from a link`);
+    console.log(
+      `first surface of 16,000 particles: ${fromList.toFixed(0)} ms from the list, ${fromLink.toFixed(0)} ms from a link`,
+    );
     assert.ok(fromList < limit && fromLink < limit);
   });
 
@@ -53,12 +55,16 @@ describe('the first surface', { skip: missing }, () => {
     const page = await open(link(server, session), { viewport: { width: 1200, height: 750 } });
     await surface(page);
     const calls = [];
-    page.on('request', (request) => { if (request.url().endsWith('/WatchParticles')) calls.push(request); });
+    page.on('request', (request) => {
+      if (request.url().endsWith('/WatchParticles')) calls.push(request);
+    });
     await page.waitForFunction(() => Number(document.getElementById('view').dataset.frame) > 30);
     assert.equal(calls.length, 0);
     await page.focus('#view');
     await page.keyboard.press('p');
-    await page.waitForFunction(() => document.getElementById('view').dataset.particles === document.getElementById('view').dataset.frame);
+    await page.waitForFunction(
+      () => document.getElementById('view').dataset.particles === document.getElementById('view').dataset.frame,
+    );
     assert.equal(await page.getAttribute('#show-particles', 'aria-pressed'), 'true');
     await screenshot(page, 'particles-light');
     await page.click('#theme');

@@ -15,11 +15,15 @@ describe('frames', { skip: missing }, () => {
     const page = await open(link(server, replay.session), small);
     await surface(page);
     await recordFrames(page);
-    await page.waitForFunction(() => new Set(window.drawn.map(([frame]) => frame)).size >= 200, undefined, { polling: 500, timeout: 180_000 });
+    await page.waitForFunction(() => new Set(window.drawn.map(([frame]) => frame)).size >= 200, undefined, {
+      polling: 500,
+      timeout: 180_000,
+    });
     const drawn = await drawnFrames(page);
     console.log(`200 frames drawn of ${drawn.at(-1)[0] - drawn[0][0] + 1} that were sent`);
     for (const [frame, count] of drawn) assert.equal(count, replay.triangles[frame % frameCount], `frame ${frame}`);
-    for (let i = 1; i < drawn.length; ++i) assert.ok(drawn[i][0] >= drawn[i - 1][0], `${drawn[i]} after ${drawn[i - 1]}`);
+    for (let i = 1; i < drawn.length; ++i)
+      assert.ok(drawn[i][0] >= drawn[i - 1][0], `${drawn[i]} after ${drawn[i - 1]}`);
   });
 
   it('are skipped in a slow tab, which ends with the newest as soon as it comes', async () => {
@@ -45,7 +49,9 @@ describe('frames', { skip: missing }, () => {
     const drawn = await drawnFrames(page);
     const distinct = new Set(drawn.map(([frame]) => frame)).size;
     const skipped = Number(await page.locator('#skipped').innerText());
-    console.log(`slow tab: ${distinct} of ${frameCount} frames drawn, ${skipped} skipped, the last ${late.toFixed(0)} ms after it was sent`);
+    console.log(
+      `slow tab: ${distinct} of ${frameCount} frames drawn, ${skipped} skipped, the last ${late.toFixed(0)} ms after it was sent`,
+    );
     assert.ok(distinct < frameCount / 2);
     assert.ok(skipped > frameCount / 4);
     assert.ok(late < 5000);
@@ -56,7 +62,10 @@ describe('frames', { skip: missing }, () => {
     const { session } = await startReplay(server);
     const page = await open(link(server, session), small);
     await surface(page);
-    const watchers = () => fetch(`${server.url}metrics`).then(async (answer) => Number(/^meniscus_watchers(?:{[^}]*})? (\d+)/m.exec(await answer.text())[1]));
+    const watchers = () =>
+      fetch(`${server.url}metrics`).then(async (answer) =>
+        Number(/^meniscus_watchers(?:{[^}]*})? (\d+)/m.exec(await answer.text())[1]),
+      );
     const hide = (hidden) =>
       page.evaluate((value) => {
         Object.defineProperty(document, 'hidden', { value, configurable: true });

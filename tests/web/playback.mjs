@@ -24,7 +24,13 @@ describe('playback', { skip: missing }, () => {
     await state(page, 'paused');
     /** Waits until the frame that the slider stands at has been drawn. */
     const chosen = async () => {
-      await page.waitForFunction(() => document.getElementById('scrub').getAttribute('aria-valuetext')?.match(/[0-9]+/)?.[0] === document.getElementById('view').dataset.frame);
+      await page.waitForFunction(
+        () =>
+          document
+            .getElementById('scrub')
+            .getAttribute('aria-valuetext')
+            ?.match(/[0-9]+/)?.[0] === document.getElementById('view').dataset.frame,
+      );
       return (await shown(page)).frame;
     };
     const newest = await chosen();
@@ -37,7 +43,7 @@ describe('playback', { skip: missing }, () => {
     assert.equal(Number(await page.inputValue('#scrub')), last - 2);
     const skipped = await page.locator('#skipped').innerText();
     await page.fill('#scrub', '0');
-    assert.ok(await chosen() < earlier);
+    assert.ok((await chosen()) < earlier);
     assert.equal(await page.locator('#skipped').innerText(), skipped);
     assert.equal(await page.locator('#latency').innerText(), '–');
     await screenshot(page, 'paused');
@@ -58,10 +64,15 @@ describe('playback', { skip: missing }, () => {
     const { triangles } = await shown(page);
 
     const { issues } = await validator.validateBytes(new Uint8Array(glb));
-    assert.deepEqual(issues.messages.filter(({ severity }) => severity < 2), []);
+    assert.deepEqual(
+      issues.messages.filter(({ severity }) => severity < 2),
+      [],
+    );
     const reloaded = await reload(await open(), glb);
     assert.equal(reloaded.triangles, triangles);
     assert.match(ply.subarray(0, 400).toString('latin1'), new RegExp(`element face ${triangles}\\n`));
-    boundsOfPly(ply).forEach((x, i) => assert.ok(Math.abs(x - reloaded.bounds[i]) < 1e-5, `${x} in the PLY, ${reloaded.bounds[i]} in the GLB`));
+    boundsOfPly(ply).forEach((x, i) =>
+      assert.ok(Math.abs(x - reloaded.bounds[i]) < 1e-5, `${x} in the PLY, ${reloaded.bounds[i]} in the GLB`),
+    );
   });
 });

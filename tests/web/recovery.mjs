@@ -56,14 +56,18 @@ describe('errors', { skip: missing }, () => {
     const folder = mkdtempSync(join(tmpdir(), 'meniscus-web-'));
     try {
       const tokens = join(folder, 'tokens');
-      writeFileSync(tokens, 'watcher eve token-of-eve-0123456789\nadmin root token-of-root-0123456789\n', { mode: 0o600 });
+      writeFileSync(tokens, 'watcher eve token-of-eve-0123456789\nadmin root token-of-root-0123456789\n', {
+        mode: 0o600,
+      });
       const server = await startServer({ args: ['--tokens', tokens] });
       const page = await open(server.url);
       await page.waitForSelector('#token-dialog[open]');
       await screenshot(page, 'token');
       await page.fill('#token', 'wrong-token-0123456789');
       await page.keyboard.press('Enter');
-      await page.waitForFunction(() => document.getElementById('token-dialog').open && document.getElementById('token').value === '');
+      await page.waitForFunction(
+        () => document.getElementById('token-dialog').open && document.getElementById('token').value === '',
+      );
       await page.keyboard.press('Escape');
       await says(page, /asks for a token/);
       await screenshot(page, 'token-refused');
@@ -82,7 +86,9 @@ describe('errors', { skip: missing }, () => {
     const simulator = await startReplay(server);
     const page = await open(link(server, simulator.session));
     await surface(page);
-    const handle = await page.evaluateHandle(() => document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context'));
+    const handle = await page.evaluateHandle(() =>
+      document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context'),
+    );
     await handle.evaluate((extension) => extension.loseContext());
     await page.getByText('taken the graphics away').waitFor();
     await screenshot(page, 'graphics-lost');

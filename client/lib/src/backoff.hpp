@@ -7,8 +7,8 @@
 
 namespace meniscus::client {
 
-/// Doubles from 50 ms to 2 s, each wait cut at random by up to a half, so that the clients of a server that comes back do not
-/// all come at once.
+/// Doubles from 50 ms to 2 s, each wait cut at random by up to a half, so that the clients of a server that comes back
+/// do not all come at once.
 class Backoff {
 public:
     std::chrono::milliseconds next() {

@@ -11,7 +11,8 @@ namespace meniscus::client {
 /// The instance of the server that has accepted a call which goes on. Empty: none has, or one of an older version.
 std::string accepted_by(const grpc::ClientContext& context);
 
-/// The instance of the server that the status is from. Empty: it is a proxy's, gRPC's, or that of a server of an older version.
+/// The instance of the server that the status is from. Empty: it is a proxy's, gRPC's, or that of a server of an older
+/// version.
 std::string ended_by(const grpc::ClientContext& context);
 
 /// Whether the call broke, or was ended by a server that goes down or has seen the session move: another one may go on.

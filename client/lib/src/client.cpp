@@ -147,7 +147,8 @@ Watcher Client::watch(const std::string& session_id, const WatchOptions& options
 
 ParticleWatcher Client::watch_particles(const std::string& session_id, std::uint64_t max_particles,
                                         std::chrono::milliseconds reconnect) {
-    return ParticleWatcher(std::make_unique<ParticleWatcher::Impl>(impl_->connection(), session_id, max_particles, reconnect));
+    return ParticleWatcher(
+        std::make_unique<ParticleWatcher::Impl>(impl_->connection(), session_id, max_particles, reconnect));
 }
 
 std::vector<RecordingInfo> Client::recordings() {
@@ -158,7 +159,8 @@ std::vector<RecordingInfo> Client::recordings() {
     return recordings;
 }
 
-RecordingReader Client::read_recording(const std::string& session_id, std::uint32_t number, const ReadOptions& options) {
+RecordingReader Client::read_recording(const std::string& session_id, std::uint32_t number,
+                                       const ReadOptions& options) {
     return RecordingReader(std::make_unique<RecordingReader::Impl>(impl_->connection(), session_id, number, options));
 }
 

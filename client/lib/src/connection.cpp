@@ -38,11 +38,12 @@ std::shared_ptr<grpc::ChannelCredentials> credentials(const ConnectionOptions& o
 
 std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const ConnectionOptions& options) {
     grpc::ChannelArguments arguments;
-    // A server that has just started is found without gRPC's wait of seconds between attempts, and a new connection does
-    // not inherit that wait from an old one.
+    // A server that has just started is found without gRPC's wait of seconds between attempts, and a new connection
+    // does not inherit that wait from an old one.
     arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
     arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
-    // What gRPC calls a minimum is the time that one attempt may take: several ways to a server that is far away, and back.
+    // What gRPC calls a minimum is the time that one attempt may take: several ways to a server that is far away, and
+    // back.
     arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
     arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
     if (!options.server_name.empty()) arguments.SetSslTargetNameOverride(options.server_name);
@@ -93,8 +94,10 @@ Connection::Connection(std::string server_address, const ConnectionOptions& opti
     if (connect(*channel, options)) return;
     const std::string reason = connection_failure(*server);
     if (options.ca_file.empty())
-        throw ServerError("no server at " + address + " (" + reason + "): start meniscusd, or check the address and whether it wants TLS");
-    throw ServerError("no TLS connection to " + address + " (" + reason + "): check the address, the CA and the certificates");
+        throw ServerError("no server at " + address + " (" + reason +
+                          "): start meniscusd, or check the address and whether it wants TLS");
+    throw ServerError("no TLS connection to " + address + " (" + reason +
+                      "): check the address, the CA and the certificates");
 }
 
 void Connection::add_metadata(grpc::ClientContext& context, const std::string& session_id) const {

@@ -71,12 +71,12 @@ std::exception_ptr to_exception(const grpc::Status& status, const std::string& a
             return std::make_exception_ptr(LimitExceeded(message));
         case grpc::StatusCode::UNAVAILABLE:
             return std::make_exception_ptr(ServerError("the server at " + address + " is not available (" + message +
-                                                       "): restart meniscusd or check the address",
-                                                   status_name(status.error_code())));
+                                                           "): restart meniscusd or check the address",
+                                                       status_name(status.error_code())));
         default:
-            return std::make_exception_ptr(ServerError("the server at " + address + ": " + message + " (" +
-                                                       code_name(status.error_code()) + ")",
-                                                   status_name(status.error_code())));
+            return std::make_exception_ptr(
+                ServerError("the server at " + address + ": " + message + " (" + code_name(status.error_code()) + ")",
+                            status_name(status.error_code())));
     }
 }
 

@@ -44,8 +44,8 @@ void FrameReceiver::begin(const v1::MeshBegin& message) {
     if (frame_ && !differences_)
         throw ServerError("the server began " + name + " within " + frame_name(frame_->header.index));
     if (message.brick_cells() != static_cast<std::uint32_t>(brick_cells))
-        throw ServerError(name + " has bricks of " + std::to_string(message.brick_cells()) + " cells; this version knows " +
-                          std::to_string(brick_cells));
+        throw ServerError(name + " has bricks of " + std::to_string(message.brick_cells()) +
+                          " cells; this version knows " + std::to_string(brick_cells));
     if (message.offset_bits() < min_offset_bits || message.offset_bits() > max_offset_bits)
         throw ServerError(name + " has offset_bits " + std::to_string(message.offset_bits()) + "; allowed are 2 to 9");
     if (!std::isfinite(message.cell_size()) || message.cell_size() <= 0.0)
@@ -65,7 +65,8 @@ void FrameReceiver::begin(const v1::MeshBegin& message) {
 void FrameReceiver::begin_difference(const v1::MeshBegin& message, Frame& frame) const {
     const std::string name = frame_name(message.frame_index());
     if (!message.has_base_frame_index()) {
-        if (message.vanished_size() != 0) throw ServerError(name + " says that bricks have vanished, but not from which frame");
+        if (message.vanished_size() != 0)
+            throw ServerError(name + " says that bricks have vanished, but not from which frame");
         return;
     }
     const std::string base = frame_name(message.base_frame_index());
@@ -93,7 +94,8 @@ void FrameReceiver::add(const v1::MeshBrick& message) {
             throw ServerError(name + " begins with part " + std::to_string(message.part_index()) + " of " +
                               std::to_string(message.part_count()));
         if (frame.bricks.size() == frame.brick_count)
-            throw ServerError(name + " is one more than the " + std::to_string(frame.brick_count) + " that were announced");
+            throw ServerError(name + " is one more than the " + std::to_string(frame.brick_count) +
+                              " that were announced");
         if (frame.vanished.contains(place)) throw ServerError(name + " was said to have vanished");
         auto brick = std::make_shared<EncodedBrick>();
         if (!frame.bricks.emplace(place, brick).second) throw ServerError(name + " came twice");
@@ -104,7 +106,8 @@ void FrameReceiver::add(const v1::MeshBrick& message) {
         frame.brick = std::move(brick);
         frame.part_count = frame.missing_parts = message.part_count();
     } else if (frame.brick->coordinate != std::array{message.x(), message.y(), message.z()} ||
-               message.part_count() != frame.part_count || message.part_index() != frame.part_count - frame.missing_parts) {
+               message.part_count() != frame.part_count ||
+               message.part_index() != frame.part_count - frame.missing_parts) {
         throw ServerError(name + ", part " + std::to_string(message.part_index()) + ", came in place of part " +
                           std::to_string(frame.part_count - frame.missing_parts) + " of the brick before");
     }
@@ -119,7 +122,8 @@ void FrameReceiver::complete_mesh(const v1::FrameStatistics& message) {
     Frame& frame = *frame_;
     if (frame.missing_parts != 0 || frame.bricks.size() != frame.brick_count)
         throw ServerError(name + " ended after " + std::to_string(frame.bricks.size()) + " bricks of " +
-                          std::to_string(frame.brick_count) + (frame.missing_parts != 0 ? ", in the middle of one" : ""));
+                          std::to_string(frame.brick_count) +
+                          (frame.missing_parts != 0 ? ", in the middle of one" : ""));
     if (frame.has_base) {
         for (const Place& place : frame.vanished) bricks_.erase(place);
         for (auto& [place, brick] : frame.bricks) bricks_.insert_or_assign(place, std::move(brick));

@@ -16,8 +16,8 @@ namespace meniscus::client {
 /// Throws ServerError for messages that are out of order, missing, repeated, or contradict each other.
 class FrameReceiver {
 public:
-    /// meshes: whether they come, or statistics alone. differences: whether meshes may come as differences to the one before, and be
-    /// given up for a newer one, as a watcher's may.
+    /// meshes: whether they come, or statistics alone. differences: whether meshes may come as differences to the one
+    /// before, and be given up for a newer one, as a watcher's may.
     explicit FrameReceiver(bool meshes, bool differences = false) : meshes_(meshes), differences_(differences) {}
 
     /// A StreamResponse or a WatchResponse. Returns the frame that it completes.

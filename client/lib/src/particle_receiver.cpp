@@ -29,8 +29,8 @@ Box box_of(const v1::ParticlesBegin& message) {
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (!std::isfinite(box.min[axis]) || !std::isfinite(box.max[axis]) || box.min[axis] > box.max[axis])
-            throw ServerError(name_of(message.frame_index()) + " lie in a box from " + std::to_string(box.min[axis]) + " to " +
-                              std::to_string(box.max[axis]));
+            throw ServerError(name_of(message.frame_index()) + " lie in a box from " + std::to_string(box.min[axis]) +
+                              " to " + std::to_string(box.max[axis]));
     return box;
 }
 
@@ -60,8 +60,8 @@ void ParticleReceiver::begin(const v1::ParticlesBegin& message) {
     const std::uint64_t stride = message.stride();
     const std::uint64_t sent = message.sent_count();
     if (stride == 0 || sent != count / stride + (count % stride == 0 ? 0U : 1U))
-        throw ServerError(name + ": " + std::to_string(sent) + " of " + std::to_string(count) + " are no " + std::to_string(stride) +
-                          "-th part");
+        throw ServerError(name + ": " + std::to_string(sent) + " of " + std::to_string(count) + " are no " +
+                          std::to_string(stride) + "-th part");
     const std::uint64_t particle_bytes = position_bytes + (message.has_levels() ? 1U : 0U);
     if (sent > std::numeric_limits<std::ptrdiff_t>::max() / particle_bytes)
         throw ServerError(name + ": " + std::to_string(sent) + " are more than memory can hold");
@@ -85,8 +85,8 @@ void ParticleReceiver::add(const v1::FrameChunk& message) {
     if (!frame_) throw ServerError("the server sent particles outside of a frame");
     const std::string& data = message.data();
     if (data.size() > frame_->expected_bytes - frame_->bytes.size())
-        throw ServerError(name_of(frame_->header.index) + " have more bytes than the " + std::to_string(frame_->expected_bytes) +
-                          " announced");
+        throw ServerError(name_of(frame_->header.index) + " have more bytes than the " +
+                          std::to_string(frame_->expected_bytes) + " announced");
     const auto* bytes = reinterpret_cast<const std::byte*>(data.data());
     frame_->bytes.insert(frame_->bytes.end(), bytes, bytes + data.size());
 }
@@ -105,7 +105,8 @@ ReceivedParticles ParticleReceiver::end() {
         particles.levels.resize(frame.sent_count);
         std::memcpy(particles.levels.data(), frame.bytes.data() + frame.sent_count * position_bytes, frame.sent_count);
         const std::uint8_t highest = *std::ranges::max_element(particles.levels);
-        if (highest > max_particle_level) throw ServerError(name_of(particles.index) + " have the level " + std::to_string(highest));
+        if (highest > max_particle_level)
+            throw ServerError(name_of(particles.index) + " have the level " + std::to_string(highest));
     }
     return particles;
 }

@@ -11,7 +11,8 @@
 
 namespace meniscus::client {
 
-/// Throws ServerError for messages that are out of order or contradict each other. Takes memory for what has come, not for what was announced.
+/// Throws ServerError for messages that are out of order or contradict each other. Takes memory for what has come, not
+/// for what was announced.
 class ParticleReceiver {
 public:
     /// Returns the frame that the message completes.

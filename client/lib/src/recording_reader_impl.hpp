@@ -13,7 +13,8 @@ namespace meniscus::client {
 
 class RecordingReader::Impl {
 public:
-    Impl(std::shared_ptr<Connection> connection, const std::string& session_id, std::uint32_t number, const ReadOptions& options);
+    Impl(std::shared_ptr<Connection> connection, const std::string& session_id, std::uint32_t number,
+         const ReadOptions& options);
     ~Impl();
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;

@@ -11,11 +11,12 @@ namespace meniscus::client {
 
 namespace {
 
-/// Of a call that creates the session again, or looks for it: a network that swallows packets must not hold the attempts up.
+/// Of a call that creates the session again, or looks for it: a network that swallows packets must not hold the
+/// attempts up.
 constexpr std::chrono::seconds attempt_time{5};
 
-/// A server that the session is to leave, and that answers nothing for so long, is given up. Long enough for a large frame on
-/// a busy server: watchers there would not hear of the move.
+/// A server that the session is to leave, and that answers nothing for so long, is given up. Long enough for a large
+/// frame on a busy server: watchers there would not hear of the move.
 constexpr std::chrono::seconds leaving_time{60};
 
 std::uint64_t random_run_id() {
@@ -55,7 +56,8 @@ grpc::Status get_session(Connection& connection, grpc::ClientContext& context, c
     return connection.sessions->GetSession(&context, request, &response);
 }
 
-v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContext& context, const std::string& session_id) {
+v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContext& context,
+                                      const std::string& session_id) {
     v1::GetSessionResponse response;
     require_ok(get_session(connection, context, session_id, response), connection.address);
     v1::CreateSessionRequest create;
@@ -284,12 +286,13 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
     for (;;) {
         const auto attempt_at = Clock::now() + backoff_.next();
         if (attempt_at >= deadline)
-            throw ServerError("the server at " + connection_->address + " has not been available for " +
-                              std::to_string(std::chrono::duration_cast<std::chrono::seconds>(options_.reconnect).count()) +
-                              " s (" + status.error_message() + "): frame " +
-                              (unanswered_.empty() ? "none" : std::to_string(unanswered_.front()->begin.frame_index())) +
-                              " is the first without an answer",
-                              "UNAVAILABLE");
+            throw ServerError(
+                "the server at " + connection_->address + " has not been available for " +
+                    std::to_string(std::chrono::duration_cast<std::chrono::seconds>(options_.reconnect).count()) +
+                    " s (" + status.error_message() + "): frame " +
+                    (unanswered_.empty() ? "none" : std::to_string(unanswered_.front()->begin.frame_index())) +
+                    " is the first without an answer",
+                "UNAVAILABLE");
         if (changed_.wait_until(lock, attempt_at, [&] { return left_; })) return nullptr;
         const auto creating = std::make_shared<grpc::ClientContext>();
         creating_ = creating;
@@ -356,7 +359,8 @@ void Stream::Impl::check_route() {
     }
 }
 
-bool Stream::Impl::is_elsewhere(const std::string& instance, grpc::ClientContext& looking, grpc::ClientContext& creating) const {
+bool Stream::Impl::is_elsewhere(const std::string& instance, grpc::ClientContext& looking,
+                                grpc::ClientContext& creating) const {
     looking.set_deadline(std::chrono::system_clock::now() + attempt_time);
     v1::GetSessionResponse response;
     const grpc::Status status = get_session(*connection_, looking, session_.id(), response);

@@ -23,8 +23,9 @@
 
 namespace meniscus::client {
 
-/// Threads of its own: one sends the frames that were pushed, one receives their answers and, when the call breaks, opens the
-/// next one, over which all that is unanswered is sent again. One that resumes has a third: it looks where the session belongs.
+/// Threads of its own: one sends the frames that were pushed, one receives their answers and, when the call breaks,
+/// opens the next one, over which all that is unanswered is sent again. One that resumes has a third: it looks where
+/// the session belongs.
 class Stream::Impl {
 public:
     Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options);
@@ -75,23 +76,24 @@ private:
 
     // Of the receiving thread.
     Backoff backoff_;
-    std::optional<Clock::time_point> broken_at_;  ///< none: answers have come since, or a call was accepted when none were owed
-    std::string created_by_;                      ///< the instance of the server that had the session last; or empty
+    std::optional<Clock::time_point>
+        broken_at_;           ///< none: answers have come since, or a call was accepted when none were owed
+    std::string created_by_;  ///< the instance of the server that had the session last; or empty
 
     mutable std::mutex mutex_;  ///< for what follows
     std::condition_variable changed_;
-    std::shared_ptr<UploadCall> call_;                      ///< none while it is broken
-    std::string instance_;                                  ///< of the server that has accepted it; or empty
-    std::shared_ptr<grpc::ClientContext> creating_;         ///< of the call that creates the session again
+    std::shared_ptr<UploadCall> call_;                                 ///< none while it is broken
+    std::string instance_;                                             ///< of the server that has accepted it; or empty
+    std::shared_ptr<grpc::ClientContext> creating_;                    ///< of the call that creates the session again
     std::array<std::shared_ptr<grpc::ClientContext>, 2> route_calls_;  ///< of the look under way
     std::deque<std::shared_ptr<PushedFrame>> unanswered_;
-    std::size_t sent_ = 0;       ///< of those, on this call
+    std::size_t sent_ = 0;                        ///< of those, on this call
     std::optional<std::uint64_t> last_answered_;  ///< index
-    bool finished_ = false;      ///< no more frames will be pushed
-    bool half_closed_ = false;   ///< the server knows
-    bool draining_ = false;      ///< the server takes no more over this call
-    bool moving_ = false;        ///< the session goes on elsewhere: after the frame on its way
-    Clock::time_point moving_since_;  ///< or since the last answer after that
+    bool finished_ = false;                       ///< no more frames will be pushed
+    bool half_closed_ = false;                    ///< the server knows
+    bool draining_ = false;                       ///< the server takes no more over this call
+    bool moving_ = false;                         ///< the session goes on elsewhere: after the frame on its way
+    Clock::time_point moving_since_;              ///< or since the last answer after that
     std::deque<ReceivedFrame> waiting_;
     std::vector<DroppedFrame> dropped_since_;  ///< the frame received last
     std::uint64_t dropped_ = 0;

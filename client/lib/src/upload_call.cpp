@@ -23,11 +23,11 @@ constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 /// gRPC's generated code has no stub that sends bytes as they are; this is what its stubs consist of.
 std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, v1::StreamResponse>> start(Connection& connection,
                                                                                       grpc::ClientContext& context) {
-    const grpc::internal::RpcMethod method("/meniscus.v1.SurfaceService/Stream", grpc::internal::RpcMethod::BIDI_STREAMING,
-                                           connection.channel);
+    const grpc::internal::RpcMethod method("/meniscus.v1.SurfaceService/Stream",
+                                           grpc::internal::RpcMethod::BIDI_STREAMING, connection.channel);
     return std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, v1::StreamResponse>>(
-        grpc::internal::ClientReaderWriterFactory<grpc::ByteBuffer, v1::StreamResponse>::Create(connection.channel.get(),
-                                                                                                method, &context));
+        grpc::internal::ClientReaderWriterFactory<grpc::ByteBuffer, v1::StreamResponse>::Create(
+            connection.channel.get(), method, &context));
 }
 
 std::uint8_t* write_length(int field, std::size_t length, std::uint8_t* at) {
@@ -38,21 +38,24 @@ std::uint8_t* write_length(int field, std::size_t length, std::uint8_t* at) {
 /// A StreamRequest with a FrameChunk whose data is not copied but referred to, and kept alive.
 grpc::ByteBuffer chunk_message(const std::shared_ptr<Bytes>& bytes, std::size_t first, std::size_t size) {
     std::array<std::uint8_t, 12> data_head{};
-    const auto data_head_size = static_cast<std::size_t>(write_length(v1::FrameChunk::kDataFieldNumber, size, data_head.data()) - data_head.data());
+    const auto data_head_size = static_cast<std::size_t>(
+        write_length(v1::FrameChunk::kDataFieldNumber, size, data_head.data()) - data_head.data());
     std::array<std::uint8_t, 24> head{};
     std::uint8_t* end = write_length(v1::StreamRequest::kFrameChunkFieldNumber, data_head_size + size, head.data());
     end = std::copy_n(data_head.data(), data_head_size, end);
     auto reference = std::make_unique<std::shared_ptr<Bytes>>(bytes);
     const std::array<grpc::Slice, 2> slices{
         grpc::Slice(head.data(), static_cast<std::size_t>(end - head.data())),
-        grpc::Slice(bytes->data() + first, size, [](void* kept) { delete static_cast<std::shared_ptr<Bytes>*>(kept); },
-                    reference.release())};
+        grpc::Slice(
+            bytes->data() + first, size, [](void* kept) { delete static_cast<std::shared_ptr<Bytes>*>(kept); },
+            reference.release())};
     return {slices.data(), slices.size()};
 }
 
 }  // namespace
 
-UploadCall::UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id, const v1::StreamOpen& open)
+UploadCall::UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id,
+                       const v1::StreamOpen& open)
     : connection_(std::move(connection)) {
     connection_->add_metadata(context_, session_id);
     call_ = start(*connection_, context_);

@@ -18,14 +18,15 @@ class UploadCall {
 public:
     UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id, const v1::StreamOpen& open);
 
-    /// False once the call has ended: read() and then finish() tell why. Copies no particles: gRPC refers to the frame's
-    /// bytes, and keeps them, until they are on the wire.
+    /// False once the call has ended: read() and then finish() tell why. Copies no particles: gRPC refers to the
+    /// frame's bytes, and keeps them, until they are on the wire.
     bool send(const PushedFrame& frame);
     void no_more_frames();
     /// Between two frames, and the last that is sent: the session goes on with another server.
     void move();
 
-    /// Waits until the server has accepted the call, or the call has ended. As client::accepted_by; before the first read().
+    /// Waits until the server has accepted the call, or the call has ended. As client::accepted_by; before the first
+    /// read().
     std::string accepted_by();
     /// False once there is nothing more to read.
     bool read(v1::StreamResponse& response);

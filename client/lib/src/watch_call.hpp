@@ -30,7 +30,10 @@ public:
     /// patience: for how long a call that broke is made again. start: makes it.
     WatchCall(std::shared_ptr<Connection> connection, std::string session_id, std::chrono::milliseconds patience,
               std::function<Reader(grpc::ClientContext&)> start)
-        : connection_(std::move(connection)), session_id_(std::move(session_id)), patience_(patience), start_(std::move(start)) {
+        : connection_(std::move(connection)),
+          session_id_(std::move(session_id)),
+          patience_(patience),
+          start_(std::move(start)) {
         open();
     }
     ~WatchCall() {
@@ -44,7 +47,8 @@ public:
     WatchCall(const WatchCall&) = delete;
     WatchCall& operator=(const WatchCall&) = delete;
 
-    /// The next frame that has not been returned before; none when the session has ended. Throws what the call ended with.
+    /// The next frame that has not been returned before; none when the session has ended. Throws what the call ended
+    /// with.
     std::optional<Frame> next() {
         while (!ended_) {
             auto frame = receive();
@@ -93,7 +97,8 @@ private:
         call_->reader = start_(call_->context);
         // The server answers, with metadata, once it has the watcher: no frame from here on is missed.
         call_->reader->WaitForInitialMetadata();
-        if (!call_->context.GetServerInitialMetadata().contains("x-session-id")) return;  // refused; a proxy may add its own
+        if (!call_->context.GetServerInitialMetadata().contains("x-session-id"))
+            return;  // refused; a proxy may add its own
         had_session_ = true;
         broken_since_.reset();
     }
@@ -121,14 +126,16 @@ private:
         const auto now = Clock::now();
         if (!broken_since_) broken_since_ = now;
         const auto wait = backoff_.next();
-        if (!may_come_back(status) || now + wait - *broken_since_ >= patience_) require_ok(status, connection_->address);
+        if (!may_come_back(status) || now + wait - *broken_since_ >= patience_)
+            require_ok(status, connection_->address);
         std::unique_lock lock(mutex_);
         return !canceled_now_.wait_for(lock, wait, [&] { return canceled_; });
     }
 
     /// A server that was restarted, or follows one that has gone, has no session yet: the simulator creates it again.
     bool may_come_back(const grpc::Status& status) const {
-        return may_go_on(status, call_->context) || (status.error_code() == grpc::StatusCode::NOT_FOUND && had_session_);
+        return may_go_on(status, call_->context) ||
+               (status.error_code() == grpc::StatusCode::NOT_FOUND && had_session_);
     }
 
     bool is_canceled() {

@@ -26,11 +26,11 @@ v1::WatchRequest request_of(const std::string& session_id, const WatchOptions& o
 
 }  // namespace
 
-Watcher::Impl::Impl(const std::shared_ptr<Connection>& connection, const std::string& session_id, const WatchOptions& options)
+Watcher::Impl::Impl(const std::shared_ptr<Connection>& connection, const std::string& session_id,
+                    const WatchOptions& options)
     : call_(connection, session_id, options.reconnect,
-            [surfaces = connection->surfaces.get(), request = request_of(session_id, options)](grpc::ClientContext& context) {
-                return surfaces->Watch(&context, request);
-            }) {}
+            [surfaces = connection->surfaces.get(), request = request_of(session_id, options)](
+                grpc::ClientContext& context) { return surfaces->Watch(&context, request); }) {}
 
 std::optional<ReceivedFrame> Watcher::Impl::next() {
     auto frame = call_.next();

@@ -59,35 +59,63 @@ export class App {
         if (!moving) this.writeAddress();
       },
       lost: (lost) => {
-        this.inPlaceOfPicture(lost ? 'The browser has taken the graphics away. The picture returns when it gives them back; loading the page again may help.' : '');
+        this.inPlaceOfPicture(
+          lost
+            ? 'The browser has taken the graphics away. The picture returns when it gives them back; loading the page again may help.'
+            : '',
+        );
       },
     });
     this.screen = new Screen(startDecodePool(), this.viewer, new Overlay(), {
-      shown: () => { this.sessionView.showParticles(); },
-      failed: (reason) => { this.banner.say(reason); },
-      recovered: () => { this.banner.say(''); },
-      firstFrame: () => { this.firstFrame(); },
+      shown: () => {
+        this.sessionView.showParticles();
+      },
+      failed: (reason) => {
+        this.banner.say(reason);
+      },
+      recovered: () => {
+        this.banner.say('');
+      },
+      firstFrame: () => {
+        this.firstFrame();
+      },
     });
     this.sessionView = new SessionView(this.server, this.screen, this.playback, {
-      state: (state) => { this.watchState(state); },
-      failed: (reason) => { this.banner.say(reason); },
-      recovered: () => { this.banner.say(''); },
+      state: (state) => {
+        this.watchState(state);
+      },
+      failed: (reason) => {
+        this.banner.say(reason);
+      },
+      recovered: () => {
+        this.banner.say('');
+      },
     });
     this.recordingView = new RecordingView(this.server, this.screen, this.playback, {
-      state: (state) => { this.watchState(state); },
+      state: (state) => {
+        this.watchState(state);
+      },
       restsAt: (position) => {
         this.at = { ...this.at, position };
         this.writeAddress();
       },
     });
-    this.recordings = new RecordingList(this.server, (recording) => { this.go({ recording }); });
+    this.recordings = new RecordingList(this.server, (recording) => {
+      this.go({ recording });
+    });
     this.list = new SessionList(this.server, this.banner, {
-      chosen: (session) => { this.go({ session }); },
+      chosen: (session) => {
+        this.go({ session });
+      },
       tokenNeeded: (reason) => void this.tokenNeeded(reason),
     });
-    followTheme((theme) => { this.viewer.setTheme(theme); });
+    followTheme((theme) => {
+      this.viewer.setTheme(theme);
+    });
     this.bindControls();
-    addEventListener('popstate', () => { this.open(readLink(location.hash)); });
+    addEventListener('popstate', () => {
+      this.open(readLink(location.hash));
+    });
     this.open(readLink(location.hash));
   }
 
@@ -101,7 +129,10 @@ export class App {
 
   private open(state: PageState): void {
     this.linked = state;
-    this.at = { ...(state.session === undefined ? {} : { session: state.session }), ...(state.recording ? { recording: state.recording } : {}) };
+    this.at = {
+      ...(state.session === undefined ? {} : { session: state.session }),
+      ...(state.recording ? { recording: state.recording } : {}),
+    };
     this.sessionView.stop();
     this.recordingView.stop();
     this.screen.clear();
@@ -113,7 +144,9 @@ export class App {
     const watching = this.looking;
     element('watch', HTMLElement).hidden = !watching;
     element('leave', HTMLButtonElement).hidden = !watching;
-    element('title', HTMLElement).textContent = state.recording ? `Recording ${recordingNameText(state.recording)}` : (state.session ?? '');
+    element('title', HTMLElement).textContent = state.recording
+      ? `Recording ${recordingNameText(state.recording)}`
+      : (state.session ?? '');
     this.inPlaceOfPicture('');
     if (!watching) {
       this.list.show();
@@ -150,7 +183,13 @@ export class App {
     this.canvas.dataset.state = state.kind;
     this.banner.watching(state);
     if (!this.screen.shown)
-      this.inPlaceOfPicture(state.kind === 'connecting' ? 'Connecting…' : state.kind === 'connected' ? 'Connected. No frame has come yet.' : '');
+      this.inPlaceOfPicture(
+        state.kind === 'connecting'
+          ? 'Connecting…'
+          : state.kind === 'connected'
+            ? 'Connected. No frame has come yet.'
+            : '',
+      );
     if (state.kind === 'token') void this.tokenNeeded(state.reason);
   }
 
@@ -171,28 +210,59 @@ export class App {
 
   private bindControls(): void {
     const actions: Record<string, () => void> = {
-      leave: () => { this.go({}); },
-      look: () => { this.setLook(this.look === 'water' ? 'levels' : 'water'); },
-      'show-particles': () => { this.setParticles(!this.particles); },
-      up: () => { this.setUp(this.up === 'y' ? 'z' : 'y'); },
-      fit: () => { this.viewer.fit(); },
+      leave: () => {
+        this.go({});
+      },
+      look: () => {
+        this.setLook(this.look === 'water' ? 'levels' : 'water');
+      },
+      'show-particles': () => {
+        this.setParticles(!this.particles);
+      },
+      up: () => {
+        this.setUp(this.up === 'y' ? 'z' : 'y');
+      },
+      fit: () => {
+        this.viewer.fit();
+      },
       full: () => void toggleFullScreen().catch(() => undefined),
       'ask-token': () => void this.tokenNeeded(''),
-      measure: () => { this.toggleOverlay(); },
-      glb: () => { this.save('glb', 'model/gltf-binary'); },
-      ply: () => { this.save('ply', 'application/octet-stream'); },
+      measure: () => {
+        this.toggleOverlay();
+      },
+      glb: () => {
+        this.save('glb', 'model/gltf-binary');
+      },
+      ply: () => {
+        this.save('ply', 'application/octet-stream');
+      },
       link: () => void this.copyLink(),
     };
-    for (const [id, action] of Object.entries(actions)) element(id, HTMLButtonElement).addEventListener('click', action);
+    for (const [id, action] of Object.entries(actions))
+      element(id, HTMLButtonElement).addEventListener('click', action);
     element('full', HTMLButtonElement).hidden = !document.fullscreenEnabled;
     const keys: Record<string, () => void> = {
-      ' ': () => { this.playback.toggle(); },
-      ',': () => { this.playback.step(-1); },
-      '.': () => { this.playback.step(1); },
-      f: () => { this.viewer.fit(); },
-      w: () => { actions.look!(); },
-      p: () => { this.setParticles(!this.particles); },
-      m: () => { this.toggleOverlay(); },
+      ' ': () => {
+        this.playback.toggle();
+      },
+      ',': () => {
+        this.playback.step(-1);
+      },
+      '.': () => {
+        this.playback.step(1);
+      },
+      f: () => {
+        this.viewer.fit();
+      },
+      w: () => {
+        actions.look!();
+      },
+      p: () => {
+        this.setParticles(!this.particles);
+      },
+      m: () => {
+        this.toggleOverlay();
+      },
     };
     this.canvas.addEventListener('keydown', (event) => {
       const action = event.ctrlKey || event.metaKey || event.altKey ? undefined : keys[event.key];
@@ -235,12 +305,20 @@ export class App {
   private save(kind: 'glb' | 'ply', type: string): void {
     const { shown } = this.screen;
     if (!shown) return;
-    download(`meniscus-${shown.frame.index}.${kind}`, type, kind === 'glb' ? writeGlb(shown, this.up) : writePly(shown));
+    download(
+      `meniscus-${shown.frame.index}.${kind}`,
+      type,
+      kind === 'glb' ? writeGlb(shown, this.up) : writePly(shown),
+    );
   }
 
   private writeAddress(): void {
     if (!this.screen.shown || !this.looking) return;
-    history.replaceState(null, '', writeLink({ ...this.at, camera: this.viewer.cameraPlace, look: this.look, up: this.up }));
+    history.replaceState(
+      null,
+      '',
+      writeLink({ ...this.at, camera: this.viewer.cameraPlace, look: this.look, up: this.up }),
+    );
   }
 
   private async copyLink(): Promise<void> {
@@ -248,9 +326,14 @@ export class App {
     const button = element('link', HTMLButtonElement);
     // There is no clipboard for pages that came without TLS from another machine; the address bar has the same link.
     const clipboard = navigator.clipboard as Clipboard | undefined;
-    const copied = await clipboard?.writeText(location.href).then(() => true, () => false);
+    const copied = await clipboard?.writeText(location.href).then(
+      () => true,
+      () => false,
+    );
     button.textContent = copied ? 'Copied' : 'See the address bar';
-    setTimeout(() => { button.textContent = 'Copy link'; }, 2000);
+    setTimeout(() => {
+      button.textContent = 'Copy link';
+    }, 2000);
   }
 }
 

@@ -76,7 +76,9 @@ export class Screen {
   private levels(): number[] {
     const levels = new Array<number>(levelCount).fill(0);
     for (const { decoded } of this.store.shown?.bricks.values() ?? [])
-      decoded.levelTriangles.forEach((count, level) => { levels[level]! += count; });
+      decoded.levelTriangles.forEach((count, level) => {
+        levels[level]! += count;
+      });
     return levels;
   }
 }

@@ -41,18 +41,31 @@ export class SessionView {
     private readonly playback: Playback,
     private readonly events: SessionViewEvents,
   ) {
-    document.addEventListener('visibilitychange', () => { this.pauseOrResume(); });
+    document.addEventListener('visibilitychange', () => {
+      this.pauseOrResume();
+    });
   }
 
   start(session: string): void {
     this.stop();
     this.link = new LinkSpeed();
     this.skipped = new SkippedFrames();
-    this.watch = new SessionWatch(this.server, session, {}, {
-      frame: (frame) => { this.take(frame); },
-      state: (state) => { this.events.state(state); },
-      received: (bytes) => { this.screen.overlay.receivedBytes(bytes); },
-    });
+    this.watch = new SessionWatch(
+      this.server,
+      session,
+      {},
+      {
+        frame: (frame) => {
+          this.take(frame);
+        },
+        state: (state) => {
+          this.events.state(state);
+        },
+        received: (bytes) => {
+          this.screen.overlay.receivedBytes(bytes);
+        },
+      },
+    );
     this.particleWatch = new ParticleWatch(this.server, session, {
       particles: (particles) => {
         this.particles.add(particles);
@@ -64,7 +77,9 @@ export class SessionView {
         this.particlesFailing = true;
         this.events.failed(`The particles cannot be shown: ${reason}`);
       },
-      received: (bytes) => { this.screen.overlay.receivedBytes(bytes); },
+      received: (bytes) => {
+        this.screen.overlay.receivedBytes(bytes);
+      },
     });
     this.setQuality('full');
     this.playback.play(this.reel());
@@ -111,10 +126,16 @@ export class SessionView {
   private reel(): Reel {
     const { frames } = this.history;
     return {
-      get length() { return frames.length; },
+      get length() {
+        return frames.length;
+      },
       describe: (at) => `frame ${frames[at]!.index}`,
-      choose: (at) => { this.screen.show(frames[at]!); },
-      paused: () => { this.pauseOrResume(); },
+      choose: (at) => {
+        this.screen.show(frames[at]!);
+      },
+      paused: () => {
+        this.pauseOrResume();
+      },
       resume: 'Resume',
     };
   }

@@ -12,7 +12,15 @@ class Decoder {
   readonly jobs: { brick: EncodedBrick; finish: () => void; fail: () => void }[] = [];
   readonly decode = (brick: EncodedBrick): Promise<DecodedBrick> =>
     new Promise((resolve, reject) => {
-      this.jobs.push({ brick, finish: () => { resolve(decoded); }, fail: () => { reject(new Error('not Draco')); } });
+      this.jobs.push({
+        brick,
+        finish: () => {
+          resolve(decoded);
+        },
+        fail: () => {
+          reject(new Error('not Draco'));
+        },
+      });
     });
   finishAll(): Promise<void> {
     for (const job of this.jobs.splice(0)) job.finish();
@@ -20,13 +28,25 @@ class Decoder {
   }
 }
 
-function fixture(): { store: BrickStore; decoder: Decoder; shown: Shown[]; failures: unknown[]; frame: (options: FrameOptions) => Frame } {
+function fixture(): {
+  store: BrickStore;
+  decoder: Decoder;
+  shown: Shown[];
+  failures: unknown[];
+  frame: (options: FrameOptions) => Frame;
+} {
   const decoder = new Decoder();
   const shown: Shown[] = [];
   const failures: unknown[] = [];
-  const store = new BrickStore(decoder.decode, { shown: (state) => shown.push(state), failed: (error) => failures.push(error) });
+  const store = new BrickStore(decoder.decode, {
+    shown: (state) => shown.push(state),
+    failed: (error) => failures.push(error),
+  });
   const receiver = new FrameReceiver();
-  const frame = (options: FrameOptions): Frame => messages(options).map((message) => receiver.take(message, 1, 0)).at(-1)!;
+  const frame = (options: FrameOptions): Frame =>
+    messages(options)
+      .map((message) => receiver.take(message, 1, 0))
+      .at(-1)!;
   return { store, decoder, shown, failures, frame };
 }
 
@@ -86,7 +106,9 @@ describe('BrickStore', () => {
     store.show(frame({ index: 1, bricks }));
     await decoder.finishAll();
     store.show(frame({ index: 2, bricks }));
-    decoder.jobs.splice(0).forEach((job) => { job.fail(); });
+    decoder.jobs.splice(0).forEach((job) => {
+      job.fail();
+    });
     await settled();
     expect([failures.length, store.shown!.frame.index]).toEqual([1, 1n]);
     store.show(frame({ index: 3, bricks }));

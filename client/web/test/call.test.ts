@@ -30,12 +30,16 @@ function body(...parts: Uint8Array[]): Response {
 
 async function watchAll(server: Server, signal = new AbortController().signal): Promise<number> {
   let count = 0;
-  for await (const received of server.watch({ sessionId: 'an-id', normalBits: 0 }, signal, () => undefined)) count += received.bytes > 0 ? 1 : 0;
+  for await (const received of server.watch({ sessionId: 'an-id', normalBits: 0 }, signal, () => undefined))
+    count += received.bytes > 0 ? 1 : 0;
   return count;
 }
 
 async function failure(call: Promise<unknown>): Promise<RpcError> {
-  const error: unknown = await call.then(() => undefined, (reason: unknown) => reason);
+  const error: unknown = await call.then(
+    () => undefined,
+    (reason: unknown) => reason,
+  );
   expect(error).toBeInstanceOf(RpcError);
   return error as RpcError;
 }
@@ -73,15 +77,20 @@ describe('a call', () => {
   });
 
   it('throws the status of the headers where there is no body', async () => {
-    const server = serverThat(() => new Response(null, { headers: { ...grpcWeb, 'grpc-status': '16', 'grpc-message': 'no token' } }));
+    const server = serverThat(
+      () => new Response(null, { headers: { ...grpcWeb, 'grpc-status': '16', 'grpc-message': 'no token' } }),
+    );
     expect((await failure(server.info())).code).toBe(Code.unauthenticated);
   });
 
   it('maps what is no gRPC-Web answer', async () => {
-    const codeFor = async (response: Response): Promise<Code> => (await failure(serverThat(() => response).info())).code;
+    const codeFor = async (response: Response): Promise<Code> =>
+      (await failure(serverThat(() => response).info())).code;
     expect(await codeFor(new Response('down', { status: 503 }))).toBe(Code.unavailable);
     expect(await codeFor(new Response('who', { status: 401 }))).toBe(Code.unauthenticated);
-    expect(await codeFor(new Response('<html>', { headers: { 'content-type': 'text/html' } }))).toBe(Code.unimplemented);
+    expect(await codeFor(new Response('<html>', { headers: { 'content-type': 'text/html' } }))).toBe(
+      Code.unimplemented,
+    );
     expect(await codeFor(body(trailers('grpc-status: 0\r\n')))).toBe(Code.internal);
   });
 

@@ -17,7 +17,9 @@ beforeAll(async () => {
 function corners(positions: Uint16Array, indices: ArrayLike<number>): string[] {
   const triangles: string[] = [];
   for (let t = 0; t < indices.length; t += 3) {
-    const points = [0, 1, 2].map((i) => [...positions.subarray(4 * indices[t + i]!, 4 * indices[t + i]! + 3)].join(' '));
+    const points = [0, 1, 2].map((i) =>
+      [...positions.subarray(4 * indices[t + i]!, 4 * indices[t + i]! + 3)].join(' '),
+    );
     const first = points.indexOf([...points].sort()[0]!);
     triangles.push([...points.slice(first), ...points.slice(0, first)].join(' | '));
   }
@@ -29,8 +31,18 @@ describe('decodeBrick', () => {
     const brick = await tetrahedron([1, 2, 3], 2);
     const decoded = decodeBrick(draco, brick, offsetBits);
     const [x, y, z] = [256, 512, 768];
-    const p = [`${x + 10} ${y + 10} ${z + 10}`, `${x + 200} ${y + 20} ${z + 15}`, `${x + 30} ${y + 190} ${z + 25}`, `${x + 40} ${y + 35} ${z + 210}`];
-    const expected = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map((triangle) => {
+    const p = [
+      `${x + 10} ${y + 10} ${z + 10}`,
+      `${x + 200} ${y + 20} ${z + 15}`,
+      `${x + 30} ${y + 190} ${z + 25}`,
+      `${x + 40} ${y + 35} ${z + 210}`,
+    ];
+    const expected = [
+      [0, 2, 1],
+      [0, 1, 3],
+      [0, 3, 2],
+      [1, 2, 3],
+    ].map((triangle) => {
       const points = triangle.map((i) => p[i]!);
       const first = points.indexOf([...points].sort()[0]!);
       return [...points.slice(first), ...points.slice(0, first)].join(' | ');
@@ -48,25 +60,55 @@ describe('decodeBrick', () => {
   it('orders triangles by level, crack filling last', async () => {
     // One triangle in cell (0, 0, 0), of level 3; one in cell (1, 0, 0), of level 1; one in the plane between the two.
     const brick = await encodeBrick({
-      positions: [[256, 10, 10], [256, 60, 20], [256, 30, 90], [100, 40, 40], [300, 50, 50]],
-      triangles: [[0, 1, 3], [0, 2, 1], [0, 4, 1]],
+      positions: [
+        [256, 10, 10],
+        [256, 60, 20],
+        [256, 30, 90],
+        [100, 40, 40],
+        [300, 50, 50],
+      ],
+      triangles: [
+        [0, 1, 3],
+        [0, 2, 1],
+        [0, 4, 1],
+      ],
       levels: [3, 1],
     });
     const decoded = decodeBrick(draco, brick, offsetBits);
     expect(decoded.levelTriangles).toEqual([1, 0, 1, 1]);
-    const triangle = (t: number): number[] => [0, 1, 2].map((i) => decoded.positions[4 * decoded.indices[3 * t + i]!]!).sort((a, b) => a - b);
-    expect([triangle(0), triangle(1), triangle(2)]).toEqual([[256, 256, 300], [100, 256, 256], [256, 256, 256]]);
+    const triangle = (t: number): number[] =>
+      [0, 1, 2].map((i) => decoded.positions[4 * decoded.indices[3 * t + i]!]!).sort((a, b) => a - b);
+    expect([triangle(0), triangle(1), triangle(2)]).toEqual([
+      [256, 256, 300],
+      [100, 256, 256],
+      [256, 256, 256],
+    ]);
     expect(decoded.normals).toBeUndefined();
   });
 
-  const flat: BrickOptions = { positions: [[1, 1, 1], [9, 1, 2], [1, 9, 3]], triangles: [[0, 1, 2]], levels: [1] };
+  const flat: BrickOptions = {
+    positions: [
+      [1, 1, 1],
+      [9, 1, 2],
+      [1, 9, 3],
+    ],
+    triangles: [[0, 1, 2]],
+    levels: [1],
+  };
   it.each([
     ['announced were 2', { triangleCount: 2 }],
     ['a brick has at most', { triangleCount: 2 ** 31 }],
     ['not a Draco mesh', { draco: new Uint8Array([1, 2, 3]) }],
     ['more than 64 per byte', { draco: new Uint8Array(0) }],
     ['more than 64 per byte', { triangleCount: 2 ** 20 }],
-    ['do not fit 1 triangles', { draco: Uint8Array.from([0x44, 0x52, 0x41, 0x43, 0x4f, 2, 2, 1, 1, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 0xf, 1, 0, 1, 0]) }],
+    [
+      'do not fit 1 triangles',
+      {
+        draco: Uint8Array.from([
+          0x44, 0x52, 0x41, 0x43, 0x4f, 2, 2, 1, 1, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 0xf, 1, 0, 1, 0,
+        ]),
+      },
+    ],
     ['bytes of cell levels', { cellLevels: new Uint8Array(0) }],
     ['bytes of cell levels', { cellLevels: Uint8Array.of(1, 0) }],
     ['level 0', { cellLevels: new Uint8Array(1) }],
@@ -77,7 +119,14 @@ describe('decodeBrick', () => {
   });
 
   it('refuses a vertex outside of the brick', async () => {
-    const outside = await encodeBrick({ ...flat, positions: [[1, 1, 1], [4097, 1, 2], [1, 9, 3]] });
+    const outside = await encodeBrick({
+      ...flat,
+      positions: [
+        [1, 1, 1],
+        [4097, 1, 2],
+        [1, 9, 3],
+      ],
+    });
     expect(() => decodeBrick(draco, outside, offsetBits)).toThrow('outside');
   });
 

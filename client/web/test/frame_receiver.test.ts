@@ -28,7 +28,13 @@ describe('FrameReceiver', () => {
   it('merges a difference with its base and keeps the bricks that stay', () => {
     const receiver = new FrameReceiver();
     const first = taken(receiver, two);
-    const second = taken(receiver, { index: 2, base: 1, vanished: [[0, 0, 0]], bricks: [{ place: [2, 0, 0] }], triangles: 3 });
+    const second = taken(receiver, {
+      index: 2,
+      base: 1,
+      vanished: [[0, 0, 0]],
+      bricks: [{ place: [2, 0, 0] }],
+      triangles: 3,
+    });
     expect([...second.bricks.keys()]).toEqual(['1,0,0', '2,0,0']);
     expect(second.bricks.get('1,0,0')).toBe(first.bricks.get('1,0,0'));
     expect([...first.bricks.keys()]).toEqual(['0,0,0', '1,0,0']);
@@ -49,7 +55,10 @@ describe('FrameReceiver', () => {
   });
 
   it('joins the parts of a brick', () => {
-    const complete = taken(new FrameReceiver(), { index: 1, bricks: [{ place: [0, 0, 0], parts: [[1, 2], [3], [4]] }] });
+    const complete = taken(new FrameReceiver(), {
+      index: 1,
+      bricks: [{ place: [0, 0, 0], parts: [[1, 2], [3], [4]] }],
+    });
     expect([...complete.bricks.get('0,0,0')!.draco]).toEqual([1, 2, 3, 4]);
   });
 
@@ -72,7 +81,9 @@ describe('FrameReceiver', () => {
   });
 
   it('refuses a lattice that it does not know', () => {
-    const changed = (change: (value: { offsetBits: number; brickCells: number; cellSize: number }) => void): WatchResponse => {
+    const changed = (
+      change: (value: { offsetBits: number; brickCells: number; cellSize: number }) => void,
+    ): WatchResponse => {
       const message = begin({ index: 1 });
       if (message.message.case === 'meshBegin') change(message.message.value);
       return message;
@@ -89,7 +100,8 @@ describe('FrameReceiver', () => {
     let mesh = new Map<string, number>();
     for (let index = 1; index <= 200; ++index) {
       const next = new Map<string, number>();
-      for (let x = 0; x < 6; ++x) if (random(4) > 0) next.set(`${x},0,0`, random(2) === 0 ? index : (mesh.get(`${x},0,0`) ?? index));
+      for (let x = 0; x < 6; ++x)
+        if (random(4) > 0) next.set(`${x},0,0`, random(2) === 0 ? index : (mesh.get(`${x},0,0`) ?? index));
       const place = (key: string): [number, number, number] => key.split(',').map(Number) as [number, number, number];
       const changed = [...next].filter(([key, version]) => mesh.get(key) !== version);
       const vanished = [...mesh.keys()].filter((key) => !next.has(key)).map(place);

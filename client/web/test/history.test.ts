@@ -3,7 +3,13 @@ import type { EncodedBrick, Frame } from '../src/bricks/frame';
 import { History } from '../src/bricks/history';
 
 function brick(bytes: number): EncodedBrick {
-  return { place: [0, 0, 0], vertexCount: 0, triangleCount: 0, cellLevels: new Uint8Array(0), draco: new Uint8Array(bytes) };
+  return {
+    place: [0, 0, 0],
+    vertexCount: 0,
+    triangleCount: 0,
+    cellLevels: new Uint8Array(0),
+    draco: new Uint8Array(bytes),
+  };
 }
 
 function frame(index: number, ...bricks: EncodedBrick[]): Frame {

@@ -25,7 +25,9 @@ describe('the link', () => {
     expect(readLink('#session=../../etc&camera=1,2,3&look=x&up=w')).toEqual({});
     expect(readLink('#camera=1,2,3,4,5,x')).toEqual({});
     expect(readLink(`#recording=${state.session}/0&position=1`)).toEqual({});
-    expect(readLink(`#recording=${state.session}/1&position=-1`)).toEqual({ recording: { session: state.session, number: 1 } });
+    expect(readLink(`#recording=${state.session}/1&position=-1`)).toEqual({
+      recording: { session: state.session, number: 1 },
+    });
     expect(readLink('#camera=1,,3,4,5,6')).toEqual({});
   });
 });

@@ -11,7 +11,10 @@ describe('MessageParser', () => {
   it('gives the same messages wherever the body is cut', () => {
     for (let cut = 0; cut <= body.length; ++cut) {
       const parser = new MessageParser(10);
-      const messages = [...parser.push(Uint8Array.from(body.slice(0, cut))), ...parser.push(Uint8Array.from(body.slice(cut)))];
+      const messages = [
+        ...parser.push(Uint8Array.from(body.slice(0, cut))),
+        ...parser.push(Uint8Array.from(body.slice(cut))),
+      ];
       expect(messages.map(({ trailers, data }) => [trailers, [...data]])).toEqual([
         [false, [1, 2, 3]],
         [false, []],

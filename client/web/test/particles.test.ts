@@ -16,7 +16,13 @@ interface Header {
   max?: number;
 }
 
-function begin({ index = 3, count = 2, hasLevels = false, radius = 0.5, max = 1 }: Header = {}): WatchParticlesResponse {
+function begin({
+  index = 3,
+  count = 2,
+  hasLevels = false,
+  radius = 0.5,
+  max = 1,
+}: Header = {}): WatchParticlesResponse {
   return create(WatchParticlesResponseSchema, {
     message: {
       case: 'particlesBegin',
@@ -35,7 +41,9 @@ function begin({ index = 3, count = 2, hasLevels = false, radius = 0.5, max = 1 
 }
 
 function chunk(...data: number[]): WatchParticlesResponse {
-  return create(WatchParticlesResponseSchema, { message: { case: 'frameChunk', value: { data: new Uint8Array(data) } } });
+  return create(WatchParticlesResponseSchema, {
+    message: { case: 'frameChunk', value: { data: new Uint8Array(data) } },
+  });
 }
 
 function end(): WatchParticlesResponse {
@@ -53,7 +61,12 @@ describe('ParticleReceiver', () => {
   it('puts pieces together wherever they are cut', () => {
     const bytes = [...positions, 0, 3];
     for (let cut = 0; cut <= bytes.length; ++cut) {
-      const particles = take(begin({ hasLevels: true }), chunk(...bytes.slice(0, cut)), chunk(...bytes.slice(cut)), end())!;
+      const particles = take(
+        begin({ hasLevels: true }),
+        chunk(...bytes.slice(0, cut)),
+        chunk(...bytes.slice(cut)),
+        end(),
+      )!;
       expect([...particles.positions]).toEqual([1, 2, 3, 4, 5, 262]);
       expect([...particles.levels!]).toEqual([0, 3]);
       expect([particles.index, particles.frameCount, particles.stride, particles.min[1]]).toEqual([3n, 4, 2, -1]);
@@ -78,8 +91,13 @@ describe('ParticleReceiver', () => {
 });
 
 describe('KeptParticles', () => {
-  const of = (index: number, runId = 7n): Particles => ({ ...take(begin(), chunk(...positions), end())!, index: BigInt(index), runId });
-  const nearest = (kept: KeptParticles, index: number, runId = 7n): number => Number(kept.nearest({ index: BigInt(index), runId })?.index ?? -1);
+  const of = (index: number, runId = 7n): Particles => ({
+    ...take(begin(), chunk(...positions), end())!,
+    index: BigInt(index),
+    runId,
+  });
+  const nearest = (kept: KeptParticles, index: number, runId = 7n): number =>
+    Number(kept.nearest({ index: BigInt(index), runId })?.index ?? -1);
 
   it('finds those of the frame, or else the nearest of its run', () => {
     const kept = new KeptParticles({ frames: 10, bytes: 1000 });
@@ -105,12 +123,19 @@ describe('ParticleWatch', () => {
     readonly signals: AbortSignal[] = [];
     answers: WatchParticlesResponse[] = [];
     error: Error | undefined;
-    async *watchParticles(request: { maxParticles: bigint }, signal: AbortSignal): AsyncGenerator<Received<WatchParticlesResponse>, void> {
+    async *watchParticles(
+      request: { maxParticles: bigint },
+      signal: AbortSignal,
+    ): AsyncGenerator<Received<WatchParticlesResponse>, void> {
       expect(request.maxParticles).toBe(maxParticles);
       this.signals.push(signal);
       for (const message of this.answers) yield { message, bytes: 1 };
       if (this.error) throw this.error;
-      await new Promise<void>((resolve) => { signal.addEventListener('abort', () => { resolve(); }); });
+      await new Promise<void>((resolve) => {
+        signal.addEventListener('abort', () => {
+          resolve();
+        });
+      });
     }
   }
   let server: FakeServer;

@@ -41,7 +41,13 @@ describe('quality', () => {
 
 describe('LinkSpeed', () => {
   const frame = (bytes: number, ms: number, meshBytes: number): Frame =>
-    ({ bytes, beganAt: 100, arrivedAt: 100 + ms, offsetBits: 6, bricks: new Map([['0', { draco: { length: meshBytes } }]]) }) as unknown as Frame;
+    ({
+      bytes,
+      beganAt: 100,
+      arrivedAt: 100 + ms,
+      offsetBits: 6,
+      bricks: new Map([['0', { draco: { length: meshBytes } }]]),
+    }) as unknown as Frame;
 
   it('tells how long the whole mesh would take, from differences as well', () => {
     const link = new LinkSpeed();

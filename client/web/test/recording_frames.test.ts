@@ -16,7 +16,15 @@ function recording(length: number, limits: Partial<RecordingFramesLimits> = {}, 
   const calls: Call[] = [];
   const shown: number[] = [];
   const failed: unknown[] = [];
-  const settle = () => vi.waitFor(() => undefined).then(() => new Promise<void>((resolve) => { setTimeout(resolve); }));
+  const settle = () =>
+    vi
+      .waitFor(() => undefined)
+      .then(
+        () =>
+          new Promise<void>((resolve) => {
+            setTimeout(resolve);
+          }),
+      );
   const frames = new RecordingFrames(
     length,
     async function* (position, count, signal) {
@@ -24,24 +32,49 @@ function recording(length: number, limits: Partial<RecordingFramesLimits> = {}, 
       let failure: Error | undefined;
       let wake = () => undefined as unknown;
       calls.push({
-        position, count, signal,
-        send: (more) => { allowed += more; wake(); return settle(); },
-        fail: (error) => { failure = error; wake(); return settle(); },
+        position,
+        count,
+        signal,
+        send: (more) => {
+          allowed += more;
+          wake();
+          return settle();
+        },
+        fail: (error) => {
+          failure = error;
+          wake();
+          return settle();
+        },
       });
       for (let i = 0; i < count; ++i) {
         while (allowed <= i) {
           if (failure) throw failure;
           if (signal.aborted) return;
-          await new Promise<void>((resolve) => { wake = () => { resolve(); return undefined; }; signal.addEventListener('abort', () => { resolve(); }); });
+          await new Promise<void>((resolve) => {
+            wake = () => {
+              resolve();
+              return undefined;
+            };
+            signal.addEventListener('abort', () => {
+              resolve();
+            });
+          });
         }
-        const bricks = [{ place: [0, 0, 0] as [number, number, number], parts: [new Array<number>(brickBytes).fill(0)] }];
+        const bricks = [
+          { place: [0, 0, 0] as [number, number, number], parts: [new Array<number>(brickBytes).fill(0)] },
+        ];
         for (const message of frame({ index: 10 * (position + i), bricks })) yield { message, bytes: 7 };
       }
     },
     { ahead: 4, frames: 8, bytes: 1000, ...limits },
     {
-      frame: ({ index }, position) => { expect(index).toBe(BigInt(10 * position)); shown.push(position); },
-      failed: (error) => { failed.push(error); },
+      frame: ({ index }, position) => {
+        expect(index).toBe(BigInt(10 * position));
+        shown.push(position);
+      },
+      failed: (error) => {
+        failed.push(error);
+      },
       received: () => undefined,
     },
   );
@@ -92,7 +125,14 @@ describe('RecordingFrames', () => {
       frames.show(first);
       await calls.at(-1)!.send(4);
     }
-    expect([0, 3, 20, 23, 40, 43].map((at) => frames.at(at) !== undefined)).toEqual([false, false, true, true, true, true]);
+    expect([0, 3, 20, 23, 40, 43].map((at) => frames.at(at) !== undefined)).toEqual([
+      false,
+      false,
+      true,
+      true,
+      true,
+      true,
+    ]);
   });
 
   it('fetches no further where what comes first leaves no room, and always keeps the frame that is shown', async () => {

@@ -18,13 +18,22 @@ beforeAll(async () => {
 
 function shownOf(...bricks: EncodedBrick[]): Shown {
   const shown = new Map<string, ShownBrick>();
-  for (const encoded of bricks) shown.set(brickKey(...encoded.place), { encoded, decoded: decodeBrick(draco, encoded, offsetBits) });
-  return { frame: { index: 12n, simulationTime: 0.5, cellSize: 0.25, offsetBits, brickCells: 64 } as Shown['frame'], bricks: shown };
+  for (const encoded of bricks)
+    shown.set(brickKey(...encoded.place), { encoded, decoded: decodeBrick(draco, encoded, offsetBits) });
+  return {
+    frame: { index: 12n, simulationTime: 0.5, cellSize: 0.25, offsetBits, brickCells: 64 } as Shown['frame'],
+    bricks: shown,
+  };
 }
 
 interface Gltf {
   nodes: { mesh?: number; translation: number[]; scale?: number[]; rotation?: number[]; children?: number[] }[];
-  meshes: { primitives: { attributes: Record<string, number>; extensions: { KHR_draco_mesh_compression: { bufferView: number; attributes: Record<string, number> } } }[] }[];
+  meshes: {
+    primitives: {
+      attributes: Record<string, number>;
+      extensions: { KHR_draco_mesh_compression: { bufferView: number; attributes: Record<string, number> } };
+    }[];
+  }[];
   bufferViews: { byteOffset: number; byteLength: number }[];
   accessors: { count: number }[];
 }
@@ -44,7 +53,15 @@ describe('writeGlb', () => {
   });
 
   it('passes the validator without normals and without any mesh', async () => {
-    const plain = await encodeBrick({ positions: [[1, 1, 1], [9, 1, 2], [1, 9, 3]], triangles: [[0, 1, 2]], levels: [1] });
+    const plain = await encodeBrick({
+      positions: [
+        [1, 1, 1],
+        [9, 1, 2],
+        [1, 9, 3],
+      ],
+      triangles: [[0, 1, 2]],
+      levels: [1],
+    });
     for (const shown of [shownOf(plain), shownOf()]) {
       const { issues } = await validateBytes(writeGlb(shown, 'y'));
       expect(issues.messages.filter(({ severity }) => severity < 2)).toEqual([]);
@@ -80,8 +97,26 @@ describe('writeGlb', () => {
 /** Two bricks with one triangle pair that meets at the face between them. */
 async function twoBricks(): Promise<Shown> {
   const edge = 64 << offsetBits;
-  const left = await encodeBrick({ place: [-1, 0, 0], positions: [[edge, 10, 10], [edge, 90, 10], [edge - 50, 40, 20]], triangles: [[0, 1, 2]], levels: [2] });
-  const right = await encodeBrick({ place: [0, 0, 0], positions: [[0, 90, 10], [0, 10, 10], [50, 40, 20]], triangles: [[0, 1, 2]], levels: [3] });
+  const left = await encodeBrick({
+    place: [-1, 0, 0],
+    positions: [
+      [edge, 10, 10],
+      [edge, 90, 10],
+      [edge - 50, 40, 20],
+    ],
+    triangles: [[0, 1, 2]],
+    levels: [2],
+  });
+  const right = await encodeBrick({
+    place: [0, 0, 0],
+    positions: [
+      [0, 90, 10],
+      [0, 10, 10],
+      [50, 40, 20],
+    ],
+    triangles: [[0, 1, 2]],
+    levels: [3],
+  });
   return shownOf(left, right);
 }
 
@@ -113,7 +148,9 @@ describe('writePly', () => {
     const text = new TextDecoder('latin1').decode(file);
     const headerBytes = text.indexOf('end_header\n') + 'end_header\n'.length;
     expect(text.slice(0, headerBytes)).toContain('element vertex 4\nproperty float x\n');
-    expect(text.slice(0, headerBytes)).toContain('element face 2\nproperty list uchar uint vertex_indices\nproperty uchar level\n');
+    expect(text.slice(0, headerBytes)).toContain(
+      'element face 2\nproperty list uchar uint vertex_indices\nproperty uchar level\n',
+    );
     expect(file.length).toBe(headerBytes + 4 * 12 + 2 * 14);
     const view = new DataView(file.buffer, headerBytes);
     const x = [0, 1, 2, 3].map((v) => view.getFloat32(12 * v, true)).sort((a, b) => a - b);

@@ -45,7 +45,11 @@ class Call {
 
 class FakeServer implements WatchServer {
   readonly calls: Call[] = [];
-  watch(request: Wishes & { sessionId: string }, signal: AbortSignal, opened: () => void): AsyncIterable<Received<WatchResponse>> {
+  watch(
+    request: Wishes & { sessionId: string },
+    signal: AbortSignal,
+    opened: () => void,
+  ): AsyncIterable<Received<WatchResponse>> {
     const call = new Call(request, signal, opened);
     this.calls.push(call);
     return call.messages();
@@ -66,11 +70,16 @@ describe('SessionWatch', () => {
     server = new FakeServer();
     frames = [];
     states = [];
-    watch = new SessionWatch(server, 'an-id', {}, {
-      frame: (next) => frames.push(next),
-      state: (state) => states.push(state),
-      received: () => undefined,
-    });
+    watch = new SessionWatch(
+      server,
+      'an-id',
+      {},
+      {
+        frame: (next) => frames.push(next),
+        state: (state) => states.push(state),
+        received: () => undefined,
+      },
+    );
     watch.start();
   });
   afterEach(() => {

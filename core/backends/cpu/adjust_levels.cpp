@@ -27,7 +27,8 @@ void levels_are_new(Surface& s) {
 void mark_stale_around(Surface& s, std::uint32_t brick, int w, std::uint64_t cells) {
     constexpr std::uint64_t first = 0x0001000100010001ULL;
     constexpr std::uint64_t last = first << 15;
-    const std::uint64_t along_x[3] = {cells << 15 & last, cells | (cells << 1 & ~first) | (cells >> 1 & ~last), cells >> 15 & first};
+    const std::uint64_t along_x[3] = {cells << 15 & last, cells | (cells << 1 & ~first) | (cells >> 1 & ~last),
+                                      cells >> 15 & first};
     for (int i = 0; i < 27; ++i) {
         const int dy = i / 3 % 3 - 1;
         const std::uint64_t row = along_x[i % 3];
@@ -47,10 +48,15 @@ void mark_stale_around(Surface& s, std::uint32_t brick, int w, std::uint64_t cel
 void adjust_levels(Surface& s) {
     const LevelSets levels = s.level_sets();
     const auto one_more = [&](std::uint32_t block) { return s.level[block] + 1; };
-    const auto unbalanced = [&](std::uint32_t brick, int w) { return take_stale(s, StaleFor::balance, brick, w) == 0 ? 0 : unbalanced_cells(levels, brick, w); };
-    const auto promoted = [&](std::uint32_t brick, int w) { return take_stale(s, StaleFor::promotion, brick, w) == 0 ? 0 : cells_to_promote(levels, brick, w); };
+    const auto unbalanced = [&](std::uint32_t brick, int w) {
+        return take_stale(s, StaleFor::balance, brick, w) == 0 ? 0 : unbalanced_cells(levels, brick, w);
+    };
+    const auto promoted = [&](std::uint32_t brick, int w) {
+        return take_stale(s, StaleFor::promotion, brick, w) == 0 ? 0 : cells_to_promote(levels, brick, w);
+    };
     do {
-        while (raise_levels(s, unbalanced, one_more)) {}
+        while (raise_levels(s, unbalanced, one_more)) {
+        }
     } while (raise_levels(s, promoted, one_more));
 }
 

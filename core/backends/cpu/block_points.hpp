@@ -13,7 +13,8 @@ struct BlockPoints {
 inline constexpr BlockPoints block_points = [] {
     BlockPoints points{};
     for (int axis = 0; axis < 3; ++axis)
-        for (int bit = 0; bit < 64; ++bit) points.coordinate[axis][bit] = static_cast<float>(point_coordinate(bit, axis) * units_per_cell);
+        for (int bit = 0; bit < 64; ++bit)
+            points.coordinate[axis][bit] = static_cast<float>(point_coordinate(bit, axis) * units_per_cell);
     return points;
 }();
 

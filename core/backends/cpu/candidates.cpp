@@ -30,15 +30,20 @@ private:
 };
 
 Candidates::Candidates(const std::shared_ptr<MemoryAccount>& account)
-    : x_(make_array<float>(account)), y_(make_array<float>(account)), z_(make_array<float>(account)), weight_(make_array<float>(account)) {}
+    : x_(make_array<float>(account)),
+      y_(make_array<float>(account)),
+      z_(make_array<float>(account)),
+      weight_(make_array<float>(account)) {}
 
 void Candidates::reserve(std::size_t n) {
     if (n <= x_.size()) return;
     for (Array<float>* a : {&x_, &y_, &z_, &weight_}) a->resize(n);
 }
 
-void Candidates::append_near(const CandidateView& from, const std::array<float, 3>& shift, const BoxVicinity& vicinity) {
-    if (count_ + from.count + Lanes::count > x_.size()) reserve(std::max(count_ + from.count + Lanes::count, 2 * x_.size()));
+void Candidates::append_near(const CandidateView& from, const std::array<float, 3>& shift,
+                             const BoxVicinity& vicinity) {
+    if (count_ + from.count + Lanes::count > x_.size())
+        reserve(std::max(count_ + from.count + Lanes::count, 2 * x_.size()));
     float* const to_x = x_.data();
     float* const to_y = y_.data();
     float* const to_z = z_.data();

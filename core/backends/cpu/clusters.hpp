@@ -10,10 +10,12 @@
 namespace meniscus::cpu {
 
 /// The eight base cells of a cluster from its lowest.
-inline constexpr Int3 cluster_step(int i) { return {i & 1, i >> 1 & 1, i >> 2}; }
+inline constexpr Int3 cluster_step(int i) {
+    return {i & 1, i >> 1 & 1, i >> 2};
+}
 
-/// Calls visit(lowest base cell of the cluster inside the brick) for every cluster of a brick that holds one of some cells.
-/// cells: bits as those of Brick::occupied.
+/// Calls visit(lowest base cell of the cluster inside the brick) for every cluster of a brick that holds one of some
+/// cells. cells: bits as those of Brick::occupied.
 template <class Visit>
 void for_each_cluster(const std::uint64_t* cells, const Visit& visit) {
     for (int z = 0; z < brick_size; z += 2)
@@ -23,7 +25,8 @@ void for_each_cluster(const std::uint64_t* cells, const Visit& visit) {
                 return cells[index >> 6] >> (index & 63) & 0xFFFF;
             };
             const std::uint64_t any = row(0, 0) | row(1, 0) | row(0, 1) | row(1, 1);
-            for (std::uint64_t pairs = (any | any >> 1) & 0x5555; pairs != 0; pairs &= pairs - 1) visit(Int3{lowest_bit(pairs), y, z});
+            for (std::uint64_t pairs = (any | any >> 1) & 0x5555; pairs != 0; pairs &= pairs - 1)
+                visit(Int3{lowest_bit(pairs), y, z});
         }
 }
 

@@ -31,7 +31,8 @@ void list_mixed_cells(Surface& s) {
     for_each_brick(s, [&](std::uint32_t brick) {
         std::uint64_t at = s.brick_counts[brick];
         for_each_word(s.grid.bricks[brick], [&](int w) {
-            for_each_cell(s.grid.bricks[brick], w, mixed.word(brick, w), [&](std::uint32_t block, int) { s.mixed_cells[at++] = block; });
+            for_each_cell(s.grid.bricks[brick], w, mixed.word(brick, w),
+                          [&](std::uint32_t block, int) { s.mixed_cells[at++] = block; });
         });
     });
 }
@@ -42,7 +43,8 @@ void order_by_level_and_brick(Surface& s, Mesh& mesh) {
     resize_for_overwrite(s.brick_triangles, bricks);
     const auto each_block = [&](std::size_t brick, const auto& visit) {
         const std::uint64_t end = brick + 1 < bricks ? s.brick_counts[brick + 1] : s.mixed_cells.size();
-        for (std::uint64_t i = s.brick_counts[brick]; i < end; ++i) visit(s.slots[s.mixed_cells[i]], s.level[s.mixed_cells[i]] - 1U);
+        for (std::uint64_t i = s.brick_counts[brick]; i < end; ++i)
+            visit(s.slots[s.mixed_cells[i]], s.level[s.mixed_cells[i]] - 1U);
     };
     s.workers.for_ranges(bricks, 4, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b) {
@@ -81,8 +83,8 @@ void order_by_level_and_brick(Surface& s, Mesh& mesh) {
         const Int3 at = s.grid.bricks[b].coordinate;
         brick.coordinate = {at.x, at.y, at.z};
         for (std::size_t level = 0; level < triangle_level_count; ++level) {
-            const std::uint32_t end = b + 1 < bricks ? s.brick_triangles[b + 1][level]
-                                                     : mesh.levels[level].first + mesh.levels[level].count;
+            const std::uint32_t end =
+                b + 1 < bricks ? s.brick_triangles[b + 1][level] : mesh.levels[level].first + mesh.levels[level].count;
             brick.ranges[level] = {s.brick_triangles[b][level], end - s.brick_triangles[b][level]};
         }
         if (brick.triangle_count() != 0) mesh.bricks.push_back(brick);
@@ -102,7 +104,8 @@ std::array<std::uint64_t, 3> count_band_cells(Surface& s) {
 void count_triangles(Surface& s, Mesh& mesh) {
     list_mixed_cells(s);
     resize_for_overwrite(s.has_cracks, s.mixed_cells.size());
-    const bool one_level = std::all_of(s.mixed_cells.begin(), s.mixed_cells.end(), [&](std::uint32_t b) { return s.level[b] == s.level[s.mixed_cells[0]]; });
+    const bool one_level = std::all_of(s.mixed_cells.begin(), s.mixed_cells.end(),
+                                       [&](std::uint32_t b) { return s.level[b] == s.level[s.mixed_cells[0]]; });
     const BlocksView blocks = s.view();
     s.workers.for_ranges(s.mixed_cells.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {

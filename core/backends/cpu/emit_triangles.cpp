@@ -8,7 +8,8 @@ void emit_triangles(Surface& s, Mesh& mesh) {
     const BlocksView blocks = s.view();
     s.workers.for_ranges(s.mixed_cells.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i)
-            emit_cell_triangles(blocks, s.mixed_cells[i], cube_table.data(), mesh.triangles.data() + s.slots[s.mixed_cells[i]].cells);
+            emit_cell_triangles(blocks, s.mixed_cells[i], cube_table.data(),
+                                mesh.triangles.data() + s.slots[s.mixed_cells[i]].cells);
     });
 }
 

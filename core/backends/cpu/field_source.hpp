@@ -30,14 +30,16 @@ struct PointList {
 using ClusterPoints = std::array<BlockMask, 8>;
 using ClusterValues = std::array<std::array<float, 64>, 8>;
 
-/// Arrays have room for max_points elements; a list's lanes beyond its points may be overwritten. A value is a pure function of the point's place in the world.
+/// Arrays have room for max_points elements; a list's lanes beyond its points may be overwritten. A value is a pure
+/// function of the point's place in the world.
 class FieldSource {
 public:
     virtual ~FieldSource() = default;
     virtual void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) = 0;
-    /// Those of some lattice points of the eight blocks of a cluster (clusters.hpp): each block's by the points' bits; what lies
-    /// between them may be overwritten.
-    virtual void cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values, unsigned worker) = 0;
+    /// Those of some lattice points of the eight blocks of a cluster (clusters.hpp): each block's by the points' bits;
+    /// what lies between them may be overwritten.
+    virtual void cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values,
+                                unsigned worker) = 0;
     /// Unit vectors against the gradient; not-a-numbers where it vanishes.
     virtual void normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) = 0;
 };

@@ -10,7 +10,8 @@ void fill_cracks(Surface& s, Mesh& mesh) {
         for (std::size_t i = begin; i < end; ++i)
             if (s.has_cracks[i] != 0) {
                 const std::uint32_t block = s.mixed_cells[i];
-                emit_crack_triangles(blocks, block, ClosedCell(blocks, block), crack_table.data(), mesh.triangles.data() + s.slots[block].cracks);
+                emit_crack_triangles(blocks, block, ClosedCell(blocks, block), crack_table.data(),
+                                     mesh.triangles.data() + s.slots[block].cracks);
             }
     });
 }

@@ -59,10 +59,12 @@ void pad(PointList& points) {
 
 /// Adds points of a block that lies so many blocks from the list's.
 void list_block_points(BlockMask points, const Int3& block, PointList& list) {
-    const float x = static_cast<float>(block.x) * base_edge, y = static_cast<float>(block.y) * base_edge, z = static_cast<float>(block.z) * base_edge;
+    const float x = static_cast<float>(block.x) * base_edge, y = static_cast<float>(block.y) * base_edge,
+                z = static_cast<float>(block.z) * base_edge;
     for (BlockMask left = points; left != 0; left &= left - 1) {
         const int bit = lowest_bit(left);
-        list.add(x + block_points.coordinate[0][bit], y + block_points.coordinate[1][bit], z + block_points.coordinate[2][bit]);
+        list.add(x + block_points.coordinate[0][bit], y + block_points.coordinate[1][bit],
+                 z + block_points.coordinate[2][bit]);
     }
 }
 
@@ -105,7 +107,8 @@ const CandidateLists::Levels& ParticleField::near_cluster(const Int3& base_cell,
     const Int3 corner{base_cell.x & ~1, base_cell.y & ~1, base_cell.z & ~1};
     if (!lists.has_cluster || !(lists.corner == corner)) {
         const UnitBox box{{0.0F, 0.0F, 0.0F}, {2 * base_edge, 2 * base_edge, 2 * base_edge}};
-        for (std::size_t k = 0; k < particle_level_count; ++k) lists.cluster[k].gather(sets_[k].view(), base_cell_origin(corner), box);
+        for (std::size_t k = 0; k < particle_level_count; ++k)
+            lists.cluster[k].gather(sets_[k].view(), base_cell_origin(corner), box);
         lists.corner = corner;
         lists.has_cluster = true;
     }
@@ -116,7 +119,8 @@ const CandidateLists::Levels& ParticleField::near_box(const Int3& base_cell, con
     const CandidateLists::Levels& cluster = near_cluster(base_cell, worker);
     CandidateLists& lists = lists_[worker];
     const Int3 offset = base_cell - lists.corner;
-    const std::array<float, 3> shift{static_cast<float>(-offset.x) * base_edge, static_cast<float>(-offset.y) * base_edge,
+    const std::array<float, 3> shift{static_cast<float>(-offset.x) * base_edge,
+                                     static_cast<float>(-offset.y) * base_edge,
                                      static_cast<float>(-offset.z) * base_edge};
     for (std::size_t k = 0; k < particle_level_count; ++k) lists.near[k].cull(cluster[k], shift, box);
     return lists.near;
@@ -143,21 +147,25 @@ void ParticleField::find_densities(ParticleSet& set, const Brick& brick, unsigne
     // The middle of the brick: float32 then holds the coordinates of all that is near it.
     const std::int64_t half = set.cell_units * brick_size / 2;
     const auto middle = static_cast<float>(half);
-    const Units3 origin{(2 * brick.coordinate.x + 1) * half, (2 * brick.coordinate.y + 1) * half, (2 * brick.coordinate.z + 1) * half};
+    const Units3 origin{(2 * brick.coordinate.x + 1) * half, (2 * brick.coordinate.y + 1) * half,
+                        (2 * brick.coordinate.z + 1) * half};
     PointList points;
     alignas(32) float out[2 * Lanes::count];
     // Particles in a row of cells follow one another: they fill the lanes whatever cells they are in.
-    brick.for_each_run({0, 0, 0}, {brick_size - 1, brick_size - 1, brick_size - 1}, [&](std::uint32_t cell, std::uint32_t count) {
-        const std::uint32_t end = set.first[cell + count];
-        for (std::uint32_t begin = set.first[cell]; begin < end; begin += 2 * Lanes::count) {
-            points.count = 0;
-            for (std::uint32_t i = begin; i < end && points.count < 2 * Lanes::count; ++i) points.add(set.x[i] - middle, set.y[i] - middle, set.z[i] - middle);
-            pad(points);
-            for (std::size_t j = 0; j < particle_level_count; ++j) near[j].gather(sets_[j].view(), origin, box_of(points));
-            sum_points(near, points, out);
-            std::copy(out, out + points.count, set.densities.begin() + begin);
-        }
-    });
+    brick.for_each_run({0, 0, 0}, {brick_size - 1, brick_size - 1, brick_size - 1},
+                       [&](std::uint32_t cell, std::uint32_t count) {
+                           const std::uint32_t end = set.first[cell + count];
+                           for (std::uint32_t begin = set.first[cell]; begin < end; begin += 2 * Lanes::count) {
+                               points.count = 0;
+                               for (std::uint32_t i = begin; i < end && points.count < 2 * Lanes::count; ++i)
+                                   points.add(set.x[i] - middle, set.y[i] - middle, set.z[i] - middle);
+                               pad(points);
+                               for (std::size_t j = 0; j < particle_level_count; ++j)
+                                   near[j].gather(sets_[j].view(), origin, box_of(points));
+                               sum_points(near, points, out);
+                               std::copy(out, out + points.count, set.densities.begin() + begin);
+                           }
+                       });
 }
 
 void ParticleField::divide_weights_by_density() {
@@ -215,8 +223,9 @@ void ParticleField::sample_base_vertices(Surface& s, Array<CellReach>& reaches) 
                     reaches[block] = {bound[i], closest[i]};
                     s.first_sample[block] = block;
                     s.sampled[block] = 1;
-                    const bool allowed = !s.settings.has_domain ||
-                                         (domain_points(base + step, s.settings.domain_low, s.settings.domain_high) & 1) != 0;
+                    const bool allowed =
+                        !s.settings.has_domain ||
+                        (domain_points(base + step, s.settings.domain_low, s.settings.domain_high) & 1) != 0;
                     s.inside[block] = allowed && value[i] > s.settings.iso ? 1 : 0;
                 }
             });
@@ -252,14 +261,16 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
                 float vertices[27];
                 unsigned inside_vertices = 0;
                 for (int i = 0; i < 27; ++i) {
-                    const std::uint32_t owner = blocks.grid.neighbor(static_cast<std::uint32_t>(b), index_in_brick(corner), {i % 3, i / 3 % 3, i / 9});
+                    const std::uint32_t owner = blocks.grid.neighbor(static_cast<std::uint32_t>(b),
+                                                                     index_in_brick(corner), {i % 3, i / 3 % 3, i / 9});
                     vertices[i] = (owner == no_index ? 0.0F : blocks.value(owner, 0)) - iso;
                     inside_vertices |= static_cast<unsigned>(blocks.inside_or_none(owner) & 1) << i;
                 }
                 alignas(32) float corners[8][8], starts[3][8], mixed[8];  // [corner][cell]
                 int inside_corners[8];
                 for (int i = 0; i < 8; ++i) {
-                    // Lanes of cells outside the band repeat another's, so that the box around their points stays small.
+                    // Lanes of cells outside the band repeat another's, so that the box around their points stays
+                    // small.
                     const Int3 step = cluster_step(block[i] != no_index ? i : first);
                     inside_corners[i] = 0;
                     for (int k = 0; k < 8; ++k) {
@@ -276,7 +287,8 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
                 const Int3 base = brick.corner() + corner;
                 const auto jet_at = [&](const Point3<Lanes>& p) {
                     FieldJet<Lanes> jet;
-                    for (const Candidates& c : near_box(base, box_of(p), worker)) sum_jets(c.view(), p.x, p.y, p.z, jet);
+                    for (const Candidates& c : near_box(base, box_of(p), worker))
+                        sum_jets(c.view(), p.x, p.y, p.z, jet);
                     return jet;
                 };
                 CellCorners<Lanes> values;
@@ -288,7 +300,8 @@ void ParticleField::measure_bends(Surface& s, const Array<CellReach>& reaches, A
                 search.inside.store(inside);
                 for (int i = 0; i < 8; ++i) {
                     if (block[i] == no_index) continue;
-                    bends[block[i]] = cell_bend({curvature[i], inside[i]}, inside_corners[i], blobs.least_level(inside_corners[i], reaches[block[i]]));
+                    bends[block[i]] = cell_bend({curvature[i], inside[i]}, inside_corners[i],
+                                                blobs.least_level(inside_corners[i], reaches[block[i]]));
                 }
             });
         }
@@ -302,7 +315,8 @@ void ParticleField::values(const Int3& base_cell, PointList& points, float* valu
     sum_points(near_box(base_cell, box_of(points), worker), points, values);
 }
 
-void ParticleField::cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values, unsigned worker) {
+void ParticleField::cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values,
+                                   unsigned worker) {
     // A block with few points would fill registers badly, and its own list of particles would cost more than it saves.
     constexpr int few = 2 * Lanes::count;
     // With so many, the grid's regularity saves more than the points left out.
@@ -315,8 +329,10 @@ void ParticleField::cluster_values(const Int3& lowest_base_cell, const ClusterPo
             list_block_points(own, cluster_step(i), pool);
         } else {
             float* const out = values[static_cast<std::size_t>(i)].data();
-            if (count > most) whole_block_values(lowest_base_cell + cluster_step(i), out, worker);
-            else block_values(lowest_base_cell + cluster_step(i), own, out, worker);
+            if (count > most)
+                whole_block_values(lowest_base_cell + cluster_step(i), out, worker);
+            else
+                block_values(lowest_base_cell + cluster_step(i), own, out, worker);
         }
     }
     if (pool.count == 0) return;

@@ -16,17 +16,19 @@ class ParticleField final : public FieldSource {
 public:
     ParticleField(const std::shared_ptr<MemoryAccount>& account, Workers& workers, ParticleSets& sets);
 
-    /// After the particle sets have changed. Divides the particles' weights by the density at their places if the field is
-    /// the color field.
+    /// After the particle sets have changed. Divides the particles' weights by the density at their places if the field
+    /// is the color field.
     void begin_frame(Field field);
 
-    /// Step 2's samples: the value at every stored block's base vertex, and what its particles may do in the whole cell.
+    /// Step 2's samples: the value at every stored block's base vertex, and what its particles may do in the whole
+    /// cell.
     void sample_base_vertices(Surface& surface, Array<CellReach>& reaches);
     /// How much the surface bends in every cell of the band.
     void measure_bends(Surface& surface, const Array<CellReach>& reaches, Array<CellBend>& bends);
 
     void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) override;
-    void cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values, unsigned worker) override;
+    void cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values,
+                        unsigned worker) override;
     void normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) override;
 
 private:

@@ -5,13 +5,21 @@
 
 namespace meniscus::cpu {
 ParticleSet::ParticleSet(const std::shared_ptr<MemoryAccount>& account)
-    : cells(account), keys(make_array<ParticleKey>(account)), first(make_array<std::uint32_t>(account)),
-      cell_keys(make_array<std::uint64_t>(account)), x(make_array<float>(account)),
-      y(make_array<float>(account)), z(make_array<float>(account)), weight(make_array<float>(account)),
+    : cells(account),
+      keys(make_array<ParticleKey>(account)),
+      first(make_array<std::uint32_t>(account)),
+      cell_keys(make_array<std::uint64_t>(account)),
+      x(make_array<float>(account)),
+      y(make_array<float>(account)),
+      z(make_array<float>(account)),
+      weight(make_array<float>(account)),
       densities(make_array<float>(account)) {}
 
-ParticleSets::ParticleSets(const std::shared_ptr<MemoryAccount>& account, Workers& workers, const LatticeSettings& settings)
-    : workers_(workers), settings_(settings), scan_(account),
+ParticleSets::ParticleSets(const std::shared_ptr<MemoryAccount>& account, Workers& workers,
+                           const LatticeSettings& settings)
+    : workers_(workers),
+      settings_(settings),
+      scan_(account),
       sets_{ParticleSet(account), ParticleSet(account), ParticleSet(account), ParticleSet(account)},
       reached_bricks_(make_array<std::uint64_t>(account)) {
     for (unsigned k = 0; k < particle_level_count; ++k) {
@@ -37,7 +45,9 @@ void ParticleSets::assign(const ParticleFrame& frame) {
 void ParticleSets::sort(const ParticleFrame& frame, unsigned level) {
     ParticleSet& set = sets_[level];
     const PositionsView positions = positions_view(frame, settings_.units_per_length);
-    const auto write = [&](std::size_t i, std::size_t at) { set.keys[at] = particle_key(positions.snapped(i), set.cell_units); };
+    const auto write = [&](std::size_t i, std::size_t at) {
+        set.keys[at] = particle_key(positions.snapped(i), set.cell_units);
+    };
     if (frame.levels.empty()) {
         resize_for_overwrite(set.keys, level == 0 ? frame.count() : 0);
         workers_.for_ranges(set.keys.size(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
@@ -66,18 +76,23 @@ void ParticleSets::sort(const ParticleFrame& frame, unsigned level) {
 
 void ParticleSets::build_cells(ParticleSet& set) {
     const auto& keys = set.keys;
-    const auto starts_cell = [&](std::size_t i) -> std::uint64_t { return i == 0 || keys[i].cell != keys[i - 1].cell ? 1 : 0; };
+    const auto starts_cell = [&](std::size_t i) -> std::uint64_t {
+        return i == 0 || keys[i].cell != keys[i - 1].cell ? 1 : 0;
+    };
     resize_for_overwrite(set.first, keys.size() + 1);
     resize_for_overwrite(set.cell_keys, keys.size());
-    const std::uint64_t cells = scan_.exclusive(workers_, keys.size(), starts_cell, [&](std::size_t i, std::uint64_t at) {
-        if (starts_cell(i) == 0) return;
-        set.first[at] = static_cast<std::uint32_t>(i);
-        set.cell_keys[at] = keys[i].cell;
-    });
+    const std::uint64_t cells =
+        scan_.exclusive(workers_, keys.size(), starts_cell, [&](std::size_t i, std::uint64_t at) {
+            if (starts_cell(i) == 0) return;
+            set.first[at] = static_cast<std::uint32_t>(i);
+            set.cell_keys[at] = keys[i].cell;
+        });
     set.first[cells] = static_cast<std::uint32_t>(keys.size());
     set.cell_keys.resize(cells);
 
-    const auto starts_brick = [&](std::size_t i) { return i == 0 || set.cell_keys[i] >> 12 != set.cell_keys[i - 1] >> 12; };
+    const auto starts_brick = [&](std::size_t i) {
+        return i == 0 || set.cell_keys[i] >> 12 != set.cell_keys[i - 1] >> 12;
+    };
     set.cells.bricks.clear();
     set.cells.keys.clear();
     for (std::size_t i = 0; i < cells; ++i) {
@@ -129,8 +144,9 @@ void ParticleSets::mark_reached_cells(BrickGrid& grid) {
             const Units3 origin{brick.coordinate.x * edge, brick.coordinate.y * edge, brick.coordinate.z * edge};
             const auto size = static_cast<float>(edge);
             for (const ParticleSet& set : sets_)
-                set.view().for_each_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
-                                         [&](float x, float y, float z) { mark_reached(BrickMarks{brick}, x, y, z, set.support); });
+                set.view().for_each_near(
+                    origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
+                    [&](float x, float y, float z) { mark_reached(BrickMarks{brick}, x, y, z, set.support); });
             if (!settings_.has_domain) continue;
             for (int w = 0; w < Brick::words; ++w)
                 brick.occupied[w] &= word_in_domain(brick.coordinate, w, settings_.domain_low, settings_.domain_high);

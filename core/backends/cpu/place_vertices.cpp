@@ -78,10 +78,12 @@ bool is_low_inside(const BlocksView& blocks, std::uint32_t block, const BlockVer
     return (blocks.inside[block] >> vertices.bit[i] & 1) != 0;
 }
 
-void interpolate(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings, BlockVertices& vertices) {
+void interpolate(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings,
+                 BlockVertices& vertices) {
     const int bits = static_cast<int>(settings.offset_bits);
     for (std::size_t i = 0; i < vertices.count; i += Lanes::count)
-        interpolated_offset(Lanes::load(vertices.low + i), Lanes::load(vertices.high + i), settings.iso, bits).store(vertices.offset + i);
+        interpolated_offset(Lanes::load(vertices.low + i), Lanes::load(vertices.high + i), settings.iso, bits)
+            .store(vertices.offset + i);
     if (!settings.has_domain) return;
     for (std::size_t i = 0; i < vertices.count; ++i)
         if (EdgeValues{vertices.low[i], vertices.high[i]}.cropped(settings.iso))
@@ -98,13 +100,14 @@ void list_points(const BlockVertices& vertices, std::uint32_t bits, PointList& p
     }
     float* const coordinates[3] = {points.x, points.y, points.z};
     for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i) coordinates[axis][i] += vertices.offset[i] * step;
+        for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i)
+            coordinates[axis][i] += vertices.offset[i] * step;
     points.count = vertices.count;
 }
 
 /// The paper's bisection, on the finest edge: the halves of coarse edges have been chosen by the samples already.
-void bisect(FieldSource& field, const Int3& at, const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings, unsigned worker,
-            BlockVertices& vertices) {
+void bisect(FieldSource& field, const Int3& at, const BlocksView& blocks, std::uint32_t block,
+            const LatticeSettings& settings, unsigned worker, BlockVertices& vertices) {
     PointList points;
     alignas(32) float values[max_points];
     const int whole = 1 << settings.offset_bits;
@@ -122,8 +125,8 @@ void bisect(FieldSource& field, const Int3& at, const BlocksView& blocks, std::u
 }
 
 /// The field's normals, or along the edge where the domain's border or a vanishing gradient leaves none.
-void write_normals(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings, const BlockVertices& vertices, const float* x,
-                   const float* y, const float* z, Normal* out) {
+void write_normals(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings,
+                   const BlockVertices& vertices, const float* x, const float* y, const float* z, Normal* out) {
     float sum = 0.0F;
     for (std::size_t i = 0; i < vertices.count; ++i) {
         out[i] = {x[i], y[i], z[i]};
@@ -132,8 +135,10 @@ void write_normals(const BlocksView& blocks, std::uint32_t block, const LatticeS
     if (std::isfinite(sum) && !settings.has_domain) return;
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i) {
-            const bool is_cropped = settings.has_domain && EdgeValues{vertices.low[i], vertices.high[i]}.cropped(settings.iso);
-            out[i] = outward_normal(out[i], is_cropped, static_cast<int>(axis), is_low_inside(blocks, block, vertices, i));
+            const bool is_cropped =
+                settings.has_domain && EdgeValues{vertices.low[i], vertices.high[i]}.cropped(settings.iso);
+            out[i] =
+                outward_normal(out[i], is_cropped, static_cast<int>(axis), is_low_inside(blocks, block, vertices, i));
         }
 }
 
@@ -143,7 +148,8 @@ void write_positions(const Int3& at, std::uint32_t bits, const PointList& points
     const Int3 corner{at.x * steps_per_base_cell, at.y * steps_per_base_cell, at.z * steps_per_base_cell};
     const auto steps_per_unit = 1.0F / static_cast<float>(units_per_cell >> bits);
     for (std::size_t i = 0; i < points.count; ++i)
-        out[i] = {corner.x + static_cast<int>(points.x[i] * steps_per_unit), corner.y + static_cast<int>(points.y[i] * steps_per_unit),
+        out[i] = {corner.x + static_cast<int>(points.x[i] * steps_per_unit),
+                  corner.y + static_cast<int>(points.y[i] * steps_per_unit),
                   corner.z + static_cast<int>(points.z[i] * steps_per_unit)};
 }
 
@@ -160,11 +166,13 @@ void number_vertices(Surface& s, bool with_normals, Mesh& mesh) {
             const LevelSetsAround around(levels, brick, w);
             const std::uint64_t all = around.with_corner_points() & s.grid.bricks[brick].occupied[w];
             const std::uint64_t crossed = all == 0 ? 0 : all & signs.blocks_seeing_both(brick, w);
-            for_each_cell(s.grid.bricks[brick], w, all & ~crossed, [&](std::uint32_t block, int) { s.edges[block] = {}; });
+            for_each_cell(s.grid.bricks[brick], w, all & ~crossed,
+                          [&](std::uint32_t block, int) { s.edges[block] = {}; });
             std::uint64_t with_vertices = 0;
             for_each_cell(s.grid.bricks[brick], w, crossed, [&](std::uint32_t block, int bit) {
                 const LevelsAround here = around(bit);
-                for (int axis = 0; axis < 3; ++axis) s.edges[block].axis[axis] = CrossedEdges(blocks, block, here, axis).finest();
+                for (int axis = 0; axis < 3; ++axis)
+                    s.edges[block].axis[axis] = CrossedEdges(blocks, block, here, axis).finest();
                 const int count = s.edges[block].count();
                 in_brick += static_cast<std::uint64_t>(count);
                 with_vertices |= std::uint64_t{count != 0} << bit;
@@ -216,7 +224,8 @@ void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& 
             write_normals(blocks, block, s.settings, vertices, nx, ny, nz, mesh.normals.data() + s.first_vertex[block]);
         };
         for (std::size_t brick = begin; brick < end; ++brick)
-            for_each_clustered_member(s.grid.bricks[brick], &s.chosen_cells().word(static_cast<std::uint32_t>(brick), 0), place_block);
+            for_each_clustered_member(s.grid.bricks[brick],
+                                      &s.chosen_cells().word(static_cast<std::uint32_t>(brick), 0), place_block);
     });
     s.field_evaluations += evaluations.load(std::memory_order_relaxed);
 }

@@ -18,8 +18,8 @@ inline std::uint64_t take_stale(Surface& s, StaleFor rule, std::uint32_t brick, 
     return std::exchange(s.stale_cells(rule).word(brick, w), 0);
 }
 
-/// Raises the cells that raised(brick, w) gives for every word, all by the same state, to new_level(cell's number); returns whether there
-/// were any.
+/// Raises the cells that raised(brick, w) gives for every word, all by the same state, to new_level(cell's number);
+/// returns whether there were any.
 template <class Raised, class NewLevel>
 bool raise_levels(Surface& s, const Raised& raised, const NewLevel& new_level) {
     const CellSetView changes = s.chosen_cells();
@@ -35,7 +35,8 @@ bool raise_levels(Surface& s, const Raised& raised, const NewLevel& new_level) {
         if (cells == 0) return;
         for_each_cell(s.grid.bricks[brick], w, cells, [&](std::uint32_t block, int bit) {
             s.level[block] = static_cast<std::uint8_t>(new_level(block));
-            for (int level = 1; level <= s.level[block]; ++level) levels.at_least[level].word(brick, w) |= std::uint64_t{1} << bit;
+            for (int level = 1; level <= s.level[block]; ++level)
+                levels.at_least[level].word(brick, w) |= std::uint64_t{1} << bit;
         });
         mark_stale_around(s, brick, w, cells);
     });

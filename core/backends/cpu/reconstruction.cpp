@@ -12,10 +12,16 @@ namespace {
 class Reconstruction final : public BackendReconstruction {
 public:
     Reconstruction(const Settings& user, unsigned threads, const std::shared_ptr<MemoryAccount>& account)
-        : user_(user), settings_(user), workers_(threads), surface_(account, workers_, settings_),
-          particles_(account, workers_, settings_), field_(account, workers_, particles_),
-          counts_(make_array<std::uint32_t>(account)), reaches_(make_array<CellReach>(account)),
-          bends_(make_array<CellBend>(account)), levels_(make_array<std::uint8_t>(account)) {}
+        : user_(user),
+          settings_(user),
+          workers_(threads),
+          surface_(account, workers_, settings_),
+          particles_(account, workers_, settings_),
+          field_(account, workers_, particles_),
+          counts_(make_array<std::uint32_t>(account)),
+          reaches_(make_array<CellReach>(account)),
+          bends_(make_array<CellBend>(account)),
+          levels_(make_array<std::uint8_t>(account)) {}
 
     MeshDownload reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) override {
         StageClock clock(statistics);
@@ -31,7 +37,8 @@ public:
         clock.enter(Stage::adjust_levels);
         if (user_.mode == Mode::adaptive) adjust_levels(surface_);
         clock.enter(Stage::sample_field);
-        sample_field(surface_, field_, [&](std::uint32_t block) { return wanted_level(split_criterion, surface_.view(), block); });
+        sample_field(surface_, field_,
+                     [&](std::uint32_t block) { return wanted_level(split_criterion, surface_.view(), block); });
         if (user_.mode == Mode::adaptive) sample_edge_middles(surface_, field_);
         emit(mesh, clock);
         capped_ = false;

@@ -14,15 +14,18 @@ namespace meniscus::cpu {
 namespace {
 
 /// Enters new values of a block's missing points, given by bit; its samples move to new room.
-void enter_samples(Surface& s, std::uint32_t block, BlockMask missing, std::array<float, 64>& values, std::uint32_t room) {
+void enter_samples(Surface& s, std::uint32_t block, BlockMask missing, std::array<float, 64>& values,
+                   std::uint32_t room) {
     const float* known = s.samples.data() + s.first_sample[block];
-    for (BlockMask left = s.sampled[block]; left != 0; left &= left - 1) values[static_cast<std::size_t>(lowest_bit(left))] = *known++;
+    for (BlockMask left = s.sampled[block]; left != 0; left &= left - 1)
+        values[static_cast<std::size_t>(lowest_bit(left))] = *known++;
     const BlockMask sampled = s.sampled[block] | missing;
     float* out = s.samples.data() + room;
     BlockMask above = 0;
     if (sampled == ~BlockMask{0}) {
         std::copy(values.begin(), values.end(), out);
-        for (int i = 0; i < 64; i += Lanes::count) above |= BlockMask{not_above(Lanes::load(out + i), Lanes(s.settings.iso))} << i;
+        for (int i = 0; i < 64; i += Lanes::count)
+            above |= BlockMask{not_above(Lanes::load(out + i), Lanes(s.settings.iso))} << i;
         above = ~above;
     } else {
         for (BlockMask left = sampled; left != 0; left &= left - 1) {
@@ -32,7 +35,8 @@ void enter_samples(Surface& s, std::uint32_t block, BlockMask missing, std::arra
             above |= BlockMask{value > s.settings.iso} << bit;
         }
     }
-    if (s.settings.has_domain) above &= domain_points(s.view().coordinate(block), s.settings.domain_low, s.settings.domain_high);
+    if (s.settings.has_domain)
+        above &= domain_points(s.view().coordinate(block), s.settings.domain_low, s.settings.domain_high);
     s.first_sample[block] = room;
     s.sampled[block] = sampled;
     s.inside[block] = above;
@@ -40,14 +44,19 @@ void enter_samples(Surface& s, std::uint32_t block, BlockMask missing, std::arra
     s.sign_sets().all_inside.put(s.brick[block], s.place[block], above == sampled);
 }
 
-BlockMask missing_points(const Surface& s, std::uint32_t block) { return s.wanted_points[block] & ~s.sampled[block]; }
+BlockMask missing_points(const Surface& s, std::uint32_t block) {
+    return s.wanted_points[block] & ~s.sampled[block];
+}
 
 /// Of a level-1 edge's middle follows that of one of its halves.
-BlockMask followed_points(Wanted wanted, BlockMask missing) { return wanted == Wanted::middles ? missing & level1_middles : 0; }
+BlockMask followed_points(Wanted wanted, BlockMask missing) {
+    return wanted == Wanted::middles ? missing & level1_middles : 0;
+}
 
-/// Samples the chosen blocks of a cluster, whose samples move to `room` one after the other; returns how many points were new.
-std::uint64_t sample_cluster(Surface& s, FieldSource& field, Wanted wanted, const Brick& brick, const Int3& corner, const std::uint64_t* chosen,
-                             std::uint64_t& room, unsigned worker) {
+/// Samples the chosen blocks of a cluster, whose samples move to `room` one after the other; returns how many points
+/// were new.
+std::uint64_t sample_cluster(Surface& s, FieldSource& field, Wanted wanted, const Brick& brick, const Int3& corner,
+                             const std::uint64_t* chosen, std::uint64_t& room, unsigned worker) {
     const Int3 lowest = brick.corner() + corner;
     std::uint32_t block[8];
     ClusterPoints missing{};
@@ -99,7 +108,8 @@ void choose_blocks(Surface& s, std::uint32_t brick, int w, std::uint64_t cells, 
 template <class Condition>
 std::uint64_t cells_where(const Brick& brick, int w, std::uint64_t cells, const Condition& condition) {
     std::uint64_t result = 0;
-    for_each_cell(brick, w, cells, [&](std::uint32_t block, int bit) { result |= std::uint64_t{condition(block)} << bit; });
+    for_each_cell(brick, w, cells,
+                  [&](std::uint32_t block, int bit) { result |= std::uint64_t{condition(block)} << bit; });
     return result;
 }
 
@@ -114,12 +124,14 @@ void sample_wanted_points(Surface& s, FieldSource& field, Wanted wanted) {
         for_each_word(brick, [&](int w) {
             for_each_cell(brick, w, chosen.word(b, w), [&](std::uint32_t block, int) {
                 const BlockMask missing = missing_points(s, block);
-                room += static_cast<std::uint64_t>(popcount(s.sampled[block] | missing) + popcount(followed_points(wanted, missing)));
+                room += static_cast<std::uint64_t>(popcount(s.sampled[block] | missing) +
+                                                   popcount(followed_points(wanted, missing)));
             });
         });
         s.brick_counts[b] = room;
     });
-    // A block that gains points moves to new room at the end of the samples; its old room stays unused until the next frame.
+    // A block that gains points moves to new room at the end of the samples; its old room stays unused until the next
+    // frame.
     const std::uint64_t added = counts_to_starts(s.brick_counts);
     const std::size_t used = s.samples.size();
     require_numbers(used + added, "the surface needs", "field samples");
@@ -132,7 +144,9 @@ void sample_wanted_points(Surface& s, FieldSource& field, Wanted wanted) {
         for (std::size_t b = begin; b < end; ++b) {
             const std::uint64_t* const cells = &chosen.word(static_cast<std::uint32_t>(b), 0);
             std::uint64_t room = used + s.brick_counts[b];
-            for_each_cluster(cells, [&](const Int3& corner) { here += sample_cluster(s, field, wanted, s.grid.bricks[b], corner, cells, room, worker); });
+            for_each_cluster(cells, [&](const Int3& corner) {
+                here += sample_cluster(s, field, wanted, s.grid.bricks[b], corner, cells, room, worker);
+            });
         }
         evaluations.fetch_add(here, std::memory_order_relaxed);
     });
@@ -146,7 +160,8 @@ bool grow_band(Surface& s, const JoiningLevel& joining_level) {
     const auto joining = [&](std::uint32_t brick, int w) {
         std::uint64_t cells = take_stale(s, StaleFor::band, brick, w) & ~levels.band(brick, w);
         if (cells != 0) cells &= levels.beside(1, brick, w) & signs.cells_seeing_both(brick, w);
-        return cells_where(s.grid.bricks[brick], w, cells, [&](std::uint32_t block) { return joins_band(blocks, block); });
+        return cells_where(s.grid.bricks[brick], w, cells,
+                           [&](std::uint32_t block) { return joins_band(blocks, block); });
     };
     return raise_levels(s, joining, joining_level);
 }
@@ -159,7 +174,8 @@ bool raise_at_slivers(Surface& s) {
         std::uint64_t cells = take_stale(s, StaleFor::slivers, brick, w);
         if (cells != 0) cells &= cells_beside_finer(levels, brick, w);
         if (cells != 0) cells &= signs.cells_seeing_both(brick, w);
-        return cells_where(s.grid.bricks[brick], w, cells, [&](std::uint32_t block) { return misses_surface_on_face(blocks, block); });
+        return cells_where(s.grid.bricks[brick], w, cells,
+                           [&](std::uint32_t block) { return misses_surface_on_face(blocks, block); });
     };
     return raise_levels(s, missing, [&s](std::uint32_t block) { return s.level[block] + 1; });
 }
@@ -171,7 +187,8 @@ void sample_corner_points(Surface& s, FieldSource& field) {
         const std::uint64_t stale = take_stale(s, StaleFor::corner_points, brick, w);
         if (stale == 0) return;
         const LevelSetsAround around(levels, brick, w);
-        choose_blocks(s, brick, w, stale & around.with_corner_points(), [&](std::uint32_t, int bit) { return corner_points(around(bit)); });
+        choose_blocks(s, brick, w, stale & around.with_corner_points(),
+                      [&](std::uint32_t, int bit) { return corner_points(around(bit)); });
     });
     sample_wanted_points(s, field, Wanted::corners);
 }
@@ -192,9 +209,12 @@ void sample_edge_middles(Surface& s, FieldSource& field) {
     const SignSets signs = s.sign_sets();
     for_each_word(s, [&](std::uint32_t brick, int w) {
         const LevelSetsAround around(levels, brick, w);
-        choose_blocks(s, brick, w, around.with_corner_points() & signs.blocks_seeing_both(brick, w) & s.grid.bricks[brick].occupied[w], [&](std::uint32_t block, int bit) {
-            return s.sampled[block] == ~BlockMask{0} ? 0 : edge_middles(blocks, block, around(bit));
-        });
+        choose_blocks(
+            s, brick, w,
+            around.with_corner_points() & signs.blocks_seeing_both(brick, w) & s.grid.bricks[brick].occupied[w],
+            [&](std::uint32_t block, int bit) {
+                return s.sampled[block] == ~BlockMask{0} ? 0 : edge_middles(blocks, block, around(bit));
+            });
     });
     sample_wanted_points(s, field, Wanted::middles);
 }

@@ -43,7 +43,8 @@ void split_cells(Surface& s, const SplitCriterion& criterion) {
         [&](const auto& level_of) {
             s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
                 for (std::size_t b = begin; b < end; ++b)
-                    if (s.level[b] != 0) s.level[b] = static_cast<std::uint8_t>(level_of(blocks, static_cast<std::uint32_t>(b)));
+                    if (s.level[b] != 0)
+                        s.level[b] = static_cast<std::uint8_t>(level_of(blocks, static_cast<std::uint32_t>(b)));
             });
         },
         criterion);

@@ -1,31 +1,40 @@
 #include "backends/cpu/surface.hpp"
 #include "backends/numbering.hpp"
 
-
-
 namespace meniscus::cpu {
 
-Surface::Surface(const std::shared_ptr<MemoryAccount>& account, Workers& own_workers, const LatticeSettings& own_settings)
-    : workers(own_workers), settings(own_settings), grid(account),
-      brick(make_array<std::uint32_t>(account)), place(make_array<std::uint16_t>(account)),
+Surface::Surface(const std::shared_ptr<MemoryAccount>& account, Workers& own_workers,
+                 const LatticeSettings& own_settings)
+    : workers(own_workers),
+      settings(own_settings),
+      grid(account),
+      brick(make_array<std::uint32_t>(account)),
+      place(make_array<std::uint16_t>(account)),
       level(make_array<std::uint8_t>(account)),
       sampled(make_array<BlockMask>(account)),
-      inside(make_array<BlockMask>(account)), wanted_points(make_array<BlockMask>(account)),
+      inside(make_array<BlockMask>(account)),
+      wanted_points(make_array<BlockMask>(account)),
       first_sample(make_array<std::uint32_t>(account)),
       edges(make_array<EdgeMasks>(account)),
-      first_vertex(make_array<std::uint32_t>(account)), slots(make_array<TriangleSlots>(account)),
-      samples(make_array<float>(account)), mixed_cells(make_array<std::uint32_t>(account)),
+      first_vertex(make_array<std::uint32_t>(account)),
+      slots(make_array<TriangleSlots>(account)),
+      samples(make_array<float>(account)),
+      mixed_cells(make_array<std::uint32_t>(account)),
       has_cracks(make_array<std::uint8_t>(account)),
-      brick_triangles(make_array<std::array<std::uint32_t, triangle_level_count>>(account)), brick_counts(make_array<std::uint64_t>(account)),
-      any_inside(make_array<std::uint64_t>(account)), all_inside(make_array<std::uint64_t>(account)), base_deep(make_array<std::uint64_t>(account)),
-      at_least{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account)},
+      brick_triangles(make_array<std::array<std::uint32_t, triangle_level_count>>(account)),
+      brick_counts(make_array<std::uint64_t>(account)),
+      any_inside(make_array<std::uint64_t>(account)),
+      all_inside(make_array<std::uint64_t>(account)),
+      base_deep(make_array<std::uint64_t>(account)),
+      at_least{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account),
+               make_array<std::uint64_t>(account)},
       chosen(make_array<std::uint64_t>(account)),
       stale{make_array<std::uint64_t>(account), make_array<std::uint64_t>(account), make_array<std::uint64_t>(account),
             make_array<std::uint64_t>(account), make_array<std::uint64_t>(account)} {}
 
 BlocksView Surface::view() {
-    return {grid.view(), grid.members, brick.data(), place.data(), level.data(), sampled.data(), inside.data(),
-            first_sample.data(), samples.data(), edges.data(), first_vertex.data(), slots.data()};
+    return {grid.view(),   grid.members,        brick.data(),   place.data(), level.data(),        sampled.data(),
+            inside.data(), first_sample.data(), samples.data(), edges.data(), first_vertex.data(), slots.data()};
 }
 
 LevelSets Surface::level_sets() {

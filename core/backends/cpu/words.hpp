@@ -34,7 +34,8 @@ void for_each_brick(Surface& s, const Visit& visit) {
 /// Calls visit(brick's number, w) for every word of every brick that has a member.
 template <class Visit>
 void for_each_word(Surface& s, const Visit& visit) {
-    for_each_brick(s, [&](std::uint32_t brick) { for_each_word(s.grid.bricks[brick], [&](int w) { visit(brick, w); }); });
+    for_each_brick(s,
+                   [&](std::uint32_t brick) { for_each_word(s.grid.bricks[brick], [&](int w) { visit(brick, w); }); });
 }
 
 /// Replaces every count by the sum of those before it; returns the sum of all.

@@ -30,8 +30,12 @@ namespace meniscus::cpu {
 class ExactFloats {
 public:
 #if defined(__SSE2__)
-    ExactFloats() : before_(_mm_getcsr()) { _mm_setcsr(before_ & ~0xE040U); }
-    ~ExactFloats() { _mm_setcsr(before_); }
+    ExactFloats() : before_(_mm_getcsr()) {
+        _mm_setcsr(before_ & ~0xE040U);
+    }
+    ~ExactFloats() {
+        _mm_setcsr(before_);
+    }
 #else
     ExactFloats() = default;
 #endif
@@ -50,17 +54,22 @@ public:
     explicit Workers(unsigned threads)
         : count_(threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency()))
 #ifndef MENISCUS_STD_THREADS
-        , more_than_processors_(count_ > std::thread::hardware_concurrency()
-                                    ? std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count_)
-                                    : nullptr)
-        , arena_(static_cast<int>(count_))
+          ,
+          more_than_processors_(
+              count_ > std::thread::hardware_concurrency()
+                  ? std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count_)
+                  : nullptr),
+          arena_(static_cast<int>(count_))
 #endif
-    {}
+    {
+    }
 
-    unsigned count() const { return count_; }
+    unsigned count() const {
+        return count_;
+    }
 
-    /// Calls body(begin, end, worker) for pieces of [0, n) of about `grain`; worker < count() names the thread, so that a
-    /// body can use scratch memory of its own.
+    /// Calls body(begin, end, worker) for pieces of [0, n) of about `grain`; worker < count() names the thread, so that
+    /// a body can use scratch memory of its own.
     template <class Body>
     void for_ranges(std::size_t n, std::size_t grain, const Body& body) {
         if (n == 0) return;
@@ -78,8 +87,10 @@ public:
 #ifdef MENISCUS_STD_THREADS
         std::sort(begin, end, before);
 #else
-        if (count_ == 1) std::sort(begin, end, before);
-        else arena_.execute([&] { tbb::parallel_sort(begin, end, before); });
+        if (count_ == 1)
+            std::sort(begin, end, before);
+        else
+            arena_.execute([&] { tbb::parallel_sort(begin, end, before); });
 #endif
     }
 
@@ -114,14 +125,14 @@ private:
     template <class Body>
     void run(std::size_t n, std::size_t grain, const Body& body) {
         arena_.execute([&] {
-            tbb::parallel_for(
-                tbb::blocked_range<std::size_t>(0, (n + grain - 1) / grain, 1),
-                [&](const tbb::blocked_range<std::size_t>& pieces) {
-                    const ExactFloats exact;
-                    const auto worker = static_cast<unsigned>(tbb::this_task_arena::current_thread_index());
-                    for (std::size_t piece = pieces.begin(); piece != pieces.end(); ++piece)
-                        body(piece * grain, std::min(n, (piece + 1) * grain), worker);
-                });
+            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (n + grain - 1) / grain, 1),
+                              [&](const tbb::blocked_range<std::size_t>& pieces) {
+                                  const ExactFloats exact;
+                                  const auto worker =
+                                      static_cast<unsigned>(tbb::this_task_arena::current_thread_index());
+                                  for (std::size_t piece = pieces.begin(); piece != pieces.end(); ++piece)
+                                      body(piece * grain, std::min(n, (piece + 1) * grain), worker);
+                              });
         });
     }
 #endif

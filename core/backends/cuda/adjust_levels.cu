@@ -13,6 +13,8 @@ __global__ void __launch_bounds__(block_threads) balance_and_promote(const __gri
 
 }  // namespace
 
-void adjust_levels(const Frame& frame, const Launcher& launch) { launch.cooperative(frame.capacity[Resource::blocks], balance_and_promote, frame); }
+void adjust_levels(const Frame& frame, const Launcher& launch) {
+    launch.cooperative(frame.capacity[Resource::blocks], balance_and_promote, frame);
+}
 
 }  // namespace meniscus::cuda

@@ -1,5 +1,5 @@
-// The particles near a box, in the order of summation. Those beyond their support add exactly zero, so that each way to find them gives
-// the same sums.
+// The particles near a box, in the order of summation. Those beyond their support add exactly zero, so that each way to
+// find them gives the same sums.
 #pragma once
 
 #include "backends/cuda/frame.hpp"
@@ -12,12 +12,16 @@ namespace meniscus::cuda {
 struct OneCandidate {
     float4 particle;
     float inverse_support;
-    __device__ CandidateView view() const { return {&particle.x, &particle.y, &particle.z, &particle.w, 1, inverse_support}; }
+    __device__ CandidateView view() const {
+        return {&particle.x, &particle.y, &particle.z, &particle.w, 1, inverse_support};
+    }
 };
 
-/// Calls visit(OneCandidate) for all particles near a box, level by level: one thread alone, for a point far from others.
+/// Calls visit(OneCandidate) for all particles near a box, level by level: one thread alone, for a point far from
+/// others.
 template <class Visit>
-__device__ inline void for_each_candidate(const Frame& f, const Units3& origin, const UnitBox& box, const Visit& visit) {
+__device__ inline void for_each_candidate(const Frame& f, const Units3& origin, const UnitBox& box,
+                                          const Visit& visit) {
     for (unsigned k = 0; k < particle_level_count; ++k) {
         const ParticleSetView set = f.set(k);
         if (set.cells.brick_count == 0) continue;
@@ -37,10 +41,11 @@ struct Staging {
     float4 particles[size];
 };
 
-/// The same, by all lanes of a warp for points that lie together: they fetch particles side by side, keep those within reach of the box, and
-/// each of them visits all.
+/// The same, by all lanes of a warp for points that lie together: they fetch particles side by side, keep those within
+/// reach of the box, and each of them visits all.
 template <class Visit>
-__device__ inline void for_each_staged_candidate(const Frame& f, const Units3& origin, const UnitBox& box, Staging& staging, const Visit& visit) {
+__device__ inline void for_each_staged_candidate(const Frame& f, const Units3& origin, const UnitBox& box,
+                                                 Staging& staging, const Visit& visit) {
     const unsigned lane = lane_index();
     for (unsigned k = 0; k < particle_level_count; ++k) {
         const ParticleSetView set = f.set(k);
@@ -63,7 +68,9 @@ __device__ inline void for_each_staged_candidate(const Frame& f, const Units3& o
                     p.x += shift[0];
                     p.y += shift[1];
                     p.z += shift[2];
-                    const auto gap = [&](float v, int axis) { return larger(larger(box.low[axis] - v, v - box.high[axis]), 0.0F); };
+                    const auto gap = [&](float v, int axis) {
+                        return larger(larger(box.low[axis] - v, v - box.high[axis]), 0.0F);
+                    };
                     const float x = gap(p.x, 0), y = gap(p.y, 1), z = gap(p.z, 2);
                     near = x * x + y * y + z * z <= reach2;
                 }

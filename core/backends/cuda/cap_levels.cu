@@ -4,7 +4,8 @@
 namespace meniscus::cuda {
 namespace {
 
-/// One thread: nothing is counted from step 5 on, and what was counted last may have found too little room for the mesh.
+/// One thread: nothing is counted from step 5 on, and what was counted last may have found too little room for the
+/// mesh.
 __global__ void count_anew(const __grid_constant__ Frame f) {
     if (blockIdx.x != 0 || threadIdx.x != 0) return;
     Counts& counts = *f.counts;

@@ -15,8 +15,11 @@ namespace meniscus::cuda {
 enum class Resource : std::uint8_t { particle_bricks, reached_bricks, bricks, blocks, samples, vertices, triangles };
 inline constexpr std::size_t resource_count = 7;
 
-/// Elements are numbered with 32 bits, and so are the words of all bricks: a frame that needs as many or more is refused.
-MENISCUS_HD constexpr std::uint64_t too_many(Resource r) { return r == Resource::bricks ? no_index / Brick::words : no_index; }
+/// Elements are numbered with 32 bits, and so are the words of all bricks: a frame that needs as many or more is
+/// refused.
+MENISCUS_HD constexpr std::uint64_t too_many(Resource r) {
+    return r == Resource::bricks ? no_index / Brick::words : no_index;
+}
 
 struct Capacities {
     std::uint64_t particles = 0;
@@ -29,20 +32,23 @@ struct Capacities {
         bool grown = grow(particles, needed_particles, no_index);
         for (std::size_t i = 0; i < resource_count; ++i) {
             const auto r = static_cast<Resource>(i);
-            grown |= grow(of[i], std::max<std::uint64_t>(needed[i], expected(r, needed_particles, needed)), too_many(r));
+            grown |=
+                grow(of[i], std::max<std::uint64_t>(needed[i], expected(r, needed_particles, needed)), too_many(r));
         }
         return grown;
     }
 
     /// Whether all arrays have the same room, those of the mesh aside.
     bool same_but_for_mesh(const Capacities& other) const {
-        static_assert(static_cast<std::size_t>(Resource::vertices) == resource_count - 2 && static_cast<std::size_t>(Resource::triangles) == resource_count - 1);
+        static_assert(static_cast<std::size_t>(Resource::vertices) == resource_count - 2 &&
+                      static_cast<std::size_t>(Resource::triangles) == resource_count - 1);
         return particles == other.particles && std::equal(of.begin(), of.end() - 2, other.of.begin());
     }
 
 private:
     /// What a frame will need that has not come so far as to tell: every time it finds too little room costs a run.
-    static std::uint64_t expected(Resource r, std::uint64_t particles, const unsigned long long (&needed)[resource_count]) {
+    static std::uint64_t expected(Resource r, std::uint64_t particles,
+                                  const unsigned long long (&needed)[resource_count]) {
         if (r == Resource::reached_bricks) return particles / 8;  // most frames fewer; 20 bytes each
         if (r == Resource::samples) return needed[static_cast<std::size_t>(Resource::blocks)];  // each has one at least
         return 0;

@@ -13,10 +13,13 @@ __global__ void __launch_bounds__(block_threads) list_band(const __grid_constant
     std::uint32_t band_cells[3] = {0, 0, 0};
     GridLoop{}.each_together(blocks.count, [&](std::uint32_t b, bool exists) {
         const int level = exists ? blocks.level[b] : 0;
-        for (int l = 1; l <= 3; ++l) band_cells[l - 1] += static_cast<std::uint32_t>(__popc(__ballot_sync(all_lanes, level == l ? 1 : 0)));
+        for (int l = 1; l <= 3; ++l)
+            band_cells[l - 1] += static_cast<std::uint32_t>(__popc(__ballot_sync(all_lanes, level == l ? 1 : 0)));
         const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(List::band)], level != 0 ? 1 : 0);
-        if (level != 0) f.band[at] = b;
-        else if (exists) f.triangles_before[b] = {};
+        if (level != 0)
+            f.band[at] = b;
+        else if (exists)
+            f.triangles_before[b] = {};
     });
     if (lane_index() == 0)
         for (int l = 0; l < 3; ++l)
@@ -33,7 +36,8 @@ __global__ void __launch_bounds__(block_threads) count_cells(const __grid_consta
         const int stride = level_stride(level);
         const SubcellCorners corners = subcell_corners(blocks, block_of_lane(blocks, block), stride);
         std::uint32_t own = 0;
-        for_each_subcell_together(corners, stride, [&](int, int cube_case) { own += f.cube_table[cube_case].triangles; });
+        for_each_subcell_together(corners, stride,
+                                  [&](int, int cube_case) { own += f.cube_table[cube_case].triangles; });
         std::uint32_t count = 0;
         sum_of_lanes_below(own, count);
         if (lane_index() != 0) return;

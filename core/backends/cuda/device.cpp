@@ -9,7 +9,9 @@
 namespace meniscus::cuda {
 namespace {
 
-std::string version(int number) { return std::to_string(number / 1000) + "." + std::to_string(number % 1000 / 10); }
+std::string version(int number) {
+    return std::to_string(number / 1000) + "." + std::to_string(number % 1000 / 10);
+}
 
 /// A missing driver and an old one are the same error to CUDA.
 std::string why_no_driver() {
@@ -24,9 +26,12 @@ int device_count(std::string& reason) {
     const cudaError_t status = cudaGetDeviceCount(&count);
     // Without a driver the call fails and leaves its error behind.
     cudaGetLastError();
-    if (status == cudaErrorInsufficientDriver) reason = why_no_driver();
-    else if (status != cudaSuccess && status != cudaErrorNoDevice) reason = std::string("no usable GPU (") + cudaGetErrorString(status) + ")";
-    else if (count == 0) reason = "no GPU found";
+    if (status == cudaErrorInsufficientDriver)
+        reason = why_no_driver();
+    else if (status != cudaSuccess && status != cudaErrorNoDevice)
+        reason = std::string("no usable GPU (") + cudaGetErrorString(status) + ")";
+    else if (count == 0)
+        reason = "no GPU found";
     return status == cudaSuccess ? count : 0;
 }
 
@@ -37,7 +42,8 @@ int attribute(cudaDeviceAttr which, int device) {
 }
 
 int capability(int device) {
-    return 10 * attribute(cudaDevAttrComputeCapabilityMajor, device) + attribute(cudaDevAttrComputeCapabilityMinor, device);
+    return 10 * attribute(cudaDevAttrComputeCapabilityMajor, device) +
+           attribute(cudaDevAttrComputeCapabilityMinor, device);
 }
 
 Device describe(int index) {
@@ -68,13 +74,16 @@ std::string why_unavailable(int device) try {
     std::string reason;
     const int count = device_count(reason);
     if (count == 0) return reason;
-    if (device < 0 || device >= count) return "no GPU " + std::to_string(device) + ": there are 0 to " + std::to_string(count - 1);
+    if (device < 0 || device >= count)
+        return "no GPU " + std::to_string(device) + ": there are 0 to " + std::to_string(count - 1);
     const int found = capability(device);
     if (found < oldest_capability)
-        return device_name(device) + " has compute capability " + std::to_string(found / 10) + "." + std::to_string(found % 10) + ", must be " +
-               std::to_string(oldest_capability / 10) + "." + std::to_string(oldest_capability % 10) + " or newer";
+        return device_name(device) + " has compute capability " + std::to_string(found / 10) + "." +
+               std::to_string(found % 10) + ", must be " + std::to_string(oldest_capability / 10) + "." +
+               std::to_string(oldest_capability % 10) + " or newer";
     if (attribute(cudaDevAttrMemoryPoolsSupported, device) == 0) return device_name(device) + " has no memory pools";
-    if (attribute(cudaDevAttrCooperativeLaunch, device) == 0) return device_name(device) + " has no cooperative launches";
+    if (attribute(cudaDevAttrCooperativeLaunch, device) == 0)
+        return device_name(device) + " has no cooperative launches";
     return {};
 } catch (const DeviceError& error) {
     return error.what();

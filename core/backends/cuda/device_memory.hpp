@@ -11,7 +11,8 @@ namespace meniscus::cuda {
 
 class DeviceMemory {
 public:
-    DeviceMemory(int device, cudaStream_t stream, std::shared_ptr<MemoryAccount> account) : stream_(stream), account_(std::move(account)) {
+    DeviceMemory(int device, cudaStream_t stream, std::shared_ptr<MemoryAccount> account)
+        : stream_(stream), account_(std::move(account)) {
         // A pool of its own gives freed memory back to the device at the next synchronization.
         cudaMemPoolProps properties{};
         properties.allocType = cudaMemAllocationTypePinned;
@@ -26,8 +27,8 @@ public:
     DeviceMemory(const DeviceMemory&) = delete;
     DeviceMemory& operator=(const DeviceMemory&) = delete;
 
-    /// Makes room for this many bytes, all zero; what was there is lost. Throws LimitExceeded before anything is allocated if the
-    /// account would pass its limit.
+    /// Makes room for this many bytes, all zero; what was there is lost. Throws LimitExceeded before anything is
+    /// allocated if the account would pass its limit.
     void assign(std::size_t bytes) {
         release();
         // Else the old piece would still be there, uncounted, beside the new one.

@@ -1,4 +1,5 @@
-// Finished arrays on their way from the device, through two pieces of pinned memory: one fills while the other is emptied.
+// Finished arrays on their way from the device, through two pieces of pinned memory: one fills while the other is
+// emptied.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +15,17 @@ namespace meniscus::cuda {
 
 class Download {
 public:
-    explicit Download(const std::shared_ptr<MemoryAccount>& account) : staging_(account) { staging_.reserve(pieces_.size() * piece_bytes); }
+    explicit Download(const std::shared_ptr<MemoryAccount>& account) : staging_(account) {
+        staging_.reserve(pieces_.size() * piece_bytes);
+    }
 
     /// Bytes may be on their way until finish().
     template <class T>
     void fetch(const T* from, std::size_t count, T* to, cudaStream_t stream) {
         const auto* bytes = reinterpret_cast<const std::byte*>(from);
         for (std::size_t at = 0; at < count * sizeof(T); at += piece_bytes)
-            fetch_piece(bytes + at, std::min(piece_bytes, count * sizeof(T) - at), reinterpret_cast<std::byte*>(to) + at, stream);
+            fetch_piece(bytes + at, std::min(piece_bytes, count * sizeof(T) - at),
+                        reinterpret_cast<std::byte*>(to) + at, stream);
     }
     void finish() {
         for (std::size_t i = 0; i < pieces_.size(); ++i) empty(i);

@@ -29,7 +29,8 @@ __global__ void __launch_bounds__(block_threads, 3) emit_cells(const __grid_cons
             Triangle* out = f.triangles + next + sum_of_lanes_below(pattern.triangles, all);
             for (int t = 0; t < pattern.triangles; ++t, ++out)
                 for (int corner = 0; corner < 3; ++corner)
-                    (*out)[static_cast<std::size_t>(corner)] = vertex(bit, pattern.edges[static_cast<std::size_t>(3 * t + corner)]);
+                    (*out)[static_cast<std::size_t>(corner)] =
+                        vertex(bit, pattern.edges[static_cast<std::size_t>(3 * t + corner)]);
             next += all;
         });
         // The next cell takes the place of this one.
@@ -39,6 +40,8 @@ __global__ void __launch_bounds__(block_threads, 3) emit_cells(const __grid_cons
 
 }  // namespace
 
-void emit_triangles(const Frame& frame, const Launcher& launch) { launch(frame.capacity[Resource::blocks], block_warps, emit_cells, frame); }
+void emit_triangles(const Frame& frame, const Launcher& launch) {
+    launch(frame.capacity[Resource::blocks], block_warps, emit_cells, frame);
+}
 
 }  // namespace meniscus::cuda

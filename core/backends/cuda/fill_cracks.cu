@@ -15,12 +15,15 @@ __global__ void __launch_bounds__(block_threads, 2) fill_listed(const __grid_con
     GridLoop{}.each(f.listed(List::cracks), [&](std::uint32_t i) {
         const std::uint32_t block = f.cracked[i];
         cell = ClosedCell(blocks, block);
-        emit_crack_triangles(blocks, block, cell, f.crack_table, f.triangles + f.counts->first_triangle[crack] + f.triangles_before[block].of[crack]);
+        emit_crack_triangles(blocks, block, cell, f.crack_table,
+                             f.triangles + f.counts->first_triangle[crack] + f.triangles_before[block].of[crack]);
     });
 }
 
 }  // namespace
 
-void fill_cracks(const Frame& frame, const Launcher& launch) { launch(frame.capacity[Resource::blocks], block_threads, fill_listed, frame); }
+void fill_cracks(const Frame& frame, const Launcher& launch) {
+    launch(frame.capacity[Resource::blocks], block_threads, fill_listed, frame);
+}
 
 }  // namespace meniscus::cuda

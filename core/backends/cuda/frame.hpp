@@ -1,7 +1,8 @@
 // What the kernels of a frame work on: arrays of fixed capacity in device memory, and counts that stay there.
 //
-// A kernel that finds how many elements there are writes the number into Counts, with nothing beyond the capacity, and sets
-// Counts::overflow where that is too little. All that follows then finds no elements, and the frame runs once more with more room.
+// A kernel that finds how many elements there are writes the number into Counts, with nothing beyond the capacity, and
+// sets Counts::overflow where that is too little. All that follows then finds no elements, and the frame runs once more
+// with more room.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +26,8 @@ using Counter = unsigned long long;  // what atomicAdd takes
 /// Sent to the device with a frame's particles.
 struct FrameInput {
     std::uint32_t particles = 0;
-    PositionsView positions;                ///< device pointers
-    const std::uint8_t* levels = nullptr;   ///< device pointer, or none
+    PositionsView positions;               ///< device pointers
+    const std::uint8_t* levels = nullptr;  ///< device pointer, or none
 };
 
 /// Lists of blocks, filled in any order.
@@ -36,9 +37,9 @@ enum class List : std::uint8_t {
     later_round,
     edge_middles,
     half_edge_middles,
-    vertices,       ///< blocks with vertices
+    vertices,  ///< blocks with vertices
     band,
-    cracks,         ///< cells with cracks to fill
+    cracks,  ///< cells with cracks to fill
 };
 inline constexpr std::size_t list_count = 8;
 
@@ -53,7 +54,7 @@ struct Counts {
     std::uint32_t particle_cells;
     std::uint32_t first_particle_brick[particle_level_count + 1];
     std::uint32_t listed[list_count];
-    std::uint32_t changed[3];     ///< see raise_levels.hpp
+    std::uint32_t changed[3];  ///< see raise_levels.hpp
     std::uint32_t overflow;
 };
 
@@ -89,12 +90,12 @@ struct Frame {
     std::size_t scratch_bytes = 0;
 
     // Of every particle. Those of a level lie together, levels in ascending order; ParticleSetView explains the rest.
-    std::byte* upload = nullptr;            ///< 12 bytes for positions, one for the level
-    SortKey* keys = nullptr;                ///< level, ParticleKey::cell, ParticleKey::place
+    std::byte* upload = nullptr;  ///< 12 bytes for positions, one for the level
+    SortKey* keys = nullptr;      ///< level, ParticleKey::cell, ParticleKey::place
     SortKey* unsorted_keys = nullptr;
-    std::uint64_t* starts = nullptr;        ///< support cells that begin before it, and in the upper half bricks of them
-    float4* particles = nullptr;            ///< position and weight
-    float* densities = nullptr;             ///< color field only
+    std::uint64_t* starts = nullptr;  ///< support cells that begin before it, and in the upper half bricks of them
+    float4* particles = nullptr;      ///< position and weight
+    float* densities = nullptr;       ///< color field only
     std::uint32_t* first_particle = nullptr;  ///< of every support cell, and one past the last
     Brick* particle_bricks = nullptr;
     std::uint64_t* particle_brick_keys = nullptr;
@@ -107,37 +108,38 @@ struct Frame {
     Brick* bricks = nullptr;
     std::uint64_t* brick_keys = nullptr;
     BrickNeighbors* neighbors = nullptr;
-    std::uint64_t* members_before = nullptr;    ///< and one past the last
-    std::uint64_t* base_inside = nullptr;       ///< see BaseVertexSets
+    std::uint64_t* members_before = nullptr;  ///< and one past the last
+    std::uint64_t* base_inside = nullptr;     ///< see BaseVertexSets
     std::uint64_t* base_deep = nullptr;
-    std::uint64_t* at_least[4] = {};            ///< see LevelSets
-    std::uint64_t* raised = nullptr;            ///< a set of cells too; empty between sweeps
+    std::uint64_t* at_least[4] = {};  ///< see LevelSets
+    std::uint64_t* raised = nullptr;  ///< a set of cells too; empty between sweeps
 
     // Of every block; BlocksView explains those that are not explained here.
     std::uint32_t* brick = nullptr;
     std::uint16_t* place = nullptr;
     std::uint8_t* level = nullptr;
-    std::uint8_t* wanted_level = nullptr;       ///< by the split criterion
+    std::uint8_t* wanted_level = nullptr;  ///< by the split criterion
     BlockMask* sampled = nullptr;
     BlockMask* inside = nullptr;
-    BlockMask* corner_points = nullptr;         ///< points that cells of the band need as corners
+    BlockMask* corner_points = nullptr;  ///< points that cells of the band need as corners
     BlockMask* wanted_points = nullptr;
     std::uint32_t* first_sample = nullptr;
     std::uint32_t* old_first_sample = nullptr;  ///< while a block's samples move
     EdgeMasks* edges = nullptr;
-    std::uint32_t* first_vertex = nullptr;      ///< and one past the last
-    LevelCounts* triangles_before = nullptr;    ///< by level, and one past the last
+    std::uint32_t* first_vertex = nullptr;    ///< and one past the last
+    LevelCounts* triangles_before = nullptr;  ///< by level, and one past the last
     std::uint32_t* particle_counts = nullptr;
     CellReach* reaches = nullptr;
     CellBend* bends = nullptr;
-    std::uint32_t* work = nullptr;              ///< the lists up to List::vertices, one after the other
+    std::uint32_t* work = nullptr;  ///< the lists up to List::vertices, one after the other
     std::uint32_t* band = nullptr;
     std::uint32_t* cracked = nullptr;
 
     float* samples = nullptr;
 
-    // The mesh, in memory of its own: that of a frame before may be on its way to the host, from the other set of these arrays.
-    MeshBrick* mesh_bricks = nullptr;           ///< of every brick of base cells
+    // The mesh, in memory of its own: that of a frame before may be on its way to the host, from the other set of these
+    // arrays.
+    MeshBrick* mesh_bricks = nullptr;  ///< of every brick of base cells
     LatticePosition* vertices = nullptr;
     Normal* normals = nullptr;
     Triangle* triangles = nullptr;
@@ -220,8 +222,12 @@ struct Frame {
     std::byte* upload_levels() const { return upload + 12 * capacity.particles; }
     Scratch scratch_memory() const { return {scratch, scratch_bytes}; }
 
-    __device__ std::uint32_t count(Resource r) const { return counts->overflow != 0 ? 0 : static_cast<std::uint32_t>(counts->needed[static_cast<int>(r)]); }
-    __device__ std::uint32_t listed(List l) const { return counts->overflow != 0 ? 0 : counts->listed[static_cast<int>(l)]; }
+    __device__ std::uint32_t count(Resource r) const {
+        return counts->overflow != 0 ? 0 : static_cast<std::uint32_t>(counts->needed[static_cast<int>(r)]);
+    }
+    __device__ std::uint32_t listed(List l) const {
+        return counts->overflow != 0 ? 0 : counts->listed[static_cast<int>(l)];
+    }
     /// Tells how many are needed; called by one thread.
     __device__ void need(Resource r, std::uint64_t number) const {
         counts->needed[static_cast<int>(r)] = number;
@@ -231,12 +237,18 @@ struct Frame {
     /// The particles of a level, but for their coordinates, which are in `particles`.
     __device__ ParticleSetView set(unsigned k) const {
         const std::uint32_t begin = counts->first_particle_brick[k];
-        const BrickGridView grid{particle_bricks + begin, particle_brick_keys + begin, nullptr, counts->first_particle_brick[k + 1] - begin};
+        const BrickGridView grid{particle_bricks + begin, particle_brick_keys + begin, nullptr,
+                                 counts->first_particle_brick[k + 1] - begin};
         return {grid, first_particle, nullptr, nullptr, nullptr, nullptr, cell_units[k], settings.support[k]};
     }
     __device__ BrickGridView grid() const { return {bricks, brick_keys, neighbors, count(Resource::bricks)}; }
     __device__ BlocksView blocks() const {
-        return {grid(), count(Resource::blocks), brick, place, level, sampled, inside, first_sample, samples, edges, first_vertex, nullptr};
+        return {grid(),       count(Resource::blocks),
+                brick,        place,
+                level,        sampled,
+                inside,       first_sample,
+                samples,      edges,
+                first_vertex, nullptr};
     }
     __device__ BaseVertexSets base_vertices() const { return {{grid(), base_inside}, {grid(), base_deep}}; }
     __device__ LevelSets level_sets() const {

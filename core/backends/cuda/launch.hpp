@@ -19,11 +19,13 @@ struct Launcher {
 
     /// For up to `elements` elements with `a_block` of them in a block at a time.
     template <class... Parameters, class... Arguments>
-    void operator()(std::uint64_t elements, unsigned a_block, void (*kernel)(Parameters...), const Arguments&... arguments) const {
+    void operator()(std::uint64_t elements, unsigned a_block, void (*kernel)(Parameters...),
+                    const Arguments&... arguments) const {
         const std::uint64_t blocks = std::clamp<std::uint64_t>((elements + a_block - 1) / a_block, 1, most_blocks);
         launch(static_cast<unsigned>(blocks), false, kernel, arguments...);
     }
-    /// For up to `elements` elements, with no more blocks than run at once, so that a kernel can wait for its whole grid.
+    /// For up to `elements` elements, with no more blocks than run at once, so that a kernel can wait for its whole
+    /// grid.
     template <class... Parameters, class... Arguments>
     void cooperative(std::uint64_t elements, void (*kernel)(Parameters...), const Arguments&... arguments) const {
         int a_processor = 0;
@@ -33,7 +35,8 @@ struct Launcher {
         check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "cudaDeviceGetAttribute");
         check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&a_processor, kernel, static_cast<int>(block_threads), 0),
               "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
-        const std::uint64_t blocks = std::clamp<std::uint64_t>((elements + block_threads - 1) / block_threads, 1, static_cast<std::uint64_t>(processors * a_processor));
+        const std::uint64_t blocks = std::clamp<std::uint64_t>((elements + block_threads - 1) / block_threads, 1,
+                                                               static_cast<std::uint64_t>(processors * a_processor));
         launch(static_cast<unsigned>(blocks), true, kernel, arguments...);
     }
 

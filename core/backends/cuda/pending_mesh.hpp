@@ -18,7 +18,8 @@
 
 namespace meniscus::cuda {
 
-/// Vertices come down whole, since bricks share them; then triangles, some bricks at a time. Nothing is on its way between two calls.
+/// Vertices come down whole, since bricks share them; then triangles, some bricks at a time. Nothing is on its way
+/// between two calls.
 class PendingMesh final : public MeshDownload::Source {
 public:
     /// `to` has the mesh's sizes, and room for all `bricks`, those without triangles included.
@@ -49,7 +50,8 @@ private:
 
     /// The vertices, and the triangles of so many bricks or of all; others who ask take their turns between the steps.
     void bring_first(std::size_t bricks) {
-        while (!step(bricks)) {}
+        while (!step(bricks)) {
+        }
     }
 
     /// Returns whether that was the last.
@@ -60,8 +62,10 @@ private:
         const auto start = std::chrono::steady_clock::now();
         try {
             const CurrentDevice current(storage_->device);
-            if (std::exchange(started_, true)) fetch_bricks();
-            else fetch_vertices();
+            if (std::exchange(started_, true))
+                fetch_bricks();
+            else
+                fetch_vertices();
             done_ = arrived_ == to_.bricks.size();
         } catch (const LimitExceeded& error) {
             // No limit of the frame's, which has been made.
@@ -92,7 +96,8 @@ private:
     void fetch_bricks() {
         const std::size_t begin = arrived_;
         std::size_t end = begin;
-        for (std::size_t triangles = 0; end < to_.bricks.size() && triangles * sizeof(Triangle) < fetch_bytes; ++end) triangles += to_.bricks[end].triangle_count();
+        for (std::size_t triangles = 0; end < to_.bricks.size() && triangles * sizeof(Triangle) < fetch_bytes; ++end)
+            triangles += to_.bricks[end].triangle_count();
         // Within a level, the triangles of successive bricks follow one another.
         for (std::size_t level = 0; level < triangle_level_count; ++level) {
             const std::uint32_t first = to_.bricks[begin].ranges[level].first;

@@ -102,7 +102,9 @@ __global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_co
             // Lanes without a vertex repeat the last one.
             Vertex v(edges, i < count ? i : count - 1);
             const bool low_inside = (blocks.inside[block] >> v.bit & 1) != 0;
-            const EdgeValues ends = edge_values(SampledValues{blocks, block}, SampledValues{blocks, blocks.neighbor(block, axis_offset(v.axis))}, v.axis, v.bit);
+            const EdgeValues ends =
+                edge_values(SampledValues{blocks, block},
+                            SampledValues{blocks, blocks.neighbor(block, axis_offset(v.axis))}, v.axis, v.bit);
             const bool cropped = f.settings.has_domain && ends.cropped(iso);
             float x = 0.0F, y = 0.0F, z = 0.0F;
             UnitBox box;
@@ -111,7 +113,8 @@ __global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_co
                 x = v.coordinate(0, units_per_step);
                 y = v.coordinate(1, units_per_step);
                 z = v.coordinate(2, units_per_step);
-                box = {{smallest_of_lanes(x), smallest_of_lanes(y), smallest_of_lanes(z)}, {largest_of_lanes(x), largest_of_lanes(y), largest_of_lanes(z)}};
+                box = {{smallest_of_lanes(x), smallest_of_lanes(y), smallest_of_lanes(z)},
+                       {largest_of_lanes(x), largest_of_lanes(y), largest_of_lanes(z)}};
             };
             if constexpr (bisects) {
                 // The paper's bisection: every step moves to the middle of the half that still has a change of sign.
@@ -120,7 +123,8 @@ __global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_co
                 for (int half = whole / 4; half >= 1; half /= 2) {
                     const float px[1] = {x}, py[1] = {y}, pz[1] = {z};
                     float sum[1] = {0.0F};
-                    for_each_staged_candidate(f, origin, box, staging[warp_in_block()], [&](const OneCandidate& c) { sum_values<1>(c.view(), px, py, pz, sum); });
+                    for_each_staged_candidate(f, origin, box, staging[warp_in_block()],
+                                              [&](const OneCandidate& c) { sum_values<1>(c.view(), px, py, pz, sum); });
                     go_to(v.offset + static_cast<float>((sum[0] > iso) == low_inside ? half : -half));
                 }
             } else {
@@ -130,12 +134,14 @@ __global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_co
             if (i < count) {
                 const int steps = base_cell_size << bits;
                 const float steps_per_unit = 1.0F / units_per_step;
-                f.vertices[number] = {at.x * steps + static_cast<int>(x * steps_per_unit), at.y * steps + static_cast<int>(y * steps_per_unit),
+                f.vertices[number] = {at.x * steps + static_cast<int>(x * steps_per_unit),
+                                      at.y * steps + static_cast<int>(y * steps_per_unit),
                                       at.z * steps + static_cast<int>(z * steps_per_unit)};
             }
             if (!f.has_normals) continue;
             float gx = 0.0F, gy = 0.0F, gz = 0.0F;
-            for_each_staged_candidate(f, origin, box, staging[warp_in_block()], [&](const OneCandidate& c) { sum_gradients(c.view(), x, y, z, gx, gy, gz); });
+            for_each_staged_candidate(f, origin, box, staging[warp_in_block()],
+                                      [&](const OneCandidate& c) { sum_gradients(c.view(), x, y, z, gx, gy, gz); });
             turn_outward(gx, gy, gz);
             if (i < count) f.normals[number] = outward_normal({gx, gy, gz}, cropped, v.axis, low_inside);
         }

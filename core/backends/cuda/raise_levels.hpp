@@ -1,6 +1,6 @@
-// Rules that raise the levels of some cells, swept over all cells by a grid of threads that waits for itself between sweeps: how many sweeps
-// there are is known on the device alone. A cooperative kernel rather than a loop in a graph, since it runs in and outside of graphs alike,
-// and a wait of the grid costs less than the start of a kernel.
+// Rules that raise the levels of some cells, swept over all cells by a grid of threads that waits for itself between
+// sweeps: how many sweeps there are is known on the device alone. A cooperative kernel rather than a loop in a graph,
+// since it runs in and outside of graphs alike, and a wait of the grid costs less than the start of a kernel.
 #pragma once
 
 #include <cooperative_groups.h>
@@ -14,7 +14,8 @@ namespace meniscus::cuda {
 /// The sweeps of one cooperative kernel. All threads of the grid must call all functions, in the same order.
 class Sweeps {
 public:
-    __device__ explicit Sweeps(const Frame& f) : f_(f), levels_(f.level_sets()), words_(std::uint64_t{Brick::words} * levels_.at_least[1].grid.brick_count) {
+    __device__ explicit Sweeps(const Frame& f)
+        : f_(f), levels_(f.level_sets()), words_(std::uint64_t{Brick::words} * levels_.at_least[1].grid.brick_count) {
         if (is_first_thread()) f_.counts->changed[0] = f_.counts->changed[1] = f_.counts->changed[2] = 0;
         wait();
     }
@@ -22,7 +23,8 @@ public:
     __device__ void wait() const { cooperative_groups::this_grid().sync(); }
     __device__ bool is_first_thread() const { return blockIdx.x == 0 && threadIdx.x == 0; }
 
-    /// Raises the cells that raised(brick, w) gives for every word, all by the same state, by one level; returns whether there were any.
+    /// Raises the cells that raised(brick, w) gives for every word, all by the same state, by one level; returns
+    /// whether there were any.
     template <class Raised>
     __device__ bool raise_words(const Raised& raised) {
         bool changed = false;
@@ -43,7 +45,8 @@ public:
             if (!raised(blocks, b)) return;
             changed = true;
             const int place = blocks.place[b];
-            atomicOr(reinterpret_cast<Counter*>(&f_.raised[std::uint64_t{Brick::words} * blocks.brick[b] + static_cast<unsigned>(place >> 6)]),
+            atomicOr(reinterpret_cast<Counter*>(
+                         &f_.raised[std::uint64_t{Brick::words} * blocks.brick[b] + static_cast<unsigned>(place >> 6)]),
                      Counter{1} << (place & 63));
         });
         return apply(changed, new_level);
@@ -51,10 +54,15 @@ public:
 
     /// Balance and promotion, until nothing changes.
     __device__ void adjust_levels() {
-        const auto unbalanced = [](const LevelSets& levels, std::uint32_t brick, int w) { return unbalanced_cells(levels, brick, w); };
-        const auto promoted = [](const LevelSets& levels, std::uint32_t brick, int w) { return cells_to_promote(levels, brick, w); };
+        const auto unbalanced = [](const LevelSets& levels, std::uint32_t brick, int w) {
+            return unbalanced_cells(levels, brick, w);
+        };
+        const auto promoted = [](const LevelSets& levels, std::uint32_t brick, int w) {
+            return cells_to_promote(levels, brick, w);
+        };
         do {
-            while (raise_words(unbalanced)) {}
+            while (raise_words(unbalanced)) {
+            }
         } while (raise_words(promoted));
     }
 

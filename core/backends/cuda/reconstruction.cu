@@ -1,14 +1,15 @@
 // The way of a frame through the CUDA backend: the paper's steps in their order, on one stream.
 //
-// All arrays lie in one piece of device memory, laid out for capacities (frame.hpp) that grow when a frame needs more; then the frame runs
-// once more. Counts stay on the device: kernels loop over as many elements as they find there, from launches sized by capacities. Sweeps that
-// end when nothing changes end on the device (raise_levels.hpp). So the host waits once a frame, for the counts. Once a frame has
-// passed without growth, its chain of kernels is captured as a graph, which later frames replay until something grows.
+// All arrays lie in one piece of device memory, laid out for capacities (frame.hpp) that grow when a frame needs more;
+// then the frame runs once more. Counts stay on the device: kernels loop over as many elements as they find there, from
+// launches sized by capacities. Sweeps that end when nothing changes end on the device (raise_levels.hpp). So the host
+// waits once a frame, for the counts. Once a frame has passed without growth, its chain of kernels is captured as a
+// graph, which later frames replay until something grows.
 //
-//   Upload       pinned memory -> upload, FrameInput                        (outside of the graph: its size is the frame's)
-//   register     make_keys, sort, mark_starts, scan, store_particles, count_support_cells;
-//                list_reached_bricks, sort, mark_first_keys, scan, store_bricks, mark_reached_cells, scan, number_members,
-//                find_neighbors, store_blocks; measure_densities, divide_weights or count_particles
+//   Upload       pinned memory -> upload, FrameInput                        (outside of the graph: its size is the
+//   frame's) register     make_keys, sort, mark_starts, scan, store_particles, count_support_cells;
+//                list_reached_bricks, sort, mark_first_keys, scan, store_bricks, mark_reached_cells, scan,
+//                number_members, find_neighbors, store_blocks; measure_densities, divide_weights or count_particles
 //   sample       sample_base
 //   split        collect_base_vertices, find_band, measure_bends, choose_levels, collect_level_sets
 //   adjust       balance_and_promote                                        (cooperative)
@@ -17,12 +18,14 @@
 //   place        count_vertices, scan, size_mesh, describe_bricks, place_listed
 //   emit, fill   emit_cells, fill_listed
 //   Counts       -> pinned memory; the host waits
-//   PendingMesh  the mesh -> pinned memory -> the caller's arrays           (when they ask for it, on a stream of its own)
+//   PendingMesh  the mesh -> pinned memory -> the caller's arrays           (when they ask for it, on a stream of its
+//   own)
 //
-// What overlaps: pieces of the upload with copying into pinned memory, pieces of the download with copying out of it, a frame's download with the
-// next one's kernels, and whole frames of different sessions, each on streams of its own. The mesh's arrays are there twice once a frame
-// begins while the one before is still to be downloaded; a caller who takes each mesh at once, or leaves it on the device, needs one set.
-// A first frame runs some times: each run ends where an array is too small, and what comes after it is only known to the next.
+// What overlaps: pieces of the upload with copying into pinned memory, pieces of the download with copying out of it, a
+// frame's download with the next one's kernels, and whole frames of different sessions, each on streams of its own. The
+// mesh's arrays are there twice once a frame begins while the one before is still to be downloaded; a caller who takes
+// each mesh at once, or leaves it on the device, needs one set. A first frame runs some times: each run ends where an
+// array is too small, and what comes after it is only known to the next.
 #include <array>
 #include <memory>
 #include <optional>
@@ -43,9 +46,14 @@ namespace {
 
 class Reconstruction final : public BackendReconstruction {
 public:
-    Reconstruction(const Settings& user, int device, const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account)
-        : user_(user), device_(device), upload_(account), host_counts_(account),
-          storage_(std::make_shared<MeshStorage>(device, account, device_account)), memory_(device, stream_.get(), device_account),
+    Reconstruction(const Settings& user, int device, const std::shared_ptr<MemoryAccount>& account,
+                   const std::shared_ptr<MemoryAccount>& device_account)
+        : user_(user),
+          device_(device),
+          upload_(account),
+          host_counts_(account),
+          storage_(std::make_shared<MeshStorage>(device, account, device_account)),
+          memory_(device, stream_.get(), device_account),
           frame_(LatticeSettings(user)) {
         frame_.bisects = user.edge_points == EdgePoints::bisect;
         frame_.bisection_steps = user.bisection_steps;
@@ -105,7 +113,8 @@ private:
         mesh.vertex_count = static_cast<std::uint32_t>(counts().needed[static_cast<int>(Resource::vertices)]);
         mesh.triangle_count = static_cast<std::uint32_t>(counts().needed[static_cast<int>(Resource::triangles)]);
         for (std::size_t level = 0; level < triangle_level_count; ++level)
-            mesh.levels[level] = {counts().first_triangle[level], static_cast<std::uint32_t>(counts().triangles[level])};
+            mesh.levels[level] = {counts().first_triangle[level],
+                                  static_cast<std::uint32_t>(counts().triangles[level])};
         mesh.cell_size = frame_.settings.cell_size;
         mesh.offset_bits = frame_.settings.offset_bits;
         mesh.device = device_;
@@ -131,7 +140,8 @@ private:
         return pending && !pending->is_done() ? pending : nullptr;
     }
 
-    /// A mesh's owner may keep its download for long, and the next reconstruction needs the room: only the host's memory may outlive this one.
+    /// A mesh's owner may keep its download for long, and the next reconstruction needs the room: only the host's
+    /// memory may outlive this one.
     void give_sets_back() noexcept {
         const auto attempt = [](const auto& action) {
             try {
@@ -149,8 +159,8 @@ private:
         attempt([&] { storage_->stream.synchronize(); });
     }
 
-    /// Chooses a set that nothing reads for the mesh that comes. What must come down for that comes down here: its owner may wait for this
-    /// very frame.
+    /// Chooses a set that nothing reads for the mesh that comes. What must come down for that comes down here: its
+    /// owner may wait for this very frame.
     void take_set() {
         if (const auto last = reader(set_)) {
             if (take_other_set()) return;
@@ -159,7 +169,8 @@ private:
         with_room([&] { fit_set(); });
     }
 
-    /// Returns whether there is room for it. Where there was none, every frame would try in vain until the sizes change.
+    /// Returns whether there is room for it. Where there was none, every frame would try in vain until the sizes
+    /// change.
     bool take_other_set() {
         if (one_set_has_to_do_) return false;
         set_ = 1 - set_;
@@ -200,9 +211,10 @@ private:
     }
 
     /// The ends of the stages, in the order in which they run.
-    static constexpr std::array<Stage, 9> order{Stage::register_particles, Stage::sample_field, Stage::split_cells,
-                                                Stage::adjust_levels,      Stage::sample_field, Stage::count_triangles,
-                                                Stage::place_vertices,     Stage::emit_triangles, Stage::fill_cracks};
+    static constexpr std::array<Stage, 9> order{
+        Stage::register_particles, Stage::sample_field,   Stage::split_cells,
+        Stage::adjust_levels,      Stage::sample_field,   Stage::count_triangles,
+        Stage::place_vertices,     Stage::emit_triangles, Stage::fill_cracks};
 
     /// Of the last run; complete after a synchronization.
     const Counts& counts() const { return *reinterpret_cast<const Counts*>(host_counts_.get()); }
@@ -219,8 +231,10 @@ private:
             upload_.start(particles, frame_, stream_.get());
             Graph& graph = graphs_[set_];
             if (!grown && settled_ && !graph.is_captured()) graph.capture(stream_.get(), [&] { enqueue(true); });
-            if (graph.is_captured()) graph.launch(stream_.get());
-            else enqueue(false);
+            if (graph.is_captured())
+                graph.launch(stream_.get());
+            else
+                enqueue(false);
             stream_.synchronize();
             if (counts().overflow == 0) break;
             require_uncrowded(counts().crowd, particles.count(), frame_.settings);
@@ -244,19 +258,27 @@ private:
         drop_graphs();
         if (frame_.capacity.same_but_for_mesh(before)) return true;
         const Capacities& room = frame_.capacity;
-        const std::uint64_t sums = std::max({room.particles, room[Resource::reached_bricks], room[Resource::bricks], room[Resource::blocks]}) + 1;
+        const std::uint64_t sums =
+            std::max({room.particles, room[Resource::reached_bricks], room[Resource::bricks], room[Resource::blocks]}) +
+            1;
         frame_.scratch_bytes = scratch_bytes(room.particles, room[Resource::reached_bricks], sums);
         with_room([&] { memory_.assign(frame_.lay_out(nullptr)); });
         frame_.lay_out(memory_.get());
-        check(cudaMemcpyAsync(const_cast<CubeCase*>(frame_.cube_table), cube_table.data(), sizeof(CubeTable), cudaMemcpyHostToDevice, stream_.get()), "cudaMemcpyAsync");
-        check(cudaMemcpyAsync(const_cast<CrackCase*>(frame_.crack_table), crack_table.data(), sizeof(CrackTable), cudaMemcpyHostToDevice, stream_.get()), "cudaMemcpyAsync");
+        check(cudaMemcpyAsync(const_cast<CubeCase*>(frame_.cube_table), cube_table.data(), sizeof(CubeTable),
+                              cudaMemcpyHostToDevice, stream_.get()),
+              "cudaMemcpyAsync");
+        check(cudaMemcpyAsync(const_cast<CrackCase*>(frame_.crack_table), crack_table.data(), sizeof(CrackTable),
+                              cudaMemcpyHostToDevice, stream_.get()),
+              "cudaMemcpyAsync");
         return true;
     }
 
-    /// After a run that has found too little. Where that was room for the mesh alone, all that the mesh is made of stays.
+    /// After a run that has found too little. Where that was room for the mesh alone, all that the mesh is made of
+    /// stays.
     void make_more_room() {
         require_room_for_numbers();
-        if (!make_room(counts().needed)) throw DeviceError("reconstruction", "the counts contradict each other", device_);
+        if (!make_room(counts().needed))
+            throw DeviceError("reconstruction", "the counts contradict each other", device_);
         with_room([&] { fit_set(); });
     }
 
@@ -302,14 +324,17 @@ private:
         end_stage();
         fill_cracks(frame, launcher_);
         end_stage();
-        check(cudaMemcpyAsync(host_counts_.get(), frame.counts, sizeof(Counts), cudaMemcpyDeviceToHost, stream_.get()), "cudaMemcpyAsync");
+        check(cudaMemcpyAsync(host_counts_.get(), frame.counts, sizeof(Counts), cudaMemcpyDeviceToHost, stream_.get()),
+              "cudaMemcpyAsync");
     }
 
     void tell(Statistics& statistics) const {
         statistics.field_evaluations = counts().field_evaluations;
-        for (std::size_t level = 0; level < 3; ++level) statistics.base_cells_by_level[level] = counts().band_cells[level];
+        for (std::size_t level = 0; level < 3; ++level)
+            statistics.base_cells_by_level[level] = counts().band_cells[level];
         for (std::size_t i = 0; i < order.size(); ++i)
-            statistics.stage_seconds[static_cast<std::size_t>(order[i])] += ends_[i].seconds_since(i == 0 ? start_ : ends_[i - 1]);
+            statistics.stage_seconds[static_cast<std::size_t>(order[i])] +=
+                ends_[i].seconds_since(i == 0 ? start_ : ends_[i - 1]);
         statistics.backend = "cuda";
     }
 
@@ -326,19 +351,20 @@ private:
     Launcher launcher_;
     Event start_;
     std::array<Event, order.size()> ends_;
-    std::array<Graph, 2> graphs_;                       ///< one for each set of mesh arrays
+    std::array<Graph, 2> graphs_;  ///< one for each set of mesh arrays
     std::array<std::weak_ptr<PendingMesh>, 2> pending_;
-    std::size_t set_ = 0;                               ///< that the last mesh went into
-    bool one_set_has_to_do_ = false;                    ///< a second one of these capacities was refused
-    std::uint64_t particles_ = 0;                       ///< of the last frame
-    bool settled_ = false;     ///< whether the last frame needed no more room
+    std::size_t set_ = 0;             ///< that the last mesh went into
+    bool one_set_has_to_do_ = false;  ///< a second one of these capacities was refused
+    std::uint64_t particles_ = 0;     ///< of the last frame
+    bool settled_ = false;            ///< whether the last frame needed no more room
     bool has_levels_ = false;
-    bool capped_ = false;      ///< whether a mesh of the last frame was emitted with capped levels
+    bool capped_ = false;  ///< whether a mesh of the last frame was emitted with capped levels
 };
 
 }  // namespace
 
-std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, int device, const std::shared_ptr<MemoryAccount>& account,
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, int device,
+                                                           const std::shared_ptr<MemoryAccount>& account,
                                                            const std::shared_ptr<MemoryAccount>& device_account) {
     const CurrentDevice current(device);
     return std::make_unique<Reconstruction>(settings, device, account, device_account);

@@ -19,14 +19,18 @@ constexpr SortKey no_key = ~SortKey{0};
 __device__ SortKey sort_key(unsigned level, const ParticleKey& key) {
     return (SortKey{level} << cell_bits | key.cell) << place_bits | key.place;
 }
-__device__ unsigned key_level(SortKey key) { return static_cast<unsigned>(key >> (place_bits + cell_bits)); }
+__device__ unsigned key_level(SortKey key) {
+    return static_cast<unsigned>(key >> (place_bits + cell_bits));
+}
 __device__ ParticleKey particle_key(SortKey key) {
     constexpr std::uint64_t place_mask = (std::uint64_t{1} << place_bits) - 1;
     constexpr std::uint64_t cell_mask = (std::uint64_t{1} << cell_bits) - 1;
     return {static_cast<std::uint64_t>(key >> place_bits) & cell_mask, static_cast<std::uint64_t>(key) & place_mask};
 }
 
-__device__ std::uint32_t particle_count(const Frame& f) { return f.counts->overflow != 0 ? 0 : f.input->particles; }
+__device__ std::uint32_t particle_count(const Frame& f) {
+    return f.counts->overflow != 0 ? 0 : f.input->particles;
+}
 
 __global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant__ Frame f) {
     const std::uint32_t n = f.input->particles;
@@ -36,7 +40,8 @@ __global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant
             return;
         }
         const unsigned level = f.input->levels == nullptr ? 0 : f.input->levels[i];
-        f.unsorted_keys[i] = sort_key(level, meniscus::particle_key(f.input->positions.snapped(i), f.cell_units[level]));
+        f.unsorted_keys[i] =
+            sort_key(level, meniscus::particle_key(f.input->positions.snapped(i), f.cell_units[level]));
     });
 }
 
@@ -72,7 +77,8 @@ __global__ void __launch_bounds__(block_threads) store_particles(const __grid_co
         if (begins.cell) f.first_particle[cell] = i;
         if (begins.cell && brick < most_bricks) {
             const int index = key_index(key.cell);
-            atomicOr(reinterpret_cast<Counter*>(&f.particle_bricks[brick].occupied[index >> 6]), Counter{1} << (index & 63));
+            atomicOr(reinterpret_cast<Counter*>(&f.particle_bricks[brick].occupied[index >> 6]),
+                     Counter{1} << (index & 63));
         }
         if (begins.brick && brick < most_bricks) {
             f.particle_bricks[brick].coordinate = key_brick(key.cell);
@@ -81,7 +87,8 @@ __global__ void __launch_bounds__(block_threads) store_particles(const __grid_co
         }
         // A level's bricks begin where the level's particles do; levels without particles have none.
         if (begins.brick)
-            for (unsigned k = i == 0 ? 0 : key_level(f.keys[i - 1]) + 1; k <= level; ++k) f.counts->first_particle_brick[k] = brick;
+            for (unsigned k = i == 0 ? 0 : key_level(f.keys[i - 1]) + 1; k <= level; ++k)
+                f.counts->first_particle_brick[k] = brick;
         if (i == n - 1) {
             for (unsigned k = level + 1; k <= particle_level_count; ++k) f.counts->first_particle_brick[k] = brick + 1;
             f.first_particle[cell + 1] = n;
@@ -106,17 +113,20 @@ __global__ void __launch_bounds__(block_threads) measure_crowd(const __grid_cons
 
 /// One thread: a crowded frame ends here, before it takes long.
 __global__ void stop_if_crowded(const __grid_constant__ Frame f) {
-    if (blockIdx.x == 0 && threadIdx.x == 0 && is_crowded(f.counts->crowd, f.input->particles, f.settings)) f.counts->overflow = 1;
+    if (blockIdx.x == 0 && threadIdx.x == 0 && is_crowded(f.counts->crowd, f.input->particles, f.settings))
+        f.counts->overflow = 1;
 }
 
-/// The value of the density field at a particle is the sum of the weights that it will divide: all are computed before any is.
+/// The value of the density field at a particle is the sum of the weights that it will divide: all are computed before
+/// any is.
 __global__ void __launch_bounds__(block_threads, 3) measure_densities(const __grid_constant__ Frame f) {
     GridLoop{}.each(particle_count(f), [&](std::uint32_t i) {
         const unsigned level = key_level(f.keys[i]);
         const ParticleKey key = particle_key(f.keys[i]);
         const Units3 origin = cell_corner(key.cell, f.cell_units[level]);
         constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
-        const float x[1] = {static_cast<float>(key.place & mask)}, y[1] = {static_cast<float>(key.place >> place_axis_bits & mask)},
+        const float x[1] = {static_cast<float>(key.place & mask)},
+                    y[1] = {static_cast<float>(key.place >> place_axis_bits & mask)},
                     z[1] = {static_cast<float>(key.place >> (2 * place_axis_bits))};
         float sum[1] = {0.0F};
         for_each_candidate(f, origin, {{x[0], y[0], z[0]}, {x[0], y[0], z[0]}},
@@ -186,7 +196,9 @@ __global__ void __launch_bounds__(block_threads) store_bricks(const __grid_const
 /// Marks in shared memory, by many threads at once, in halves of words, which atomic operations are made for.
 struct SharedMarks {
     unsigned* halves;
-    __device__ std::uint64_t word(int w) const { return atomicOr(&halves[2 * w], 0U) | static_cast<std::uint64_t>(atomicOr(&halves[2 * w + 1], 0U)) << 32; }
+    __device__ std::uint64_t word(int w) const {
+        return atomicOr(&halves[2 * w], 0U) | static_cast<std::uint64_t>(atomicOr(&halves[2 * w + 1], 0U)) << 32;
+    }
     __device__ void add(int w, std::uint64_t cells) const {
         const auto low = static_cast<unsigned>(cells);
         const auto high = static_cast<unsigned>(cells >> 32);
@@ -212,19 +224,22 @@ __global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __g
             const ParticleSetView set = f.set(k);
             if (set.cells.brick_count == 0) continue;
             NoBrickGuesses guesses;
-            set.for_each_run_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, guesses, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
-                if (run++ % block_warps != warp_in_block()) return;
-                for (std::uint32_t i = begin + lane_index(); i < end; i += warp_threads) {
-                    const float4 p = f.particles[i];
-                    mark_reached(marks, p.x + shift[0], p.y + shift[1], p.z + shift[2], set.support);
-                }
-            });
+            set.for_each_run_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, guesses,
+                                  [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+                                      if (run++ % block_warps != warp_in_block()) return;
+                                      for (std::uint32_t i = begin + lane_index(); i < end; i += warp_threads) {
+                                          const float4 p = f.particles[i];
+                                          mark_reached(marks, p.x + shift[0], p.y + shift[1], p.z + shift[2],
+                                                       set.support);
+                                      }
+                                  });
         }
         __syncthreads();
         if (threadIdx.x < Brick::words) {
             const int w = static_cast<int>(threadIdx.x);
             std::uint64_t cells = marks.word(w);
-            if (f.settings.has_domain && cells != 0) cells &= word_in_domain(at, w, f.settings.domain_low, f.settings.domain_high);
+            if (f.settings.has_domain && cells != 0)
+                cells &= word_in_domain(at, w, f.settings.domain_low, f.settings.domain_high);
             f.bricks[b].occupied[w] = cells;
         }
         __syncthreads();
@@ -276,9 +291,11 @@ __global__ void __launch_bounds__(block_threads) count_particles(const __grid_co
         const Units3 corner = cell_corner(key.cell, f.cell_units[0]);
         constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
         const auto cell = [&](std::int64_t low, std::uint64_t in_cell) {
-            return static_cast<std::int32_t>(floor_div(low + static_cast<std::int64_t>(in_cell & mask), units_per_base_cell));
+            return static_cast<std::int32_t>(
+                floor_div(low + static_cast<std::int64_t>(in_cell & mask), units_per_base_cell));
         };
-        const Int3 at{cell(corner.x, key.place), cell(corner.y, key.place >> place_axis_bits), cell(corner.z, key.place >> (2 * place_axis_bits))};
+        const Int3 at{cell(corner.x, key.place), cell(corner.y, key.place >> place_axis_bits),
+                      cell(corner.z, key.place >> (2 * place_axis_bits))};
         const std::uint32_t brick = grid.find(brick_of(at));
         // Cells beyond the domain are not stored.
         if (brick != no_index && grid.bricks[brick].holds(index_in_brick(at)))
@@ -289,10 +306,12 @@ __global__ void __launch_bounds__(block_threads) count_particles(const __grid_co
 void sort_particles(Frame& f, const Launcher& launch) {
     const std::uint64_t n = f.capacity.particles;
     launch(n, block_threads, make_keys, f);
-    if (sort(f.scratch_memory(), f.unsorted_keys, f.keys, n, launch.stream) != f.keys) std::swap(f.keys, f.unsorted_keys);
+    if (sort(f.scratch_memory(), f.unsorted_keys, f.keys, n, launch.stream) != f.keys)
+        std::swap(f.keys, f.unsorted_keys);
     launch(n, block_threads, mark_starts, f);
     exclusive_sum(f.scratch_memory(), f.starts, n, launch.stream);
-    check(cudaMemsetAsync(f.particle_bricks, 0, f.capacity[Resource::particle_bricks] * sizeof(Brick), launch.stream), "cudaMemsetAsync");
+    check(cudaMemsetAsync(f.particle_bricks, 0, f.capacity[Resource::particle_bricks] * sizeof(Brick), launch.stream),
+          "cudaMemsetAsync");
     launch(n, block_threads, store_particles, f);
     launch(f.capacity[Resource::particle_bricks], block_threads, count_support_cells, f);
     launch(n, block_threads, measure_crowd, f);
@@ -302,7 +321,8 @@ void sort_particles(Frame& f, const Launcher& launch) {
 void store_reached_cells(Frame& f, const Launcher& launch) {
     const std::uint64_t keys = f.capacity[Resource::reached_bricks];
     const std::uint64_t bricks = f.capacity[Resource::bricks];
-    check(cudaMemsetAsync(f.unsorted_reached_keys, 0xFF, keys * sizeof(std::uint64_t), launch.stream), "cudaMemsetAsync");
+    check(cudaMemsetAsync(f.unsorted_reached_keys, 0xFF, keys * sizeof(std::uint64_t), launch.stream),
+          "cudaMemsetAsync");
     launch(f.capacity.particles, block_threads, list_reached_bricks, f);
     if (sort(f.scratch_memory(), f.unsorted_reached_keys, f.reached_keys, keys, launch.stream) != f.reached_keys)
         std::swap(f.reached_keys, f.unsorted_reached_keys);
@@ -321,7 +341,8 @@ void store_reached_cells(Frame& f, const Launcher& launch) {
 void register_particles(Frame& frame, const Settings& user, const Launcher& launch) {
     sort_particles(frame, launch);
     store_reached_cells(frame, launch);
-    if (user.mode == Mode::adaptive && user.criterion == Criterion::count) launch(frame.capacity.particles, block_threads, count_particles, frame);
+    if (user.mode == Mode::adaptive && user.criterion == Criterion::count)
+        launch(frame.capacity.particles, block_threads, count_particles, frame);
     if (user.field != Field::color) return;
     launch(frame.capacity.particles, block_threads, measure_densities, frame);
     launch(frame.capacity.particles, block_threads, divide_weights, frame);

@@ -24,11 +24,13 @@ __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_con
         float value[1] = {0.0F};
         float bound = 0.0F;
         float closest = 0.0F;
-        for_each_candidate(f, base_cell_origin(at), {{0.0F, 0.0F, 0.0F}, {edge, edge, edge}}, [&](const OneCandidate& c) {
-            sum_values<1>(c.view(), zero, zero, zero, value);
-            sum_bounds(c.view(), edge / 2, edge / 2, edge / 2, edge / 2, bound, closest);
-        });
-        const bool allowed = !f.settings.has_domain || (domain_points(at, f.settings.domain_low, f.settings.domain_high) & 1) != 0;
+        for_each_candidate(f, base_cell_origin(at), {{0.0F, 0.0F, 0.0F}, {edge, edge, edge}},
+                           [&](const OneCandidate& c) {
+                               sum_values<1>(c.view(), zero, zero, zero, value);
+                               sum_bounds(c.view(), edge / 2, edge / 2, edge / 2, edge / 2, bound, closest);
+                           });
+        const bool allowed =
+            !f.settings.has_domain || (domain_points(at, f.settings.domain_low, f.settings.domain_high) & 1) != 0;
         f.samples[b] = value[0];
         f.reaches[b] = {bound, closest};
         f.first_sample[b] = b;
@@ -37,8 +39,8 @@ __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_con
     });
 }
 
-/// Blocks that gain points move to new room at the end of the samples; their old room stays unused until the next frame. wanted(block) is
-/// asked once for every block. Blocks for which there is no room are left out.
+/// Blocks that gain points move to new room at the end of the samples; their old room stays unused until the next
+/// frame. wanted(block) is asked once for every block. Blocks for which there is no room are left out.
 template <class Wanted>
 __device__ void list_wanted_points(const Frame& f, List list, const Wanted& wanted) {
     const BlocksView blocks = f.blocks();
@@ -62,7 +64,8 @@ __device__ void list_wanted_points(const Frame& f, List list, const Wanted& want
 
 /// Values of G points for each lane; lanes without a point repeat another's.
 template <int G>
-__device__ void sum_points(const Frame& f, const Int3& at, const UnitBox& box, const int (&bit)[G], Staging& staging, float (&sum)[G]) {
+__device__ void sum_points(const Frame& f, const Int3& at, const UnitBox& box, const int (&bit)[G], Staging& staging,
+                           float (&sum)[G]) {
     float x[G], y[G], z[G];
     for (int g = 0; g < G; ++g) {
         x[g] = static_cast<float>(point_coordinate(bit[g], 0) * units_per_cell);
@@ -70,7 +73,8 @@ __device__ void sum_points(const Frame& f, const Int3& at, const UnitBox& box, c
         z[g] = static_cast<float>(point_coordinate(bit[g], 2) * units_per_cell);
         sum[g] = 0.0F;
     }
-    for_each_staged_candidate(f, base_cell_origin(at), box, staging, [&](const OneCandidate& c) { sum_values<G>(c.view(), x, y, z, sum); });
+    for_each_staged_candidate(f, base_cell_origin(at), box, staging,
+                              [&](const OneCandidate& c) { sum_values<G>(c.view(), x, y, z, sum); });
 }
 
 /// Shared memory of a warp that samples a block.
@@ -79,8 +83,8 @@ struct BlockSampling {
     float fresh[64];
 };
 
-/// All lanes of a warp give values to a block's wanted points that have none; samples lie in the order of points, signs follow. Returns how
-/// many there were.
+/// All lanes of a warp give values to a block's wanted points that have none; samples lie in the order of points, signs
+/// follow. Returns how many there were.
 __device__ int sample_block(const Frame& f, const BlocksView& blocks, std::uint32_t block, BlockSampling& shared) {
     const int lane = static_cast<int>(lane_index());
     const Int3 at = blocks.coordinate(block);
@@ -116,7 +120,8 @@ __device__ int sample_block(const Frame& f, const BlocksView& blocks, std::uint3
         const BlockMask before = (BlockMask{1} << bit) - 1;
         bool is_above = false;
         if ((sampled >> bit & 1) != 0) {
-            const float value = (known >> bit & 1) != 0 ? old[popcount(known & before)] : shared.fresh[popcount(missing & before)];
+            const float value =
+                (known >> bit & 1) != 0 ? old[popcount(known & before)] : shared.fresh[popcount(missing & before)];
             samples[popcount(sampled & before)] = value;
             is_above = value > f.settings.iso;
         }
@@ -124,7 +129,8 @@ __device__ int sample_block(const Frame& f, const BlocksView& blocks, std::uint3
     }
     if (lane == 0) {
         f.sampled[block] = sampled;
-        f.inside[block] = f.settings.has_domain ? above & domain_points(at, f.settings.domain_low, f.settings.domain_high) : above;
+        f.inside[block] =
+            f.settings.has_domain ? above & domain_points(at, f.settings.domain_low, f.settings.domain_high) : above;
     }
     // The next block's values take the place of this one's.
     __syncwarp();
@@ -134,18 +140,25 @@ __device__ int sample_block(const Frame& f, const BlocksView& blocks, std::uint3
 __device__ void sample_listed(const Frame& f, List list, BlockSampling (&shared)[block_warps]) {
     const BlocksView blocks = f.blocks();
     Counter evaluations = 0;
-    each_by_warp(f.listed(list), [&](std::uint32_t i) { evaluations += static_cast<Counter>(sample_block(f, blocks, f.work[i], shared[warp_in_block()])); });
+    each_by_warp(f.listed(list), [&](std::uint32_t i) {
+        evaluations += static_cast<Counter>(sample_block(f, blocks, f.work[i], shared[warp_in_block()]));
+    });
     if (lane_index() == 0 && evaluations != 0) atomicAdd(&f.counts->field_evaluations, evaluations);
-    if (blockIdx.x == 0 && threadIdx.x == 0) f.need(Resource::samples, f.counts->needed[static_cast<int>(Resource::samples)]);
+    if (blockIdx.x == 0 && threadIdx.x == 0)
+        f.need(Resource::samples, f.counts->needed[static_cast<int>(Resource::samples)]);
 }
 
 __global__ void __launch_bounds__(block_threads) list_corner_points(const __grid_constant__ Frame f) {
-    list_wanted_points(f, List::corner_points, [&](const BlocksView& blocks, std::uint32_t b) { return f.corner_points[b] = corner_points(LevelsAround(blocks, b)); });
+    list_wanted_points(f, List::corner_points, [&](const BlocksView& blocks, std::uint32_t b) {
+        return f.corner_points[b] = corner_points(LevelsAround(blocks, b));
+    });
 }
 
 __global__ void __launch_bounds__(block_threads, 4) list_edge_middles(const __grid_constant__ Frame f) {
     list_wanted_points(f, List::edge_middles, [&](const BlocksView& blocks, std::uint32_t b) {
-        return f.corner_points[b] == 0 || blocks.sampled[b] == ~BlockMask{0} ? 0 : edge_middles(blocks, b, LevelsAround(blocks, b));
+        return f.corner_points[b] == 0 || blocks.sampled[b] == ~BlockMask{0}
+                   ? 0
+                   : edge_middles(blocks, b, LevelsAround(blocks, b));
     });
 }
 
@@ -160,21 +173,25 @@ __global__ void __launch_bounds__(block_threads, 2) sample_list(const __grid_con
     sample_listed(f, list, shared);
 }
 
-/// Takes the cells into the band that a neighbor's samples show to hold surface, raises those that would cut off a finer neighbor's surface
-/// in a sliver, adjusts and samples, until there are none.
+/// Takes the cells into the band that a neighbor's samples show to hold surface, raises those that would cut off a
+/// finer neighbor's surface in a sliver, adjusts and samples, until there are none.
 __global__ void __launch_bounds__(block_threads, 2) settle_band(const __grid_constant__ Frame f) {
     __shared__ BlockSampling shared[block_warps];
     Sweeps sweeps(f);
     for (;;) {
-        const bool grown = sweeps.raise_blocks([&](const BlocksView& blocks, std::uint32_t b) { return blocks.level[b] == 0 && joins_band(blocks, b); },
-                                               [&](std::uint32_t b) { return f.wanted_level[b]; });
-        const bool raised = sweeps.raise_blocks([&](const BlocksView& blocks, std::uint32_t b) { return misses_surface_on_face(blocks, b); },
-                                                [&](std::uint32_t b) { return f.level[b] + 1; });
+        const bool grown = sweeps.raise_blocks(
+            [&](const BlocksView& blocks, std::uint32_t b) { return blocks.level[b] == 0 && joins_band(blocks, b); },
+            [&](std::uint32_t b) { return f.wanted_level[b]; });
+        const bool raised = sweeps.raise_blocks(
+            [&](const BlocksView& blocks, std::uint32_t b) { return misses_surface_on_face(blocks, b); },
+            [&](std::uint32_t b) { return f.level[b] + 1; });
         if (!grown && !raised) return;
         sweeps.adjust_levels();
         if (sweeps.is_first_thread()) f.counts->listed[static_cast<int>(List::later_round)] = 0;
         sweeps.wait();
-        list_wanted_points(f, List::later_round, [&](const BlocksView& blocks, std::uint32_t b) { return f.corner_points[b] = corner_points(LevelsAround(blocks, b)); });
+        list_wanted_points(f, List::later_round, [&](const BlocksView& blocks, std::uint32_t b) {
+            return f.corner_points[b] = corner_points(LevelsAround(blocks, b));
+        });
         sweeps.wait();
         sample_listed(f, List::later_round, shared);
         sweeps.wait();

@@ -18,13 +18,16 @@ struct Plus {
 /// Null memory: only tells the bytes needed.
 template <class T>
 void scan(void* memory, std::size_t& bytes, T* values, std::size_t n, cudaStream_t stream) {
-    check(cub::DeviceScan::ExclusiveScan(memory, bytes, values, values, Plus{}, T{}, static_cast<std::int64_t>(n), stream), "cub::DeviceScan");
+    check(cub::DeviceScan::ExclusiveScan(memory, bytes, values, values, Plus{}, T{}, static_cast<std::int64_t>(n),
+                                         stream),
+          "cub::DeviceScan");
 }
 
 template <class Key>
 Key* sort_keys(void* memory, std::size_t& bytes, Key* keys, Key* room, std::size_t n, cudaStream_t stream) {
     cub::DoubleBuffer<Key> buffers(keys, room);
-    check(cub::DeviceRadixSort::SortKeys(memory, bytes, buffers, static_cast<std::int64_t>(n), 0, static_cast<int>(8 * sizeof(Key)), stream),
+    check(cub::DeviceRadixSort::SortKeys(memory, bytes, buffers, static_cast<std::int64_t>(n), 0,
+                                         static_cast<int>(8 * sizeof(Key)), stream),
           "cub::DeviceRadixSort");
     return buffers.Current();
 }
@@ -46,8 +49,8 @@ std::size_t sort_bytes(std::size_t n) {
 }  // namespace
 
 std::size_t scratch_bytes(std::size_t particle_keys, std::size_t brick_keys, std::size_t sums) {
-    return std::max({sort_bytes<SortKey>(particle_keys), sort_bytes<std::uint64_t>(brick_keys), scan_bytes<std::uint32_t>(sums),
-                     scan_bytes<std::uint64_t>(sums), scan_bytes<LevelCounts>(sums)});
+    return std::max({sort_bytes<SortKey>(particle_keys), sort_bytes<std::uint64_t>(brick_keys),
+                     scan_bytes<std::uint32_t>(sums), scan_bytes<std::uint64_t>(sums), scan_bytes<LevelCounts>(sums)});
 }
 
 void exclusive_sum(const Scratch& scratch, std::uint32_t* values, std::size_t n, cudaStream_t stream) {
@@ -67,7 +70,8 @@ SortKey* sort(const Scratch& scratch, SortKey* keys, SortKey* room, std::size_t 
     std::size_t bytes = scratch.bytes;
     return sort_keys(scratch.memory, bytes, keys, room, n, stream);
 }
-std::uint64_t* sort(const Scratch& scratch, std::uint64_t* keys, std::uint64_t* room, std::size_t n, cudaStream_t stream) {
+std::uint64_t* sort(const Scratch& scratch, std::uint64_t* keys, std::uint64_t* room, std::size_t n,
+                    cudaStream_t stream) {
     std::size_t bytes = scratch.bytes;
     return sort_keys(scratch.memory, bytes, keys, room, n, stream);
 }

@@ -35,6 +35,7 @@ void exclusive_sum(const Scratch& scratch, LevelCounts* values, std::size_t n, c
 
 /// Sorts the keys in `keys`, with `room` for as many; returns which of the two holds them in the end.
 SortKey* sort(const Scratch& scratch, SortKey* keys, SortKey* room, std::size_t n, cudaStream_t stream);
-std::uint64_t* sort(const Scratch& scratch, std::uint64_t* keys, std::uint64_t* room, std::size_t n, cudaStream_t stream);
+std::uint64_t* sort(const Scratch& scratch, std::uint64_t* keys, std::uint64_t* room, std::size_t n,
+                    cudaStream_t stream);
 
 }  // namespace meniscus::cuda

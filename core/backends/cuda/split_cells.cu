@@ -7,8 +7,8 @@
 namespace meniscus::cuda {
 namespace {
 
-/// Calls visit(word's number, its members, bit, block) for the words of bricks with members, each by all lanes of a warp: half a word at a time, a
-/// lane for every bit. `block` is meaningful where the bit is a member.
+/// Calls visit(word's number, its members, bit, block) for the words of bricks with members, each by all lanes of a
+/// warp: half a word at a time, a lane for every bit. `block` is meaningful where the bit is a member.
 template <class Visit>
 __device__ void each_word_by_warp(const Frame& f, const Visit& visit) {
     each_by_warp(Brick::words * f.count(Resource::bricks), [&](std::uint32_t i) {
@@ -76,23 +76,27 @@ __global__ void __launch_bounds__(block_threads, 2) measure_bends(const __grid_c
         const Int3 at = blocks.coordinate(block);
         const Int3 cluster{at.x & ~1, at.y & ~1, at.z & ~1};
         constexpr float edge = units_per_base_cell;
-        const Point3<float> corner{static_cast<float>(at.x - cluster.x) * edge, static_cast<float>(at.y - cluster.y) * edge,
+        const Point3<float> corner{static_cast<float>(at.x - cluster.x) * edge,
+                                   static_cast<float>(at.y - cluster.y) * edge,
                                    static_cast<float>(at.z - cluster.z) * edge};
         const auto jet_at = [&](const Point3<float>& p) {
             FieldJet<float> jet;
             // Wider by a unit, since the sides of the box are rounded.
             const UnitBox box{{p.x - 1.0F, p.y - 1.0F, p.z - 1.0F}, {p.x + 1.0F, p.y + 1.0F, p.z + 1.0F}};
-            for_each_candidate(f, base_cell_origin(cluster), box, [&](const OneCandidate& c) { sum_jets(c.view(), p.x, p.y, p.z, jet); });
+            for_each_candidate(f, base_cell_origin(cluster), box,
+                               [&](const OneCandidate& c) { sum_jets(c.view(), p.x, p.y, p.z, jet); });
             return jet;
         };
-        const SurfaceSearch<float> search = search_surface(corners, is_mixed(inside_corners) ? 1.0F : 0.0F, corner, iso, jet_at);
+        const SurfaceSearch<float> search =
+            search_surface(corners, is_mixed(inside_corners) ? 1.0F : 0.0F, corner, iso, jet_at);
         f.bends[block] = cell_bend(search, inside_corners, blobs.least_level(inside_corners, f.reaches[block]));
     });
     if (blockIdx.x == 0 && threadIdx.x == 0) f.counts->field_evaluations += Counter{2} * cells;
 }
 
 template <class Criterion>
-__global__ void __launch_bounds__(block_threads) choose_levels(const __grid_constant__ Frame f, const Criterion level_of) {
+__global__ void __launch_bounds__(block_threads)
+    choose_levels(const __grid_constant__ Frame f, const Criterion level_of) {
     const BlocksView blocks = f.blocks();
     GridLoop{}.each(blocks.count, [&](std::uint32_t b) {
         f.wanted_level[b] = static_cast<std::uint8_t>(level_of(blocks, b));
@@ -133,7 +137,8 @@ void split_cells(const Frame& frame, const Settings& user, bool has_particle_lev
     launch(words, block_warps, find_band, frame, bends);
     if (bends) {
         launch(blocks, block_threads, measure_bends, frame);
-        launch(blocks, block_threads, choose_levels<CurvatureCriterion>, frame, CurvatureCriterion{frame.bends, static_cast<float>(user.tolerance)});
+        launch(blocks, block_threads, choose_levels<CurvatureCriterion>, frame,
+               CurvatureCriterion{frame.bends, static_cast<float>(user.tolerance)});
     } else if (adaptive) {
         launch(blocks, block_threads, choose_levels<CountCriterion>, frame,
                CountCriterion{frame.particle_counts, user.count_threshold, has_particle_levels});

@@ -21,8 +21,8 @@ void adjust_levels(const Frame& frame, const Launcher& launch);
 void sample_field(const Frame& frame, const Launcher& launch);
 /// Samples the middles of coarse edges that cross the surface.
 void sample_edge_middles(const Frame& frame, const Launcher& launch);
-/// After a frame: gives every cell the level that it had, or max_level where that is coarser, and takes back what was counted from step 5
-/// on. first: whether the frame's levels are still those that it found.
+/// After a frame: gives every cell the level that it had, or max_level where that is coarser, and takes back what was
+/// counted from step 5 on. first: whether the frame's levels are still those that it found.
 void cap_levels(const Frame& frame, int max_level, bool first, const Launcher& launch);
 /// Step 5.
 void count_triangles(const Frame& frame, const Launcher& launch);

@@ -32,9 +32,12 @@ public:
     Event(const Event&) = delete;
     Event& operator=(const Event&) = delete;
 
-    /// captured: whether the stream is being captured into a graph, which is then to record the event each time it runs.
+    /// captured: whether the stream is being captured into a graph, which is then to record the event each time it
+    /// runs.
     void record(cudaStream_t stream, bool captured = false) {
-        check(captured ? cudaEventRecordWithFlags(event_, stream, cudaEventRecordExternal) : cudaEventRecord(event_, stream), "cudaEventRecord");
+        check(captured ? cudaEventRecordWithFlags(event_, stream, cudaEventRecordExternal)
+                       : cudaEventRecord(event_, stream),
+              "cudaEventRecord");
     }
     void wait() { check(cudaEventSynchronize(event_), "cudaEventSynchronize"); }
     /// Both must have happened.

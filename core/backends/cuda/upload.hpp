@@ -14,11 +14,14 @@ namespace meniscus::cuda {
 
 class Upload {
 public:
-    explicit Upload(const std::shared_ptr<MemoryAccount>& account) : staging_(account), input_(account) { input_.reserve(sizeof(FrameInput)); }
+    explicit Upload(const std::shared_ptr<MemoryAccount>& account) : staging_(account), input_(account) {
+        input_.reserve(sizeof(FrameInput));
+    }
 
     /// The last upload must have ended. Positions travel as they are given, and are widened on the device.
     void start(const ParticleFrame& particles, const Frame& frame, cudaStream_t stream) {
-        const auto positions = particles.is_quantized() ? std::as_bytes(particles.quantized) : std::as_bytes(particles.positions);
+        const auto positions =
+            particles.is_quantized() ? std::as_bytes(particles.quantized) : std::as_bytes(particles.positions);
         const auto levels = std::as_bytes(particles.levels);
         staging_.reserve(positions.size() + levels.size());
         send(positions, staging_.get(), frame.upload, stream);
@@ -27,10 +30,13 @@ public:
         auto& input = *new (input_.get()) FrameInput;
         input.particles = static_cast<std::uint32_t>(particles.count());
         input.positions = positions_view(particles, frame.settings.units_per_length);
-        if (particles.is_quantized()) input.positions.quantized = reinterpret_cast<const std::uint16_t*>(frame.upload);
-        else input.positions.positions = reinterpret_cast<const float*>(frame.upload);
+        if (particles.is_quantized())
+            input.positions.quantized = reinterpret_cast<const std::uint16_t*>(frame.upload);
+        else
+            input.positions.positions = reinterpret_cast<const float*>(frame.upload);
         if (!particles.levels.empty()) input.levels = reinterpret_cast<const std::uint8_t*>(frame.upload_levels());
-        check(cudaMemcpyAsync(frame.input, &input, sizeof(FrameInput), cudaMemcpyHostToDevice, stream), "cudaMemcpyAsync");
+        check(cudaMemcpyAsync(frame.input, &input, sizeof(FrameInput), cudaMemcpyHostToDevice, stream),
+              "cudaMemcpyAsync");
     }
 
 private:

@@ -9,11 +9,17 @@ namespace meniscus::cuda {
 
 inline constexpr unsigned all_lanes = 0xFFFFFFFFU;
 
-__device__ inline unsigned lane_index() { return threadIdx.x % warp_threads; }
-__device__ inline unsigned warp_in_block() { return threadIdx.x / warp_threads; }
+__device__ inline unsigned lane_index() {
+    return threadIdx.x % warp_threads;
+}
+__device__ inline unsigned warp_in_block() {
+    return threadIdx.x / warp_threads;
+}
 
 /// The first lane's value: a count that another warp may be changing must not part the lanes.
-__device__ inline std::uint32_t same_in_all_lanes(std::uint32_t value) { return __shfl_sync(all_lanes, value, 0); }
+__device__ inline std::uint32_t same_in_all_lanes(std::uint32_t value) {
+    return __shfl_sync(all_lanes, value, 0);
+}
 
 /// A loop of the whole grid over all elements, neighboring ones in neighboring lanes.
 struct GridLoop {
@@ -53,7 +59,8 @@ __device__ inline std::uint32_t sum_of_lanes_below(std::uint32_t value, std::uin
     return sum - value;
 }
 
-/// Takes `count` places at the end of a list for every lane; returns the lane's first one. The order of warps is left to chance.
+/// Takes `count` places at the end of a list for every lane; returns the lane's first one. The order of warps is left
+/// to chance.
 template <class Counter>
 __device__ inline Counter take_places(Counter* counter, std::uint32_t count) {
     std::uint32_t total = 0;
@@ -65,7 +72,8 @@ __device__ inline Counter take_places(Counter* counter, std::uint32_t count) {
 
 /// Adds the lanes' values to a count.
 __device__ inline void add_of_lanes(unsigned long long* counter, unsigned long long value) {
-    for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2) value += __shfl_xor_sync(all_lanes, value, static_cast<int>(distance));
+    for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2)
+        value += __shfl_xor_sync(all_lanes, value, static_cast<int>(distance));
     if (lane_index() == 0 && value != 0) atomicAdd(counter, value);
 }
 
@@ -76,6 +84,8 @@ __device__ inline float smallest_of_lanes(float value) {
     }
     return value;
 }
-__device__ inline float largest_of_lanes(float value) { return -smallest_of_lanes(-value); }
+__device__ inline float largest_of_lanes(float value) {
+    return -smallest_of_lanes(-value);
+}
 
 }  // namespace meniscus::cuda

@@ -1,9 +1,10 @@
 // Bricks of a mesh to Draco and back, without loss of position, connectivity or level.
 //
 // Every brick is a Draco mesh of its own: positions are brick-local uint16 coordinates of the refined lattice
-// (0 ... brick_cells * 2^offset_bits; rounded to a coarser one if that is asked for), normals are octahedral. A triangle's level needs no attribute: a crack triangle
-// lies in a face plane of the base-cell grid, which no other triangle does; the others lie inside one base cell,
-// and `cell_levels` gives the level of every base cell that holds triangles.
+// (0 ... brick_cells * 2^offset_bits; rounded to a coarser one if that is asked for), normals are octahedral. A
+// triangle's level needs no attribute: a crack triangle lies in a face plane of the base-cell grid, which no other
+// triangle does; the others lie inside one base cell, and `cell_levels` gives the level of every base cell that holds
+// triangles.
 #pragma once
 
 #include <array>
@@ -17,9 +18,10 @@
 namespace meniscus {
 
 struct CodingOptions {
-    int normal_bits = 8;    ///< 2 to 16 per octahedral component; 0: no normals. A mesh without normals is sent without
-    int position_bits = 0;  ///< vertices are rounded to multiples of c / 2^position_bits, 2 to the mesh's offset_bits; 0: not at all
-    int speed = 10;         ///< Draco's speed, 0 (smallest) to 10 (fastest)
+    int normal_bits = 8;  ///< 2 to 16 per octahedral component; 0: no normals. A mesh without normals is sent without
+    int position_bits =
+        0;  ///< vertices are rounded to multiples of c / 2^position_bits, 2 to the mesh's offset_bits; 0: not at all
+    int speed = 10;  ///< Draco's speed, 0 (smallest) to 10 (fastest)
 };
 
 /// The lattice that vertices lie on once they are encoded. Throws InvalidInput for position_bits out of range.
@@ -31,7 +33,7 @@ struct BrickContent {
     std::vector<std::array<std::uint16_t, 3>> positions;  ///< brick-local, in steps of c / 2^encoded_offset_bits
     std::vector<Normal> normals;                          ///< one per vertex; empty if none are sent
     std::vector<Triangle> triangles;
-    std::vector<std::byte> cell_levels;                   ///< as EncodedBrick has them
+    std::vector<std::byte> cell_levels;  ///< as EncodedBrick has them
 
     /// Tells whether the brick at one place has changed from frame to frame: equal for equal content.
     std::uint64_t hash() const;
@@ -41,11 +43,13 @@ struct EncodedBrick {
     std::array<std::int32_t, 3> coordinate{};  ///< x y z in bricks
     std::uint32_t vertices = 0;
     std::uint32_t triangles = 0;
-    std::vector<std::byte> cell_levels;        ///< two bits per base cell that holds triangles, in (z, y, x) order, low bits first: 1, 2, 3
+    std::vector<std::byte>
+        cell_levels;  ///< two bits per base cell that holds triangles, in (z, y, x) order, low bits first: 1, 2, 3
     std::vector<std::byte> draco;
 };
 
-/// brick: index into mesh.bricks. Thread-safe for one mesh and different bricks. Throws InvalidInput for options out of range.
+/// brick: index into mesh.bricks. Thread-safe for one mesh and different bricks. Throws InvalidInput for options out of
+/// range.
 BrickContent brick_content(const Mesh& mesh, std::size_t brick, const CodingOptions& options = {});
 /// options: those that the content was made with.
 EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& options);
@@ -55,10 +59,10 @@ EncodedBrick encode_brick(const Mesh& mesh, std::size_t brick, const CodingOptio
 /// A brick's own mesh: its vertices are welded by position.
 struct DecodedBrick {
     std::array<std::int32_t, 3> coordinate{};
-    std::vector<LatticePosition> vertices;   ///< absolute, refined lattice
-    std::vector<Normal> normals;             ///< empty if none were sent
+    std::vector<LatticePosition> vertices;  ///< absolute, refined lattice
+    std::vector<Normal> normals;            ///< empty if none were sent
     std::vector<Triangle> triangles;
-    std::vector<TriangleLevel> levels;       ///< one per triangle
+    std::vector<TriangleLevel> levels;  ///< one per triangle
 };
 
 /// Throws InvalidInput for bytes that are not a brick of this lattice; never crashes on any bytes.

@@ -8,9 +8,9 @@
 
 namespace meniscus {
 
-/// The members are those of Mesh, in device memory that the reconstructor owns. Complete when it is handed out, on every
-/// stream; valid until the reconstructor's next call or end. Whoever still reads it on another stream by then must make
-/// `stream` wait for that (cudaStreamWaitEvent).
+/// The members are those of Mesh, in device memory that the reconstructor owns. Complete when it is handed out, on
+/// every stream; valid until the reconstructor's next call or end. Whoever still reads it on another stream by then
+/// must make `stream` wait for that (cudaStreamWaitEvent).
 struct DeviceMesh {
     const LatticePosition* vertices = nullptr;  ///< device pointer
     const Normal* normals = nullptr;            ///< device pointer, one per vertex; null if Settings::normals is false
@@ -18,10 +18,10 @@ struct DeviceMesh {
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
     std::array<TriangleRange, triangle_level_count> levels{};  ///< into `triangles`
-    double cell_size = 0.0;                     ///< a vertex lies at position * cell_size / 2^offset_bits
+    double cell_size = 0.0;  ///< a vertex lies at position * cell_size / 2^offset_bits
     std::uint32_t offset_bits = 0;
-    int device = 0;                             ///< index of the GPU
-    void* stream = nullptr;                     ///< the reconstructor's cudaStream_t
+    int device = 0;          ///< index of the GPU
+    void* stream = nullptr;  ///< the reconstructor's cudaStream_t
 };
 
 }  // namespace meniscus

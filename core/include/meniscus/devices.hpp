@@ -12,15 +12,15 @@ namespace meniscus::cuda {
 inline constexpr int oldest_capability = 80;
 
 struct Device {
-    int index = 0;                ///< for BackendOptions::device
+    int index = 0;  ///< for BackendOptions::device
     std::string name;
-    int capability = 0;           ///< compute capability times ten: 90 for 9.0
-    std::size_t free_bytes = 0;   ///< now; reading it starts CUDA on the device, which takes some of its memory
+    int capability = 0;          ///< compute capability times ten: 90 for 9.0
+    std::size_t free_bytes = 0;  ///< now; reading it starts CUDA on the device, which takes some of its memory
     std::size_t total_bytes = 0;
 };
 
-/// The devices that can reconstruct and answer now, of those named (all if none is); none without a driver or in a build without
-/// CUDA.
+/// The devices that can reconstruct and answer now, of those named (all if none is); none without a driver or in a
+/// build without CUDA.
 std::vector<Device> devices(std::span<const int> among = {});
 
 }  // namespace meniscus::cuda

@@ -18,12 +18,13 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// A call to CUDA failed. What was computed on that device is lost; a reconstructor that met this may be destroyed, and its
-/// next frame tries the device afresh.
+/// A call to CUDA failed. What was computed on that device is lost; a reconstructor that met this may be destroyed, and
+/// its next frame tries the device afresh.
 class DeviceError : public std::runtime_error {
 public:
     DeviceError(const std::string& call, const std::string& reason, int device)
-        : std::runtime_error("CUDA device " + std::to_string(device) + ": " + call + " failed: " + reason), device_(device) {}
+        : std::runtime_error("CUDA device " + std::to_string(device) + ": " + call + " failed: " + reason),
+          device_(device) {}
     int device() const noexcept { return device_; }
 
 private:

@@ -76,7 +76,9 @@ public:
     }
     const std::shared_ptr<MemoryAccount>& account() const noexcept { return account_; }
     template <class U>
-    bool operator==(const AccountAllocator<U>& other) const noexcept { return account_ == other.account(); }
+    bool operator==(const AccountAllocator<U>& other) const noexcept {
+        return account_ == other.account();
+    }
 
 private:
     std::shared_ptr<MemoryAccount> account_;

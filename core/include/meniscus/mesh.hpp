@@ -38,8 +38,8 @@ struct TriangleRange {
 
 /// A brick that holds triangles. A crack triangle belongs to the brick of the finer of its two cells.
 struct MeshBrick {
-    std::array<std::int32_t, 3> coordinate{};                      ///< x y z in bricks; its lattice origin is coordinate * brick_cells
-    std::array<TriangleRange, triangle_level_count> ranges{};      ///< into Mesh::triangles, indexed by TriangleLevel
+    std::array<std::int32_t, 3> coordinate{};  ///< x y z in bricks; its lattice origin is coordinate * brick_cells
+    std::array<TriangleRange, triangle_level_count> ranges{};  ///< into Mesh::triangles, indexed by TriangleLevel
     std::uint32_t triangle_count() const {
         return ranges[0].count + ranges[1].count + ranges[2].count + ranges[3].count;
     }
@@ -47,13 +47,13 @@ struct MeshBrick {
 
 /// Triangles are ordered by level, by brick (z, y, x) within a level; they run counter-clockwise seen from outside.
 struct Mesh {
-    double cell_size = 0.0;              ///< finest cell's edge c, world units
-    std::uint32_t offset_bits = 0;       ///< vertices lie on multiples of c / 2^offset_bits
-    Array<LatticePosition> vertices;     ///< unique
-    Array<Normal> normals;               ///< unit length, outward, one per vertex; empty if Settings::normals is false
-    Array<Triangle> triangles;           ///< indices into `vertices`
+    double cell_size = 0.0;           ///< finest cell's edge c, world units
+    std::uint32_t offset_bits = 0;    ///< vertices lie on multiples of c / 2^offset_bits
+    Array<LatticePosition> vertices;  ///< unique
+    Array<Normal> normals;            ///< unit length, outward, one per vertex; empty if Settings::normals is false
+    Array<Triangle> triangles;        ///< indices into `vertices`
     std::array<TriangleRange, triangle_level_count> levels{};  ///< into `triangles`
-    Array<MeshBrick> bricks;             ///< ordered by coordinate (z, y, x)
+    Array<MeshBrick> bricks;                                   ///< ordered by coordinate (z, y, x)
 
     /// World position of a lattice position of this mesh: exact product in double, one rounding.
     std::array<double, 3> world(const LatticePosition& p) const {

@@ -7,11 +7,13 @@
 
 namespace meniscus {
 
-/// Fills the Mesh that Reconstructor::reconstruct_for_download() was given. That mesh must stay where it is, untouched, until this is
-/// finished or destroyed; destroying it leaves a mesh that is not complete, and gives the GPU's memory back to later frames.
+/// Fills the Mesh that Reconstructor::reconstruct_for_download() was given. That mesh must stay where it is, untouched,
+/// until this is finished or destroyed; destroying it leaves a mesh that is not complete, and gives the GPU's memory
+/// back to later frames.
 ///
-/// What is asked for comes down in the caller's thread; several threads may ask. All but seconds() throw DeviceError if the
-/// GPU fails, then and ever after. The reconstructor may end first, or refuse a frame: what is not there yet comes down then.
+/// What is asked for comes down in the caller's thread; several threads may ask. All but seconds() throw DeviceError if
+/// the GPU fails, then and ever after. The reconstructor may end first, or refuse a frame: what is not there yet comes
+/// down then.
 class MeshDownload {
 public:
     /// What a backend does for it. Thread-safe.

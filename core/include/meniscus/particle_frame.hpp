@@ -14,10 +14,10 @@ inline constexpr unsigned max_particle_level = 3;
 
 /// Positions in one of two encodings; the other stays empty. Borrowed: the memory must outlive the call.
 struct ParticleFrame {
-    std::span<const float> positions;                 ///< x y z per particle, world units
-    std::span<const std::uint16_t> quantized;         ///< x y z per particle: min + q (max - min) / 65535 of quantization_box
-    Box quantization_box;                             ///< used with `quantized` only
-    std::span<const std::uint8_t> levels;             ///< empty (uniform SPH), or one per particle, 0 (finest) to 3
+    std::span<const float> positions;          ///< x y z per particle, world units
+    std::span<const std::uint16_t> quantized;  ///< x y z per particle: min + q (max - min) / 65535 of quantization_box
+    Box quantization_box;                      ///< used with `quantized` only
+    std::span<const std::uint8_t> levels;      ///< empty (uniform SPH), or one per particle, 0 (finest) to 3
 
     bool is_quantized() const { return !quantized.empty(); }
     std::size_t count() const { return (is_quantized() ? quantized.size() : positions.size()) / 3; }

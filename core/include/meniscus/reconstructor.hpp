@@ -22,23 +22,24 @@ public:
     Reconstructor(Reconstructor&&) noexcept;
     Reconstructor& operator=(Reconstructor&&) noexcept;
 
-    /// Replaces `mesh`, reusing its memory. Its memory is charged to this reconstructor's account from the first call on.
-    /// Throws InvalidInput (non-finite or too distant positions, lengths that do not match, levels above 3) or
+    /// Replaces `mesh`, reusing its memory. Its memory is charged to this reconstructor's account from the first call
+    /// on. Throws InvalidInput (non-finite or too distant positions, lengths that do not match, levels above 3) or
     /// LimitExceeded (memory); the mesh is then empty and the reconstructor remains usable. On a GPU also DeviceError.
     void reconstruct(const ParticleFrame& frame, Mesh& mesh);
 
-    /// The same, but returns once the mesh is finished where it was made; on a GPU it comes down as the caller, or another thread, asks
-    /// for it, while this one goes on to the next frame. Two meshes may be on their way: a third frame, or one for which the device's memory
-    /// limit leaves no second mesh, first brings the earlier one down.
+    /// The same, but returns once the mesh is finished where it was made; on a GPU it comes down as the caller, or
+    /// another thread, asks for it, while this one goes on to the next frame. Two meshes may be on their way: a third
+    /// frame, or one for which the device's memory limit leaves no second mesh, first brings the earlier one down.
     [[nodiscard]] MeshDownload reconstruct_for_download(const ParticleFrame& frame, Mesh& mesh);
 
     /// The same, but the mesh stays on the GPU. Throws InvalidInput on the CPU backend.
     DeviceMesh reconstruct_on_device(const ParticleFrame& frame);
 
-    /// Emits the last frame's surface once more with no cell finer than max_level (1 to 3): coarser, with fewer triangles, and closed as
-    /// ever. Cheap, since nothing is sampled: only the steps from count_triangles on run. Leaves the statistics as they are.
-    /// Throws InvalidInput for another max_level, or if the last call did not end with a surface; else as reconstruct() does. The last
-    /// frame's own mesh may still be on its way, to another Mesh; then this first brings an earlier mesh that is still on its way down.
+    /// Emits the last frame's surface once more with no cell finer than max_level (1 to 3): coarser, with fewer
+    /// triangles, and closed as ever. Cheap, since nothing is sampled: only the steps from count_triangles on run.
+    /// Leaves the statistics as they are. Throws InvalidInput for another max_level, or if the last call did not end
+    /// with a surface; else as reconstruct() does. The last frame's own mesh may still be on its way, to another Mesh;
+    /// then this first brings an earlier mesh that is still on its way down.
     void emit_capped(int max_level, Mesh& mesh);
 
     /// Of the last frame.

@@ -41,15 +41,15 @@ struct Box {
 
 /// All lengths but the first are in multiples of the particle radius, as in splashsurf.
 struct Settings {
-    double particle_radius = 0.0;     ///< world units, finite, > 0; that of level 0 for adaptive SPH
-    double smoothing_length = 2.0;    ///< radii, > 0; the kernel's support is twice that
-    double cell_size = 0.5;           ///< radii, > 0: edge of a finest cell; at least support/256 of the coarsest particle level
-    double iso = 0.6;                 ///< field value at the surface, > 0
+    double particle_radius = 0.0;   ///< world units, finite, > 0; that of level 0 for adaptive SPH
+    double smoothing_length = 2.0;  ///< radii, > 0; the kernel's support is twice that
+    double cell_size = 0.5;  ///< radii, > 0: edge of a finest cell; at least support/256 of the coarsest particle level
+    double iso = 0.6;        ///< field value at the surface, > 0
     Field field = Field::color;
     Mode mode = Mode::adaptive;
     Criterion criterion = Criterion::curvature;
-    /// Criterion::curvature: how far the surface may depart from that of the finest cells, in finest cells, > 0: about the 99th
-    /// percentile of the distance between the two.
+    /// Criterion::curvature: how far the surface may depart from that of the finest cells, in finest cells, > 0: about
+    /// the 99th percentile of the distance between the two.
     double tolerance = 0.15;
     /// Criterion::count: a base cell is of level 3 if it holds 1 to this many particles; for adaptive SPH, if it
     /// holds at least this many particles of level 0. At least 1.
@@ -69,10 +69,14 @@ struct Settings {
 void validate(const Settings& settings);
 
 /// The finest cell's edge in world units.
-inline double world_cell_size(const Settings& s) { return s.cell_size * s.particle_radius; }
+inline double world_cell_size(const Settings& s) {
+    return s.cell_size * s.particle_radius;
+}
 
 /// Vertices lie on multiples of c / 2^offset_bits, 2 to 8: bisection ends in the middle of an interval of c / 2^steps.
-inline std::uint32_t offset_bits(const Settings& s) { return s.edge_points == EdgePoints::bisect ? s.bisection_steps + 1 : 6; }
+inline std::uint32_t offset_bits(const Settings& s) {
+    return s.edge_points == EdgePoints::bisect ? s.bisection_steps + 1 : 6;
+}
 
 enum class Backend : std::uint8_t { automatic, cpu, cuda };
 
@@ -81,8 +85,8 @@ Backend backend_by_name(const std::string& name);
 
 struct BackendOptions {
     Backend backend = Backend::automatic;
-    unsigned threads = 0;          ///< CPU worker threads; 0: one per processor
-    std::size_t memory_limit = 0;  ///< bytes one reconstructor may hold; 0: no limit of its own
+    unsigned threads = 0;                 ///< CPU worker threads; 0: one per processor
+    std::size_t memory_limit = 0;         ///< bytes one reconstructor may hold; 0: no limit of its own
     int device = 0;                       ///< which GPU, see devices.hpp
     std::size_t device_memory_limit = 0;  ///< bytes one reconstructor may hold on the GPU; 0: no limit of its own
 };

@@ -13,28 +13,36 @@ namespace meniscus {
 
 /// The paper's steps (Algorithms 1 to 3), in order.
 enum class Stage : std::uint8_t {
-    register_particles, split_cells, adjust_levels, sample_field, count_triangles, place_vertices, emit_triangles, fill_cracks,
+    register_particles,
+    split_cells,
+    adjust_levels,
+    sample_field,
+    count_triangles,
+    place_vertices,
+    emit_triangles,
+    fill_cracks,
 };
 inline constexpr std::size_t stage_count = 8;
 inline constexpr std::array<std::string_view, stage_count> stage_names{
-    "register_particles", "split_cells", "adjust_levels", "sample_field",
-    "count_triangles", "place_vertices", "emit_triangles", "fill_cracks"};
+    "register_particles", "split_cells",    "adjust_levels",  "sample_field",
+    "count_triangles",    "place_vertices", "emit_triangles", "fill_cracks"};
 
 struct Statistics {
     std::uint64_t particles = 0;
     std::uint64_t vertices = 0;
     std::uint64_t triangles = 0;
     std::array<std::uint64_t, triangle_level_count> triangles_by_level{};  ///< indexed by TriangleLevel
-    std::array<std::uint64_t, 3> base_cells_by_level{};                    ///< cells of the surface band, levels 1, 2, 3
-    std::uint64_t field_evaluations = 0;                                   ///< points at which the field was summed
-    std::array<double, stage_count> stage_seconds{};                       ///< indexed by Stage
-    double total_seconds = 0.0;                                            ///< of the call that reconstructed
-    double download_seconds = 0.0;                                         ///< the mesh's way from the GPU: part of total_seconds after reconstruct(), beside it after reconstruct_for_download()
-    std::uint64_t peak_bytes = 0;                                          ///< the reconstructor's arrays and the mesh
-    std::uint64_t allocations = 0;                                         ///< made for this frame; 0 once warm
-    std::uint64_t device_bytes = 0;                                        ///< held on the GPU; CUDA's own not counted
+    std::array<std::uint64_t, 3> base_cells_by_level{};  ///< cells of the surface band, levels 1, 2, 3
+    std::uint64_t field_evaluations = 0;                 ///< points at which the field was summed
+    std::array<double, stage_count> stage_seconds{};     ///< indexed by Stage
+    double total_seconds = 0.0;                          ///< of the call that reconstructed
+    double download_seconds = 0.0;   ///< the mesh's way from the GPU: part of total_seconds after reconstruct(), beside
+                                     ///< it after reconstruct_for_download()
+    std::uint64_t peak_bytes = 0;    ///< the reconstructor's arrays and the mesh
+    std::uint64_t allocations = 0;   ///< made for this frame; 0 once warm
+    std::uint64_t device_bytes = 0;  ///< held on the GPU; CUDA's own not counted
     std::uint64_t device_peak_bytes = 0;
-    std::string backend;                                                   ///< "cpu" or "cuda"
+    std::string backend;  ///< "cpu" or "cuda"
     unsigned threads = 0;
 };
 

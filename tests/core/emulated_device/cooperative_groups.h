@@ -7,5 +7,7 @@ namespace cooperative_groups {
 struct Grid {
     void sync() const { emulated_device::wait_for_grid(); }
 };
-inline Grid this_grid() { return {}; }
+inline Grid this_grid() {
+    return {};
+}
 }  // namespace cooperative_groups

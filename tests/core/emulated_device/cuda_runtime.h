@@ -1,7 +1,8 @@
-// A device in software, so that the CUDA backend's kernels run where there is no GPU: this stands in for CUDA's own header when they are
-// compiled as C++. Every thread of a block is a fiber; fibers change where threads wait for each other, in an order of chance; blocks run one
-// after the other, but for cooperative kernels, which get a single one. Work waits in its stream until the host waits for it, so that whoever does
-// not wait meets old bytes. It shows what a kernel computes; not races of memory, nor speed.
+// A device in software, so that the CUDA backend's kernels run where there is no GPU: this stands in for CUDA's own
+// header when they are compiled as C++. Every thread of a block is a fiber; fibers change where threads wait for each
+// other, in an order of chance; blocks run one after the other, but for cooperative kernels, which get a single one.
+// Work waits in its stream until the host waits for it, so that whoever does not wait meets old bytes. It shows what a
+// kernel computes; not races of memory, nor speed.
 #pragma once
 
 #include <cstddef>
@@ -58,9 +59,15 @@ inline emulated_device::Index& blockIdx = emulated_device::block_index;
 inline emulated_device::Index& blockDim = emulated_device::block_size;
 inline emulated_device::Index& gridDim = emulated_device::grid_size;
 
-inline int __popc(unsigned bits) { return __builtin_popcount(bits); }
-inline void __syncthreads() { emulated_device::wait_for_block(); }
-inline void __syncwarp(int place = __builtin_LINE()) { emulated_device::wait_for_warp(place); }
+inline int __popc(unsigned bits) {
+    return __builtin_popcount(bits);
+}
+inline void __syncthreads() {
+    emulated_device::wait_for_block();
+}
+inline void __syncwarp(int place = __builtin_LINE()) {
+    emulated_device::wait_for_warp(place);
+}
 inline unsigned __ballot_sync(unsigned, int predicate, int place = __builtin_LINE()) {
     const std::uint64_t* given = emulated_device::exchange(predicate != 0, place);
     unsigned result = 0;
@@ -141,7 +148,8 @@ const char* cudaGetErrorString(cudaError_t);
 cudaError_t cudaGetLastError();
 cudaError_t cudaGetDevice(int* device);
 cudaError_t cudaSetDevice(int device);
-cudaError_t cudaGetDriverEntryPointByVersion(const char* name, void** entry, unsigned version, unsigned long long, cudaDriverEntryPointQueryResult*);
+cudaError_t cudaGetDriverEntryPointByVersion(const char* name, void** entry, unsigned version, unsigned long long,
+                                             cudaDriverEntryPointQueryResult*);
 cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr, int device);
 cudaError_t cudaStreamCreateWithFlags(cudaStream_t*, unsigned);
 cudaError_t cudaStreamSynchronize(cudaStream_t);
@@ -173,9 +181,11 @@ cudaError_t cudaOccupancyMaxActiveBlocksPerMultiprocessor(int* blocks, Kernel, i
     return cudaSuccess;
 }
 template <class... Parameters, class... Arguments>
-cudaError_t cudaLaunchKernelEx(const cudaLaunchConfig_t* configuration, void (*kernel)(Parameters...), const Arguments&... arguments) {
+cudaError_t cudaLaunchKernelEx(const cudaLaunchConfig_t* configuration, void (*kernel)(Parameters...),
+                               const Arguments&... arguments) {
     const unsigned blocks = configuration->gridDim.x;
     const unsigned threads = configuration->blockDim.x;
-    emulated_device::submit(configuration->stream, [=] { emulated_device::run_kernel(blocks, threads, [=] { kernel(arguments...); }); });
+    emulated_device::submit(configuration->stream,
+                            [=] { emulated_device::run_kernel(blocks, threads, [=] { kernel(arguments...); }); });
     return cudaSuccess;
 }

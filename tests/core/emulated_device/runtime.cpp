@@ -51,18 +51,35 @@ void run_until(EmulatedStream& stream, std::size_t count) {
 std::function<cudaError_t()> emulated_device::before_copy_to_host;
 
 void emulated_device::submit(cudaStream_t stream, const std::function<void()>& work) {
-    if (stream->capturing != nullptr) stream->capturing->work.push_back(work);
-    else enqueue(*stream, work);
+    if (stream->capturing != nullptr)
+        stream->capturing->work.push_back(work);
+    else
+        enqueue(*stream, work);
 }
 
-const char* cudaGetErrorString(cudaError_t status) { return status == cudaErrorMemoryAllocation ? "out of memory" : "launch failure"; }
-cudaError_t cudaGetLastError() { return cudaSuccess; }
-cudaError_t cudaGetDevice(int* device) { return *device = 0, cudaSuccess; }
-cudaError_t cudaSetDevice(int) { return cudaSuccess; }
-cudaError_t cudaGetDriverEntryPointByVersion(const char*, void**, unsigned, unsigned long long, cudaDriverEntryPointQueryResult*) { return cudaSuccess; }
-cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr, int) { return *value = 1, cudaSuccess; }
+const char* cudaGetErrorString(cudaError_t status) {
+    return status == cudaErrorMemoryAllocation ? "out of memory" : "launch failure";
+}
+cudaError_t cudaGetLastError() {
+    return cudaSuccess;
+}
+cudaError_t cudaGetDevice(int* device) {
+    return *device = 0, cudaSuccess;
+}
+cudaError_t cudaSetDevice(int) {
+    return cudaSuccess;
+}
+cudaError_t cudaGetDriverEntryPointByVersion(const char*, void**, unsigned, unsigned long long,
+                                             cudaDriverEntryPointQueryResult*) {
+    return cudaSuccess;
+}
+cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr, int) {
+    return *value = 1, cudaSuccess;
+}
 
-cudaError_t cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned) { return *stream = new EmulatedStream, cudaSuccess; }
+cudaError_t cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned) {
+    return *stream = new EmulatedStream, cudaSuccess;
+}
 cudaError_t cudaStreamSynchronize(cudaStream_t stream) {
     const std::lock_guard lock(device);
     run_until(*stream, stream->submitted);
@@ -73,7 +90,9 @@ cudaError_t cudaStreamDestroy(cudaStream_t stream) {
     delete stream;
     return cudaSuccess;
 }
-cudaError_t cudaStreamBeginCapture(cudaStream_t stream, cudaStreamCaptureMode) { return stream->capturing = new EmulatedGraph, cudaSuccess; }
+cudaError_t cudaStreamBeginCapture(cudaStream_t stream, cudaStreamCaptureMode) {
+    return stream->capturing = new EmulatedGraph, cudaSuccess;
+}
 cudaError_t cudaStreamEndCapture(cudaStream_t stream, cudaGraph_t* graph) {
     *graph = stream->capturing;
     stream->capturing = nullptr;
@@ -87,10 +106,16 @@ cudaError_t cudaGraphLaunch(cudaGraphExec_t graph, cudaStream_t stream) {
     for (const auto& work : graph->work) enqueue(*stream, work);
     return cudaSuccess;
 }
-cudaError_t cudaGraphDestroy(cudaGraph_t graph) { return release(graph); }
-cudaError_t cudaGraphExecDestroy(cudaGraphExec_t graph) { return release(graph); }
+cudaError_t cudaGraphDestroy(cudaGraph_t graph) {
+    return release(graph);
+}
+cudaError_t cudaGraphExecDestroy(cudaGraphExec_t graph) {
+    return release(graph);
+}
 
-cudaError_t cudaEventCreate(cudaEvent_t* event) { return *event = new EmulatedEvent, cudaSuccess; }
+cudaError_t cudaEventCreate(cudaEvent_t* event) {
+    return *event = new EmulatedEvent, cudaSuccess;
+}
 cudaError_t cudaEventDestroy(cudaEvent_t event) {
     delete event;
     return cudaSuccess;
@@ -100,17 +125,27 @@ cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t stream) {
     *event = {stream, stream->submitted};
     return cudaSuccess;
 }
-cudaError_t cudaEventRecordWithFlags(cudaEvent_t, cudaStream_t, unsigned) { return cudaSuccess; }
+cudaError_t cudaEventRecordWithFlags(cudaEvent_t, cudaStream_t, unsigned) {
+    return cudaSuccess;
+}
 cudaError_t cudaEventSynchronize(cudaEvent_t event) {
     const std::lock_guard lock(device);
     if (event->stream != nullptr) run_until(*event->stream, event->after);
     return cudaSuccess;
 }
-cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t, cudaEvent_t) { return *milliseconds = 0.0F, cudaSuccess; }
+cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t, cudaEvent_t) {
+    return *milliseconds = 0.0F, cudaSuccess;
+}
 
-cudaError_t cudaMemPoolCreate(cudaMemPool_t*, const cudaMemPoolProps*) { return cudaSuccess; }
-cudaError_t cudaMemPoolDestroy(cudaMemPool_t) { return cudaSuccess; }
-cudaError_t cudaMallocFromPoolAsync(void** memory, std::size_t bytes, cudaMemPool_t, cudaStream_t) { return cudaMallocHost(memory, bytes); }
+cudaError_t cudaMemPoolCreate(cudaMemPool_t*, const cudaMemPoolProps*) {
+    return cudaSuccess;
+}
+cudaError_t cudaMemPoolDestroy(cudaMemPool_t) {
+    return cudaSuccess;
+}
+cudaError_t cudaMallocFromPoolAsync(void** memory, std::size_t bytes, cudaMemPool_t, cudaStream_t) {
+    return cudaMallocHost(memory, bytes);
+}
 cudaError_t cudaFreeAsync(void* memory, cudaStream_t stream) {
     emulated_device::submit(stream, [=] {
         std::memset(memory, 0xDD, malloc_usable_size(memory));  // for whoever still reads it
@@ -122,7 +157,9 @@ cudaError_t cudaMallocHost(void** memory, std::size_t bytes) {
     *memory = std::aligned_alloc(256, (bytes + 255) / 256 * 256);
     return *memory != nullptr ? cudaSuccess : cudaErrorMemoryAllocation;
 }
-cudaError_t cudaFreeHost(void* memory) { return std::free(memory), cudaSuccess; }
+cudaError_t cudaFreeHost(void* memory) {
+    return std::free(memory), cudaSuccess;
+}
 cudaError_t cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStream_t stream) {
     emulated_device::submit(stream, [=] { std::memset(memory, value, bytes); });
     return cudaSuccess;

@@ -30,11 +30,23 @@ Key* sorted(Key* keys, Key* room, std::size_t n, cudaStream_t stream) {
 
 }  // namespace
 
-std::size_t scratch_bytes(std::size_t, std::size_t, std::size_t) { return 256; }
-void exclusive_sum(const Scratch&, std::uint32_t* values, std::size_t n, cudaStream_t stream) { sum(values, n, stream); }
-void exclusive_sum(const Scratch&, std::uint64_t* values, std::size_t n, cudaStream_t stream) { sum(values, n, stream); }
-void exclusive_sum(const Scratch&, LevelCounts* values, std::size_t n, cudaStream_t stream) { sum(values, n, stream); }
-SortKey* sort(const Scratch&, SortKey* keys, SortKey* room, std::size_t n, cudaStream_t stream) { return sorted(keys, room, n, stream); }
-std::uint64_t* sort(const Scratch&, std::uint64_t* keys, std::uint64_t* room, std::size_t n, cudaStream_t stream) { return sorted(keys, room, n, stream); }
+std::size_t scratch_bytes(std::size_t, std::size_t, std::size_t) {
+    return 256;
+}
+void exclusive_sum(const Scratch&, std::uint32_t* values, std::size_t n, cudaStream_t stream) {
+    sum(values, n, stream);
+}
+void exclusive_sum(const Scratch&, std::uint64_t* values, std::size_t n, cudaStream_t stream) {
+    sum(values, n, stream);
+}
+void exclusive_sum(const Scratch&, LevelCounts* values, std::size_t n, cudaStream_t stream) {
+    sum(values, n, stream);
+}
+SortKey* sort(const Scratch&, SortKey* keys, SortKey* room, std::size_t n, cudaStream_t stream) {
+    return sorted(keys, room, n, stream);
+}
+std::uint64_t* sort(const Scratch&, std::uint64_t* keys, std::uint64_t* room, std::size_t n, cudaStream_t stream) {
+    return sorted(keys, room, n, stream);
+}
 
 }  // namespace meniscus::cuda

@@ -60,7 +60,9 @@ Fiber* running = nullptr;
 void* scheduler = nullptr;
 const std::function<void()>* kernel_body = nullptr;
 
-void yield() { switch_stack(&running->at, scheduler); }
+void yield() {
+    switch_stack(&running->at, scheduler);
+}
 
 void wait_until_changed(const unsigned& counter, unsigned seen) {
     running->waits_for = &counter;
@@ -79,7 +81,9 @@ void prepare(Fiber& fiber) {
     fiber.done = false;
     fiber.waits_for = nullptr;
     // Six registers and the address to return to; the stack is aligned as after a call.
-    auto** top = reinterpret_cast<void**>(reinterpret_cast<std::uintptr_t>(fiber.stack.get() + stack_bytes) & ~std::uintptr_t{15}) - 8;
+    auto** top = reinterpret_cast<void**>(reinterpret_cast<std::uintptr_t>(fiber.stack.get() + stack_bytes) &
+                                          ~std::uintptr_t{15}) -
+                 8;
     std::fill(top, top + 6, nullptr);
     top[6] = reinterpret_cast<void*>(&run_thread);
     top[7] = nullptr;
@@ -126,7 +130,9 @@ const std::uint64_t* exchange(std::uint64_t value, int place) {
     return warp.given[generation % 2];
 }
 
-void wait_for_warp(int place) { exchange(0, place); }
+void wait_for_warp(int place) {
+    exchange(0, place);
+}
 
 void wait_for_block() {
     const unsigned generation = block.passed;

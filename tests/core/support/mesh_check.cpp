@@ -38,8 +38,9 @@ struct HalfEdge {
 std::string MeshReport::text() const {
     std::ostringstream out;
     out << "repeated " << repeated_vertices << ", unused " << unused_vertices << ", degenerate " << degenerate_triangles
-        << ", unbalanced edges " << unbalanced_edges << ", non-manifold edges " << nonmanifold_edges << ", non-manifold vertices "
-        << nonmanifold_vertices << ", volume " << volume << ", area " << area << ", components " << components;
+        << ", unbalanced edges " << unbalanced_edges << ", non-manifold edges " << nonmanifold_edges
+        << ", non-manifold vertices " << nonmanifold_vertices << ", volume " << volume << ", area " << area
+        << ", components " << components;
     return out.str();
 }
 
@@ -47,14 +48,16 @@ MeshReport check(const Mesh& mesh) {
     MeshReport report;
     std::vector<LatticePosition> sorted(mesh.vertices.begin(), mesh.vertices.end());
     std::sort(sorted.begin(), sorted.end());
-    report.repeated_vertices = sorted.size() - static_cast<std::size_t>(std::unique(sorted.begin(), sorted.end()) - sorted.begin());
+    report.repeated_vertices =
+        sorted.size() - static_cast<std::size_t>(std::unique(sorted.begin(), sorted.end()) - sorted.begin());
 
     std::vector<HalfEdge> half_edges;
     std::vector<char> used(mesh.vertices.size(), 0);
     Groups parts(mesh.vertices.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const Triangle& triangle = mesh.triangles[t];
-        if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[0] == triangle[2]) ++report.degenerate_triangles;
+        if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[0] == triangle[2])
+            ++report.degenerate_triangles;
         for (std::uint8_t i = 0; i < 3; ++i) {
             const std::uint64_t a = triangle[i];
             const std::uint64_t b = triangle[(i + 1U) % 3];
@@ -68,7 +71,8 @@ MeshReport check(const Mesh& mesh) {
         for (auto& q : p)
             for (std::size_t k = 0; k < 3; ++k) q[k] -= origin[k];
         const auto cross = [](const auto& u, const auto& v) {
-            return std::array<double, 3>{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+            return std::array<double, 3>{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                                         u[0] * v[1] - u[1] * v[0]};
         };
         const auto c = cross(p[0], p[1]);
         report.volume += (c[0] * p[2][0] + c[1] * p[2][1] + c[2] * p[2][2]) / 6.0;
@@ -83,7 +87,8 @@ MeshReport check(const Mesh& mesh) {
         if (used[v] != 0) roots.insert(parts.find(v));
     report.components = roots.size();
 
-    std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& a, const HalfEdge& b) { return a.edge < b.edge; });
+    std::sort(half_edges.begin(), half_edges.end(),
+              [](const HalfEdge& a, const HalfEdge& b) { return a.edge < b.edge; });
     // Corners of triangles that share an edge belong to the same fan at both of its ends.
     Groups corners(3 * mesh.triangles.size());
     const auto corner_of = [&](const HalfEdge& h, bool lower_vertex) {
@@ -108,8 +113,10 @@ MeshReport check(const Mesh& mesh) {
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t v = mesh.triangles[t][i];
             const std::size_t group = corners.find(3 * t + i);
-            if (fan[v] == SIZE_MAX) fan[v] = group;
-            else if (fan[v] != group) torn.insert(v);
+            if (fan[v] == SIZE_MAX)
+                fan[v] = group;
+            else if (fan[v] != group)
+                torn.insert(v);
         }
     report.nonmanifold_vertices = torn.size();
     return report;

@@ -22,8 +22,15 @@ CONFIGURATION = SOURCE / "deploy/container/meniscus.conf"
 
 
 def run(*command, **variables):
-    done = subprocess.run([str(word) for word in command], env={**os.environ, **variables}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          encoding="utf-8", timeout=60, check=False)
+    done = subprocess.run(
+        [str(word) for word in command],
+        env={**os.environ, **variables},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        timeout=60,
+        check=False,
+    )
     return done.returncode, done.stdout
 
 
@@ -57,12 +64,37 @@ class HealthCheck(unittest.TestCase):
 
     def test_speaks_tls_by_the_servers_own_environment(self):
         certificate, key = self.folder / "server.pem", self.folder / "server.key"
-        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "1", "-subj",
-                        "/CN=water.test", "-addext", "subjectAltName=DNS:water.test", "-keyout", key, "-out", certificate],
-                       stderr=subprocess.DEVNULL, check=True)
+        subprocess.run(
+            [
+                "openssl",
+                "req",
+                "-x509",
+                "-newkey",
+                "ec",
+                "-pkeyopt",
+                "ec_paramgen_curve:P-256",
+                "-nodes",
+                "-days",
+                "1",
+                "-subj",
+                "/CN=water.test",
+                "-addext",
+                "subjectAltName=DNS:water.test",
+                "-keyout",
+                key,
+                "-out",
+                certificate,
+            ],
+            stderr=subprocess.DEVNULL,
+            check=True,
+        )
         key.chmod(0o600)
-        variables = {"MENISCUS_TLS_CERT": str(certificate), "MENISCUS_TLS_KEY": str(key), "MENISCUS_SERVER_CA": str(certificate),
-                     "MENISCUS_SERVER_NAME": "water.test"}
+        variables = {
+            "MENISCUS_TLS_CERT": str(certificate),
+            "MENISCUS_TLS_KEY": str(key),
+            "MENISCUS_SERVER_CA": str(certificate),
+            "MENISCUS_SERVER_NAME": "water.test",
+        }
         server = self.serve(**variables)
         self.assertEqual(self.check(server.address, **variables)[0], 0)
         self.assertNotEqual(self.check(server.address, **{**variables, "MENISCUS_SERVER_NAME": "oil.test"})[0], 0)
@@ -74,8 +106,25 @@ class HealthCheck(unittest.TestCase):
         noise = array.array("f", (source.uniform(0.0, 20.0) for _ in range(3 * 8000)))  # whose surface takes long
         with open(self.folder / "noise.bin", "wb") as file:
             noise.tofile(file)
-        client = Running([MENISCUS, "reconstruct", self.folder / "noise.bin", "-o", self.folder / "noise.bricks", "--particle-radius", "0.5",
-                          "--cell-size", "0.25", "--mode", "uniform", "--reconnect", "0", "--server", server.address])
+        client = Running(
+            [
+                MENISCUS,
+                "reconstruct",
+                self.folder / "noise.bin",
+                "-o",
+                self.folder / "noise.bricks",
+                "--particle-radius",
+                "0.5",
+                "--cell-size",
+                "0.25",
+                "--mode",
+                "uniform",
+                "--reconnect",
+                "0",
+                "--server",
+                server.address,
+            ]
+        )
         self.addCleanup(client.stop)
         self.wait_for_upload(server)
         server.process.terminate()
@@ -119,7 +168,9 @@ class Image(unittest.TestCase):
 
     def test_both_targets_end_alike(self):
         for target in ("cpu", "cuda"):
-            self.assertRegex(DOCKERFILE, rf"(?m)^FROM settings AS {target}\n(?:ENV .*\n)?COPY --from=build-{target} /image/ /$")
+            self.assertRegex(
+                DOCKERFILE, rf"(?m)^FROM settings AS {target}\n(?:ENV .*\n)?COPY --from=build-{target} /image/ /$"
+            )
 
 
 class BillOfMaterials(unittest.TestCase):
@@ -129,17 +180,25 @@ class BillOfMaterials(unittest.TestCase):
             (licenses / "libc6").mkdir()
             (licenses / "libc6/copyright").touch()
             (licenses / "npm/@some/thing").mkdir(parents=True)
-            (licenses / "npm/@some/thing/package.json").write_text('{"name": "@some/thing", "version": "1.2.3", "license": "MIT"}')
+            (licenses / "npm/@some/thing/package.json").write_text(
+                '{"name": "@some/thing", "version": "1.2.3", "license": "MIT"}'
+            )
             code, output = run(SOURCE / "deploy/sbom", licenses, "9.8.7")
         self.assertEqual(code, 0, output)
         bill = json.loads(output)
-        self.assertEqual((bill["spdxVersion"], bill["dataLicense"], bill["SPDXID"]), ("SPDX-2.3", "CC0-1.0", "SPDXRef-DOCUMENT"))
+        self.assertEqual(
+            (bill["spdxVersion"], bill["dataLicense"], bill["SPDXID"]), ("SPDX-2.3", "CC0-1.0", "SPDXRef-DOCUMENT")
+        )
         self.assertRegex(bill["creationInfo"]["created"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
         self.assertTrue(bill["documentNamespace"] and bill["creationInfo"]["creators"])
         packages = {package["name"]: package for package in bill["packages"]}
         self.assertEqual(set(packages), {"meniscus", "libc6", "@some/thing"})
-        self.assertEqual((packages["meniscus"]["versionInfo"], packages["@some/thing"]["versionInfo"]), ("9.8.7", "1.2.3"))
-        installed = subprocess.run(["dpkg-query", "-W", "-f=${Version}\n", "libc6"], stdout=subprocess.PIPE, encoding="utf-8", check=True).stdout
+        self.assertEqual(
+            (packages["meniscus"]["versionInfo"], packages["@some/thing"]["versionInfo"]), ("9.8.7", "1.2.3")
+        )
+        installed = subprocess.run(
+            ["dpkg-query", "-W", "-f=${Version}\n", "libc6"], stdout=subprocess.PIPE, encoding="utf-8", check=True
+        ).stdout
         self.assertEqual(packages["libc6"]["versionInfo"], installed.splitlines()[0])
         self.assertEqual(packages["@some/thing"]["externalRefs"][0]["referenceLocator"], "pkg:npm/%40some/thing@1.2.3")
         for package in bill["packages"]:
@@ -147,8 +206,11 @@ class BillOfMaterials(unittest.TestCase):
             self.assertEqual((package["downloadLocation"], package["filesAnalyzed"]), ("NOASSERTION", False))
         related = {(r["spdxElementId"], r["relationshipType"], r["relatedSpdxElement"]) for r in bill["relationships"]}
         program = packages["meniscus"]["SPDXID"]
-        self.assertEqual(related, {("SPDXRef-DOCUMENT", "DESCRIBES", program)} |
-                         {(program, "CONTAINS", packages[name]["SPDXID"]) for name in ("libc6", "@some/thing")})
+        self.assertEqual(
+            related,
+            {("SPDXRef-DOCUMENT", "DESCRIBES", program)}
+            | {(program, "CONTAINS", packages[name]["SPDXID"]) for name in ("libc6", "@some/thing")},
+        )
 
 
 if __name__ == "__main__":

@@ -43,7 +43,13 @@ def dashboard_queries():
 
 class Files(unittest.TestCase):
     def promtool(self, *arguments):
-        done = subprocess.run(["promtool", *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", check=False)
+        done = subprocess.run(
+            ["promtool", *map(str, arguments)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            encoding="utf-8",
+            check=False,
+        )
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_configuration_and_rules_are_valid(self):
@@ -70,7 +76,13 @@ class Files(unittest.TestCase):
     def test_panels_have_numbers_of_their_own_and_do_not_overlap(self):
         panels = dashboard()["panels"]
         self.assertEqual(len({panel["id"] for panel in panels}), len(panels))
-        cells = [(x, y) for panel in panels for g in [panel["gridPos"]] for x in range(g["x"], g["x"] + g["w"]) for y in range(g["y"], g["y"] + g["h"])]
+        cells = [
+            (x, y)
+            for panel in panels
+            for g in [panel["gridPos"]]
+            for x in range(g["x"], g["x"] + g["w"])
+            for y in range(g["y"], g["y"] + g["h"])
+        ]
         self.assertEqual(len(set(cells)), len(cells))
         self.assertLess(max(x for x, _ in cells), 24)
 
@@ -85,8 +97,25 @@ class WithAServer(unittest.TestCase):
         server = Server(MENISCUSD, "--record", folder.name + "/recordings")
         cls.addClassCleanup(server.stop)
         session = "5d1f0a52-8c1e-4b7e-9a44-2f60c2f6a3d1"
-        subprocess.run([MENISCUS, "watch", session, "--server", server.address, "-o", folder.name], stderr=subprocess.DEVNULL, check=False)
-        simulator = Running([MENISCUS, "simulate", "--particles", "300", "--frames", "1000000", "--server", server.address, "--session", session])
+        subprocess.run(
+            [MENISCUS, "watch", session, "--server", server.address, "-o", folder.name],
+            stderr=subprocess.DEVNULL,
+            check=False,
+        )
+        simulator = Running(
+            [
+                MENISCUS,
+                "simulate",
+                "--particles",
+                "300",
+                "--frames",
+                "1000000",
+                "--server",
+                server.address,
+                "--session",
+                session,
+            ]
+        )
         cls.addClassCleanup(simulator.stop)
         simulator.wait_for("^frame 1:")
         watcher = Running([MENISCUS, "watch", session, "--server", server.address, "-o", folder.name + "/watched"])
@@ -100,8 +129,15 @@ class WithAServer(unittest.TestCase):
         text = text.replace("server:9464", server.http).replace("_interval: 5s", "_interval: 100ms")
         text = text.replace("alerts.yaml", str(CONFIGURATION.with_name("alerts.yaml")))
         Path(folder.name, "prometheus.yml").write_text(text)
-        prometheus = Running(["prometheus", f"--config.file={folder.name}/prometheus.yml", f"--storage.tsdb.path={folder.name}/data",
-                              f"--web.listen-address=127.0.0.1:{port}", "--log.level=error"])
+        prometheus = Running(
+            [
+                "prometheus",
+                f"--config.file={folder.name}/prometheus.yml",
+                f"--storage.tsdb.path={folder.name}/data",
+                f"--web.listen-address=127.0.0.1:{port}",
+                "--log.level=error",
+            ]
+        )
         cls.addClassCleanup(prometheus.stop)
         guard = time.monotonic() + 60
         while not cls.has_scraped() and time.monotonic() < guard:

@@ -11,8 +11,14 @@ class Running:
     def __init__(self, command, **options):
         self.lines = []
         self._changed = threading.Condition()
-        self.process = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, encoding="utf-8",
-                                        errors="replace", **options)
+        self.process = subprocess.Popen(
+            [str(word) for word in command],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
+            errors="replace",
+            **options,
+        )
         self._reader = threading.Thread(target=self._read)
         self._reader.start()
 
@@ -27,8 +33,10 @@ class Running:
 
     def wait_for(self, pattern):
         """The match of the first line that has one."""
+
         def found():
             return next((m for m in (re.search(pattern, line) for line in self.lines) if m), None)
+
         with self._changed:
             self._changed.wait_for(lambda: found() or "" in self.lines, timeout=60)
             match = found()
@@ -47,6 +55,20 @@ class Server(Running):
     """meniscusd on ports that the kernel chooses."""
 
     def __init__(self, meniscusd, *arguments, **options):
-        super().__init__([meniscusd, "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--backend", "cpu", "--threads", "1", *arguments], **options)
+        super().__init__(
+            [
+                meniscusd,
+                "--listen",
+                "127.0.0.1:0",
+                "--http",
+                "127.0.0.1:0",
+                "--backend",
+                "cpu",
+                "--threads",
+                "1",
+                *arguments,
+            ],
+            **options,
+        )
         self.address = self.wait_for(r"listening on (127\.0\.0\.1:\d+)")[1]
         self.http = self.wait_for(r"https?://(127\.0\.0\.1:\d+)")[1]

@@ -22,7 +22,10 @@ class Mounted {
     for (const { mountPath, name } of pod.containers[0].volumeMounts) {
       const path = join(this.folder, mountPath);
       mkdirSync(path, { recursive: true });
-      this.fill(path, pod.volumes.find((volume) => volume.name === name));
+      this.fill(
+        path,
+        pod.volumes.find((volume) => volume.name === name),
+      );
       text = text.replaceAll(` ${mountPath}`, ` ${path}`);
     }
     this.text = text;
@@ -30,7 +33,10 @@ class Mounted {
 
   /** Files of a Secret lie behind a link, so that all of them change at once. */
   fill(path, { secret }) {
-    const files = { 'meniscus-tls': this.certificate, 'meniscus-tokens': () => ({ tokens: `admin operator ${token}\n` }) }[secret?.secretName];
+    const files = {
+      'meniscus-tls': this.certificate,
+      'meniscus-tokens': () => ({ tokens: `admin operator ${token}\n` }),
+    }[secret?.secretName];
     if (!files) return;
     mkdirSync(join(path, '..first'));
     symlinkSync('..first', join(path, '..data'));
@@ -41,7 +47,23 @@ class Mounted {
   }
 
   certificate() {
-    const made = spawnSync('openssl', ['req', '-x509', '-newkey', 'ec', '-pkeyopt', 'ec_paramgen_curve:prime256v1', '-nodes', '-subj', '/CN=localhost', '-keyout', '-'], { encoding: 'utf8' });
+    const made = spawnSync(
+      'openssl',
+      [
+        'req',
+        '-x509',
+        '-newkey',
+        'ec',
+        '-pkeyopt',
+        'ec_paramgen_curve:prime256v1',
+        '-nodes',
+        '-subj',
+        '/CN=localhost',
+        '-keyout',
+        '-',
+      ],
+      { encoding: 'utf8' },
+    );
     const [key, certificate] = made.stdout.split(/(?=-----BEGIN CERTIFICATE)/);
     return { 'tls.crt': certificate, 'tls.key': key };
   }
@@ -61,9 +83,14 @@ class Mounted {
 /** The server, listening on loopback, and where it has its probes. */
 async function start(mounted) {
   const ports = { MENISCUS_LISTEN: '127.0.0.1:0', MENISCUS_HTTP: '127.0.0.1:0', MENISCUS_PROBES: '127.0.0.1:0' };
-  const server = spawn(MENISCUSD, [], { env: { ...mounted.write().env, ...ports }, stdio: ['ignore', 'ignore', 'pipe'] });
+  const server = spawn(MENISCUSD, [], {
+    env: { ...mounted.write().env, ...ports },
+    stdio: ['ignore', 'ignore', 'pipe'],
+  });
   for await (const line of createInterface({ input: server.stderr })) {
-    const [probes] = /http:\/\/127[\d.:]+(?=")/.exec(line.includes('metrics and probes at') && !line.includes('viewer') ? line : '') ?? [];
+    const [probes] =
+      /http:\/\/127[\d.:]+(?=")/.exec(line.includes('metrics and probes at') && !line.includes('viewer') ? line : '') ??
+      [];
     if (probes) return { server, probes };
   }
   throw new Error('the server has ended');
@@ -86,7 +113,11 @@ for (const overlay of overlays) {
         [/^max-sessions = .*$/m, 'max-sessions = many', /:\d+: max-sessions: .*many/],
         [/^memory-limit = .*$/m, 'memory-limit = 8 gigabytes', /:\d+: memory-limit: .*gigabytes/],
         [/^backend = /m, 'backnd = ', /:\d+: backnd: there is no setting of this name; --backend is near it/],
-        [/^(insecure|tls-cert|tls-key) = .*$/gm, '', /--listen 0.0.0.0:50051 can be reached from other machines, without TLS/],
+        [
+          /^(insecure|tls-cert|tls-key) = .*$/gm,
+          '',
+          /--listen 0.0.0.0:50051 can be reached from other machines, without TLS/,
+        ],
       ];
       for (const [right, wrong, words] of cases) {
         const changed = mounted.text.replace(right, wrong);
@@ -111,10 +142,13 @@ for (const overlay of overlays) {
       const { server, probes } = await start(mounted);
       t.after(() => server.kill('SIGKILL'));
       const [{ startupProbe, livenessProbe, readinessProbe }] = one(all, 'StatefulSet').spec.template.spec.containers;
-      for (const { httpGet } of [startupProbe, livenessProbe, readinessProbe]) assert.equal((await fetch(probes + httpGet.path)).status, 200, httpGet.path);
+      for (const { httpGet } of [startupProbe, livenessProbe, readinessProbe])
+        assert.equal((await fetch(probes + httpGet.path)).status, 200, httpGet.path);
       const metrics = await (await fetch(`${probes}/metrics`)).text();
       // As a metrics adapter names them: of seconds, their rate.
-      const names = of(all, 'HorizontalPodAutoscaler').flatMap(({ spec }) => spec.metrics.map(({ pods }) => pods.metric.name));
+      const names = of(all, 'HorizontalPodAutoscaler').flatMap(({ spec }) =>
+        spec.metrics.map(({ pods }) => pods.metric.name),
+      );
       for (const name of names) assert.match(metrics, new RegExp(`^${name}(_seconds_total)? `, 'm'));
       server.kill('SIGTERM');
       assert.deepEqual(await once(server, 'exit'), [0, null]);

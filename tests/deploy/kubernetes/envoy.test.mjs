@@ -12,7 +12,8 @@ const bootstraps = [shipped, withTls];
 
 test('it consists of what Envoy has', () => {
   for (const bootstrap of bootstraps) assert.deepEqual(envoyProblems(bootstrap), []);
-  for (const { '@type': _, ...secret } of parse(one(all, 'ConfigMap', 'meniscus-proxy-tls').data['certificate.yaml']).resources)
+  for (const { '@type': _, ...secret } of parse(one(all, 'ConfigMap', 'meniscus-proxy-tls').data['certificate.yaml'])
+    .resources)
     assert.deepEqual(envoyProblems(secret, 'envoy.extensions.transport_sockets.tls.v3.Secret'), []);
 });
 
@@ -25,13 +26,48 @@ test('its listeners and clusters have names of their own, and it names no other 
 
 test('what Envoy does not understand is told', () => {
   const cases = [
-    [(cluster) => { cluster.lb_polcy = 'RING_HASH'; }, /clusters\[0\].lb_polcy: Cluster has no such field/],
-    [(cluster) => { cluster.lb_policy = 'RINGHASH'; }, /clusters\[0\].lb_policy is RINGHASH, none of .*RING_HASH/],
-    [(cluster) => { cluster.connect_timeout = 1; }, /connect_timeout is 1, no duration/],
-    [(cluster) => { cluster.load_assignment.endpoints = {}; }, /endpoints is no list/],
-    [(cluster) => { delete cluster.name; }, /clusters\[0\] needs name/],
-    [(_, listener) => { listener.filter_chains[0].filters[0].typed_config.stat_prefix = 1; }, /stat_prefix is 1, no string/],
-    [(_, listener) => { delete listener.filter_chains[0].filters[0].typed_config.route_config; }, /needs one of .*route_config/],
+    [
+      (cluster) => {
+        cluster.lb_polcy = 'RING_HASH';
+      },
+      /clusters\[0\].lb_polcy: Cluster has no such field/,
+    ],
+    [
+      (cluster) => {
+        cluster.lb_policy = 'RINGHASH';
+      },
+      /clusters\[0\].lb_policy is RINGHASH, none of .*RING_HASH/,
+    ],
+    [
+      (cluster) => {
+        cluster.connect_timeout = 1;
+      },
+      /connect_timeout is 1, no duration/,
+    ],
+    [
+      (cluster) => {
+        cluster.load_assignment.endpoints = {};
+      },
+      /endpoints is no list/,
+    ],
+    [
+      (cluster) => {
+        delete cluster.name;
+      },
+      /clusters\[0\] needs name/,
+    ],
+    [
+      (_, listener) => {
+        listener.filter_chains[0].filters[0].typed_config.stat_prefix = 1;
+      },
+      /stat_prefix is 1, no string/,
+    ],
+    [
+      (_, listener) => {
+        delete listener.filter_chains[0].filters[0].typed_config.route_config;
+      },
+      /needs one of .*route_config/,
+    ],
   ];
   for (const [spoil, words] of cases) {
     const spoiled = structuredClone(shipped);

@@ -26,7 +26,9 @@ export const of = (all, kind) => all.filter((object) => object.kind === kind);
 
 /** The one of that kind and name; a generated name may have a hash behind it. */
 export function one(all, kind, name = 'meniscus') {
-  const found = of(all, kind).filter(({ metadata }) => metadata.name === name || new RegExp(`^${name}-[a-z0-9]{10}$`).test(metadata.name));
+  const found = of(all, kind).filter(
+    ({ metadata }) => metadata.name === name || new RegExp(`^${name}-[a-z0-9]{10}$`).test(metadata.name),
+  );
   if (found.length !== 1) throw new Error(`there are ${found.length} objects ${kind} ${name}`);
   return found[0];
 }
@@ -35,7 +37,9 @@ export function one(all, kind, name = 'meniscus') {
 export const workloads = (all) => all.filter(({ spec }) => spec?.template?.spec?.containers);
 
 export const podsOf = (all, labels) =>
-  workloads(all).filter(({ spec }) => Object.entries(labels).every(([key, value]) => spec.template.metadata.labels[key] === value));
+  workloads(all).filter(({ spec }) =>
+    Object.entries(labels).every(([key, value]) => spec.template.metadata.labels[key] === value),
+  );
 
 /** Of a named or numbered port of the pods, its number; undefined if they have none of that name. */
 export function portNumber(workload, port) {

@@ -4,7 +4,9 @@ import { describe, test } from 'node:test';
 import { named, of, one, overlays, podsOf, portNumber, render, settings, workloads } from './manifests.mjs';
 
 const pod = (workload) => workload.spec.template.spec;
-const bytes = (quantity) => Number.parseFloat(quantity) * { '': 1, Ki: 2 ** 10, Mi: 2 ** 20, Gi: 2 ** 30, M: 2 ** 20, G: 2 ** 30 }[quantity.replace(/^[\d.]+/, '')];
+const bytes = (quantity) =>
+  Number.parseFloat(quantity) *
+  { '': 1, Ki: 2 ** 10, Mi: 2 ** 20, Gi: 2 ** 30, M: 2 ** 20, G: 2 ** 30 }[quantity.replace(/^[\d.]+/, '')];
 const host = 'kubernetes.io/hostname';
 
 for (const overlay of overlays) {
@@ -13,17 +15,25 @@ for (const overlay of overlays) {
     const server = one(all, 'StatefulSet');
     const [container] = pod(server).containers;
     const config = settings(one(all, 'ConfigMap').data['meniscus.conf']);
-    const mounts = Object.fromEntries(container.volumeMounts.map(({ mountPath, name }) => [mountPath, pod(server).volumes.find((volume) => volume.name === name)]));
-    const mountOf = (path) => Object.entries(mounts).find(([mountPath]) => path === mountPath || path.startsWith(`${mountPath}/`))?.[1];
+    const mounts = Object.fromEntries(
+      container.volumeMounts.map(({ mountPath, name }) => [
+        mountPath,
+        pod(server).volumes.find((volume) => volume.name === name),
+      ]),
+    );
+    const mountOf = (path) =>
+      Object.entries(mounts).find(([mountPath]) => path === mountPath || path.startsWith(`${mountPath}/`))?.[1];
 
     test('is in a namespace of its own, which holds pods to the restricted profile', () => {
-      for (const object of all.filter(({ kind }) => kind !== 'Namespace')) assert.equal(object.metadata.namespace, 'meniscus', named(object));
+      for (const object of all.filter(({ kind }) => kind !== 'Namespace'))
+        assert.equal(object.metadata.namespace, 'meniscus', named(object));
       assert.equal(one(all, 'Namespace').metadata.labels['pod-security.kubernetes.io/enforce'], 'restricted');
     });
 
     test('gives its pods no rights', () => {
       for (const workload of workloads(all)) {
-        const { securityContext, automountServiceAccountToken, enableServiceLinks, volumes, hostNetwork, hostPID } = pod(workload);
+        const { securityContext, automountServiceAccountToken, enableServiceLinks, volumes, hostNetwork, hostPID } =
+          pod(workload);
         assert.equal(automountServiceAccountToken, false, named(workload));
         assert.equal(enableServiceLinks, false, named(workload));
         assert.equal(securityContext.runAsNonRoot, true, named(workload));
@@ -34,7 +44,10 @@ for (const overlay of overlays) {
           assert.equal(own.allowPrivilegeEscalation, false, name);
           assert.equal(own.readOnlyRootFilesystem, true, name);
           assert.deepEqual(own.capabilities, { drop: ['ALL'] }, name);
-          assert.ok(ports.every(({ hostPort }) => !hostPort), name);
+          assert.ok(
+            ports.every(({ hostPort }) => !hostPort),
+            name,
+          );
         }
       }
     });
@@ -47,7 +60,9 @@ for (const overlay of overlays) {
         }
         for (const { name, emptyDir } of pod(workload).volumes) assert.ok(!emptyDir || emptyDir.sizeLimit, name);
       }
-      assert.ok(bytes(config['memory-limit']) + bytes(config['max-bytes-in-flight']) < bytes(container.resources.limits.memory));
+      assert.ok(
+        bytes(config['memory-limit']) + bytes(config['max-bytes-in-flight']) < bytes(container.resources.limits.memory),
+      );
     });
 
     test('has a GPU where the server wants one', () => {
@@ -59,19 +74,28 @@ for (const overlay of overlays) {
     test('mounts what the settings name, read-only but the recordings', () => {
       const file = container.env.find(({ name }) => name === 'MENISCUS_CONFIG').value;
       assert.equal(mountOf(file).configMap.name, one(all, 'ConfigMap').metadata.name);
-      assert.match(mountOf(file).configMap.name, /^meniscus-[a-z0-9]{10}$/, 'with a hash, so that a change starts new pods');
+      assert.match(
+        mountOf(file).configMap.name,
+        /^meniscus-[a-z0-9]{10}$/,
+        'with a hash, so that a change starts new pods',
+      );
       for (const name of ['tls-cert', 'tls-key', 'tokens']) {
         if (config[name]) assert.equal(mountOf(config[name]).secret.defaultMode, 0o440, name);
       }
       if (config.record) assert.ok(bytes(mountOf(config.record).emptyDir.sizeLimit) > bytes(config['record-limit']));
-      for (const { mountPath, readOnly } of container.volumeMounts) assert.equal(readOnly ?? false, mountPath !== '/recordings', mountPath);
+      for (const { mountPath, readOnly } of container.volumeMounts)
+        assert.equal(readOnly ?? false, mountPath !== '/recordings', mountPath);
     });
 
     test('asks for TLS where others can connect', () => {
       assert.equal(config.insecure === 'true', !config['tls-cert']);
       const open = of(all, 'NetworkPolicy').filter(({ spec }) => spec.ingress.some(({ from }) => !from));
       for (const { spec } of open) {
-        for (const workload of podsOf(all, spec.podSelector.matchLabels)) assert.ok(pod(workload).volumes.some(({ name }) => name === 'tls'), named(workload));
+        for (const workload of podsOf(all, spec.podSelector.matchLabels))
+          assert.ok(
+            pod(workload).volumes.some(({ name }) => name === 'tls'),
+            named(workload),
+          );
       }
     });
 
@@ -80,7 +104,11 @@ for (const overlay of overlays) {
       assert.deepEqual(startupProbe.httpGet, { path: '/healthz', port: 'probes' });
       assert.deepEqual(livenessProbe.httpGet, { path: '/healthz', port: 'probes' });
       assert.deepEqual(readinessProbe.httpGet, { path: '/readyz', port: 'probes' });
-      for (const [name, setting] of [['grpc', 'listen'], ['http', 'http'], ['probes', 'probes']])
+      for (const [name, setting] of [
+        ['grpc', 'listen'],
+        ['http', 'http'],
+        ['probes', 'probes'],
+      ])
         assert.equal(config[setting], `0.0.0.0:${portNumber(server, name)}`);
       for (const workload of workloads(all)) {
         for (const { name, ...probes } of pod(workload).containers) {
@@ -105,18 +133,34 @@ for (const overlay of overlays) {
       }
       for (const service of of(all, 'Service')) {
         const workload = selected(service.spec.selector, service);
-        for (const { targetPort } of service.spec.ports) assert.ok(portNumber(workload, targetPort), `${named(service)}: ${targetPort}`);
+        for (const { targetPort } of service.spec.ports)
+          assert.ok(portNumber(workload, targetPort), `${named(service)}: ${targetPort}`);
       }
       for (const budget of of(all, 'PodDisruptionBudget')) selected(budget.spec.selector.matchLabels, budget);
       for (const { spec } of of(all, 'HorizontalPodAutoscaler')) {
-        assert.equal(one(all, spec.scaleTargetRef.kind, spec.scaleTargetRef.name).apiVersion, spec.scaleTargetRef.apiVersion);
-        assert.equal(one(all, spec.scaleTargetRef.kind, spec.scaleTargetRef.name).spec.replicas, undefined, 'it is the autoscaler who says');
+        assert.equal(
+          one(all, spec.scaleTargetRef.kind, spec.scaleTargetRef.name).apiVersion,
+          spec.scaleTargetRef.apiVersion,
+        );
+        assert.equal(
+          one(all, spec.scaleTargetRef.kind, spec.scaleTargetRef.name).spec.replicas,
+          undefined,
+          'it is the autoscaler who says',
+        );
       }
       for (const monitor of of(all, 'ServiceMonitor')) {
         const services = of(all, 'Service').filter(({ metadata }) =>
-          Object.entries(monitor.spec.selector.matchLabels).every(([key, value]) => metadata.labels?.[key] === value));
-        assert.deepEqual(services.map(({ metadata }) => metadata.name), ['meniscus']);
-        for (const { port } of monitor.spec.endpoints) assert.ok(services[0].spec.ports.some(({ name }) => name === port), port);
+          Object.entries(monitor.spec.selector.matchLabels).every(([key, value]) => metadata.labels?.[key] === value),
+        );
+        assert.deepEqual(
+          services.map(({ metadata }) => metadata.name),
+          ['meniscus'],
+        );
+        for (const { port } of monitor.spec.endpoints)
+          assert.ok(
+            services[0].spec.ports.some(({ name }) => name === port),
+            port,
+          );
       }
       const service = one(all, 'Service', server.spec.serviceName);
       assert.equal(service.spec.clusterIP, 'None');
@@ -124,7 +168,9 @@ for (const overlay of overlays) {
 
     test('lets in what its pods serve, and them out to nobody but each other', () => {
       for (const workload of workloads(all)) {
-        const policies = of(all, 'NetworkPolicy').filter(({ spec }) => podsOf(all, spec.podSelector.matchLabels).includes(workload));
+        const policies = of(all, 'NetworkPolicy').filter(({ spec }) =>
+          podsOf(all, spec.podSelector.matchLabels).includes(workload),
+        );
         assert.equal(policies.length, 1, named(workload));
         const { policyTypes, ingress, egress } = policies[0].spec;
         assert.deepEqual(policyTypes, ['Ingress', 'Egress']);
@@ -133,7 +179,11 @@ for (const overlay of overlays) {
         assert.deepEqual([...new Set(let_in)].sort(), served.sort(), named(workload));
         for (const { to, ports } of egress) {
           const [{ podSelector, namespaceSelector }] = to;
-          if (namespaceSelector) assert.deepEqual(ports.map(({ port }) => port), [53, 53]);
+          if (namespaceSelector)
+            assert.deepEqual(
+              ports.map(({ port }) => port),
+              [53, 53],
+            );
           else for (const { port } of ports) assert.ok(portNumber(podsOf(all, podSelector.matchLabels)[0], port), port);
         }
       }
@@ -147,7 +197,9 @@ describe('the proxy', () => {
 
   test('has the shipped configuration, which names the servers as the cluster does', () => {
     const configuration = one(all, 'ConfigMap', 'meniscus-proxy');
-    const addresses = [...configuration.data['envoy.yaml'].matchAll(/address: ([\w.-]+), port_value: (\d+)/g)].map(([, address, port]) => [address, Number(port)]);
+    const addresses = [...configuration.data['envoy.yaml'].matchAll(/address: ([\w.-]+), port_value: (\d+)/g)].map(
+      ([, address, port]) => [address, Number(port)],
+    );
     const upstream = addresses.filter(([address]) => address !== '0.0.0.0');
     assert.ok(upstream.length > 0);
     const server = one(all, 'StatefulSet');
@@ -165,6 +217,9 @@ describe('the proxy', () => {
 
   test('is whom others ask', () => {
     const services = of(all, 'Service').filter(({ spec }) => spec.type);
-    assert.deepEqual(services.map(({ metadata }) => metadata.name), ['meniscus-proxy']);
+    assert.deepEqual(
+      services.map(({ metadata }) => metadata.name),
+      ['meniscus-proxy'],
+    );
   });
 });

@@ -3,7 +3,9 @@
 import ts from 'typescript';
 
 function moduleOf({ apiVersion, kind }) {
-  const models = apiVersion.startsWith('monitoring.coreos.com/') ? '@kubernetes-models/prometheus-operator' : 'kubernetes-models';
+  const models = apiVersion.startsWith('monitoring.coreos.com/')
+    ? '@kubernetes-models/prometheus-operator'
+    : 'kubernetes-models';
   return `${models}/${apiVersion}/${kind}`;
 }
 
@@ -13,11 +15,21 @@ export const object: I${object.kind} = ${JSON.stringify(object, null, 1)};`;
 /** Fields that there are not, that are missing, or that are of another type: a line each. */
 function wrongTypes(objects) {
   const files = new Map(objects.map((object, i) => [new URL(`object${i}.ts`, import.meta.url).pathname, object]));
-  const options = { noEmit: true, strict: true, skipLibCheck: true, types: [], module: ts.ModuleKind.NodeNext, moduleResolution: ts.ModuleResolutionKind.NodeNext };
+  const options = {
+    noEmit: true,
+    strict: true,
+    skipLibCheck: true,
+    types: [],
+    module: ts.ModuleKind.NodeNext,
+    moduleResolution: ts.ModuleResolutionKind.NodeNext,
+  };
   const host = ts.createCompilerHost(options);
   const { fileExists, getSourceFile } = host;
   host.fileExists = (name) => files.has(name) || fileExists(name);
-  host.getSourceFile = (name, ...rest) => (files.has(name) ? ts.createSourceFile(name, textOf(files.get(name)), ts.ScriptTarget.ESNext) : getSourceFile(name, ...rest));
+  host.getSourceFile = (name, ...rest) =>
+    files.has(name)
+      ? ts.createSourceFile(name, textOf(files.get(name)), ts.ScriptTarget.ESNext)
+      : getSourceFile(name, ...rest);
   return ts.getPreEmitDiagnostics(ts.createProgram([...files.keys()], options, host)).map(({ file, messageText }) => {
     const { kind, metadata } = files.get(file.fileName);
     return `${kind} ${metadata?.name}: ${ts.flattenDiagnosticMessageText(messageText, ' ')}`;

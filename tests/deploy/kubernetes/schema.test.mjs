@@ -9,7 +9,8 @@ for (const overlay of overlays) {
 }
 
 test('what does not keep to them is told', async () => {
-  const pod = (spec) => objects(`
+  const pod = (spec) =>
+    objects(`
 apiVersion: v1
 kind: Pod
 metadata: { name: wrong }
@@ -19,8 +20,14 @@ spec: ${spec}`);
     ['{ containers: [{ name: a, image: b, livenesProbe: {} }] }', /livenesProbe.* does not exist/],
     ['{ containers: [{ name: a, image: b, livenessProbe: { httpGet: { path: /, port: 1, sheme: HTTP } } }] }', /sheme/],
     ['{ containers: [{ image: b }] }', /name.* is missing/],
-    ['{ containers: [{ name: a, resources: { limits: { memory: 4 gigabytes } } }] }', /limits\/memory must match format "quantity"/],
-    ['{ containers: [{ name: a }], terminationGracePeriodSeconds: soon }', /'string' is not assignable to type 'number'/],
+    [
+      '{ containers: [{ name: a, resources: { limits: { memory: 4 gigabytes } } }] }',
+      /limits\/memory must match format "quantity"/,
+    ],
+    [
+      '{ containers: [{ name: a }], terminationGracePeriodSeconds: soon }',
+      /'string' is not assignable to type 'number'/,
+    ],
     ['{ containers: [{ name: a }], restartPolicy: Sometimes }', /Sometimes.* is not assignable/],
   ];
   for (const [spec, words] of cases) {
@@ -28,5 +35,8 @@ spec: ${spec}`);
     if (words) assert.match(problems, words, spec);
     else assert.equal(problems, '');
   }
-  assert.match((await problemsOf(objects('{ apiVersion: apps/v1, kind: StatefullSet, metadata: { name: wrong } }'))).join('\n'), /StatefullSet/);
+  assert.match(
+    (await problemsOf(objects('{ apiVersion: apps/v1, kind: StatefullSet, metadata: { name: wrong } }'))).join('\n'),
+    /StatefullSet/,
+  );
 });

@@ -76,10 +76,16 @@ class ManPages(unittest.TestCase):
             self.assert_says_what_help_says(items, help_of(MENISCUS, command), command)
 
     def test_each_page_has_the_variables_that_help_names(self):
-        for page, command in (("meniscusd.8", [MENISCUSD]), ("meniscus.1", [MENISCUS, "info"]), ("meniscus-load.1", [MENISCUS_LOAD])):
+        for page, command in (
+            ("meniscusd.8", [MENISCUSD]),
+            ("meniscus.1", [MENISCUS, "info"]),
+            ("meniscus-load.1", [MENISCUS_LOAD]),
+        ):
             named = set(re.findall(r"MENISCUS_[A-Z_]+", help_of(*command)))
             self.assertTrue(named, page)
-            self.assertLessEqual(named, set(re.findall(r"^\.It Ev (MENISCUS_[A-Z_]+)", (PAGES / page).read_text(), re.MULTILINE)), page)
+            self.assertLessEqual(
+                named, set(re.findall(r"^\.It Ev (MENISCUS_[A-Z_]+)", (PAGES / page).read_text(), re.MULTILINE)), page
+            )
 
     def test_every_flag_that_a_text_mentions_exists(self):
         known = set(flags_of(help_of(MENISCUSD))) | set(flags_of(help_of(MENISCUS_LOAD))) | {"name"}
@@ -91,14 +97,18 @@ class ManPages(unittest.TestCase):
             self.assertLessEqual({name for pair in mentioned for name in pair if name}, known, page.name)
 
     def test_every_setting_in_the_example_of_the_file_exists(self):
-        example = re.search(r"^\.Bd -literal.*\n((?:.*\n)*?)\.Ed", (PAGES / "meniscus.conf.5").read_text(), re.MULTILINE).group(1)
+        example = re.search(
+            r"^\.Bd -literal.*\n((?:.*\n)*?)\.Ed", (PAGES / "meniscus.conf.5").read_text(), re.MULTILINE
+        ).group(1)
         names = {line.partition("=")[0].strip() for line in example.splitlines()}
         self.assertLessEqual(names, set(flags_of(help_of(MENISCUSD))))
 
     @unittest.skipUnless(shutil.which("mandoc"), "mandoc is not installed")
     def test_every_page_is_free_of_lint(self):
         for page in PAGES.iterdir():
-            linted = subprocess.run(["mandoc", "-Tlint", "-W", "warning", str(page)], capture_output=True, text=True, timeout=60)
+            linted = subprocess.run(
+                ["mandoc", "-Tlint", "-W", "warning", str(page)], capture_output=True, text=True, timeout=60
+            )
             self.assertEqual((linted.returncode, linted.stdout), (0, ""), page.name)
 
 

@@ -37,7 +37,11 @@ class Packages(unittest.TestCase):
         return {path.removeprefix("."): (mode, owner) for mode, owner, _, _, _, path in parts}
 
     def programs(self, package):
-        return {path for path, (mode, _) in self.contents(package).items() if path.startswith("/usr/bin/") and mode[0] == "-"}
+        return {
+            path
+            for path, (mode, _) in self.contents(package).items()
+            if path.startswith("/usr/bin/") and mode[0] == "-"
+        }
 
     def test_are_three(self):
         self.assertEqual(set(self.files), NAMES)
@@ -70,7 +74,12 @@ class Packages(unittest.TestCase):
         for package in NAMES:
             paths = self.contents(package).keys()
             for program in self.programs(package):
-                self.assertTrue(any(re.fullmatch(rf"/usr/share/man/man[18]/{Path(program).name}\.[18]\.gz", path) for path in paths), program)
+                self.assertTrue(
+                    any(
+                        re.fullmatch(rf"/usr/share/man/man[18]/{Path(program).name}\.[18]\.gz", path) for path in paths
+                    ),
+                    program,
+                )
 
     def test_have_their_license_and_their_changes(self):
         for package in NAMES:
@@ -86,7 +95,9 @@ class Packages(unittest.TestCase):
     def test_have_their_files_where_debian_has_them(self):
         for package in NAMES:
             for path in self.contents(package):
-                self.assertRegex(path, r"^/((usr|usr/(bin|include|lib|share)(/.*)?|etc|etc/meniscus/.*|lib|lib/systemd/.*)?/?)$")
+                self.assertRegex(
+                    path, r"^/((usr|usr/(bin|include|lib|share)(/.*)?|etc|etc/meniscus/.*|lib|lib/systemd/.*)?/?)$"
+                )
 
     def test_keep_what_the_operator_has_changed(self):
         output_of("dpkg-deb", "--control", str(self.files["meniscusd"]), f"{self.folder}/control")
@@ -95,17 +106,30 @@ class Packages(unittest.TestCase):
 
     def test_have_what_is_found_by_cmake(self):
         paths = self.contents("libmeniscus-dev").keys()
-        for ending in ("/cmake/Meniscus/MeniscusConfig.cmake", "/libmeniscus_client.a", "/libmeniscus_core.a", "/include/meniscus/client/client.hpp"):
+        for ending in (
+            "/cmake/Meniscus/MeniscusConfig.cmake",
+            "/libmeniscus_client.a",
+            "/libmeniscus_core.a",
+            "/include/meniscus/client/client.hpp",
+        ):
             self.assertTrue(any(path.endswith(ending) for path in paths), ending)
 
 
 class Install(unittest.TestCase):
     def test_without_a_component_stays_below_its_prefix(self):
         with tempfile.TemporaryDirectory() as root:
-            subprocess.run([CMAKE, "--install", BUILD, "--prefix", "/opt/meniscus"], check=True, capture_output=True, timeout=60,
-                           env={"DESTDIR": root, "PATH": "/usr/bin:/bin"})
+            subprocess.run(
+                [CMAKE, "--install", BUILD, "--prefix", "/opt/meniscus"],
+                check=True,
+                capture_output=True,
+                timeout=60,
+                env={"DESTDIR": root, "PATH": "/usr/bin:/bin"},
+            )
             self.assertEqual([path.name for path in Path(root).iterdir()], ["opt"])
-            self.assertEqual({path.name for path in Path(root, "opt/meniscus/bin").iterdir()}, {"meniscusd", "meniscus", "meniscus-load"})
+            self.assertEqual(
+                {path.name for path in Path(root, "opt/meniscus/bin").iterdir()},
+                {"meniscusd", "meniscus", "meniscus-load"},
+            )
 
 
 if __name__ == "__main__":

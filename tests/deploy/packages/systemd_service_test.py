@@ -18,7 +18,9 @@ MOST_EXPOSURE = 15
 
 
 def run(*command):
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin"})
+    return subprocess.run(
+        command, capture_output=True, text=True, timeout=60, env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin"}
+    )
 
 
 def settings_in(text):
@@ -74,8 +76,14 @@ class UnitOfSystemd(unittest.TestCase):
         self.assert_verifies()
 
     def test_exposes_little(self):
-        judged = run("systemd-analyze", "security", "--offline=yes", f"--threshold={MOST_EXPOSURE}", "--no-pager",
-                     str(self.folder / "meniscusd.service"))
+        judged = run(
+            "systemd-analyze",
+            "security",
+            "--offline=yes",
+            f"--threshold={MOST_EXPOSURE}",
+            "--no-pager",
+            str(self.folder / "meniscusd.service"),
+        )
         self.assertEqual(judged.returncode, 0, judged.stdout[-400:] + judged.stderr)
 
 
@@ -104,7 +112,11 @@ class Settings(unittest.TestCase):
         self.assertGreater(len(settings_in(uncommented)), 10)
 
     def test_have_no_figures_of_the_machine_that_made_them(self):
-        memory = [value for value in settings_in(self.defaults).values() if re.fullmatch(r"\d{9,}", value) and value != "100000000"]
+        memory = [
+            value
+            for value in settings_in(self.defaults).values()
+            if re.fullmatch(r"\d{9,}", value) and value != "100000000"
+        ]
         for value in memory:
             self.assertNotIn(value, self.text)
 

@@ -90,13 +90,14 @@ std::vector<BadInputCase> frame_cases() {
              s.send_begin(11, 100'000);
              s.send_chunk(chunk_bytes + 1);
          })},
-        {"AsManyChunksAsTheLimit", invalid, "the stream ended within frame 11, after 0 of 12 bytes", empty_chunks(1000)},
+        {"AsManyChunksAsTheLimit", invalid, "the stream ended within frame 11, after 0 of 12 bytes",
+         empty_chunks(1000)},
         {"OneChunkPastTheLimit", exhausted, "frame 11: more than 1000 chunks; the server takes at most 1000 per frame",
          empty_chunks(1001)},
         {"AsManyParticlesAsTheLimit", invalid, "the stream ended within frame 11, after 0 of 12000000 bytes",
          announces(1'000'000)},
-        {"OneParticlePastTheLimit", exhausted, "frame 11: 1000001 particles; the server takes at most 1000000 per frame",
-         announces(1'000'001)},
+        {"OneParticlePastTheLimit", exhausted,
+         "frame 11: 1000001 particles; the server takes at most 1000000 per frame", announces(1'000'001)},
         {"AsManyBytesAsTheLimitHolds", invalid, "the stream ended within frame 11, after 0 of 11999988 bytes",
          announces(923'076, true)},
         {"OneParticlePastTheLimitOfBytes", exhausted,
@@ -120,8 +121,10 @@ std::vector<BadInputCase> frame_cases() {
          }},
         {"ATimeBelowZero", ok, "", time(-1.0)},
         {"ATimeOfInfinity", invalid, "frame 11: simulation_time is inf; it must be finite", time(limits::infinity())},
-        {"ATimeOfMinusInfinity", invalid, "frame 11: simulation_time is -inf; it must be finite", time(-limits::infinity())},
-        {"ATimeThatIsNoNumber", invalid, "frame 11: simulation_time is nan; it must be finite", time(limits::quiet_NaN())},
+        {"ATimeOfMinusInfinity", invalid, "frame 11: simulation_time is -inf; it must be finite",
+         time(-limits::infinity())},
+        {"ATimeThatIsNoNumber", invalid, "frame 11: simulation_time is nan; it must be finite",
+         time(limits::quiet_NaN())},
     };
 }
 

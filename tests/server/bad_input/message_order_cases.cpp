@@ -38,7 +38,8 @@ std::vector<BadInputCase> message_order_cases() {
          instead_of_open([](RawStream&) {})},
         {"AnEmptyFirstMessage", invalid, "the first message of a stream must be open",
          instead_of_open([](RawStream& s) { s.call->Write({}); })},
-        {"ASecondOpen", invalid, "a second open; a stream has one, its first message", after_a_good_frame([](RawStream& s) {
+        {"ASecondOpen", invalid, "a second open; a stream has one, its first message",
+         after_a_good_frame([](RawStream& s) {
              v1::StreamRequest request;
              request.mutable_open();
              s.call->Write(request);
@@ -51,7 +52,8 @@ std::vector<BadInputCase> message_order_cases() {
          after_a_good_frame([](RawStream& s) { s.send_chunk(12); })},
         {"AFrameEndOutsideOfAFrame", invalid, "frame_end outside of a frame; frame_begin comes first",
          after_a_good_frame([](RawStream& s) { s.send_end(); })},
-        {"AFrameWithinAFrame", invalid, "frame 12 begins before frame 11 has ended", after_a_good_frame([](RawStream& s) {
+        {"AFrameWithinAFrame", invalid, "frame 12 begins before frame 11 has ended",
+         after_a_good_frame([](RawStream& s) {
              s.send_begin(11, 1);
              s.send_begin(12, 1);
          })},
@@ -75,7 +77,8 @@ std::vector<BadInputCase> message_order_cases() {
          })},
         {"ATruncatedChunk", invalid, "is not a StreamRequest", chunk_message(std::string("\x0a\x0c\x01\x02", 4))},
         {"AChunkWithoutItsLength", invalid, "is not a StreamRequest", chunk_message("\x0a")},
-        {"AChunkWithAnEndlessLength", invalid, "is not a StreamRequest", chunk_message("\x0a\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff")},
+        {"AChunkWithAnEndlessLength", invalid, "is not a StreamRequest",
+         chunk_message("\x0a\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff")},
         {"AChunkWithALengthOfAllMemory", invalid, "is not a StreamRequest",
          chunk_message("\x0a\xff\xff\xff\xff\xff\xff\xff\xff\xff\x01")},
         {"AChunkWithTheFieldNumberZero", invalid, "is not a StreamRequest", chunk_message(std::string("\x02\x00", 2))},

@@ -12,7 +12,8 @@ constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
 const std::string no_session = "00000000-0000-4000-8000-000000000000";
 
 /// Reads with this metadata.
-std::function<grpc::Status(RunningServer&)> read(std::string metadata, std::function<void(v1::ReadRecordingRequest&)> change) {
+std::function<grpc::Status(RunningServer&)> read(std::string metadata,
+                                                 std::function<void(v1::ReadRecordingRequest&)> change) {
     return [metadata = std::move(metadata), change = std::move(change)](RunningServer& running) {
         const client::Connection connection = connect(running);
         grpc::ClientContext context;
@@ -33,17 +34,24 @@ std::function<grpc::Status(RunningServer&)> read(std::string metadata, std::func
 
 std::vector<BadInputCase> recording_cases() {
     const auto nothing = [](v1::ReadRecordingRequest&) {};
-    const auto session = [](std::string id) { return [id = std::move(id)](v1::ReadRecordingRequest& request) { request.set_session_id(id); }; };
+    const auto session = [](std::string id) {
+        return [id = std::move(id)](v1::ReadRecordingRequest& request) { request.set_session_id(id); };
+    };
     return {
-        {"ARecordingOfNoSession", grpc::StatusCode::NOT_FOUND, "no recording 1 of session " + no_session, read(no_session, nothing)},
-        {"ARecordingThatIsAPath", invalid, "x-session-id is \"../../etc\"; it must be a UUID", read("../../etc", session("../../etc"))},
+        {"ARecordingOfNoSession", grpc::StatusCode::NOT_FOUND, "no recording 1 of session " + no_session,
+         read(no_session, nothing)},
+        {"ARecordingThatIsAPath", invalid, "x-session-id is \"../../etc\"; it must be a UUID",
+         read("../../etc", session("../../etc"))},
         {"ARecordingThatIsAPathInTheMessage", invalid, "the message's session id is \"..\"; it must be a UUID",
          read(no_session, session(".."))},
         {"ARecordingOfAnotherSessionThanItsMetadataSays", invalid, "but the message's session id is",
          read(no_session, session("00000000-0000-4000-8000-000000000001"))},
-        {"ARecordingThatIsNoMessage", invalid, "is not a ReadRecordingRequest", read(no_session, [](v1::ReadRecordingRequest& request) {
-             request = with_raw_field<v1::ReadRecordingRequest>(v1::ReadRecordingRequest::kSessionIdFieldNumber, "\xff\xfe");
-         })},
+        {"ARecordingThatIsNoMessage", invalid, "is not a ReadRecordingRequest",
+         read(no_session,
+              [](v1::ReadRecordingRequest& request) {
+                  request = with_raw_field<v1::ReadRecordingRequest>(v1::ReadRecordingRequest::kSessionIdFieldNumber,
+                                                                     "\xff\xfe");
+              })},
     };
 }
 

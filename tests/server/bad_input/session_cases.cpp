@@ -56,7 +56,8 @@ std::function<grpc::Status(RunningServer&)> beside(std::size_t sessions) {
 
 template <class Request, class Response>
 grpc::Status about_no_session(RunningServer& running,
-                              grpc::Status (v1::SessionService::Stub::*method)(grpc::ClientContext*, const Request&, Response*)) {
+                              grpc::Status (v1::SessionService::Stub::*method)(grpc::ClientContext*, const Request&,
+                                                                               Response*)) {
     const client::Connection connection = connect(running);
     grpc::ClientContext context;
     client::add_session_id(context, no_session);
@@ -77,7 +78,9 @@ grpc::Status exists_with_other_settings(RunningServer& running) {
 }  // namespace
 
 std::vector<BadInputCase> session_cases() {
-    const auto radius_of = [](double value) { return settings_with([=](v1::Settings& s) { s.set_particle_radius(value); }); };
+    const auto radius_of = [](double value) {
+        return settings_with([=](v1::Settings& s) { s.set_particle_radius(value); });
+    };
     const auto cell_size = [](double value) { return settings_with([=](v1::Settings& s) { s.set_cell_size(value); }); };
     const auto iso = [](double value) { return settings_with([=](v1::Settings& s) { s.set_iso(value); }); };
     const auto steps = [](std::uint32_t value) {
@@ -99,8 +102,8 @@ std::vector<BadInputCase> session_cases() {
          settings_with([](v1::Settings& s) { s.Clear(); })},
         {"ARadiusBelowZero", invalid, "particle radius is -1, must be finite and greater than 0", radius_of(-1.0)},
         {"ARadiusThatIsNoNumber", invalid, "particle radius is nan, must be finite and greater than 0", radius_of(nan)},
-        {"ARadiusWhoseCellIsBelowAllNumbers", invalid, "cell size in world units is 0, must be finite and greater than 0",
-         settings_with([](v1::Settings& s) {
+        {"ARadiusWhoseCellIsBelowAllNumbers", invalid,
+         "cell size in world units is 0, must be finite and greater than 0", settings_with([](v1::Settings& s) {
              s.set_particle_radius(1e-300);
              s.set_cell_size(1e-300);
              s.set_smoothing_length(1e-300);
@@ -109,8 +112,8 @@ std::vector<BadInputCase> session_cases() {
          settings_with([](v1::Settings& s) { s.set_smoothing_length(0.0); })},
         {"ACellSizeOfZero", invalid, "cell size is 0, must be finite and greater than 0", cell_size(0.0)},
         {"TheSmallestCellSizeForItsSupport", ok, "", cell_size(0.015625)},
-        {"ACellSizeTooSmallForItsSupport", invalid, "spans 266.666667 cells, at most 256 are possible: use a larger cell size",
-         cell_size(0.015)},
+        {"ACellSizeTooSmallForItsSupport", invalid,
+         "spans 266.666667 cells, at most 256 are possible: use a larger cell size", cell_size(0.015)},
         {"AnIsoValueOfZero", invalid, "iso value is 0, must be finite and greater than 0", iso(0.0)},
         {"AnIsoValueThatFloat32DoesNotHold", invalid, "iso value is 0, must be finite and greater than 0", iso(1e-60)},
         {"AToleranceBelowZero", invalid, "tolerance is -0.1, must be finite and greater than 0",
@@ -121,7 +124,8 @@ std::vector<BadInputCase> session_cases() {
         {"EightBisectionSteps", invalid, "bisection steps are 8, must be 1 to 7", steps(8)},
         {"NoBisectionSteps", invalid, "bisection steps are 0, must be 1 to 7", steps(0)},
         {"AFlatDomain", invalid, "domain runs from 1 to 1 along x, must be finite and run upward", domain(1.0, 1.0)},
-        {"ADomainThatIsNoNumber", invalid, "domain runs from nan to 1 along x, must be finite and run upward", domain(nan, 1.0)},
+        {"ADomainThatIsNoNumber", invalid, "domain runs from nan to 1 along x, must be finite and run upward",
+         domain(nan, 1.0)},
         {"AHugeDomain", ok, "", domain(-1e300, 1e300)},
         {"ADomainWithoutACorner", invalid, "settings.domain needs both its corners, min and max",
          settings_with([](v1::Settings& s) { s.mutable_domain()->mutable_max()->set_x(1.0); })},
@@ -134,10 +138,11 @@ std::vector<BadInputCase> session_cases() {
         {"UnknownEdgePoints", invalid, "settings.edge_points has the value -1, which this version does not know",
          settings_with([](v1::Settings& s) { s.set_edge_points(static_cast<v1::EdgePoints>(-1)); })},
         {"ACreatedSessionWithoutId", invalid, "the message's session id is \"\"; it must be a UUID", id("")},
-        {"ACreatedSessionThatIsNotTheMetadatas", invalid, "but the message's session id is " + no_session, id(no_session)},
+        {"ACreatedSessionThatIsNotTheMetadatas", invalid, "but the message's session id is " + no_session,
+         id(no_session)},
         {"AsManySessionsAsTheLimit", ok, "", beside(2)},
-        {"ASessionPastTheLimit", grpc::StatusCode::RESOURCE_EXHAUSTED, "3 sessions are open; the server holds at most 3",
-         beside(3)},
+        {"ASessionPastTheLimit", grpc::StatusCode::RESOURCE_EXHAUSTED,
+         "3 sessions are open; the server holds at most 3", beside(3)},
         {"ASessionThatExistsWithOtherSettings", grpc::StatusCode::ALREADY_EXISTS, "exists with other settings",
          exists_with_other_settings},
         {"AnUnknownSessionToDescribe", grpc::StatusCode::NOT_FOUND, "no session " + no_session,

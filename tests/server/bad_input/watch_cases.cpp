@@ -98,7 +98,8 @@ std::vector<BadInputCase> watch_cases() {
     };
     return {
         {"TheCoarsestPositions", ok, "", position_bits(2)},
-        {"PositionsTooCoarse", invalid, "position_bits is 1; it must be 2 to 6, the session's, or not set", position_bits(1)},
+        {"PositionsTooCoarse", invalid, "position_bits is 1; it must be 2 to 6, the session's, or not set",
+         position_bits(1)},
         {"TheFinestPositions", ok, "", position_bits(6)},
         {"PositionsFinerThanTheMesh", invalid, "position_bits is 7; it must be 2 to 6", position_bits(7)},
         {"TheCoarsestLevelOfGrid", ok, "", max_level(1)},
@@ -123,7 +124,8 @@ std::vector<BadInputCase> watch_cases() {
              request.set_bytes_per_second(std::numeric_limits<std::uint64_t>::max());
          })},
         {"AWatcherWithSixteenNormalBits", ok, "", normal_bits(16)},
-        {"AWatcherWithSeventeenNormalBits", invalid, "normal_bits is 17; it must be 0 (no normals) or 2 to 16", normal_bits(17)},
+        {"AWatcherWithSeventeenNormalBits", invalid, "normal_bits is 17; it must be 0 (no normals) or 2 to 16",
+         normal_bits(17)},
         {"AWatcherWithOneNormalBit", invalid, "normal_bits is 1; it must be 0 (no normals) or 2 to 16", normal_bits(1)},
         {"AWatcherWithoutSessionId", invalid, "the message's session id is \"\"; it must be a UUID",
          wish([](v1::WatchRequest& request) { request.clear_session_id(); })},
@@ -135,13 +137,12 @@ std::vector<BadInputCase> watch_cases() {
              request.set_session_id(no_session);
              return watch(running, no_session, request);
          }},
-        {"AWishThatIsNoMessage", invalid, "is not a WatchRequest",
-         wish([](v1::WatchRequest& request) {
+        {"AWishThatIsNoMessage", invalid, "is not a WatchRequest", wish([](v1::WatchRequest& request) {
              request = with_raw_field<v1::WatchRequest>(v1::WatchRequest::kRegionFieldNumber, "\x0a\x7f");
          })},
         {"AsManyWatchersAsTheLimit", ok, "", beside<v1::WatchRequest>(1)},
-        {"AWatcherPastTheLimit", grpc::StatusCode::RESOURCE_EXHAUSTED, "has 2 watchers; the server takes at most 2 per session",
-         beside<v1::WatchRequest>(2)},
+        {"AWatcherPastTheLimit", grpc::StatusCode::RESOURCE_EXHAUSTED,
+         "has 2 watchers; the server takes at most 2 per session", beside<v1::WatchRequest>(2)},
         {"AsManyWatchersOfParticlesAsTheLimit", ok, "", beside<v1::WatchParticlesRequest>(1)},
         {"AWatcherOfParticlesPastTheLimit", grpc::StatusCode::RESOURCE_EXHAUSTED,
          "has 2 watchers; the server takes at most 2 per session", beside<v1::WatchParticlesRequest>(2)},
@@ -160,7 +161,8 @@ std::vector<BadInputCase> watch_cases() {
          }},
         {"AWishForParticlesThatIsNoMessage", invalid, "is not a WatchParticlesRequest",
          wish_for_particles([](v1::WatchParticlesRequest& request) {
-             request = with_raw_field<v1::WatchParticlesRequest>(v1::WatchParticlesRequest::kSessionIdFieldNumber, "\xff\xfe");
+             request = with_raw_field<v1::WatchParticlesRequest>(v1::WatchParticlesRequest::kSessionIdFieldNumber,
+                                                                 "\xff\xfe");
          })},
     };
 }

@@ -54,7 +54,8 @@ public:
         std::size_t end = 0;
         while ((end = received_.find("\r\n\r\n")) == std::string::npos)
             if (!receive_more()) return {};
-        HttpAnswer answer{.status = std::stoi(received_.substr(9, 3)), .header = received_.substr(0, end + 2), .body = {}};
+        HttpAnswer answer{
+            .status = std::stoi(received_.substr(9, 3)), .header = received_.substr(0, end + 2), .body = {}};
         received_.erase(0, end + 4);
         const std::size_t length = answer.header.find("Content-Length: ");
         const std::size_t size =

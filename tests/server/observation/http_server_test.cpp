@@ -61,7 +61,8 @@ TEST(HttpServer, RefusesOtherMethodsAndBodiesAndWhatIsNotHttp) {
         EXPECT_TRUE(client.ended()) << request;
         return answer;
     };
-    const HttpAnswer post = refusal("POST /one HTTP/1.1\r\nContent-Length: 2000000\r\n\r\n" + std::string(100'000, 'x'));
+    const HttpAnswer post =
+        refusal("POST /one HTTP/1.1\r\nContent-Length: 2000000\r\n\r\n" + std::string(100'000, 'x'));
     EXPECT_EQ(post.status, 405);
     EXPECT_NE(post.header.find("Allow: GET, HEAD\r\n"), std::string::npos) << post.header;
     EXPECT_NE(post.body.find("POST"), std::string::npos) << post.body;
@@ -75,8 +76,7 @@ TEST(HttpServer, AnswersPipelinedRequestsInOrder) {
     const HttpServer server("127.0.0.1:0", router());
     HttpClient client(server.address());
     std::string requests;
-    for (int i = 0; i < 500; ++i)
-        requests += i % 2 == 0 ? "GET /one HTTP/1.1\r\n\r\n" : "GET /two HTTP/1.1\r\n\r\n";
+    for (int i = 0; i < 500; ++i) requests += i % 2 == 0 ? "GET /one HTTP/1.1\r\n\r\n" : "GET /two HTTP/1.1\r\n\r\n";
     ASSERT_TRUE(client.send(requests));
     for (int i = 0; i < 500; ++i) ASSERT_EQ(client.receive().body, i % 2 == 0 ? "1\n" : "22\n") << i;
 }
@@ -158,8 +158,9 @@ TEST(HttpServer, EndsWithConnectionsOpen) {
 
 TEST(HttpServer, RefusesAddressesThatItCannotHave) {
     const HttpServer first("127.0.0.1:0", router());
-    for (const std::string& address : {first.address(), std::string("192.0.2.1:80"), std::string("9464"), std::string(":9464"),
-                                       std::string("127.0.0.1:"), std::string("127.0.0.1:http-of-nobody"), std::string("no such host:1")}) {
+    for (const std::string& address :
+         {first.address(), std::string("192.0.2.1:80"), std::string("9464"), std::string(":9464"),
+          std::string("127.0.0.1:"), std::string("127.0.0.1:http-of-nobody"), std::string("no such host:1")}) {
         try {
             const HttpServer second(address, router());
             ADD_FAILURE() << address;

@@ -23,8 +23,8 @@ inline Samples scrape(const std::string& http_address) {
     return samples;
 }
 
-/// The first scrape in which the sample has this value: a client has its answer a moment before it is counted. For ever if
-/// that never comes; the test's time limit ends it.
+/// The first scrape in which the sample has this value: a client has its answer a moment before it is counted. For ever
+/// if that never comes; the test's time limit ends it.
 inline Samples scrape_until(const std::string& http_address, const std::string& sample, double value) {
     for (;;) {
         Samples samples = scrape(http_address);

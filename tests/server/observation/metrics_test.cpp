@@ -48,7 +48,8 @@ TEST(Metrics, CountWhatWasDone) {
     EXPECT_GT(samples.at("meniscus_sent_bytes_total{to=\"simulator\"}"), encoded_bytes);
     EXPECT_GT(samples.at("meniscus_sent_bytes_total{to=\"watcher\"}"), encoded_bytes / 3);
     EXPECT_EQ(samples.at("meniscus_frame_latency_seconds_count"), 3);
-    EXPECT_GT(samples.at("meniscus_frame_latency_seconds_sum"), samples.at("meniscus_frame_reconstruction_seconds_sum"));
+    EXPECT_GT(samples.at("meniscus_frame_latency_seconds_sum"),
+              samples.at("meniscus_frame_reconstruction_seconds_sum"));
     double stage_seconds = 0;
     for (const std::string_view stage : stage_names) {
         const std::string label = "{stage=\"" + std::string(stage) + "\"}";
@@ -57,7 +58,8 @@ TEST(Metrics, CountWhatWasDone) {
     }
     EXPECT_LE(stage_seconds, samples.at("meniscus_frame_reconstruction_seconds_sum"));
     EXPECT_EQ(samples.at("meniscus_frame_stage_seconds_count{stage=\"encode\"}"), 3);
-    EXPECT_GE(samples.at("meniscus_device_busy_seconds_total"), samples.at("meniscus_frame_reconstruction_seconds_sum"));
+    EXPECT_GE(samples.at("meniscus_device_busy_seconds_total"),
+              samples.at("meniscus_frame_reconstruction_seconds_sum"));
     EXPECT_EQ(samples.at("meniscus_sessions"), 1);
     EXPECT_EQ(samples.at("meniscus_uploads"), 1);
     EXPECT_EQ(samples.at("meniscus_watchers"), 1);
@@ -113,7 +115,8 @@ TEST(Metrics, DoNotGrowWithSessions) {
 
 /// By the tool that comes with Prometheus.
 TEST(Metrics, PassPrometheusOwnCheck) {
-    if (std::system("command -v promtool >/dev/null") != 0) GTEST_SKIP() << "promtool is not installed (Debian: prometheus)";
+    if (std::system("command -v promtool >/dev/null") != 0)
+        GTEST_SKIP() << "promtool is not installed (Debian: prometheus)";
     RunningServer running(with_http());
     auto stream = running.client.stream(running.session());
     stream.push(wave(4, 0.0).view(), 0, 0.0);

@@ -50,7 +50,8 @@ TEST(Probes, HealthIsKnownForEachServiceAndForTheServer) {
     const RunningServer running;
     const client::Connection connection(running.server.address());
     const auto stub = Health::NewStub(connection.channel);
-    for (const char* service : {"", "meniscus.v1.ServerService", "meniscus.v1.SessionService", "meniscus.v1.SurfaceService"}) {
+    for (const char* service :
+         {"", "meniscus.v1.ServerService", "meniscus.v1.SessionService", "meniscus.v1.SurfaceService"}) {
         grpc::ClientContext context;
         HealthCheckResponse response;
         ASSERT_TRUE(stub->Check(&context, about(service), &response).ok()) << service;
@@ -134,7 +135,8 @@ TEST(Probes, ReflectionCallsThatStayOpenAreBounded) {
     std::vector<std::unique_ptr<Call>> calls;
     for (int i = 0; i < 40; ++i) {
         Call& call = *calls.emplace_back(std::make_unique<Call>());
-        call.stream = stub.PrepareCall(&call.context, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", &queue);
+        call.stream =
+            stub.PrepareCall(&call.context, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", &queue);
         call.stream->StartCall(nullptr);
         call.stream->Finish(&call.status, &call);
     }
@@ -143,7 +145,8 @@ TEST(Probes, ReflectionCallsThatStayOpenAreBounded) {
     bool ok = false;
     const auto guard = std::chrono::system_clock::now() + std::chrono::seconds(60);
     while (refused < 30) {
-        ASSERT_EQ(queue.AsyncNext(&tag, &ok, guard), grpc::CompletionQueue::GOT_EVENT) << refused << " of 40 were refused";
+        ASSERT_EQ(queue.AsyncNext(&tag, &ok, guard), grpc::CompletionQueue::GOT_EVENT)
+            << refused << " of 40 were refused";
         if (tag == nullptr) continue;
         EXPECT_EQ(static_cast<Call*>(tag)->status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
         ++refused;

@@ -33,7 +33,8 @@ public:
         const std::string listen = "--web.listen-address=" + address_;
         pid_ = ::fork();
         if (pid_ == 0) {
-            ::execlp("prometheus", "prometheus", config.c_str(), storage.c_str(), listen.c_str(), "--log.level=error", nullptr);
+            ::execlp("prometheus", "prometheus", config.c_str(), storage.c_str(), listen.c_str(), "--log.level=error",
+                     nullptr);
             ::_exit(127);
         }
     }

@@ -97,7 +97,8 @@ TEST_F(GrpcWebCalls, FollowOneAnotherOnOneConnection) {
     for (int i = 0; i < 3; ++i) {
         const std::string body = web_message("");
         std::string request = "POST " + info;
-        request += " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/grpc-web\r\nContent-Length: 5\r\n\r\n" + body;
+        request +=
+            " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/grpc-web\r\nContent-Length: 5\r\n\r\n" + body;
         client.send(request);
         std::string answer;
         while (!answer.ends_with("\r\n0\r\n\r\n")) {
@@ -282,7 +283,8 @@ TEST_F(GrpcWebCalls, NeedATokenWhereOneIsNeeded) {
     WebCall without(server.http_address(), info, v1::GetServerInfoRequest());
     EXPECT_FALSE(without.next());
     EXPECT_EQ(without.status, static_cast<int>(grpc::StatusCode::UNAUTHENTICATED));
-    WebCall with(server.http_address(), info, v1::GetServerInfoRequest(), {{"Authorization", "Bearer token-of-eve-0123456789"}});
+    WebCall with(server.http_address(), info, v1::GetServerInfoRequest(),
+                 {{"Authorization", "Bearer token-of-eve-0123456789"}});
     EXPECT_TRUE(with.next());
 }
 
@@ -298,30 +300,41 @@ std::vector<BadRequest> bad_requests() {
         return "POST " + info + " HTTP/1.1\r\nHost: localhost\r\n" + fields + "\r\n" + body;
     };
     const std::string type = "Content-Type: application/grpc-web+proto\r\n";
-    const auto sized = [&](const std::string& body) { return post(type + "Content-Length: " + std::to_string(body.size()) + "\r\n", body); };
+    const auto sized = [&](const std::string& body) {
+        return post(type + "Content-Length: " + std::to_string(body.size()) + "\r\n", body);
+    };
     const std::string invalid = "grpc-status: 3\r\ngrpc-message: ";
     const std::string exhausted = "grpc-status: 8\r\ngrpc-message: ";
     std::string chunks;
     for (int i = 0; i < 65; ++i) chunks += "1\r\nx\r\n";
     return {
         {"no content type", post("Content-Length: 5\r\n", web_message("")), 415, "application/grpc-web+proto is taken"},
-        {"text", post("Content-Type: application/grpc-web-text\r\nContent-Length: 5\r\n", web_message("")), 415, "grpc-web-text"},
+        {"text", post("Content-Type: application/grpc-web-text\r\nContent-Length: 5\r\n", web_message("")), 415,
+         "grpc-web-text"},
         {"no body", post(type, ""), 200, invalid + "the body has 0 bytes"},
-        {"half a header", sized(std::string(3, '\0')), 200, invalid + "the body has 3 bytes; a gRPC-Web message has at least 5"},
+        {"half a header", sized(std::string(3, '\0')), 200,
+         invalid + "the body has 3 bytes; a gRPC-Web message has at least 5"},
         {"compressed", sized(web_message("", 1)), 200, "grpc-status: 12\r\ngrpc-message: the message is compressed"},
         {"trailers", sized(web_message("", '\x80')), 200, invalid + "the message has the flags 128"},
-        {"less than announced", sized(web_message("abc").substr(0, 6)), 200, invalid + "the message announces 3 bytes, but 1 follow"},
-        {"two messages", sized(web_message("") + web_message("")), 200, invalid + "the message announces 0 bytes, but 5 follow"},
-        {"too large", post(type + "Content-Length: 65537\r\n", ""), 200, exhausted + "the request has 65537 bytes; at most 65536"},
-        {"too many chunks", post(type + "Transfer-Encoding: chunked\r\n", chunks), 200, exhausted + "the request has more than"},
+        {"less than announced", sized(web_message("abc").substr(0, 6)), 200,
+         invalid + "the message announces 3 bytes, but 1 follow"},
+        {"two messages", sized(web_message("") + web_message("")), 200,
+         invalid + "the message announces 0 bytes, but 5 follow"},
+        {"too large", post(type + "Content-Length: 65537\r\n", ""), 200,
+         exhausted + "the request has 65537 bytes; at most 65536"},
+        {"too many chunks", post(type + "Transfer-Encoding: chunked\r\n", chunks), 200,
+         exhausted + "the request has more than"},
         {"no chunk", post(type + "Transfer-Encoding: chunked\r\n", "zz\r\n"), 400, "no HTTP body"},
-        {"endless trailers", post(type + "Transfer-Encoding: chunked\r\n", "0\r\nX: " + std::string(40000, 'x')), 400, "no HTTP body"},
-        {"two lengths", post(type + "Content-Length: 5\r\nTransfer-Encoding: chunked\r\n", "0\r\n\r\n"), 400, "no HTTP request"},
+        {"endless trailers", post(type + "Transfer-Encoding: chunked\r\n", "0\r\nX: " + std::string(40000, 'x')), 400,
+         "no HTTP body"},
+        {"two lengths", post(type + "Content-Length: 5\r\nTransfer-Encoding: chunked\r\n", "0\r\n\r\n"), 400,
+         "no HTTP request"},
         {"control character", post(type + "Authorization: Bearer \x80\r\nContent-Length: 5\r\n", web_message("")), 200,
          invalid + "the header authorization has characters"},
         {"two hosts", post("Host: localhost\r\n" + type, ""), 400, "more than one host"},
         {"read by GET", "GET " + info + " HTTP/1.1\r\nHost: localhost\r\n\r\n", 405, "POST is"},
-        {"foreign page", post(type + "Origin: https://evil.example\r\nContent-Length: 5\r\n", web_message("")), 403, "https://evil.example"},
+        {"foreign page", post(type + "Origin: https://evil.example\r\nContent-Length: 5\r\n", web_message("")), 403,
+         "https://evil.example"},
     };
 }
 
@@ -340,27 +353,33 @@ TEST_F(GrpcWebCalls, AreRefusedInWordsWhenTheyAreWrongAndHarmNobody) {
 
 TEST_F(GrpcWebCalls, AreTakenInChunks) {
     HttpClient client(http);
-    client.send("POST " + info + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nContent-Type: application/grpc-web+proto\r\n"
-                "Transfer-Encoding: chunked\r\n\r\n2\r\n" + std::string(2, '\0') + "\r\n3\r\n" + std::string(3, '\0') + "\r\n0\r\n\r\n");
+    client.send("POST " + info +
+                " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nContent-Type: application/grpc-web+proto\r\n"
+                "Transfer-Encoding: chunked\r\n\r\n2\r\n" +
+                std::string(2, '\0') + "\r\n3\r\n" + std::string(3, '\0') + "\r\n0\r\n\r\n");
     EXPECT_EQ(client.receive().status, 200);
 }
 
 TEST(Origins, OfThisMachineOfTheServerItselfAndOfTheListMayCall) {
     const AllowedOrigins origins({"https://viewer.example"});
-    for (const char* origin : {"", "http://localhost:5173", "http://127.0.0.1", "https://[::1]:8443", "https://viewer.example", "http://host:9464"})
+    for (const char* origin : {"", "http://localhost:5173", "http://127.0.0.1", "https://[::1]:8443",
+                               "https://viewer.example", "http://host:9464"})
         EXPECT_TRUE(origins.admits(origin, "host:9464")) << origin;
-    for (const char* origin : {"null", "https://evil.example", "http://localhost.evil.example", "http://127.0.0.1.evil.example",
-                               "https://viewer.example.evil", "http://host:9465", "ftp://localhost"})
+    for (const char* origin :
+         {"null", "https://evil.example", "http://localhost.evil.example", "http://127.0.0.1.evil.example",
+          "https://viewer.example.evil", "http://host:9465", "ftp://localhost"})
         EXPECT_FALSE(origins.admits(origin, "host:9464")) << origin;
-    for (const char* wrong : {"", "*", "viewer.example", "https://viewer.example/"}) EXPECT_THROW(AllowedOrigins({wrong}), InvalidInput) << wrong;
+    for (const char* wrong : {"", "*", "viewer.example", "https://viewer.example/"})
+        EXPECT_THROW(AllowedOrigins({wrong}), InvalidInput) << wrong;
 }
 
 TEST(Origins, KnowTheServerByAddressAndByItsNames) {
     const AllowedOrigins origins({"https://viewer.example:8443"}, "water.example:9464");
-    for (const char* host : {"", "localhost", "LocalHost:9464", "127.0.0.1:9464", "10.1.2.3", "[::1]:9464", "[fe80::1]", "viewer.example",
-                             "viewer.example:1", "water.example:9464"})
+    for (const char* host : {"", "localhost", "LocalHost:9464", "127.0.0.1:9464", "10.1.2.3", "[::1]:9464", "[fe80::1]",
+                             "viewer.example", "viewer.example:1", "water.example:9464"})
         EXPECT_TRUE(origins.knows_host(host)) << host;
-    for (const char* host : {"evil.example", "evil.example:9464", "127.0.0.1.evil.example", "localhost.evil.example", "viewer.example.evil", "0x7f.1"})
+    for (const char* host : {"evil.example", "evil.example:9464", "127.0.0.1.evil.example", "localhost.evil.example",
+                             "viewer.example.evil", "0x7f.1"})
         EXPECT_FALSE(origins.knows_host(host)) << host;
 }
 
@@ -368,7 +387,9 @@ TEST(Origins, KnowTheServerByAddressAndByItsNames) {
 TEST_F(GrpcWebCalls, AreNotMadeByPagesThatTookTheServersAddress) {
     const auto ask = [&](const std::string& start) {
         HttpClient client(http);
-        client.send(start + " HTTP/1.1\r\nHost: evil.example:9464\r\nOrigin: http://evil.example:9464\r\nContent-Length: 0\r\n\r\n");
+        client.send(
+            start +
+            " HTTP/1.1\r\nHost: evil.example:9464\r\nOrigin: http://evil.example:9464\r\nContent-Length: 0\r\n\r\n");
         return client.receive();
     };
     for (const std::string& start : {"POST " + watch, "OPTIONS " + watch, std::string("GET /")}) {
@@ -382,7 +403,9 @@ TEST_F(GrpcWebCalls, AreNotMadeByPagesThatTookTheServersAddress) {
 
 TEST_F(GrpcWebCalls, AreAnnouncedToPagesThatMayMakeThem) {
     HttpClient client(http);
-    client.send("OPTIONS " + watch + " HTTP/1.1\r\nHost: localhost\r\nOrigin: http://localhost:5173\r\nAccess-Control-Request-Method: POST\r\n\r\n");
+    client.send(
+        "OPTIONS " + watch +
+        " HTTP/1.1\r\nHost: localhost\r\nOrigin: http://localhost:5173\r\nAccess-Control-Request-Method: POST\r\n\r\n");
     const HttpAnswer answer = client.receive();
     EXPECT_EQ(answer.status, 204);
     EXPECT_NE(answer.header.find("Access-Control-Allow-Origin: http://localhost:5173"), std::string::npos);

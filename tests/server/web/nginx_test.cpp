@@ -1,5 +1,5 @@
-// A frame's bytes are the same by native gRPC, by gRPC-Web, and by that through a real nginx, whose configuration has no more than
-// the address.
+// A frame's bytes are the same by native gRPC, by gRPC-Web, and by that through a real nginx, whose configuration has
+// no more than the address.
 #include <grpcpp/create_channel.h>
 #include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>
@@ -26,11 +26,12 @@ constexpr const char* program = "/usr/sbin/nginx";
 class Nginx {
 public:
     explicit Nginx(const std::string& target) {
-        const std::string config =
-            "daemon off; master_process off; error_log stderr crit; pid " + (folder_ / "pid") + ";\nevents {}\nhttp { access_log off; " +
-            "client_body_temp_path " + (folder_ / "body") + "; proxy_temp_path " + (folder_ / "proxy") + "; fastcgi_temp_path " + (folder_ / "f") +
-            "; uwsgi_temp_path " + (folder_ / "u") + "; scgi_temp_path " + (folder_ / "s") + ";\n  server {" +
-            " listen " + address + "; location / { proxy_pass http://" + target + "; proxy_read_timeout 1h; } } }\n";
+        const std::string config = "daemon off; master_process off; error_log stderr crit; pid " + (folder_ / "pid") +
+                                   ";\nevents {}\nhttp { access_log off; " + "client_body_temp_path " +
+                                   (folder_ / "body") + "; proxy_temp_path " + (folder_ / "proxy") +
+                                   "; fastcgi_temp_path " + (folder_ / "f") + "; uwsgi_temp_path " + (folder_ / "u") +
+                                   "; scgi_temp_path " + (folder_ / "s") + ";\n  server {" + " listen " + address +
+                                   "; location / { proxy_pass http://" + target + "; proxy_read_timeout 1h; } } }\n";
         const std::string file = folder_.write("nginx.conf", config);
         pid_ = ::fork();
         if (pid_ == 0) {
@@ -81,7 +82,8 @@ std::vector<std::string> web_frame(const std::string& http, const std::string& i
 
 /// As it came, not as it would be written again.
 std::vector<std::string> native_frame(const std::string& address, const std::string& id) {
-    grpc::TemplatedGenericStub<v1::WatchRequest, grpc::ByteBuffer> stub(grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
+    grpc::TemplatedGenericStub<v1::WatchRequest, grpc::ByteBuffer> stub(
+        grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
     grpc::ClientContext context;
     client::add_session_id(context, id);
     grpc::CompletionQueue queue;

@@ -52,7 +52,8 @@ TEST_F(ViewerPages, HaveTheirTypesAndAreKeptAsLongAsTheirNamesTell) {
         const HttpAnswer answer = ask(std::string(file.path));
         EXPECT_EQ(answer.status, 200) << file.path;
         EXPECT_EQ(field(answer, "Content-Type"), file.content_type);
-        EXPECT_EQ(field(answer, "Cache-Control"), file.hashed ? "public, max-age=31536000, immutable" : "no-cache") << file.path;
+        EXPECT_EQ(field(answer, "Cache-Control"), file.hashed ? "public, max-age=31536000, immutable" : "no-cache")
+            << file.path;
     }
     EXPECT_EQ(ask("/assets/none.js").status, 404);
 }
@@ -93,8 +94,10 @@ TEST_F(ViewerPages, AnswerHeadWithTheHeaderAlone) {
 }
 
 TEST(AcceptsGzip, WhereItIsNamedWithAWeight) {
-    for (const char* yes : {"gzip", "br, gzip", "gzip;q=0.001", " gzip ; q=1", "deflate,gzip"}) EXPECT_TRUE(accepts_gzip(yes)) << yes;
-    for (const char* no : {"", "br", "gzip;q=0", "gzip; q=0.000", "xgzip", "identity, br", ",,;"}) EXPECT_FALSE(accepts_gzip(no)) << no;
+    for (const char* yes : {"gzip", "br, gzip", "gzip;q=0.001", " gzip ; q=1", "deflate,gzip"})
+        EXPECT_TRUE(accepts_gzip(yes)) << yes;
+    for (const char* no : {"", "br", "gzip;q=0", "gzip; q=0.000", "xgzip", "identity, br", ",,;"})
+        EXPECT_FALSE(accepts_gzip(no)) << no;
 }
 
 }  // namespace

@@ -51,7 +51,8 @@ public:
             unchunk();
             if (body_.size() >= header_bytes) {
                 std::size_t length = 0;
-                for (std::size_t i = 1; i < header_bytes; ++i) length = length << 8 | static_cast<unsigned char>(body_[i]);
+                for (std::size_t i = 1; i < header_bytes; ++i)
+                    length = length << 8 | static_cast<unsigned char>(body_[i]);
                 if (body_.size() >= header_bytes + length) {
                     const bool trailers = body_[0] != 0;
                     std::string bytes = body_.substr(header_bytes, length);

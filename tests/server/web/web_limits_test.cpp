@@ -31,12 +31,14 @@ protected:
         return router;
     }
     GrpcWeb calls() const {
-        return {.channel = grpc::CreateChannel(running.server.address(), grpc::InsecureChannelCredentials()), .origins = {}};
+        return {.channel = grpc::CreateChannel(running.server.address(), grpc::InsecureChannelCredentials()),
+                .origins = {}};
     }
 
     RunningServer running;
     const std::string id = running.session();
-    HttpServer http{"127.0.0.1:0", router(), calls(), {.connections = 6, .streams = 3, .patience = std::chrono::hours(1)}};
+    HttpServer http{
+        "127.0.0.1:0", router(), calls(), {.connections = 6, .streams = 3, .patience = std::chrono::hours(1)}};
 };
 
 TEST_F(WebLimits, AStreamTooManyIsRefusedInWordsAndTheOthersGoOn) {

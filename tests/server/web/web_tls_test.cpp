@@ -23,8 +23,8 @@ protected:
     /// What the server answers to these bytes. more: arguments of openssl s_client.
     std::string answer(const Server& server, const std::string& request, const std::string& more = "") const {
         const std::string file = certificates.folder.write("request", request);
-        return output_of("openssl s_client -quiet -verify_return_error -CAfile " + certificates.file("ca") + " " + more + " -connect " +
-                         server.http_address() + " <" + file + " 2>/dev/null || true");
+        return output_of("openssl s_client -quiet -verify_return_error -CAfile " + certificates.file("ca") + " " +
+                         more + " -connect " + server.http_address() + " <" + file + " 2>/dev/null || true");
     }
     static std::string info_call() {
         return WebCall::request("/meniscus.v1.ServerService/GetServerInfo", web_message(""), {});
@@ -60,7 +60,9 @@ TEST_F(WebTls, ShowsTheNewCertificateToNewConnections) {
 
 TEST_F(WebTls, AsksCallersForACertificateWhereTheGrpcPortDoes) {
     const Server server(tls_options(certificates.mutual_files()));
-    const auto shown = [&](const std::string& name) { return "-cert " + certificates.file(name) + " -key " + certificates.key(name); };
+    const auto shown = [&](const std::string& name) {
+        return "-cert " + certificates.file(name) + " -key " + certificates.key(name);
+    };
     EXPECT_NE(answer(server, probe).find("alive"), std::string::npos) << "probes have none";
     EXPECT_NE(answer(server, info_call()).find("grpc-status: 16"), std::string::npos);
     EXPECT_NE(answer(server, info_call(), shown("client")).find("grpc-status: 0"), std::string::npos);

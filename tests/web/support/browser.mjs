@@ -11,17 +11,25 @@ mkdirSync(artifacts, { recursive: true });
 export const missing = existsSync(executablePath) ? false : `${executablePath} is not there`;
 
 export function launch(...args) {
-  return chromium.launch({ executablePath, args: ['--no-sandbox', '--enable-unsafe-swiftshader', '--use-angle=swiftshader', ...args] });
+  return chromium.launch({
+    executablePath,
+    args: ['--no-sandbox', '--enable-unsafe-swiftshader', '--use-angle=swiftshader', ...args],
+  });
 }
 
 /** A page that keeps what its console says is wrong. Errors of the network are what some tests are about. */
 export async function openPage(browser, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 720, height: 480 }, acceptDownloads: true, ...options });
+  const context = await browser.newContext({
+    viewport: { width: 720, height: 480 },
+    acceptDownloads: true,
+    ...options,
+  });
   const page = await context.newPage();
   page.errors = [];
   page.on('pageerror', (error) => page.errors.push(String(error)));
   page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type()) && !/ERR_|GPU stall|status of 4|status of 5/.test(message.text())) page.errors.push(message.text());
+    if (['error', 'warning'].includes(message.type()) && !/ERR_|GPU stall|status of 4|status of 5/.test(message.text()))
+      page.errors.push(message.text());
   });
   page.setDefaultTimeout(60_000);
   return page;

@@ -3,7 +3,12 @@ import { readFile } from 'node:fs/promises';
 import { extname, join } from 'node:path';
 
 const three = new URL('../../../client/web/node_modules/three/', import.meta.url).pathname;
-const types = { '.js': 'text/javascript', '.wasm': 'application/wasm', '.glb': 'model/gltf-binary', '.html': 'text/html' };
+const types = {
+  '.js': 'text/javascript',
+  '.wasm': 'application/wasm',
+  '.glb': 'model/gltf-binary',
+  '.html': 'text/html',
+};
 const html = `<!doctype html><link rel="icon" href="data:,"><script type="importmap">
   {"imports": {"three": "/build/three.module.js", "three/addons/": "/examples/jsm/"}}</script>`;
 
@@ -22,7 +27,9 @@ export async function reload(page, glb) {
     const draco = new DRACOLoader().setDecoderPath('/examples/jsm/libs/draco/gltf/');
     const { scene } = await new GLTFLoader().setDRACOLoader(draco).loadAsync('/mesh.glb');
     let triangles = 0;
-    scene.traverse(({ geometry }) => { triangles += (geometry?.index.count ?? 0) / 3; });
+    scene.traverse(({ geometry }) => {
+      triangles += (geometry?.index.count ?? 0) / 3;
+    });
     const { min, max } = new Box3().setFromObject(scene, true);
     return { triangles, bounds: [...min.toArray(), ...max.toArray()] };
   });

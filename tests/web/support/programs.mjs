@@ -36,7 +36,17 @@ async function printed(child, pattern) {
 
 /** ports: of a server before it, which it takes the place of. */
 export async function startServer({ ports = { grpc: 0, http: 0 }, args = [] } = {}) {
-  const child = start(meniscusd, ['--listen', `127.0.0.1:${ports.grpc}`, '--http', `127.0.0.1:${ports.http}`, '--threads', '2', '--shutdown-grace', '2', ...args]);
+  const child = start(meniscusd, [
+    '--listen',
+    `127.0.0.1:${ports.grpc}`,
+    '--http',
+    `127.0.0.1:${ports.http}`,
+    '--threads',
+    '2',
+    '--shutdown-grace',
+    '2',
+    ...args,
+  ]);
   const [, grpc] = await printed(child, /listening on 127\.0\.0\.1:(\d+)/);
   const [, http] = await printed(child, /http:\/\/127\.0\.0\.1:(\d+)/);
   return {
@@ -65,7 +75,8 @@ export function startUploader(server, args, session = randomUUID()) {
     /** Resolves when all has been sent. */
     finished: async () => {
       await child.ended;
-      if (child.exitCode !== 0) throw new Error(`${args[0]} ended with ${child.exitCode ?? child.signalCode}: ${child.output}`);
+      if (child.exitCode !== 0)
+        throw new Error(`${args[0]} ended with ${child.exitCode ?? child.signalCode}: ${child.output}`);
     },
     kill: async () => {
       child.kill('SIGKILL');

@@ -23,7 +23,10 @@ async function record() {
   await server.kill('SIGTERM');
   const session = join(folder, simulator.session);
   return {
-    file: join(session, readdirSync(session).find((name) => name.endsWith('.recording'))),
+    file: join(
+      session,
+      readdirSync(session).find((name) => name.endsWith('.recording')),
+    ),
     speed: (seconds * rate) / frameCount,
     /** By frame. */
     triangles: JSON.parse(readFileSync(stats, 'utf8')).frames.map((frame) => frame.triangles),

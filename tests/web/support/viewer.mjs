@@ -43,7 +43,10 @@ export function state(page, kind) {
 
 /** Waits until the banner says so. */
 export function says(page, pattern) {
-  return page.waitForFunction((source) => new RegExp(source).test(document.getElementById('banner').innerText), pattern.source);
+  return page.waitForFunction(
+    (source) => new RegExp(source).test(document.getElementById('banner').innerText),
+    pattern.source,
+  );
 }
 
 export function shown(page) {

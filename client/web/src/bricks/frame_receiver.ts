@@ -63,9 +63,13 @@ export class FrameReceiver {
     if (begin.brickCells !== knownBrickCells)
       throw new ProtocolError(`${name} has bricks of ${begin.brickCells} cells; this viewer knows ${knownBrickCells}`);
     if (begin.offsetBits < minOffsetBits || begin.offsetBits > maxOffsetBits)
-      throw new ProtocolError(`${name} has offset_bits ${begin.offsetBits}; allowed are ${minOffsetBits} to ${maxOffsetBits}`);
-    if (!Number.isFinite(begin.cellSize) || begin.cellSize <= 0) throw new ProtocolError(`${name} has cell_size ${begin.cellSize}`);
-    if (begin.brickCount > maxBricks) throw new ProtocolError(`${name} has ${begin.brickCount} bricks; at most ${maxBricks} are taken`);
+      throw new ProtocolError(
+        `${name} has offset_bits ${begin.offsetBits}; allowed are ${minOffsetBits} to ${maxOffsetBits}`,
+      );
+    if (!Number.isFinite(begin.cellSize) || begin.cellSize <= 0)
+      throw new ProtocolError(`${name} has cell_size ${begin.cellSize}`);
+    if (begin.brickCount > maxBricks)
+      throw new ProtocolError(`${name} has ${begin.brickCount} bricks; at most ${maxBricks} are taken`);
     this.arriving = { begin, beganAt: now, bricks: this.baseBricks(begin, name), arrived: new Set(), bytes };
   }
 
@@ -83,7 +87,8 @@ export class FrameReceiver {
       throw new ProtocolError(`${name} is the difference to a frame on another lattice`);
     const bricks = new Map(this.last.bricks);
     for (const { x, y, z } of begin.vanished)
-      if (!bricks.delete(brickKey(x, y, z))) throw new ProtocolError(`${name}: brick (${x}, ${y}, ${z}) vanished without having been`);
+      if (!bricks.delete(brickKey(x, y, z)))
+        throw new ProtocolError(`${name}: brick (${x}, ${y}, ${z}) vanished without having been`);
     return bricks;
   }
 
@@ -99,7 +104,13 @@ export class FrameReceiver {
       this.partial = { first: brick, parts: [] };
     }
     const { first, parts } = this.partial;
-    if (brick.x !== first.x || brick.y !== first.y || brick.z !== first.z || brick.partIndex !== parts.length || brick.partCount !== first.partCount)
+    if (
+      brick.x !== first.x ||
+      brick.y !== first.y ||
+      brick.z !== first.z ||
+      brick.partIndex !== parts.length ||
+      brick.partCount !== first.partCount
+    )
       throw new ProtocolError(
         `${name}, part ${brick.partIndex} of ${brick.partCount}, came in place of part ${parts.length} of (${first.x}, ${first.y}, ${first.z})`,
       );
@@ -124,11 +135,15 @@ export class FrameReceiver {
       throw new ProtocolError(`statistics of frame ${statistics.frameIndex} came without its mesh`);
     const { begin, bricks } = arriving;
     if (this.partial || arriving.arrived.size !== begin.brickCount)
-      throw new ProtocolError(`frame ${begin.frameIndex} ended after ${arriving.arrived.size} of ${begin.brickCount} bricks`);
+      throw new ProtocolError(
+        `frame ${begin.frameIndex} ended after ${arriving.arrived.size} of ${begin.brickCount} bricks`,
+      );
     let triangleCount = 0;
     for (const brick of bricks.values()) triangleCount += brick.triangleCount;
     if (BigInt(triangleCount) !== begin.triangleCount)
-      throw new ProtocolError(`frame ${begin.frameIndex} has bricks of ${triangleCount} triangles; announced were ${begin.triangleCount}`);
+      throw new ProtocolError(
+        `frame ${begin.frameIndex} has bricks of ${triangleCount} triangles; announced were ${begin.triangleCount}`,
+      );
     this.arriving = undefined;
     this.last = {
       index: begin.frameIndex,

@@ -33,7 +33,8 @@ export class History {
       if (uses === 0) this.held += brick.draco.length;
       this.uses.set(brick, uses + 1);
     }
-    while (this.kept.length > 1 && (this.kept.length > this.limits.frames || this.held > this.limits.bytes)) this.release(this.kept.shift()!);
+    while (this.kept.length > 1 && (this.kept.length > this.limits.frames || this.held > this.limits.bytes))
+      this.release(this.kept.shift()!);
   }
 
   clear(): void {

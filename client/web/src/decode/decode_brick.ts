@@ -29,9 +29,15 @@ export function decodeBrick(draco: DracoModule, brick: EncodedBrick, offsetBits:
     const position = attribute(draco.POSITION);
     if (position?.data_type() !== draco.DT_UINT16 || position.num_components() !== 3)
       throw new Error('it has no positions of three uint16');
-    const positions = paddedPositions(new Uint16Array(read(position, draco.DT_UINT16, points * 6)), brickCells << offsetBits);
+    const positions = paddedPositions(
+      new Uint16Array(read(position, draco.DT_UINT16, points * 6)),
+      brickCells << offsetBits,
+    );
     const normal = attribute(draco.NORMAL);
-    const normals = normal?.num_components() === 3 ? shortNormals(new Float32Array(read(normal, draco.DT_FLOAT32, points * 12))) : undefined;
+    const normals =
+      normal?.num_components() === 3
+        ? shortNormals(new Float32Array(read(normal, draco.DT_FLOAT32, points * 12)))
+        : undefined;
     const triangles = readTriangles(draco, mesh, (bytes, to) => decoder.GetTrianglesUInt32Array(mesh, bytes, to));
     const groups = triangleGroups(positions, 4, triangles, brick.cellLevels, offsetBits);
     return { positions, normals, bounds: boundsOf(positions), ...groupTriangles(triangles, groups, points) };
@@ -90,7 +96,8 @@ function shortNormals(normals: Float32Array): Int16Array {
   const short = new Int16Array((normals.length / 3) * 4);
   for (let from = 0, to = 0; from < normals.length; from += 3, to += 4) {
     const length = Math.hypot(normals[from]!, normals[from + 1]!, normals[from + 2]!);
-    for (let axis = 0; axis < 3; ++axis) short[to + axis] = length > 0 ? Math.round((normals[from + axis]! / length) * 32767) : 0;
+    for (let axis = 0; axis < 3; ++axis)
+      short[to + axis] = length > 0 ? Math.round((normals[from + axis]! / length) * 32767) : 0;
   }
   return short;
 }

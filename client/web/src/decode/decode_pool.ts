@@ -44,8 +44,12 @@ export class DecodePool {
       else job.reject(new Error(answer.error));
       this.next();
     };
-    worker.onmessage = (event) => { settle(event.data); };
-    worker.onerror = (event) => { settle({ error: event.message || 'a decoding worker failed' }); };
+    worker.onmessage = (event) => {
+      settle(event.data);
+    };
+    worker.onerror = (event) => {
+      settle({ error: event.message || 'a decoding worker failed' });
+    };
     worker.postMessage(job.request);
   }
 }
@@ -54,6 +58,9 @@ export class DecodePool {
 export function startDecodePool(): DecodePool {
   const count = Math.min(4, Math.max(1, navigator.hardwareConcurrency - 1));
   return new DecodePool(
-    Array.from({ length: count }, () => new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'decode' })),
+    Array.from(
+      { length: count },
+      () => new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'decode' }),
+    ),
   );
 }

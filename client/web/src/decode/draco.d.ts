@@ -17,7 +17,13 @@ declare module 'draco3d/draco_decoder_nodejs.js' {
     GetAttributeId(mesh: DracoMesh, type: number): number;
     GetAttribute(mesh: DracoMesh, id: number): DracoAttribute;
     GetAttributeByUniqueId(mesh: DracoMesh, id: number): DracoAttribute;
-    GetAttributeDataArrayForAllPoints(mesh: DracoMesh, attribute: DracoAttribute, type: number, bytes: number, to: number): boolean;
+    GetAttributeDataArrayForAllPoints(
+      mesh: DracoMesh,
+      attribute: DracoAttribute,
+      type: number,
+      bytes: number,
+      to: number,
+    ): boolean;
     GetTrianglesUInt32Array(mesh: DracoMesh, bytes: number, to: number): boolean;
   }
   export interface DracoModule {

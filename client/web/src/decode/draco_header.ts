@@ -10,10 +10,14 @@ const mostTrianglesPerByte = 64;
 
 /** Throws an Error. */
 export function requirePlausible({ triangleCount, draco }: EncodedBrick): void {
-  if (triangleCount > mostTriangles) throw new Error(`${triangleCount} triangles are announced; a brick has at most ${mostTriangles}`);
+  if (triangleCount > mostTriangles)
+    throw new Error(`${triangleCount} triangles are announced; a brick has at most ${mostTriangles}`);
   if (triangleCount > mostTrianglesPerByte * draco.length)
-    throw new Error(`${triangleCount} triangles are announced in ${draco.length} bytes, more than ${mostTrianglesPerByte} per byte`);
-  if (!expected.every((byte, i) => draco[i] === byte)) throw new Error('its bytes are not a Draco mesh as bricks have them');
+    throw new Error(
+      `${triangleCount} triangles are announced in ${draco.length} bytes, more than ${mostTrianglesPerByte} per byte`,
+    );
+  if (!expected.every((byte, i) => draco[i] === byte))
+    throw new Error('its bytes are not a Draco mesh as bricks have them');
   const cursor = new Cursor(draco, expected.length + 1);
   const vertices = cursor.number();
   const faces = cursor.number();
@@ -22,7 +26,9 @@ export function requirePlausible({ triangleCount, draco }: EncodedBrick): void {
   const splits = cursor.number();
   if (faces !== triangleCount) throw new Error(`it has ${faces} triangles; announced were ${triangleCount}`);
   if (!(vertices <= 3 * faces && symbols <= faces && splits <= symbols && connectivities <= 1))
-    throw new Error(`its Draco mesh has ${vertices} vertices, ${symbols} symbols and ${splits} splits, which do not fit ${faces} triangles`);
+    throw new Error(
+      `its Draco mesh has ${vertices} vertices, ${symbols} symbols and ${splits} splits, which do not fit ${faces} triangles`,
+    );
 }
 
 class Cursor {

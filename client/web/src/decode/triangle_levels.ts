@@ -60,5 +60,6 @@ function unpackLevels(packed: Uint8Array, levels: Uint8Array): void {
     levels[cell] = level;
     ++at;
   }
-  if (packed.length !== (at + 3) >> 2) throw new Error(`there are ${packed.length} bytes of cell levels, but ${at} base cells with triangles`);
+  if (packed.length !== (at + 3) >> 2)
+    throw new Error(`there are ${packed.length} bytes of cell levels, but ${at} base cells with triangles`);
 }

@@ -16,14 +16,16 @@ export class KeptParticles {
   add(particles: Particles): void {
     this.kept.push(particles);
     this.bytes += size(particles);
-    while (this.kept.length > 1 && (this.kept.length > this.limits.frames || this.bytes > this.limits.bytes)) this.bytes -= size(this.kept.shift()!);
+    while (this.kept.length > 1 && (this.kept.length > this.limits.frames || this.bytes > this.limits.bytes))
+      this.bytes -= size(this.kept.shift()!);
   }
 
   /** Those of the frame, or else of the frame nearest to it in its run: the two streams may skip different frames. */
   nearest(frame: Pick<Frame, 'runId' | 'index'>): Particles | undefined {
     let best: Particles | undefined;
     for (const particles of this.kept)
-      if (particles.runId === frame.runId && (!best || distance(particles, frame) <= distance(best, frame))) best = particles;
+      if (particles.runId === frame.runId && (!best || distance(particles, frame) <= distance(best, frame)))
+        best = particles;
     return best;
   }
 

@@ -39,7 +39,9 @@ export class ParticleReceiver {
     const { arriving } = this;
     if (!arriving) throw new ProtocolError('particles came outside of a frame');
     if (arriving.filled + data.length > arriving.bytes.length)
-      throw new ProtocolError(`the particles of frame ${arriving.header.index} have more than the ${arriving.bytes.length} bytes announced`);
+      throw new ProtocolError(
+        `the particles of frame ${arriving.header.index} have more than the ${arriving.bytes.length} bytes announced`,
+      );
     arriving.bytes.set(data, arriving.filled);
     arriving.filled += data.length;
   }
@@ -61,8 +63,10 @@ export class ParticleReceiver {
 
 function begin(message: ParticlesBegin): Arriving {
   const name = `the particles of frame ${message.frameIndex}`;
-  if (message.sentCount > maxParticles) throw new ProtocolError(`${name} are ${message.sentCount}; at most ${maxParticles} are taken`);
-  if (!(message.particleRadius > 0) || !Number.isFinite(message.particleRadius)) throw new ProtocolError(`${name} have the radius ${message.particleRadius}`);
+  if (message.sentCount > maxParticles)
+    throw new ProtocolError(`${name} are ${message.sentCount}; at most ${maxParticles} are taken`);
+  if (!(message.particleRadius > 0) || !Number.isFinite(message.particleRadius))
+    throw new ProtocolError(`${name} have the radius ${message.particleRadius}`);
   const min = corner(message.quantizationBox?.min);
   const max = corner(message.quantizationBox?.max);
   if (!min || !max) throw new ProtocolError(`${name} have no finite box`);

@@ -5,7 +5,11 @@ import type { WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
 import type { Received } from '../rpc/call';
 
 /** Frames from a place on. */
-export type ReadFrames = (position: number, count: number, signal: AbortSignal) => AsyncIterable<Received<WatchResponse>>;
+export type ReadFrames = (
+  position: number,
+  count: number,
+  signal: AbortSignal,
+) => AsyncIterable<Received<WatchResponse>>;
 
 export interface RecordingFramesEvents {
   /** The frame that is wanted. */

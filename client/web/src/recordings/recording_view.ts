@@ -34,7 +34,9 @@ export class RecordingView {
     private readonly playback: Playback,
     private readonly events: RecordingViewEvents,
   ) {
-    document.addEventListener('visibilitychange', () => { if (!document.hidden) this.goOn(); });
+    document.addEventListener('visibilitychange', () => {
+      if (!document.hidden) this.goOn();
+    });
   }
 
   /** Paused where a place is given, otherwise playing from the beginning. */
@@ -74,19 +76,30 @@ export class RecordingView {
   private async open(name: RecordingName): Promise<void> {
     this.events.state({ kind: 'connecting' });
     try {
-      const recording = (await this.server.recordings()).find((r) => sameRecording({ session: r.sessionId, number: r.number }, name));
+      const recording = (await this.server.recordings()).find((r) =>
+        sameRecording({ session: r.sessionId, number: r.number }, name),
+      );
       if (name !== this.name) return;
       if (!recording) throw new RpcError(Code.notFound, 'it may have been deleted');
       if (recording.frames === 0n) throw new RpcError(Code.failedPrecondition, 'This recording holds no mesh yet.');
       this.frames = new RecordingFrames(
         Number(recording.frames),
-        (position, count, signal) => this.server.readRecording(
-          { sessionId: name.session, number: name.number, position: BigInt(position), count: BigInt(count) }, signal),
+        (position, count, signal) =>
+          this.server.readRecording(
+            { sessionId: name.session, number: name.number, position: BigInt(position), count: BigInt(count) },
+            signal,
+          ),
         limits,
         {
-          frame: (frame, position) => { this.take(frame, position); },
-          failed: (error) => { this.fail(error); },
-          received: (bytes) => { this.screen.overlay.receivedBytes(bytes); },
+          frame: (frame, position) => {
+            this.take(frame, position);
+          },
+          failed: (error) => {
+            this.fail(error);
+          },
+          received: (bytes) => {
+            this.screen.overlay.receivedBytes(bytes);
+          },
         },
       );
       this.playback.play(this.reel(this.frames));
@@ -103,7 +116,9 @@ export class RecordingView {
         const frame = frames.at(at);
         return frame ? `frame ${frame.index}` : `${at + 1} of ${frames.length}`;
       },
-      choose: (at) => { this.show(at); },
+      choose: (at) => {
+        this.show(at);
+      },
       paused: (paused) => {
         this.tellState();
         if (paused) this.events.restsAt(this.position);
@@ -138,7 +153,12 @@ export class RecordingView {
       this.playback.setPaused(true);
       return;
     }
-    this.timer = setTimeout(() => { this.show(this.position + 1); }, Math.max(0, this.drawnAt + pace - performance.now()));
+    this.timer = setTimeout(
+      () => {
+        this.show(this.position + 1);
+      },
+      Math.max(0, this.drawnAt + pace - performance.now()),
+    );
   }
 
   private tellState(): void {
@@ -151,7 +171,9 @@ export class RecordingView {
       this.events.state({ kind: 'token', reason: explain(error) });
     } else if (code === Code.unavailable || code === Code.deadlineExceeded || code === Code.resourceExhausted) {
       const wait = this.backoff.next();
-      this.timer = setTimeout(() => { this.restart(); }, wait);
+      this.timer = setTimeout(() => {
+        this.restart();
+      }, wait);
       this.events.state({ kind: 'waiting', reason: explain(error), retryAt: performance.now() + wait });
     } else {
       this.events.state({ kind: 'refused', reason: reasonOf(error) });

@@ -44,7 +44,12 @@ export async function* serverStream<I extends DescMessage, O extends DescMessage
   request: MessageInitShape<I>,
   options: CallOptions,
 ): AsyncGenerator<Received<MessageShape<O>>, void> {
-  for await (const data of messages(endpoint, path(method), toBinary(method.input, create(method.input, request)), options))
+  for await (const data of messages(
+    endpoint,
+    path(method),
+    toBinary(method.input, create(method.input, request)),
+    options,
+  ))
     yield { message: fromBinary(method.output, data), bytes: data.length };
 }
 
@@ -56,7 +61,12 @@ export async function unary<I extends DescMessage, O extends DescMessage>(
   options: CallOptions,
 ): Promise<MessageShape<O>> {
   let answer: MessageShape<O> | undefined;
-  for await (const data of messages(endpoint, path(method), toBinary(method.input, create(method.input, request)), options))
+  for await (const data of messages(
+    endpoint,
+    path(method),
+    toBinary(method.input, create(method.input, request)),
+    options,
+  ))
     answer = fromBinary(method.output, data);
   if (answer === undefined) throw new RpcError(Code.internal, 'The server answered without a message.');
   return answer;
@@ -66,7 +76,12 @@ function path(method: { readonly name: string; readonly parent: { readonly typeN
   return `/${method.parent.typeName}/${method.name}`;
 }
 
-async function* messages(endpoint: Endpoint, path: string, request: Uint8Array, options: CallOptions): AsyncGenerator<Uint8Array, void> {
+async function* messages(
+  endpoint: Endpoint,
+  path: string,
+  request: Uint8Array,
+  options: CallOptions,
+): AsyncGenerator<Uint8Array, void> {
   const response = await post(endpoint, path, request, options);
   // A call that is refused at once may have its status in the headers, and no body.
   if (response.headers.get('grpc-status') !== null) {
@@ -90,7 +105,10 @@ async function* messages(endpoint: Endpoint, path: string, request: Uint8Array, 
       if (error) throw error;
       return;
     }
-  throw new RpcError(Code.unavailable, parser.atBoundary ? 'The connection ended.' : 'The connection ended within a message.');
+  throw new RpcError(
+    Code.unavailable,
+    parser.atBoundary ? 'The connection ended.' : 'The connection ended within a message.',
+  );
 }
 
 async function post(endpoint: Endpoint, path: string, request: Uint8Array, options: CallOptions): Promise<Response> {

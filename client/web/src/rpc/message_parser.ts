@@ -24,11 +24,20 @@ export class MessageParser {
       const flags = bytes[0]!;
       const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(1);
       if ((flags & ~trailersFlag) !== 0)
-        throw new RpcError(Code.internal, `The server sent a message with flags ${flags}; only plain ones are understood.`);
+        throw new RpcError(
+          Code.internal,
+          `The server sent a message with flags ${flags}; only plain ones are understood.`,
+        );
       if (length > this.maxBytes)
-        throw new RpcError(Code.resourceExhausted, `The server sent a message of ${length} bytes; the limit is ${this.maxBytes}.`);
+        throw new RpcError(
+          Code.resourceExhausted,
+          `The server sent a message of ${length} bytes; the limit is ${this.maxBytes}.`,
+        );
       if (bytes.length < headerBytes + length) break;
-      messages.push({ trailers: (flags & trailersFlag) !== 0, data: bytes.subarray(headerBytes, headerBytes + length) });
+      messages.push({
+        trailers: (flags & trailersFlag) !== 0,
+        data: bytes.subarray(headerBytes, headerBytes + length),
+      });
       bytes = bytes.subarray(headerBytes + length);
     }
     this.rest = bytes;

@@ -1,15 +1,24 @@
 // The server's calls that a viewer makes.
 import type { MessageInitShape } from '@bufbuild/protobuf';
-import { RecordingService, type ReadRecordingRequestSchema, type Recording } from '../gen/meniscus/v1/recording_service_pb';
+import {
+  RecordingService,
+  type ReadRecordingRequestSchema,
+  type Recording,
+} from '../gen/meniscus/v1/recording_service_pb';
 import { SessionService, type Session } from '../gen/meniscus/v1/session_service_pb';
 import { ServerService, type GetServerInfoResponse } from '../gen/meniscus/v1/server_service_pb';
-import { SurfaceService, type WatchParticlesResponse, type WatchRequestSchema, type WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
+import {
+  SurfaceService,
+  type WatchParticlesResponse,
+  type WatchRequestSchema,
+  type WatchResponse,
+} from '../gen/meniscus/v1/surface_service_pb';
 import { serverStream, unary, type CallOptions, type Endpoint, type Received } from './call';
 
 export type WatchRequestInit = MessageInitShape<typeof WatchRequestSchema>;
 export type ReadRequestInit = MessageInitShape<typeof ReadRecordingRequestSchema>;
 
-const unaryTimeout = 10_000;  // ms
+const unaryTimeout = 10_000; // ms
 
 export class Server {
   /** Sent as a bearer token; empty: none. */
@@ -24,30 +33,70 @@ export class Server {
   }
 
   async info(): Promise<GetServerInfoResponse> {
-    return unary(this.endpoint, ServerService.method.getServerInfo, {}, this.options(AbortSignal.timeout(unaryTimeout)));
+    return unary(
+      this.endpoint,
+      ServerService.method.getServerInfo,
+      {},
+      this.options(AbortSignal.timeout(unaryTimeout)),
+    );
   }
 
   async sessions(): Promise<Session[]> {
-    const answer = await unary(this.endpoint, SessionService.method.listSessions, {}, this.options(AbortSignal.timeout(unaryTimeout)));
+    const answer = await unary(
+      this.endpoint,
+      SessionService.method.listSessions,
+      {},
+      this.options(AbortSignal.timeout(unaryTimeout)),
+    );
     return answer.sessions;
   }
 
   /** opened: the server has taken the call. */
-  watch(request: WatchRequestInit & { sessionId: string }, signal: AbortSignal, opened: () => void): AsyncIterable<Received<WatchResponse>> {
-    return serverStream(this.endpoint, SurfaceService.method.watch, request, this.options(signal, request.sessionId, opened));
+  watch(
+    request: WatchRequestInit & { sessionId: string },
+    signal: AbortSignal,
+    opened: () => void,
+  ): AsyncIterable<Received<WatchResponse>> {
+    return serverStream(
+      this.endpoint,
+      SurfaceService.method.watch,
+      request,
+      this.options(signal, request.sessionId, opened),
+    );
   }
 
-  watchParticles(request: { sessionId: string; maxParticles: bigint }, signal: AbortSignal): AsyncIterable<Received<WatchParticlesResponse>> {
-    return serverStream(this.endpoint, SurfaceService.method.watchParticles, request, this.options(signal, request.sessionId));
+  watchParticles(
+    request: { sessionId: string; maxParticles: bigint },
+    signal: AbortSignal,
+  ): AsyncIterable<Received<WatchParticlesResponse>> {
+    return serverStream(
+      this.endpoint,
+      SurfaceService.method.watchParticles,
+      request,
+      this.options(signal, request.sessionId),
+    );
   }
 
   async recordings(): Promise<Recording[]> {
-    const answer = await unary(this.endpoint, RecordingService.method.listRecordings, {}, this.options(AbortSignal.timeout(unaryTimeout)));
+    const answer = await unary(
+      this.endpoint,
+      RecordingService.method.listRecordings,
+      {},
+      this.options(AbortSignal.timeout(unaryTimeout)),
+    );
     return answer.recordings;
   }
 
-  readRecording(request: ReadRequestInit & { sessionId: string }, signal: AbortSignal): AsyncIterable<Received<WatchResponse>> {
-    return serverStream(this.endpoint, RecordingService.method.readRecording, request, this.options(signal, request.sessionId));
+  readRecording(
+    request: ReadRequestInit & { sessionId: string },
+    signal: AbortSignal,
+  ): AsyncIterable<Received<WatchResponse>> {
+    return serverStream(
+      this.endpoint,
+      RecordingService.method.readRecording,
+      request,
+      this.options(signal, request.sessionId),
+    );
   }
 
   private options(signal: AbortSignal, sessionId?: string, opened?: () => void): CallOptions {

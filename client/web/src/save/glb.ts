@@ -21,13 +21,19 @@ export function writeGlb(shown: Shown, up: UpAxis): Uint8Array {
     bytes = aligned(bytes + encoded.draco.length);
   }
   const binary = new Uint8Array(bytes);
-  bricks.forEach(({ encoded }, i) => { binary.set(encoded.draco, views[i]!.byteOffset); });
+  bricks.forEach(({ encoded }, i) => {
+    binary.set(encoded.draco, views[i]!.byteOffset);
+  });
   return container(document(shown, bricks, views, bytes, up), binary);
 }
 
 function document(shown: Shown, bricks: ShownBrick[], views: object[], bytes: number, up: UpAxis): object {
   const { frame } = shown;
-  const asset = { version: '2.0', generator: 'Meniscus viewer', extras: { frame: Number(frame.index), simulationTime: frame.simulationTime } };
+  const asset = {
+    version: '2.0',
+    generator: 'Meniscus viewer',
+    extras: { frame: Number(frame.index), simulationTime: frame.simulationTime },
+  };
   // A file without a mesh has no list at all: the format has no empty lists.
   if (bricks.length === 0) return { asset, scene: 0, scenes: [{ name: 'no surface' }] };
   const accessors: object[] = [];
@@ -35,7 +41,13 @@ function document(shown: Shown, bricks: ShownBrick[], views: object[], bytes: nu
     const points = pointCount(decoded);
     const add = (accessor: object): number => accessors.push(accessor) - 1;
     const indices = add({ componentType: unsignedInt, count: decoded.indices.length, type: 'SCALAR' });
-    const POSITION = add({ componentType: unsignedShort, count: points, type: 'VEC3', min: decoded.bounds.min, max: decoded.bounds.max });
+    const POSITION = add({
+      componentType: unsignedShort,
+      count: points,
+      type: 'VEC3',
+      min: decoded.bounds.min,
+      max: decoded.bounds.max,
+    });
     const normal = decoded.normals ? { NORMAL: add({ componentType: float, count: points, type: 'VEC3' }) } : {};
     const dracoAttributes = decoded.normals ? dracoIds : { POSITION: dracoIds.POSITION };
     return {
@@ -59,7 +71,12 @@ function document(shown: Shown, bricks: ShownBrick[], views: object[], bytes: nu
     scenes: [{ nodes: [0] }],
     nodes: nodes(shown, bricks, up),
     meshes,
-    materials: [{ name: 'water', pbrMetallicRoughness: { baseColorFactor: [0.1, 0.38, 0.5, 1], metallicFactor: 0, roughnessFactor: 0.1 } }],
+    materials: [
+      {
+        name: 'water',
+        pbrMetallicRoughness: { baseColorFactor: [0.1, 0.38, 0.5, 1], metallicFactor: 0, roughnessFactor: 0.1 },
+      },
+    ],
     accessors,
     bufferViews: views,
     buffers: [{ byteLength: bytes }],
@@ -71,12 +88,18 @@ function nodes({ frame }: Shown, bricks: ShownBrick[], up: UpAxis): object[] {
   const edge = brickEdge(frame);
   const step = frame.cellSize / 2 ** frame.offsetBits;
   const first = bricks[0]!.encoded.place;
-  const translation = (place: readonly number[], from: readonly number[]): number[] => place.map((p, axis) => (p - from[axis]!) * edge);
+  const translation = (place: readonly number[], from: readonly number[]): number[] =>
+    place.map((p, axis) => (p - from[axis]!) * edge);
   // glTF is y-up.
   const turn = up === 'z' ? { rotation: [-Math.SQRT1_2, 0, 0, Math.SQRT1_2] } : {};
   const [x, y, z] = translation(first, [0, 0, 0]) as [number, number, number];
   return [
-    { name: 'surface', translation: up === 'z' ? [x, z, -y] : [x, y, z], ...turn, children: bricks.map((_, i) => i + 1) },
+    {
+      name: 'surface',
+      translation: up === 'z' ? [x, z, -y] : [x, y, z],
+      ...turn,
+      children: bricks.map((_, i) => i + 1),
+    },
     ...bricks.map(({ encoded }, i) => ({
       mesh: i,
       translation: translation(encoded.place, first),
@@ -91,7 +114,9 @@ function container(json: object, binary: Uint8Array): Uint8Array {
   const headerBytes = 12 + 8 + textBytes + (binary.length > 0 ? 8 : 0);
   const file = new Uint8Array(headerBytes + binary.length).fill(0x20, 20 + text.length, 20 + textBytes);
   const header = new DataView(file.buffer);
-  [0x46546c67, 2, file.length, textBytes, 0x4e4f534a].forEach((value, i) => { header.setUint32(4 * i, value, true); });
+  [0x46546c67, 2, file.length, textBytes, 0x4e4f534a].forEach((value, i) => {
+    header.setUint32(4 * i, value, true);
+  });
   file.set(text, 20);
   if (binary.length > 0) {
     header.setUint32(20 + textBytes, binary.length, true);

@@ -13,7 +13,9 @@ export function writePly(shown: Shown): Uint8Array {
   const vertexCount = vertices.length / 3;
   const header = new TextEncoder().encode(headerText(vertexCount, levels.length, wide, hasNormals));
   const coordinateBytes = wide ? 8 : 4;
-  const file = new Uint8Array(header.length + vertexCount * (3 * coordinateBytes + (hasNormals ? 12 : 0)) + levels.length * 14);
+  const file = new Uint8Array(
+    header.length + vertexCount * (3 * coordinateBytes + (hasNormals ? 12 : 0)) + levels.length * 14,
+  );
   file.set(header);
   const view = new DataView(file.buffer);
   let at = header.length;
@@ -23,7 +25,8 @@ export function writePly(shown: Shown): Uint8Array {
       if (wide) view.setFloat64(at, x, true);
       else view.setFloat32(at, x, true);
     }
-    if (hasNormals) for (let axis = 0; axis < 3; ++axis, at += 4) view.setFloat32(at, normals[3 * vertex + axis]! / 32767, true);
+    if (hasNormals)
+      for (let axis = 0; axis < 3; ++axis, at += 4) view.setFloat32(at, normals[3 * vertex + axis]! / 32767, true);
   }
   for (let triangle = 0; triangle < levels.length; ++triangle) {
     view.setUint8(at++, 3);

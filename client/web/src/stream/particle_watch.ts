@@ -10,7 +10,10 @@ import { Backoff } from './backoff';
 export const maxParticles = 100_000n;
 
 export interface ParticleServer {
-  watchParticles(request: { sessionId: string; maxParticles: bigint }, signal: AbortSignal): AsyncIterable<Received<WatchParticlesResponse>>;
+  watchParticles(
+    request: { sessionId: string; maxParticles: bigint },
+    signal: AbortSignal,
+  ): AsyncIterable<Received<WatchParticlesResponse>>;
 }
 
 export interface ParticleWatchEvents {
@@ -21,7 +24,12 @@ export interface ParticleWatchEvents {
 }
 
 /** The watch of the meshes tells of these, too. */
-const toldElsewhere: ReadonlySet<Code> = new Set([Code.unavailable, Code.notFound, Code.unauthenticated, Code.permissionDenied]);
+const toldElsewhere: ReadonlySet<Code> = new Set([
+  Code.unavailable,
+  Code.notFound,
+  Code.unauthenticated,
+  Code.permissionDenied,
+]);
 
 export class ParticleWatch {
   private readonly backoff = new Backoff({ first: 500, longest: 8000 });
@@ -49,7 +57,10 @@ export class ParticleWatch {
   private async run(signal: AbortSignal): Promise<void> {
     const receiver = new ParticleReceiver();
     try {
-      for await (const { message, bytes } of this.server.watchParticles({ sessionId: this.sessionId, maxParticles }, signal)) {
+      for await (const { message, bytes } of this.server.watchParticles(
+        { sessionId: this.sessionId, maxParticles },
+        signal,
+      )) {
         if (signal.aborted) return;
         this.events.received(bytes);
         const particles = receiver.take(message);

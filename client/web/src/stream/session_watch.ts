@@ -12,7 +12,11 @@ import type { WatchState } from './watch_state';
 export type Wishes = Omit<WatchRequestInit, 'sessionId'>;
 
 export interface WatchServer {
-  watch(request: Wishes & { sessionId: string }, signal: AbortSignal, opened: () => void): AsyncIterable<Received<WatchResponse>>;
+  watch(
+    request: Wishes & { sessionId: string },
+    signal: AbortSignal,
+    opened: () => void,
+  ): AsyncIterable<Received<WatchResponse>>;
 }
 
 export interface WatchEvents {
@@ -93,7 +97,11 @@ export class SessionWatch {
       if (!signal.aborted && !this.ended) this.events.state({ kind: 'connected' });
     };
     try {
-      for await (const { message, bytes } of this.server.watch({ ...this.wishes, sessionId: this.sessionId }, signal, opened)) {
+      for await (const { message, bytes } of this.server.watch(
+        { ...this.wishes, sessionId: this.sessionId },
+        signal,
+        opened,
+      )) {
         if (signal.aborted) return;
         this.take(receiver, message, bytes);
       }
@@ -124,8 +132,13 @@ export class SessionWatch {
 
   private fail(error: unknown): void {
     const reason = explain(error);
-    if (!(error instanceof RpcError)) this.end({ kind: 'refused', reason: `The server sent something that this page does not understand: ${reason}. Load the page again.` });
-    else if (error.code === Code.unauthenticated || error.code === Code.permissionDenied) this.end({ kind: 'token', reason });
+    if (!(error instanceof RpcError))
+      this.end({
+        kind: 'refused',
+        reason: `The server sent something that this page does not understand: ${reason}. Load the page again.`,
+      });
+    else if (error.code === Code.unauthenticated || error.code === Code.permissionDenied)
+      this.end({ kind: 'token', reason });
     else if (error.code === Code.notFound && this.ended) this.scheduleRetry();
     else if (passing.has(error.code)) this.events.state({ kind: 'waiting', retryAt: this.scheduleRetry(), reason });
     else this.end({ kind: 'refused', reason });
@@ -135,7 +148,9 @@ export class SessionWatch {
   private scheduleRetry(): number {
     this.call = undefined;
     const wait = this.backoff.next();
-    this.retry = setTimeout(() => { this.start(); }, wait);
+    this.retry = setTimeout(() => {
+      this.start();
+    }, wait);
     return performance.now() + wait;
   }
 

@@ -10,7 +10,8 @@ export class SkippedFrames {
   }
 
   shown(frame: Pick<Frame, 'runId' | 'index'>): void {
-    if (this.last?.runId === frame.runId && frame.index > this.last.index) this.skipped += Number(frame.index - this.last.index - 1n);
+    if (this.last?.runId === frame.runId && frame.index > this.last.index)
+      this.skipped += Number(frame.index - this.last.index - 1n);
     this.last = frame;
   }
 

@@ -33,7 +33,9 @@ export class Banner {
         this.say(`The server shuts down within ${Math.ceil(state.seconds)} s. The viewer connects again by itself.`);
         return;
       case 'ended':
-        this.say('The session has ended. What came last stays on the screen; should its simulator return, so does the picture.');
+        this.say(
+          'The session has ended. What came last stays on the screen; should its simulator return, so does the picture.',
+        );
         return;
       case 'token':
         this.tokenNeeded(state.reason);

@@ -29,6 +29,8 @@ function makeButton(key: string, choice: Choice): HTMLButtonElement {
   const about = document.createElement('span');
   about.className = 'about';
   button.append(name, about);
-  button.addEventListener('click', () => { choice.chosen(); });
+  button.addEventListener('click', () => {
+    choice.chosen();
+  });
   return button;
 }

@@ -7,5 +7,7 @@ export function download(name: string, type: string, bytes: Uint8Array): void {
   anchor.download = name;
   anchor.click();
   // After the browser has taken it.
-  setTimeout(() => { URL.revokeObjectURL(url); }, 60_000);
+  setTimeout(() => {
+    URL.revokeObjectURL(url);
+  }, 60_000);
 }

@@ -38,7 +38,8 @@ export function writeLink({ session, recording, position, camera, look, up }: Pa
   if (session !== undefined) fields.set('session', session);
   if (recording) fields.set('recording', recordingNameText(recording));
   if (recording && position !== undefined) fields.set('position', String(position));
-  if (camera) fields.set('camera', [...camera.position, ...camera.target].map((x) => Number(x.toPrecision(7))).join(','));
+  if (camera)
+    fields.set('camera', [...camera.position, ...camera.target].map((x) => Number(x.toPrecision(7))).join(','));
   if (look === 'levels') fields.set('look', look);
   if (up === 'z') fields.set('up', up);
   return `#${fields.toString().replaceAll('%2C', ',').replaceAll('%2F', '/')}`;

@@ -20,8 +20,12 @@ export class Overlay {
 
   constructor() {
     const list = element('levels', HTMLDListElement);
-    this.levelTexts = triangleLevels.map((name, level) => legendRow(list, name, `#${levelColors[level]!.toString(16).padStart(6, '0')}`));
-    setInterval(() => { this.refresh(); }, 500);
+    this.levelTexts = triangleLevels.map((name, level) =>
+      legendRow(list, name, `#${levelColors[level]!.toString(16).padStart(6, '0')}`),
+    );
+    setInterval(() => {
+      this.refresh();
+    }, 500);
   }
 
   receivedBytes(bytes: number): void {
@@ -39,7 +43,9 @@ export class Overlay {
     set('frame', `${countText(frame.index)} (${frame.simulationTime.toFixed(2)} s)`);
     set('triangles', countText(frame.triangleCount));
     set('latency', unknown);
-    this.levelTexts.forEach((text, level) => { text.textContent = countText(levels[level]!); });
+    this.levelTexts.forEach((text, level) => {
+      text.textContent = countText(levels[level]!);
+    });
     this.chart.describe(frame.statistics);
   }
 
@@ -53,7 +59,10 @@ export class Overlay {
   /** When that was its first. skipped: frames so far; roundTrip: of the link, ms. */
   liveFrameDrawn(frame: Frame, skipped: number, roundTrip: number): void {
     set('skipped', countText(skipped));
-    set('latency', millisecondsText(frame.statistics.latencySeconds * 1000 + roundTrip / 2 + performance.now() - frame.beganAt));
+    set(
+      'latency',
+      millisecondsText(frame.statistics.latencySeconds * 1000 + roundTrip / 2 + performance.now() - frame.beganAt),
+    );
     this.framePlayed(frame);
   }
 

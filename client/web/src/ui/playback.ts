@@ -20,10 +20,18 @@ export class Playback {
   private isPaused = false;
 
   constructor() {
-    this.pauseButton.addEventListener('click', () => { this.toggle(); });
-    element('back', HTMLButtonElement).addEventListener('click', () => { this.step(-1); });
-    element('forward', HTMLButtonElement).addEventListener('click', () => { this.step(1); });
-    this.scrub.addEventListener('input', () => { this.choose(Number(this.scrub.value)); });
+    this.pauseButton.addEventListener('click', () => {
+      this.toggle();
+    });
+    element('back', HTMLButtonElement).addEventListener('click', () => {
+      this.step(-1);
+    });
+    element('forward', HTMLButtonElement).addEventListener('click', () => {
+      this.step(1);
+    });
+    this.scrub.addEventListener('input', () => {
+      this.choose(Number(this.scrub.value));
+    });
   }
 
   get paused(): boolean {

@@ -23,7 +23,9 @@ export class RecordingList {
     private readonly server: Server,
     private readonly chosen: (recording: RecordingName) => void,
   ) {
-    document.addEventListener('visibilitychange', () => { if (this.showing && !document.hidden) this.show(); });
+    document.addEventListener('visibilitychange', () => {
+      if (this.showing && !document.hidden) this.show();
+    });
   }
 
   show(): void {
@@ -58,10 +60,20 @@ export class RecordingList {
     const more = element('more-recordings', HTMLElement);
     more.hidden = recordings.length <= most;
     more.textContent = `These are the newest ${most} of ${countText(recordings.length)}.`;
-    showChoices(this.list, 'recording', recordings.slice(0, most).map((recording) => {
-      const name = { session: recording.sessionId, number: recording.number };
-      return { name: recordingNameText(name), about: about(recording), chosen: () => { this.chosen(name); } };
-    }));
+    showChoices(
+      this.list,
+      'recording',
+      recordings.slice(0, most).map((recording) => {
+        const name = { session: recording.sessionId, number: recording.number };
+        return {
+          name: recordingNameText(name),
+          about: about(recording),
+          chosen: () => {
+            this.chosen(name);
+          },
+        };
+      }),
+    );
   }
 }
 

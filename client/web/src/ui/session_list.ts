@@ -21,7 +21,9 @@ export class SessionList {
     private readonly banner: Banner,
     private readonly events: { chosen(session: string): void; tokenNeeded(reason: string): void },
   ) {
-    document.addEventListener('visibilitychange', () => { if (this.showing && !document.hidden) this.show(); });
+    document.addEventListener('visibilitychange', () => {
+      if (this.showing && !document.hidden) this.show();
+    });
   }
 
   show(): void {
@@ -57,11 +59,17 @@ export class SessionList {
 
   private fill(sessions: Session[]): void {
     element('no-sessions', HTMLElement).hidden = sessions.length > 0;
-    showChoices(this.list, 'session', sessions.map((session) => ({
-      name: session.id,
-      about: about(session),
-      chosen: () => { this.events.chosen(session.id); },
-    })));
+    showChoices(
+      this.list,
+      'session',
+      sessions.map((session) => ({
+        name: session.id,
+        about: about(session),
+        chosen: () => {
+          this.events.chosen(session.id);
+        },
+      })),
+    );
   }
 }
 
@@ -71,7 +79,11 @@ function about(session: Session): string {
     `${countText(session.frames)} ${session.frames === 1n ? 'frame' : 'frames'}`,
     `${session.watchers} ${session.watchers === 1 ? 'watcher' : 'watchers'}`,
   ];
-  if (session.lastFrame) parts.push(`${countText(session.lastFrame.particles)} particles`, `${countText(session.lastFrame.triangles)} triangles`);
+  if (session.lastFrame)
+    parts.push(
+      `${countText(session.lastFrame.particles)} particles`,
+      `${countText(session.lastFrame.triangles)} triangles`,
+    );
   if (session.owner !== '') parts.push(`of ${session.owner}`);
   return parts.join(', ');
 }

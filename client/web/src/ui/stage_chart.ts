@@ -44,7 +44,9 @@ export class StageChart {
   describe({ stageSeconds, totalSeconds, encodeSeconds }: FrameStatistics): void {
     this.reconstruction.textContent = millisecondsText(totalSeconds * 1000);
     this.encoding.textContent = millisecondsText(encodeSeconds * 1000);
-    stages.forEach(([key], i) => { this.values[i]!.textContent = millisecondsText((stageSeconds?.[key] ?? 0) * 1000); });
+    stages.forEach(([key], i) => {
+      this.values[i]!.textContent = millisecondsText((stageSeconds?.[key] ?? 0) * 1000);
+    });
   }
 
   private draw(): void {

@@ -33,12 +33,20 @@ export function contains(outer: WorldBox, inner: WorldBox): boolean {
 }
 
 export function union(a: WorldBox, b: WorldBox): WorldBox {
-  const each = (pick: (...values: number[]) => number, p: Point, q: Point): Point => [pick(p[0], q[0]), pick(p[1], q[1]), pick(p[2], q[2])];
+  const each = (pick: (...values: number[]) => number, p: Point, q: Point): Point => [
+    pick(p[0], q[0]),
+    pick(p[1], q[1]),
+    pick(p[2], q[2]),
+  ];
   return { min: each(Math.min, a.min, b.min), max: each(Math.max, a.max, b.max) };
 }
 
 export function corners({ min, max }: WorldBox): Point[] {
-  return [0, 1, 2, 3, 4, 5, 6, 7].map((i): Point => [i & 1 ? max[0] : min[0], i & 2 ? max[1] : min[1], i & 4 ? max[2] : min[2]]);
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((i): Point => [
+    i & 1 ? max[0] : min[0],
+    i & 2 ? max[1] : min[1],
+    i & 4 ? max[2] : min[2],
+  ]);
 }
 
 /** Its diagonal. */

@@ -26,7 +26,8 @@ export function wireGeometry(brick: DecodedBrick, surface: BufferGeometry): Buff
 }
 
 function edges(triangles: Uint16Array | Uint32Array): Uint16Array | Uint32Array {
-  const lines = triangles instanceof Uint16Array ? new Uint16Array(2 * triangles.length) : new Uint32Array(2 * triangles.length);
+  const lines =
+    triangles instanceof Uint16Array ? new Uint16Array(2 * triangles.length) : new Uint32Array(2 * triangles.length);
   for (let from = 0, to = 0; from < triangles.length; from += 3, to += 6) {
     const a = triangles[from]!;
     const b = triangles[from + 1]!;

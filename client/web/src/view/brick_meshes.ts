@@ -77,7 +77,11 @@ export class BrickMeshes {
 
 function place(mesh: Mesh, frame: Frame, { encoded }: ShownBrick, origin: readonly [number, number, number]): void {
   const edge = brickEdge(frame);
-  mesh.position.set(encoded.place[0] * edge - origin[0], encoded.place[1] * edge - origin[1], encoded.place[2] * edge - origin[2]);
+  mesh.position.set(
+    encoded.place[0] * edge - origin[0],
+    encoded.place[1] * edge - origin[1],
+    encoded.place[2] * edge - origin[2],
+  );
   mesh.scale.setScalar(frame.cellSize / 2 ** frame.offsetBits);
 }
 

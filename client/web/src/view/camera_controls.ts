@@ -25,12 +25,26 @@ export class CameraControls {
   ) {
     this.orbit = new OrbitControls(this.camera, canvas);
     this.orbit.zoomToCursor = true;
-    this.orbit.addEventListener('change', () => { this.events.changed(); });
+    this.orbit.addEventListener('change', () => {
+      this.events.changed();
+    });
     // Only what a person does moves the camera in the sense of the stream: fitting does not.
-    this.orbit.addEventListener('start', () => { this.moved(); });
-    canvas.addEventListener('pointermove', (event) => { if (event.buttons !== 0) this.moved(); });
-    canvas.addEventListener('wheel', () => { this.moved(); }, { passive: true });
-    canvas.addEventListener('keydown', (event) => { this.key(event); });
+    this.orbit.addEventListener('start', () => {
+      this.moved();
+    });
+    canvas.addEventListener('pointermove', (event) => {
+      if (event.buttons !== 0) this.moved();
+    });
+    canvas.addEventListener(
+      'wheel',
+      () => {
+        this.moved();
+      },
+      { passive: true },
+    );
+    canvas.addEventListener('keydown', (event) => {
+      this.key(event);
+    });
   }
 
   get target(): Vector3 {
@@ -64,18 +78,30 @@ export class CameraControls {
   private turnAction(key: string): (() => void) | undefined {
     switch (key) {
       case 'ArrowLeft':
-        return () => { this.orbit.rotateLeft(-turn); };
+        return () => {
+          this.orbit.rotateLeft(-turn);
+        };
       case 'ArrowRight':
-        return () => { this.orbit.rotateLeft(turn); };
+        return () => {
+          this.orbit.rotateLeft(turn);
+        };
       case 'ArrowUp':
-        return () => { this.orbit.rotateUp(turn); };
+        return () => {
+          this.orbit.rotateUp(turn);
+        };
       case 'ArrowDown':
-        return () => { this.orbit.rotateUp(-turn); };
+        return () => {
+          this.orbit.rotateUp(-turn);
+        };
       case '+':
       case '=':
-        return () => { this.orbit.dollyIn(zoom); };
+        return () => {
+          this.orbit.dollyIn(zoom);
+        };
       case '-':
-        return () => { this.orbit.dollyOut(zoom); };
+        return () => {
+          this.orbit.dollyOut(zoom);
+        };
       default:
         return undefined;
     }
@@ -84,13 +110,21 @@ export class CameraControls {
   private panAction(key: string): (() => void) | undefined {
     switch (key) {
       case 'ArrowLeft':
-        return () => { this.orbit.pan(shift, 0); };
+        return () => {
+          this.orbit.pan(shift, 0);
+        };
       case 'ArrowRight':
-        return () => { this.orbit.pan(-shift, 0); };
+        return () => {
+          this.orbit.pan(-shift, 0);
+        };
       case 'ArrowUp':
-        return () => { this.orbit.pan(0, shift); };
+        return () => {
+          this.orbit.pan(0, shift);
+        };
       case 'ArrowDown':
-        return () => { this.orbit.pan(0, -shift); };
+        return () => {
+          this.orbit.pan(0, -shift);
+        };
       case '+':
         return this.turnAction('+');
       default:
@@ -101,6 +135,8 @@ export class CameraControls {
   private moved(): void {
     this.events.moving(true);
     clearTimeout(this.rest);
-    this.rest = setTimeout(() => { this.events.moving(false); }, restAfter);
+    this.rest = setTimeout(() => {
+      this.events.moving(false);
+    }, restAfter);
   }
 }

@@ -9,7 +9,12 @@ export interface Margins {
 }
 
 /** Puts the middle of what is free of `width` x `height` pixels at what the camera looks at. */
-export function putInTheMiddle(camera: PerspectiveCamera, { top, right, bottom }: Margins, width: number, height: number): void {
+export function putInTheMiddle(
+  camera: PerspectiveCamera,
+  { top, right, bottom }: Margins,
+  width: number,
+  height: number,
+): void {
   camera.setViewOffset(width, height, right / 2, (bottom - top) / 2, width, height);
 }
 
@@ -31,5 +36,9 @@ export function distanceToSee(
   const half = Math.tan((fov * Math.PI) / 360) * (1 - margin);
   const tall = half * free.height;
   const wide = half * aspect * free.width;
-  return Math.max(...points.map((point) => point.dot(direction) + Math.max(Math.abs(point.dot(right)) / wide, Math.abs(point.dot(up)) / tall)));
+  return Math.max(
+    ...points.map(
+      (point) => point.dot(direction) + Math.max(Math.abs(point.dot(right)) / wide, Math.abs(point.dot(up)) / tall),
+    ),
+  );
 }

@@ -29,7 +29,9 @@ export class Sunlight {
     camera.lookAt(0, 0, 0);
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
-    this.environment.sunMatrix.value.multiplyMatrices(this.toTexture, camera.projectionMatrix).multiply(camera.matrixWorldInverse);
+    this.environment.sunMatrix.value
+      .multiplyMatrices(this.toTexture, camera.projectionMatrix)
+      .multiply(camera.matrixWorldInverse);
     this.pass.render(renderer, scene, camera);
   }
 }

@@ -74,15 +74,21 @@ export class Viewer {
     this.bricks.group.add(this.particles.points);
     this.background.mesh.layers.set(pictureLayer);
     this.controls = new CameraControls(canvas, {
-      changed: () => { this.draw(); },
+      changed: () => {
+        this.draw();
+      },
       moving: (moving) => {
         this.following = undefined;
         this.events.moving(moving);
       },
     });
     this.controls.camera.layers.enable(pictureLayer);
-    new ResizeObserver(() => { this.resize(); }).observe(canvas);
-    canvas.addEventListener('webglcontextlost', () => { this.events.lost(true); });
+    new ResizeObserver(() => {
+      this.resize();
+    }).observe(canvas);
+    canvas.addEventListener('webglcontextlost', () => {
+      this.events.lost(true);
+    });
     canvas.addEventListener('webglcontextrestored', () => {
       this.events.lost(false);
       this.waterChanged = true;
@@ -102,7 +108,9 @@ export class Viewer {
   show(shown: Shown): void {
     const first = this.shown === undefined || this.shown.bricks.size === 0;
     this.shown = shown;
-    this.water.uniforms.hasNormals.value = [...shown.bricks.values()].every(({ decoded }) => decoded.normals !== undefined);
+    this.water.uniforms.hasNormals.value = [...shown.bricks.values()].every(
+      ({ decoded }) => decoded.normals !== undefined,
+    );
     const box = worldBox(shown);
     if (first) this.adopt(box);
     else this.bricks.show(shown, this.origin);
@@ -148,7 +156,10 @@ export class Viewer {
     const target = this.inScene(center(box));
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const margins = this.covered();
-    const free = { width: Math.max(0.2, 1 - margins.right / width), height: Math.max(0.2, 1 - (margins.top + margins.bottom) / height) };
+    const free = {
+      width: Math.max(0.2, 1 - margins.right / width),
+      height: Math.max(0.2, 1 - (margins.top + margins.bottom) / height),
+    };
     const seen = corners(box).map((corner) => this.inScene(corner).sub(target));
     const distance = distanceToSee(seen, fitDirection, this.controls.camera, free);
     this.controls.place(target.clone().addScaledVector(fitDirection, distance), target);

@@ -17,7 +17,13 @@ export interface BrickOptions {
   levels: number[];
 }
 
-export async function encodeBrick({ place = [0, 0, 0], positions, normals, triangles, levels }: BrickOptions): Promise<EncodedBrick> {
+export async function encodeBrick({
+  place = [0, 0, 0],
+  positions,
+  normals,
+  triangles,
+  levels,
+}: BrickOptions): Promise<EncodedBrick> {
   const draco = await createEncoder();
   const builder = new draco.MeshBuilder();
   const mesh = new draco.Mesh();
@@ -34,14 +40,20 @@ export async function encodeBrick({ place = [0, 0, 0], positions, normals, trian
   if (size === 0) throw new Error('Draco could not encode the brick');
   const encoded = Uint8Array.from({ length: size }, (_, i) => bytes.GetValue(i) & 0xff);
   const packed = new Uint8Array(Math.ceil(levels.length / 4));
-  levels.forEach((level, i) => { packed[i >> 2]! |= level << (2 * (i & 3)); });
+  levels.forEach((level, i) => {
+    packed[i >> 2]! |= level << (2 * (i & 3));
+  });
   return { place, vertexCount: positions.length, triangleCount: triangles.length, cellLevels: packed, draco: encoded };
 }
 
 const step = 64;
 
 /** A closed tetrahedron inside one base cell (4 cells of 64 steps a side); corner: that cell's, in base cells. */
-export function tetrahedron(corner: [number, number, number], level: number, place: [number, number, number] = [0, 0, 0]): Promise<EncodedBrick> {
+export function tetrahedron(
+  corner: [number, number, number],
+  level: number,
+  place: [number, number, number] = [0, 0, 0],
+): Promise<EncodedBrick> {
   const [x, y, z] = corner.map((c) => c * 4 * step) as [number, number, number];
   return encodeBrick({
     place,

@@ -34,7 +34,13 @@ export function begin({ index, bricks = [], base, vanished = [], triangles, runI
   });
 }
 
-export function brick(place: Place, triangles = 1, draco: number[] = [1, 2, 3], partIndex = 0, partCount = 1): WatchResponse {
+export function brick(
+  place: Place,
+  triangles = 1,
+  draco: number[] = [1, 2, 3],
+  partIndex = 0,
+  partCount = 1,
+): WatchResponse {
   const [x, y, z] = place;
   return create(WatchResponseSchema, {
     message: {

@@ -40,9 +40,9 @@ struct ConnectionOptions {
     std::string ca_file = {};           ///< TLS: whose certificates to trust; empty: no TLS
     std::string certificate_file = {};  ///< mutual TLS, with key_file: this client's own
     std::string key_file = {};
-    std::string server_name = {};       ///< in the server's certificate; empty: the address's host
-    std::string token = {};             ///< sent with every call
-    bool insecure = false;              ///< whether a token may travel to another machine without TLS
+    std::string server_name = {};  ///< in the server's certificate; empty: the address's host
+    std::string token = {};        ///< sent with every call
+    bool insecure = false;         ///< whether a token may travel to another machine without TLS
     /// For a host that does not answer at all. One that refuses the connection is reported at once, unless
     std::chrono::milliseconds timeout = std::chrono::seconds(10);
     /// the server may still be starting: so long it is tried again.
@@ -55,13 +55,13 @@ struct ServerInfo {
     std::string device;
     std::string backend_reason;
     unsigned threads = 0;
-    std::uint32_t max_sessions = 0;             ///< 0: no limit, here and below
+    std::uint32_t max_sessions = 0;  ///< 0: no limit, here and below
     std::uint32_t max_watchers_per_session = 0;
     std::uint64_t max_particles_per_frame = 0;
     std::uint64_t max_bytes_per_session = 0;
     std::uint64_t max_device_bytes_per_session = 0;
-    std::uint64_t max_bytes_in_flight = 0;      ///< of all sessions' frames
-    std::uint32_t max_frames_per_second = 0;    ///< of one session
+    std::uint64_t max_bytes_in_flight = 0;    ///< of all sessions' frames
+    std::uint32_t max_frames_per_second = 0;  ///< of one session
     std::uint32_t max_chunks_per_frame = 0;
     double max_idle_seconds = 0.0;
     std::uint64_t max_message_bytes = 0;
@@ -70,7 +70,7 @@ struct ServerInfo {
 /// The server's figures of one frame, beside the reconstruction's own.
 struct FrameStatistics : Statistics {
     double encode_seconds = 0.0;
-    double latency_seconds = 0.0;      ///< from the frame's last byte to the end of its encoding
+    double latency_seconds = 0.0;  ///< from the frame's last byte to the end of its encoding
     std::uint64_t encoded_bytes = 0;
 };
 
@@ -112,14 +112,14 @@ struct ReceivedFrame {
     double simulation_time = 0.0;
     double cell_size = 0.0;
     std::uint32_t offset_bits = 0;
-    /// All of them, ordered by coordinate (z, y, x); empty when no meshes were asked for. A watcher's frames share those that
-    /// did not change.
+    /// All of them, ordered by coordinate (z, y, x); empty when no meshes were asked for. A watcher's frames share
+    /// those that did not change.
     std::vector<std::shared_ptr<const EncodedBrick>> bricks;
-    /// To a watcher: the bricks that are new or were received anew since the frame that next() returned before, and those of
-    /// that frame which are there no longer. x y z in bricks.
+    /// To a watcher: the bricks that are new or were received anew since the frame that next() returned before, and
+    /// those of that frame which are there no longer. x y z in bricks.
     std::vector<std::array<std::int32_t, 3>> changed;
     std::vector<std::array<std::int32_t, 3>> vanished;
-    FrameStatistics statistics;  ///< of the frame as reconstructed, whatever a watcher wishes to have of it
+    FrameStatistics statistics;         ///< of the frame as reconstructed, whatever a watcher wishes to have of it
     std::vector<DroppedFrame> dropped;  ///< from a Stream: between the frame received before and this one, in order
 
     /// Decodes and welds the bricks. Throws InvalidInput if they are not a mesh.
@@ -135,26 +135,27 @@ struct StreamOptions {
     UploadPolicy policy = UploadPolicy::every_frame;
     std::uint32_t nth = 1;  ///< of UploadPolicy::every_nth, at least 1
     /// For how long the server may be out of reach. A connection that breaks, or a server that goes down, is then tried
-    /// again; the session is created again if the server has lost it, and frames without an answer are sent again: next()
-    /// returns every frame once, in order. For this their particles are kept here, no more frames than the server itself has
-    /// taken and not answered, and one. 0: a broken connection ends the stream, and no frame is kept.
+    /// again; the session is created again if the server has lost it, and frames without an answer are sent again:
+    /// next() returns every frame once, in order. For this their particles are kept here, no more frames than the
+    /// server itself has taken and not answered, and one. 0: a broken connection ends the stream, and no frame is kept.
     std::chrono::milliseconds reconnect{0};
-    /// Where a proxy spreads sessions over several servers: how often to look whether calls about this session still go to the
-    /// server that the stream is on. If not, because a server came or came back, the stream moves there between two frames, and
-    /// watchers with `reconnect` follow it. Only with `reconnect`; 0: never.
+    /// Where a proxy spreads sessions over several servers: how often to look whether calls about this session still go
+    /// to the server that the stream is on. If not, because a server came or came back, the stream moves there between
+    /// two frames, and watchers with `reconnect` follow it. Only with `reconnect`; 0: never.
     std::chrono::milliseconds route_check{2000};
 };
 
 /// Uploads frames and receives their meshes, in order. Reads on a thread of its own, so that a caller that only pushes
-/// is never blocked by meshes it has not asked for. push() and finish() belong to one thread, next() to one (other) thread.
+/// is never blocked by meshes it has not asked for. push() and finish() belong to one thread, next() to one (other)
+/// thread.
 class Stream {
 public:
     Stream(Stream&&) noexcept;
     Stream& operator=(Stream&&) noexcept;
     ~Stream();  ///< cancels what is in flight
 
-    /// Sends one frame; blocks while the server does not take more, or is out of reach. `index` is greater than the one before.
-    /// Throws InvalidInput, LimitExceeded (as the server answered) or ServerError.
+    /// Sends one frame; blocks while the server does not take more, or is out of reach. `index` is greater than the one
+    /// before. Throws InvalidInput, LimitExceeded (as the server answered) or ServerError.
     void push(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
     /// No more frames will come; next() then ends after the last one.
     void finish();
@@ -170,28 +171,32 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// What a watcher wishes to be sent. Watchers with equal max_level, position_bits and normal_bits cost the server one encode.
+/// What a watcher wishes to be sent. Watchers with equal max_level, position_bits and normal_bits cost the server one
+/// encode.
 struct WatchOptions {
     int normal_bits = 8;                 ///< 2 to 16, 0 for none
-    std::optional<int> position_bits{};  ///< vertices lie on multiples of c / 2^position_bits, 2 to the mesh's offset_bits; none: as reconstructed
-    int max_level = 3;                   ///< finest level of grid, 1 to 3: below 3 the surface is coarser, and closed as ever
-    std::optional<Box> region{};         ///< world units: only bricks that touch it; the mesh ends where they do
-    std::uint64_t bytes_per_second = 0;  ///< in the mean: frames are skipped to keep it; 0: no limit
+    std::optional<int> position_bits{};  ///< vertices lie on multiples of c / 2^position_bits, 2 to the mesh's
+                                         ///< offset_bits; none: as reconstructed
+    int max_level = 3;            ///< finest level of grid, 1 to 3: below 3 the surface is coarser, and closed as ever
+    std::optional<Box> region{};  ///< world units: only bricks that touch it; the mesh ends where they do
+    std::uint64_t bytes_per_second = 0;                ///< in the mean: frames are skipped to keep it; 0: no limit
     std::optional<std::array<double, 3>> viewpoint{};  ///< world units: nearest bricks are sent first
-    /// How long to try again after the connection breaks, the session moves to another server, or the server goes down, or comes
-    /// back without the session, which its simulator then creates again. next() goes on with the first frame of a run that it has not returned before. 0: not at all.
+    /// How long to try again after the connection breaks, the session moves to another server, or the server goes down,
+    /// or comes back without the session, which its simulator then creates again. next() goes on with the first frame
+    /// of a run that it has not returned before. 0: not at all.
     std::chrono::milliseconds reconnect{0};
 };
 
-/// Receives a session's meshes, always the newest; frames that came while the caller was busy are skipped by the server.
+/// Receives a session's meshes, always the newest; frames that came while the caller was busy are skipped by the
+/// server.
 class Watcher {
 public:
     Watcher(Watcher&&) noexcept;
     Watcher& operator=(Watcher&&) noexcept;
     ~Watcher();
 
-    /// Waits for the next frame; none when the session has ended. Throws InvalidInput for a wish out of range, LimitExceeded or
-    /// ServerError, also when the server goes down.
+    /// Waits for the next frame; none when the session has ended. Throws InvalidInput for a wish out of range,
+    /// LimitExceeded or ServerError, also when the server goes down.
     std::optional<ReceivedFrame> next();
     /// Ends a next() that waits in another thread; it then returns none.
     void cancel();
@@ -219,14 +224,16 @@ struct ReceivedParticles {
     ParticleFrame view() const;
 };
 
-/// Receives a session's particles, always the newest; frames that came while the caller was busy are skipped by the server.
+/// Receives a session's particles, always the newest; frames that came while the caller was busy are skipped by the
+/// server.
 class ParticleWatcher {
 public:
     ParticleWatcher(ParticleWatcher&&) noexcept;
     ParticleWatcher& operator=(ParticleWatcher&&) noexcept;
     ~ParticleWatcher();
 
-    /// Waits for the next frame; none when the session has ended. Throws LimitExceeded or ServerError, also when the server goes down.
+    /// Waits for the next frame; none when the session has ended. Throws LimitExceeded or ServerError, also when the
+    /// server goes down.
     std::optional<ReceivedParticles> next();
     /// Ends a next() that waits in another thread; it then returns none.
     void cancel();
@@ -265,8 +272,8 @@ public:
     RecordingReader& operator=(RecordingReader&&) noexcept;
     ~RecordingReader();
 
-    /// Waits for the next frame; none after the last. Throws InvalidInput for a position past the end, LimitExceeded when too
-    /// many read, or ServerError.
+    /// Waits for the next frame; none after the last. Throws InvalidInput for a position past the end, LimitExceeded
+    /// when too many read, or ServerError.
     std::optional<ReceivedFrame> next();
 
 private:
@@ -279,8 +286,8 @@ private:
 /// A connection to one server. Thread-safe.
 class Client {
 public:
-    /// address: "HOST:PORT" or "unix:PATH". Throws ServerError if the server is not there, InvalidInput if the options are
-    /// wrong.
+    /// address: "HOST:PORT" or "unix:PATH". Throws ServerError if the server is not there, InvalidInput if the options
+    /// are wrong.
     explicit Client(const std::string& address, const ConnectionOptions& options = {});
     Client(Client&&) noexcept;
     Client& operator=(Client&&) noexcept;
@@ -298,14 +305,15 @@ public:
     /// The session must exist.
     Stream stream(const std::string& session_id, const StreamOptions& options = {});
     Watcher watch(const std::string& session_id, const WatchOptions& options = {});
-    /// max_particles: of a frame with more, only every k-th is sent, by the smallest k that suffices; 0: all. reconnect: as in
-    /// WatchOptions.
+    /// max_particles: of a frame with more, only every k-th is sent, by the smallest k that suffices; 0: all.
+    /// reconnect: as in WatchOptions.
     ParticleWatcher watch_particles(const std::string& session_id, std::uint64_t max_particles = 0,
                                     std::chrono::milliseconds reconnect = {});
 
     /// What the server has recorded, the newest first. Throws ServerError (UNIMPLEMENTED) if it records nothing.
     std::vector<RecordingInfo> recordings();
-    RecordingReader read_recording(const std::string& session_id, std::uint32_t number, const ReadOptions& options = {});
+    RecordingReader read_recording(const std::string& session_id, std::uint32_t number,
+                                   const ReadOptions& options = {});
 
 private:
     class Impl;
