@@ -4,10 +4,10 @@
 #include <string>
 #include <thread>
 
-#include "backends/backend.hpp"
-#include "backends/cuda/device.hpp"
+#include "engine/cuda/device.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/memory.hpp"
+#include "pipeline/backend.hpp"
 #include "processor.hpp"
 
 namespace meniscus {

@@ -7,7 +7,7 @@
 
 #include "compare/comparison.hpp"
 #include "meniscus/mesh.hpp"
-#include "stages/curvature.hpp"
+#include "steps/split_cells/curvature.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "coding/round_position.hpp"
+#include "codec/round_position.hpp"
 #include "meniscus/meniscus.hpp"
 #include "support/mesh_check.hpp"
 #include "support/particles.hpp"

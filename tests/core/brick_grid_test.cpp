@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "backends/cpu/surface.hpp"
+#include "engine/cpu/surface.hpp"
 #include "lattice/block_mask.hpp"
 
 namespace meniscus {

@@ -1,7 +1,7 @@
 // The arithmetic of the CUDA backend's capacities, which needs no GPU.
 #include <gtest/gtest.h>
 
-#include "backends/cuda/capacities.hpp"
+#include "engine/cuda/capacities.hpp"
 
 namespace meniscus::cuda {
 namespace {

@@ -11,9 +11,9 @@
 #include <thread>
 #include <vector>
 
-#include "backends/backend.hpp"
 #include "cuda_runtime.h"
 #include "meniscus/meniscus.hpp"
+#include "pipeline/backend.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus {

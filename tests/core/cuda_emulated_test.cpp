@@ -4,8 +4,8 @@
 
 #include <cstring>
 
-#include "backends/backend.hpp"
 #include "meniscus/meniscus.hpp"
+#include "pipeline/backend.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus {

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <random>
 
-#include "backends/cpu/particle_field.hpp"
-#include "backends/cpu/particle_sets.hpp"
+#include "engine/cpu/particle_field.hpp"
 #include "field/kernel.hpp"
+#include "particles/particle_sets.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus {

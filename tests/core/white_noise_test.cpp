@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "backends/cpu/clusters.hpp"
-#include "backends/cpu/surface.hpp"
+#include "engine/cpu/clusters.hpp"
+#include "engine/cpu/surface.hpp"
 #include "meniscus/mesh.hpp"
 #include "support/mesh_check.hpp"
 

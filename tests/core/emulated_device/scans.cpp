@@ -1,5 +1,5 @@
 // In place of CUB.
-#include "backends/cuda/scans.hpp"
+#include "engine/cuda/scans.hpp"
 
 #include <algorithm>
 

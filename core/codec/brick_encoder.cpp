@@ -1,0 +1,168 @@
+#include <draco/compression/expert_encode.h>
+#include <draco/mesh/mesh.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "codec/content_hash.hpp"
+#include "codec/round_position.hpp"
+#include "codec/triangle_levels.hpp"
+#include "meniscus/brick_coding.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus {
+namespace {
+
+/// The brick's triangles over vertices of its own, numbered as they are met.
+struct BrickIndex {
+    std::vector<std::uint32_t> vertices;  ///< into the mesh
+    std::vector<Triangle> triangles;      ///< into `vertices`
+};
+
+BrickIndex index_brick(const Mesh& mesh, const MeshBrick& brick) {
+    // From a mesh's vertex to the brick's: an entry holds only if the brick's vertex points back, so that what earlier
+    // bricks have left behind need not be cleared. One table per thread, as large as the largest mesh.
+    thread_local std::vector<std::uint32_t> local_of;
+    if (local_of.size() < mesh.vertices.size()) local_of.resize(mesh.vertices.size());
+    BrickIndex index;
+    index.vertices.reserve(brick.triangle_count());
+    index.triangles.reserve(brick.triangle_count());
+    for (const TriangleRange& range : brick.ranges)
+        for (std::uint32_t t = 0; t < range.count; ++t) {
+            Triangle local;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::uint32_t v = mesh.triangles[range.first + t][i];
+                if (local_of[v] >= index.vertices.size() || index.vertices[local_of[v]] != v) {
+                    local_of[v] = static_cast<std::uint32_t>(index.vertices.size());
+                    index.vertices.push_back(v);
+                }
+                local[i] = local_of[v];
+            }
+            index.triangles.push_back(local);
+        }
+    return index;
+}
+
+std::vector<LocalPosition> local_positions(const Mesh& mesh, const MeshBrick& brick,
+                                           const std::vector<std::uint32_t>& vertices, std::uint32_t bits) {
+    std::vector<LocalPosition> positions;
+    positions.reserve(vertices.size());
+    for (const std::uint32_t v : vertices) {
+        LocalPosition local;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            local[axis] =
+                round_position(static_cast<std::uint16_t>(mesh.vertices[v][axis] -
+                                                          brick.coordinate[axis] * (brick_cells << mesh.offset_bits)),
+                               mesh.offset_bits, bits);
+        positions.push_back(local);
+    }
+    return positions;
+}
+
+std::vector<std::byte> cell_levels(const MeshBrick& brick, const std::vector<Triangle>& triangles,
+                                   const std::vector<LocalPosition>& positions, std::uint32_t bits) {
+    std::array<std::uint8_t, std::size_t{brick_base_cells} * brick_base_cells * brick_base_cells> level_of_cell{};
+    std::size_t t = 0;
+    for (std::size_t level = 0; level < triangle_level_count; ++level)
+        for (std::uint32_t i = 0; i < brick.ranges[level].count; ++i, ++t) {
+            const Triangle& triangle = triangles[t];
+            const auto cell =
+                cell_of_triangle(positions[triangle[0]], positions[triangle[1]], positions[triangle[2]], bits);
+            if (cell) level_of_cell[*cell] = level_byte(static_cast<TriangleLevel>(level));
+        }
+    return pack_cell_levels(level_of_cell);
+}
+
+template <class Value>
+int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType data_type,
+                  const std::vector<Value>& values) {
+    draco::GeometryAttribute attribute;
+    attribute.Init(type, nullptr, 3, data_type, false, sizeof(Value), 0);
+    const int id =
+        mesh.AddAttribute(attribute, true, static_cast<draco::AttributeValueIndex::ValueType>(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i)
+        mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(static_cast<std::uint32_t>(i)),
+                                              values[i].data());
+    return id;
+}
+
+}  // namespace
+
+std::uint32_t encoded_offset_bits(const Mesh& mesh, const CodingOptions& options) {
+    if (options.position_bits == 0) return mesh.offset_bits;
+    if (options.position_bits < 2 || static_cast<std::uint32_t>(options.position_bits) > mesh.offset_bits)
+        throw InvalidInput("position bits are " + std::to_string(options.position_bits) + ", must be 2 to " +
+                           std::to_string(mesh.offset_bits) + ", or 0 for all");
+    return static_cast<std::uint32_t>(options.position_bits);
+}
+
+std::uint64_t BrickContent::hash() const {
+    ContentHash hash;
+    hash.add(std::span(positions));
+    hash.add(std::span(normals));
+    hash.add(std::span(triangles));
+    hash.add(std::span(cell_levels));
+    return hash.value();
+}
+
+BrickContent brick_content(const Mesh& mesh, std::size_t brick_number, const CodingOptions& options) {
+    if (options.normal_bits != 0 && (options.normal_bits < 2 || options.normal_bits > 16))
+        throw InvalidInput("normal bits are " + std::to_string(options.normal_bits) +
+                           ", must be 2 to 16, or 0 for no normals");
+    const std::uint32_t bits = encoded_offset_bits(mesh, options);
+    const MeshBrick& brick = mesh.bricks.at(brick_number);
+    BrickIndex index = index_brick(mesh, brick);
+
+    BrickContent content;
+    content.coordinate = brick.coordinate;
+    content.positions = local_positions(mesh, brick, index.vertices, bits);
+    content.cell_levels = cell_levels(brick, index.triangles, content.positions, bits);
+    content.triangles = std::move(index.triangles);
+    if (options.normal_bits != 0 && !mesh.normals.empty()) {
+        content.normals.reserve(index.vertices.size());
+        for (const std::uint32_t v : index.vertices) content.normals.push_back(mesh.normals[v]);
+    }
+    return content;
+}
+
+EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& options) {
+    if (options.speed < 0 || options.speed > 10)
+        throw InvalidInput("coding speed is " + std::to_string(options.speed) + ", must be 0 to 10");
+    EncodedBrick encoded;
+    encoded.coordinate = content.coordinate;
+    encoded.vertices = static_cast<std::uint32_t>(content.positions.size());
+    encoded.triangles = static_cast<std::uint32_t>(content.triangles.size());
+    encoded.cell_levels = content.cell_levels;
+
+    draco::Mesh draco_mesh;
+    draco_mesh.set_num_points(encoded.vertices);
+    draco_mesh.SetNumFaces(encoded.triangles);
+    for (std::uint32_t t = 0; t < encoded.triangles; ++t) {
+        const Triangle& triangle = content.triangles[t];
+        draco_mesh.SetFace(draco::FaceIndex(t), {{draco::PointIndex(triangle[0]), draco::PointIndex(triangle[1]),
+                                                  draco::PointIndex(triangle[2])}});
+    }
+    add_attribute(draco_mesh, draco::GeometryAttribute::POSITION, draco::DT_UINT16, content.positions);
+    draco::ExpertEncoder encoder(draco_mesh);
+    encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
+    encoder.SetSpeedOptions(options.speed, options.speed);
+    if (!content.normals.empty()) {
+        const int normals =
+            add_attribute(draco_mesh, draco::GeometryAttribute::NORMAL, draco::DT_FLOAT32, content.normals);
+        encoder.SetAttributeQuantization(normals, options.normal_bits);
+    }
+    draco::EncoderBuffer buffer;
+    const draco::Status status = encoder.EncodeToBuffer(&buffer);
+    if (!status.ok()) throw std::runtime_error("Draco could not encode a brick: " + status.error_msg_string());
+    const auto* bytes = reinterpret_cast<const std::byte*>(buffer.data());
+    encoded.draco.assign(bytes, bytes + buffer.size());
+    return encoded;
+}
+
+EncodedBrick encode_brick(const Mesh& mesh, std::size_t brick, const CodingOptions& options) {
+    return encode_brick(brick_content(mesh, brick, options), options);
+}
+
+}  // namespace meniscus

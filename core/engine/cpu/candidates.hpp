@@ -1,0 +1,52 @@
+// The particles near a box, as a structure of arrays in the order of summation.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+
+#include "engine/arrays.hpp"
+#include "field/lattice_settings.hpp"
+#include "field/sums.hpp"
+#include "particles/particle_set.hpp"
+
+namespace meniscus::cpu {
+
+/// Of one particle level.
+class Candidates {
+public:
+    explicit Candidates(const std::shared_ptr<MemoryAccount>& account);
+
+    /// Searches a set for the particles that may reach into a box relative to `origin`.
+    void gather(const ParticleSetView& set, const Units3& origin, const UnitBox& box);
+    /// Those of another list that may reach into a box, their positions moved by `shift`.
+    void cull(const Candidates& from, const std::array<float, 3>& shift, const UnitBox& box);
+
+    CandidateView view() const { return {x_.data(), y_.data(), z_.data(), weight_.data(), count_, inverse_support_}; }
+    std::size_t capacity() const { return x_.size(); }
+    void reserve(std::size_t n);
+
+private:
+    class BoxVicinity;
+    /// Arrays of `from` have room for whole lanes beyond the last particle.
+    void append_near(const CandidateView& from, const std::array<float, 3>& shift, const BoxVicinity& vicinity);
+
+    Array<float> x_, y_, z_, weight_;
+    std::size_t count_ = 0;
+    BrickGuesses guesses_;
+    float reach_ = 0.0F;
+    float inverse_support_ = 0.0F;
+};
+
+/// Of all particle levels: near a cluster of blocks, and near some points in one of its blocks.
+struct CandidateLists {
+    explicit CandidateLists(const std::shared_ptr<MemoryAccount>& account);
+
+    using Levels = std::array<Candidates, particle_level_count>;
+    Levels cluster;
+    Levels near;
+    Int3 corner;               ///< lowest base cell of the cluster
+    bool has_cluster = false;  ///< whether `cluster` holds the particles near it
+};
+
+}  // namespace meniscus::cpu

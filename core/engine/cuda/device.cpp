@@ -1,0 +1,98 @@
+#include "engine/cuda/device.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "engine/cuda/errors.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::cuda {
+namespace {
+
+std::string version(int number) {
+    return std::to_string(number / 1000) + "." + std::to_string(number % 1000 / 10);
+}
+
+/// A missing driver and an old one are the same error to CUDA.
+std::string why_no_driver() {
+    int found = 0;
+    if (cudaDriverGetVersion(&found) != cudaSuccess || found == 0) return "no NVIDIA driver found";
+    return "the NVIDIA driver is for CUDA " + version(found) + ", must be for " + version(CUDART_VERSION) + " or newer";
+}
+
+/// Number of devices; 0 and the reason if there is none.
+int device_count(std::string& reason) {
+    int count = 0;
+    const cudaError_t status = cudaGetDeviceCount(&count);
+    // Without a driver the call fails and leaves its error behind.
+    cudaGetLastError();
+    if (status == cudaErrorInsufficientDriver)
+        reason = why_no_driver();
+    else if (status != cudaSuccess && status != cudaErrorNoDevice)
+        reason = std::string("no usable GPU (") + cudaGetErrorString(status) + ")";
+    else if (count == 0)
+        reason = "no GPU found";
+    return status == cudaSuccess ? count : 0;
+}
+
+int attribute(cudaDeviceAttr which, int device) {
+    int value = 0;
+    check(cudaDeviceGetAttribute(&value, which, device), "cudaDeviceGetAttribute");
+    return value;
+}
+
+int capability(int device) {
+    return 10 * attribute(cudaDevAttrComputeCapabilityMajor, device) +
+           attribute(cudaDevAttrComputeCapabilityMinor, device);
+}
+
+Device describe(int index) {
+    const CurrentDevice current(index);
+    Device device{index, device_name(index), capability(index), 0, 0};
+    check(cudaMemGetInfo(&device.free_bytes, &device.total_bytes), "cudaMemGetInfo");
+    return device;
+}
+
+}  // namespace
+
+std::vector<Device> devices(std::span<const int> among) {
+    std::vector<Device> result;
+    std::string reason;
+    const int count = device_count(reason);
+    for (int i = 0; i < count; ++i) {
+        if (!among.empty() && std::ranges::find(among, i) == among.end()) continue;
+        try {
+            if (why_unavailable(i).empty()) result.push_back(describe(i));
+        } catch (const std::runtime_error&) {
+            // Failed earlier in this process, or has no memory left to start on: the others may still do.
+        }
+    }
+    return result;
+}
+
+std::string why_unavailable(int device) try {
+    std::string reason;
+    const int count = device_count(reason);
+    if (count == 0) return reason;
+    if (device < 0 || device >= count)
+        return "no GPU " + std::to_string(device) + ": there are 0 to " + std::to_string(count - 1);
+    const int found = capability(device);
+    if (found < oldest_capability)
+        return device_name(device) + " has compute capability " + std::to_string(found / 10) + "." +
+               std::to_string(found % 10) + ", must be " + std::to_string(oldest_capability / 10) + "." +
+               std::to_string(oldest_capability % 10) + " or newer";
+    if (attribute(cudaDevAttrMemoryPoolsSupported, device) == 0) return device_name(device) + " has no memory pools";
+    if (attribute(cudaDevAttrCooperativeLaunch, device) == 0)
+        return device_name(device) + " has no cooperative launches";
+    return {};
+} catch (const DeviceError& error) {
+    return error.what();
+}
+
+std::string device_name(int device) {
+    cudaDeviceProp properties{};
+    check(cudaGetDeviceProperties(&properties, device), "cudaGetDeviceProperties");
+    return properties.name;
+}
+
+}  // namespace meniscus::cuda

@@ -1,0 +1,50 @@
+// Host memory that the device copies from and to while both go on.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "engine/cuda/errors.hpp"
+#include "meniscus/memory.hpp"
+
+namespace meniscus::cuda {
+
+/// Nothing may be copying from or to it when it grows or ends.
+class PinnedMemory {
+public:
+    explicit PinnedMemory(std::shared_ptr<MemoryAccount> account) : account_(std::move(account)) {}
+    ~PinnedMemory() { release(); }
+    PinnedMemory(const PinnedMemory&) = delete;
+    PinnedMemory& operator=(const PinnedMemory&) = delete;
+
+    /// Grows with some room to spare; what was there is lost then.
+    void reserve(std::size_t bytes) {
+        if (bytes <= bytes_) return;
+        release();
+        const std::size_t room = bytes + bytes / 8;
+        account_->charge(room);
+        const cudaError_t status = cudaMallocHost(&memory_, room);
+        if (status != cudaSuccess) {
+            memory_ = nullptr;
+            account_->release(room);
+            check(status, "cudaMallocHost");
+        }
+        bytes_ = room;
+    }
+    std::byte* get() const { return static_cast<std::byte*>(memory_); }
+
+private:
+    void release() {
+        if (memory_ == nullptr) return;
+        cudaFreeHost(memory_);
+        account_->release(bytes_);
+        memory_ = nullptr;
+        bytes_ = 0;
+    }
+
+    std::shared_ptr<MemoryAccount> account_;
+    void* memory_ = nullptr;
+    std::size_t bytes_ = 0;
+};
+
+}  // namespace meniscus::cuda

@@ -1,0 +1,79 @@
+#include "engine/cuda/scans.hpp"
+
+#include <algorithm>
+
+#include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_scan.cuh>
+
+namespace meniscus::cuda {
+namespace {
+
+struct Plus {
+    template <class T>
+    __host__ __device__ T operator()(const T& a, const T& b) const {
+        return a + b;
+    }
+};
+
+/// Null memory: only tells the bytes needed.
+template <class T>
+void scan(void* memory, std::size_t& bytes, T* values, std::size_t n, cudaStream_t stream) {
+    check(cub::DeviceScan::ExclusiveScan(memory, bytes, values, values, Plus{}, T{}, static_cast<std::int64_t>(n),
+                                         stream),
+          "cub::DeviceScan");
+}
+
+template <class Key>
+Key* sort_keys(void* memory, std::size_t& bytes, Key* keys, Key* room, std::size_t n, cudaStream_t stream) {
+    cub::DoubleBuffer<Key> buffers(keys, room);
+    check(cub::DeviceRadixSort::SortKeys(memory, bytes, buffers, static_cast<std::int64_t>(n), 0,
+                                         static_cast<int>(8 * sizeof(Key)), stream),
+          "cub::DeviceRadixSort");
+    return buffers.Current();
+}
+
+template <class T>
+std::size_t scan_bytes(std::size_t n) {
+    std::size_t bytes = 0;
+    scan<T>(nullptr, bytes, nullptr, n, nullptr);
+    return bytes;
+}
+
+template <class Key>
+std::size_t sort_bytes(std::size_t n) {
+    std::size_t bytes = 0;
+    sort_keys<Key>(nullptr, bytes, nullptr, nullptr, n, nullptr);
+    return bytes;
+}
+
+}  // namespace
+
+std::size_t scratch_bytes(std::size_t particle_keys, std::size_t brick_keys, std::size_t sums) {
+    return std::max({sort_bytes<SortKey>(particle_keys), sort_bytes<std::uint64_t>(brick_keys),
+                     scan_bytes<std::uint32_t>(sums), scan_bytes<std::uint64_t>(sums), scan_bytes<LevelCounts>(sums)});
+}
+
+void exclusive_sum(const Scratch& scratch, std::uint32_t* values, std::size_t n, cudaStream_t stream) {
+    std::size_t bytes = scratch.bytes;
+    scan(scratch.memory, bytes, values, n, stream);
+}
+void exclusive_sum(const Scratch& scratch, std::uint64_t* values, std::size_t n, cudaStream_t stream) {
+    std::size_t bytes = scratch.bytes;
+    scan(scratch.memory, bytes, values, n, stream);
+}
+void exclusive_sum(const Scratch& scratch, LevelCounts* values, std::size_t n, cudaStream_t stream) {
+    std::size_t bytes = scratch.bytes;
+    scan(scratch.memory, bytes, values, n, stream);
+}
+
+SortKey* sort(const Scratch& scratch, SortKey* keys, SortKey* room, std::size_t n, cudaStream_t stream) {
+    std::size_t bytes = scratch.bytes;
+    return sort_keys(scratch.memory, bytes, keys, room, n, stream);
+}
+std::uint64_t* sort(const Scratch& scratch, std::uint64_t* keys, std::uint64_t* room, std::size_t n,
+                    cudaStream_t stream) {
+    std::size_t bytes = scratch.bytes;
+    return sort_keys(scratch.memory, bytes, keys, room, n, stream);
+}
+
+}  // namespace meniscus::cuda

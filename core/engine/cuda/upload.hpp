@@ -1,0 +1,57 @@
+// A frame's particles on their way to the device, through pinned memory.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+
+#include "engine/cuda/device_state.hpp"
+#include "engine/cuda/pinned_memory.hpp"
+#include "meniscus/particle_frame.hpp"
+
+namespace meniscus::cuda {
+
+class Upload {
+public:
+    explicit Upload(const std::shared_ptr<MemoryAccount>& account) : staging_(account), input_(account) {
+        input_.reserve(sizeof(FrameInput));
+    }
+
+    /// The last upload must have ended. Positions travel as they are given, and are widened on the device.
+    void start(const ParticleFrame& particles, const Frame& frame, cudaStream_t stream) {
+        const auto positions =
+            particles.is_quantized() ? std::as_bytes(particles.quantized) : std::as_bytes(particles.positions);
+        const auto levels = std::as_bytes(particles.levels);
+        staging_.reserve(positions.size() + levels.size());
+        send(positions, staging_.get(), frame.upload, stream);
+        send(levels, staging_.get() + positions.size(), frame.upload_levels(), stream);
+
+        auto& input = *new (input_.get()) FrameInput;
+        input.particles = static_cast<std::uint32_t>(particles.count());
+        input.positions = positions_view(particles, frame.settings.units_per_length);
+        if (particles.is_quantized())
+            input.positions.quantized = reinterpret_cast<const std::uint16_t*>(frame.upload);
+        else
+            input.positions.positions = reinterpret_cast<const float*>(frame.upload);
+        if (!particles.levels.empty()) input.levels = reinterpret_cast<const std::uint8_t*>(frame.upload_levels());
+        check(cudaMemcpyAsync(frame.input, &input, sizeof(FrameInput), cudaMemcpyHostToDevice, stream),
+              "cudaMemcpyAsync");
+    }
+
+private:
+    /// Piece by piece: the device fetches one while the next is being copied.
+    static void send(std::span<const std::byte> from, std::byte* staging, std::byte* to, cudaStream_t stream) {
+        constexpr std::size_t piece = std::size_t{1} << 20;
+        for (std::size_t at = 0; at < from.size(); at += piece) {
+            const std::size_t bytes = std::min(piece, from.size() - at);
+            std::memcpy(staging + at, from.data() + at, bytes);
+            check(cudaMemcpyAsync(to + at, staging + at, bytes, cudaMemcpyHostToDevice, stream), "cudaMemcpyAsync");
+        }
+    }
+
+    PinnedMemory staging_;
+    PinnedMemory input_;
+};
+
+}  // namespace meniscus::cuda

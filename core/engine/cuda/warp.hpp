@@ -1,0 +1,91 @@
+// What the 32 threads of a warp do together. All of them must call these functions.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/cuda/launch.hpp"
+
+namespace meniscus::cuda {
+
+inline constexpr unsigned all_lanes = 0xFFFFFFFFU;
+
+__device__ inline unsigned lane_index() {
+    return threadIdx.x % warp_threads;
+}
+__device__ inline unsigned warp_in_block() {
+    return threadIdx.x / warp_threads;
+}
+
+/// The first lane's value: a count that another warp may be changing must not part the lanes.
+__device__ inline std::uint32_t same_in_all_lanes(std::uint32_t value) {
+    return __shfl_sync(all_lanes, value, 0);
+}
+
+/// A loop of the whole grid over all elements, neighboring ones in neighboring lanes.
+struct GridLoop {
+    std::uint64_t step = static_cast<std::uint64_t>(gridDim.x) * block_threads;
+    std::uint64_t first = static_cast<std::uint64_t>(blockIdx.x) * block_threads + threadIdx.x;  ///< this thread's
+
+    /// Calls visit(i) for this thread's elements below n.
+    template <class Visit>
+    __device__ void each(std::uint64_t n, const Visit& visit) const {
+        for (std::uint64_t i = first; i < n; i += step) visit(static_cast<std::uint32_t>(i));
+    }
+    /// Calls visit(i, whether i < n), the same number of times in all lanes of a warp.
+    template <class Visit>
+    __device__ void each_together(std::uint32_t n, const Visit& visit) const {
+        n = same_in_all_lanes(n);
+        for (std::uint64_t i = first; i - lane_index() < n; i += step) visit(static_cast<std::uint32_t>(i), i < n);
+    }
+};
+
+/// Calls visit(i) for the elements below n, each by all lanes of one warp of the grid.
+template <class Visit>
+__device__ void each_by_warp(std::uint32_t n, const Visit& visit) {
+    n = same_in_all_lanes(n);
+    const std::uint64_t warps = static_cast<std::uint64_t>(gridDim.x) * block_warps;
+    for (std::uint64_t i = static_cast<std::uint64_t>(blockIdx.x) * block_warps + warp_in_block(); i < n; i += warps)
+        visit(static_cast<std::uint32_t>(i));
+}
+
+/// The sum of the values of the lanes below; `total` becomes that of all.
+__device__ inline std::uint32_t sum_of_lanes_below(std::uint32_t value, std::uint32_t& total) {
+    std::uint32_t sum = value;
+    for (unsigned distance = 1; distance < warp_threads; distance *= 2) {
+        const std::uint32_t below = __shfl_up_sync(all_lanes, sum, distance);
+        if (lane_index() >= distance) sum += below;
+    }
+    total = __shfl_sync(all_lanes, sum, warp_threads - 1);
+    return sum - value;
+}
+
+/// Takes `count` places at the end of a list for every lane; returns the lane's first one. The order of warps is left
+/// to chance.
+template <class Counter>
+__device__ inline Counter take_places(Counter* counter, std::uint32_t count) {
+    std::uint32_t total = 0;
+    const std::uint32_t below = sum_of_lanes_below(count, total);
+    Counter first = 0;
+    if (lane_index() == 0 && total != 0) first = atomicAdd(counter, static_cast<Counter>(total));
+    return __shfl_sync(all_lanes, first, 0) + below;
+}
+
+/// Adds the lanes' values to a count.
+__device__ inline void add_of_lanes(unsigned long long* counter, unsigned long long value) {
+    for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2)
+        value += __shfl_xor_sync(all_lanes, value, static_cast<int>(distance));
+    if (lane_index() == 0 && value != 0) atomicAdd(counter, value);
+}
+
+__device__ inline float smallest_of_lanes(float value) {
+    for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2) {
+        const float other = __shfl_xor_sync(all_lanes, value, static_cast<int>(distance));
+        value = other < value ? other : value;
+    }
+    return value;
+}
+__device__ inline float largest_of_lanes(float value) {
+    return -smallest_of_lanes(-value);
+}
+
+}  // namespace meniscus::cuda

@@ -1,0 +1,28 @@
+// The levels of all base cells as sets, for rules that look at 64 cells at once.
+#pragma once
+
+#include <cstdint>
+
+#include "lattice/blocks.hpp"
+#include "lattice/cell_set.hpp"
+#include "lattice/host_device.hpp"
+
+namespace meniscus {
+
+struct LevelSets {
+    CellSetView at_least[4];  ///< by level, 1 to 3: the cells of at least that level; 1: the surface band
+
+    MENISCUS_HD std::uint64_t band(std::uint32_t brick, int w) const { return at_least[1].word(brick, w); }
+    MENISCUS_HD std::uint64_t is_at_least(int level, std::uint32_t brick, int w) const {
+        return at_least[level].word(brick, w);
+    }
+    /// Cells with a face neighbor of at least this level.
+    MENISCUS_HD std::uint64_t beside(int level, std::uint32_t brick, int w) const {
+        std::uint64_t cells = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            for (int side = -1; side <= 1; side += 2) cells |= at_least[level].moved(brick, w, axis_offset(axis, side));
+        return cells;
+    }
+};
+
+}  // namespace meniscus

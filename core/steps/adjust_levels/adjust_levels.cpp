@@ -1,0 +1,63 @@
+#include "steps/adjust_levels/adjust_levels.hpp"
+
+#include "engine/cpu/surface.hpp"
+#include "steps/adjust_levels/raise_levels.hpp"
+
+namespace meniscus::cpu {
+
+void levels_are_new(Surface& s) {
+    const std::size_t words = s.grid.bricks.size() * Brick::words;
+    for (auto& set : s.at_least) resize_for_overwrite(set, words);
+    for (auto& set : s.stale) resize_for_overwrite(set, words);
+    const LevelSets levels = s.level_sets();
+    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t b = begin; b < end; ++b)
+            for (int w = 0; w < Brick::words; ++w) {
+                const auto brick = static_cast<std::uint32_t>(b);
+                std::uint64_t cells[4] = {};
+                for_each_cell(s.grid.bricks[b], w, s.grid.bricks[b].occupied[w], [&](std::uint32_t block, int bit) {
+                    for (int level = 1; level <= s.level[block]; ++level) cells[level] |= std::uint64_t{1} << bit;
+                });
+                for (int level = 1; level <= 3; ++level) levels.at_least[level].word(brick, w) = cells[level];
+                for (const StaleFor rule : all_rules) s.stale_cells(rule).word(brick, w) = s.grid.bricks[b].occupied[w];
+            }
+    });
+}
+
+void mark_stale_around(Surface& s, std::uint32_t brick, int w, std::uint64_t cells) {
+    constexpr std::uint64_t first = 0x0001000100010001ULL;
+    constexpr std::uint64_t last = first << 15;
+    const std::uint64_t along_x[3] = {cells << 15 & last, cells | (cells << 1 & ~first) | (cells >> 1 & ~last),
+                                      cells >> 15 & first};
+    for (int i = 0; i < 27; ++i) {
+        const int dy = i / 3 % 3 - 1;
+        const std::uint64_t row = along_x[i % 3];
+        const std::uint64_t near = dy < 0 ? row << 48 : dy > 0 ? row >> 48 : row | row << 16 | row >> 16;
+        if (near == 0) continue;
+        const int y = (w & 3) + dy;
+        const int z = (w >> 2) + i / 9 - 1;
+        const std::uint32_t there = s.grid.neighbors[brick].brick[13 + (i % 3 - 1) + 3 * (y >> 2) + 9 * (z >> 4)];
+        if (there == no_index) continue;
+        const int word = (y & 3) | (z & 15) << 2;
+        const std::uint64_t members = near & s.grid.bricks[there].occupied[word];
+        for (const StaleFor rule : all_rules)
+            std::atomic_ref(s.stale_cells(rule).word(there, word)).fetch_or(members, std::memory_order_relaxed);
+    }
+}
+
+void adjust_levels(Surface& s) {
+    const LevelSets levels = s.level_sets();
+    const auto one_more = [&](std::uint32_t block) { return s.level[block] + 1; };
+    const auto unbalanced = [&](std::uint32_t brick, int w) {
+        return take_stale(s, StaleFor::balance, brick, w) == 0 ? 0 : unbalanced_cells(levels, brick, w);
+    };
+    const auto promoted = [&](std::uint32_t brick, int w) {
+        return take_stale(s, StaleFor::promotion, brick, w) == 0 ? 0 : cells_to_promote(levels, brick, w);
+    };
+    do {
+        while (raise_levels(s, unbalanced, one_more)) {
+        }
+    } while (raise_levels(s, promoted, one_more));
+}
+
+}  // namespace meniscus::cpu

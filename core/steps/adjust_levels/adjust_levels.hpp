@@ -1,0 +1,48 @@
+// Step 3: levels of face neighbors differ by at most one, and no lattice edge has fine and coarse cells in turn around
+// it. Both bodies name the cells of a word that go up one level, by one state of all levels, so that the result does
+// not depend on an order.
+#pragma once
+
+#include <cstdint>
+
+#include "lattice/host_device.hpp"
+#include "lattice/level_sets.hpp"
+
+namespace meniscus {
+
+/// The cells of the band that lie two levels below a face neighbor.
+MENISCUS_HD inline std::uint64_t unbalanced_cells(const LevelSets& levels, std::uint32_t brick, int w) {
+    const std::uint64_t coarsest = levels.band(brick, w) & ~levels.is_at_least(2, brick, w);
+    return coarsest == 0 ? 0 : coarsest & levels.beside(3, brick, w);
+}
+
+/// The coarse cells that, at one of their twelve edges, face another coarse cell across the edge with two cells between
+/// them that are finer than both, and come first in the order (z, y, x): four crack fillings would share a chord there.
+MENISCUS_HD inline std::uint64_t cells_to_promote(const LevelSets& levels, std::uint32_t brick, int w) {
+    const std::uint64_t coarse = levels.band(brick, w) & ~levels.is_at_least(3, brick, w);
+    if (coarse == 0) return 0;
+    const std::uint64_t own2 = levels.is_at_least(2, brick, w);
+    std::uint64_t promoted = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int u = axis == 0 ? 1 : 0;
+        const int v = axis == 2 ? 1 : 2;
+        // The cell across comes later in (z, y, x) exactly if it lies up the later of the two axes, v.
+        const Int3 along_v = axis_offset(v, 1);
+        const std::uint64_t v2 = coarse & levels.at_least[2].moved(brick, w, along_v);
+        if (v2 == 0) continue;
+        const std::uint64_t v3 = levels.at_least[3].moved(brick, w, along_v);
+        for (int side = -1; side <= 1; side += 2) {
+            const Int3 along_u = axis_offset(u, side);
+            const std::uint64_t finer2 = v2 & levels.at_least[2].moved(brick, w, along_u);
+            if (finer2 == 0) continue;
+            const std::uint64_t finer3 = finer2 & v3 & levels.at_least[3].moved(brick, w, along_u);
+            const std::uint64_t across1 = levels.at_least[1].moved(brick, w, along_u + along_v);
+            const std::uint64_t across2 = levels.at_least[2].moved(brick, w, along_u + along_v);
+            const std::uint64_t across3 = levels.at_least[3].moved(brick, w, along_u + along_v);
+            promoted |= across1 & ~across3 & ((finer2 & ~own2 & ~across2) | finer3);
+        }
+    }
+    return promoted;
+}
+
+}  // namespace meniscus

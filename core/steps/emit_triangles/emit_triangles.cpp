@@ -1,0 +1,16 @@
+#include "steps/emit_triangles/emit_triangles.hpp"
+
+#include "engine/cpu/surface.hpp"
+
+namespace meniscus::cpu {
+
+void emit_triangles(Surface& s, Mesh& mesh) {
+    const BlocksView blocks = s.view();
+    s.workers.for_ranges(s.mixed_cells.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i)
+            emit_cell_triangles(blocks, s.mixed_cells[i], cube_table.data(),
+                                mesh.triangles.data() + s.slots[s.mixed_cells[i]].cells);
+    });
+}
+
+}  // namespace meniscus::cpu

@@ -1,0 +1,77 @@
+// Algorithm 3: the gaps on faces between cells of different levels, closed with predefined patterns.
+#pragma once
+
+#include <cstdint>
+
+#include "lattice/blocks.hpp"
+#include "lattice/face_signs.hpp"
+#include "lattice/host_device.hpp"
+#include "meniscus/mesh.hpp"
+#include "steps/place_vertices/place_vertices.hpp"
+#include "tables/tables.hpp"
+
+namespace meniscus {
+
+/// One coarse subface between a fine cell and its coarser neighbor.
+struct CrackFace {
+    int axis;       ///< normal to the face
+    int side;       ///< 0: the coarse cell lies below the fine one, 1: above
+    int stride;     ///< of the fine cell
+    int corner[3];  ///< lowest point, in the fine cell's closed coordinates
+};
+
+/// Calls visit(face, crack case) for every subface of a fine cell that has a coarser neighbor beyond and sees both
+/// signs.
+template <class Visit>
+MENISCUS_HD void for_each_crack(const BlocksView& blocks, std::uint32_t block, Visit&& visit) {
+    const int level = blocks.level[block];
+    if (level == 1) return;
+    CrackFace face;
+    face.stride = level_stride(level);
+    for (face.axis = 0; face.axis < 3; ++face.axis)
+        for (face.side = 0; face.side < 2; ++face.side) {
+            const std::uint32_t other = blocks.neighbor(block, axis_offset(face.axis, 2 * face.side - 1));
+            const int other_level = blocks.level_or_none(other);
+            if (other_level == 0 || other_level >= level) continue;
+            const FaceSigns signs(blocks, face.side == 1 ? other : block, face.axis, face.stride);
+            for (BlockMask left = signs.mixed(); left != 0; left &= left - 1) {
+                const int bit = lowest_bit(left);
+                for (int axis = 0; axis < 3; ++axis)
+                    face.corner[axis] = axis == face.axis ? face.side * base_cell_size : point_coordinate(bit, axis);
+                visit(face, signs.pattern(bit));
+            }
+        }
+}
+
+MENISCUS_HD inline std::uint32_t count_crack_triangles(const BlocksView& blocks, std::uint32_t block,
+                                                       const CrackCase* table) {
+    std::uint32_t count = 0;
+    for_each_crack(blocks, block, [&](const CrackFace&, int crack_case) { count += table[crack_case].triangles; });
+    return count;
+}
+
+/// Writes the filling of a fine cell's faces from `out` on. cell: the block's.
+MENISCUS_HD inline void emit_crack_triangles(const BlocksView& blocks, std::uint32_t block, const ClosedCell& cell,
+                                             const CrackCase* table, Triangle* out) {
+    for_each_crack(blocks, block, [&](const CrackFace& face, int crack_case) {
+        const CrackCase& pattern = table[crack_case];
+        for (int t = 0; t < pattern.triangles; ++t, ++out)
+            for (int corner = 0; corner < 3; ++corner) {
+                const int edge = pattern.edges[static_cast<std::size_t>(3 * t + corner)];
+                const int u = (face.axis + 1) % 3;
+                const int v = (face.axis + 2) % 3;
+                const int along_u = (edge < 6 ? edge % 2 : (edge - 6) % 3) * face.stride;
+                const int along_v = (edge < 6 ? edge / 2 : (edge - 6) / 3) * face.stride;
+                // Asked for by constants alone: a GPU would keep an array that is not in its slow local memory.
+                const auto point = [&](int axis) {
+                    return face.corner[axis] + (axis == u ? along_u : axis == v ? along_v : 0);
+                };
+                // The patterns are oriented for the fine cell lying up the axis.
+                const int place = face.side == 0 ? corner : 2 - corner;
+                (*out)[static_cast<std::size_t>(place)] =
+                    vertex_on_edge(blocks, cell, point(0), point(1), point(2), edge < 6 ? u : v, face.stride);
+            }
+    });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,233 @@
+#include "steps/place_vertices/place_vertices.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <iterator>
+
+#include "engine/cpu/block_points.hpp"
+#include "engine/cpu/clusters.hpp"
+#include "engine/cpu/surface.hpp"
+#include "engine/cpu/words.hpp"
+#include "engine/numbering.hpp"
+#include "field/lanes.hpp"
+
+namespace meniscus::cpu {
+namespace {
+
+/// The values of a block's sampled points by point, unpacked where not all points are sampled.
+class UnpackedValues {
+public:
+    void read(const BlocksView& blocks, std::uint32_t block) {
+        of_ = room_;
+        if (block == no_index) {
+            std::fill(std::begin(room_), std::end(room_), 0.0F);
+        } else if (blocks.sampled[block] == ~BlockMask{0}) {
+            of_ = blocks.samples + blocks.first_sample[block];
+            // Clusters walk along four rows of blocks: what the next one needs of this row comes next but one.
+            for (int line = 0; line < 64; line += 16) __builtin_prefetch(of_ + 128 + line);
+        } else {
+            const float* next = blocks.samples + blocks.first_sample[block];
+            for (BlockMask left = blocks.sampled[block]; left != 0; left &= left - 1) room_[lowest_bit(left)] = *next++;
+        }
+    }
+    float operator()(int bit) const { return of_[bit]; }
+
+private:
+    const float* of_ = nullptr;
+    float room_[64];
+};
+
+/// The vertices of one block, in the order of their numbers. Arrays have room for whole lanes.
+struct BlockVertices {
+    std::size_t count = 0;
+    std::size_t first[4];                                 ///< of every axis, and one past the last
+    std::uint8_t bit[max_points];                         ///< lower end of the edge
+    alignas(32) float low[max_points], high[max_points];  ///< field values at the edge's ends
+    alignas(32) float offset[max_points];                 ///< in steps of c / 2^bits
+};
+
+void find_vertices(const BlocksView& blocks, std::uint32_t block, BlockVertices& vertices) {
+    UnpackedValues own, next;
+    own.read(blocks, block);
+    std::size_t count = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        vertices.first[axis] = count;
+        const BlockMask edges = blocks.edges[block].axis[axis];
+        const BlockMask high_face = low_face(axis) << (3 * bit_step(axis));
+        if ((edges & high_face) != 0) next.read(blocks, blocks.neighbor(block, axis_offset(axis)));
+        // Which of the two blocks holds an edge's upper end is as good as random: chosen without a branch.
+        const UnpackedValues* const above[2] = {&own, &next};
+        const int step[2] = {bit_step(axis), -3 * bit_step(axis)};
+        for (BlockMask left = edges; left != 0; left &= left - 1, ++count) {
+            const int bit = lowest_bit(left);
+            const auto beyond = static_cast<std::size_t>(high_face >> bit & 1);
+            vertices.bit[count] = static_cast<std::uint8_t>(bit);
+            vertices.low[count] = own(bit);
+            vertices.high[count] = (*above[beyond])(bit + step[beyond]);
+        }
+    }
+    vertices.first[3] = vertices.count = count;
+    for (std::size_t i = count; i % Lanes::count != 0; ++i) {
+        vertices.low[i] = 0.0F;
+        vertices.high[i] = 1.0F;
+    }
+}
+
+bool is_low_inside(const BlocksView& blocks, std::uint32_t block, const BlockVertices& vertices, std::size_t i) {
+    return (blocks.inside[block] >> vertices.bit[i] & 1) != 0;
+}
+
+void interpolate(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings,
+                 BlockVertices& vertices) {
+    const int bits = static_cast<int>(settings.offset_bits);
+    for (std::size_t i = 0; i < vertices.count; i += Lanes::count)
+        interpolated_offset(Lanes::load(vertices.low + i), Lanes::load(vertices.high + i), settings.iso, bits)
+            .store(vertices.offset + i);
+    if (!settings.has_domain) return;
+    for (std::size_t i = 0; i < vertices.count; ++i)
+        if (EdgeValues{vertices.low[i], vertices.high[i]}.cropped(settings.iso))
+            vertices.offset[i] = cropped_offset(is_low_inside(blocks, block, vertices, i), bits);
+}
+
+/// Points in units, at the vertices' offsets in steps of c / 2^bits.
+void list_points(const BlockVertices& vertices, std::uint32_t bits, PointList& points) {
+    const auto step = static_cast<float>(units_per_cell >> bits);
+    for (std::size_t i = 0; i < vertices.count; ++i) {
+        points.x[i] = block_points.coordinate[0][vertices.bit[i]];
+        points.y[i] = block_points.coordinate[1][vertices.bit[i]];
+        points.z[i] = block_points.coordinate[2][vertices.bit[i]];
+    }
+    float* const coordinates[3] = {points.x, points.y, points.z};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i)
+            coordinates[axis][i] += vertices.offset[i] * step;
+    points.count = vertices.count;
+}
+
+/// The paper's bisection, on the finest edge: the halves of coarse edges have been chosen by the samples already.
+void bisect(FieldSource& field, const Int3& at, const BlocksView& blocks, std::uint32_t block,
+            const LatticeSettings& settings, unsigned worker, BlockVertices& vertices) {
+    PointList points;
+    alignas(32) float values[max_points];
+    const int whole = 1 << settings.offset_bits;
+    const int middle = whole / 2;
+    for (std::size_t i = 0; i < vertices.count; ++i) vertices.offset[i] = static_cast<float>(middle);
+    // Every step moves to the middle of the half that still has a change of sign.
+    for (int half = whole / 4; half >= 1; half /= 2) {
+        list_points(vertices, settings.offset_bits, points);
+        field.values(at, points, values, worker);
+        for (std::size_t i = 0; i < vertices.count; ++i) {
+            const bool same_as_low = (values[i] > settings.iso) == is_low_inside(blocks, block, vertices, i);
+            vertices.offset[i] += static_cast<float>(same_as_low ? half : -half);
+        }
+    }
+}
+
+/// The field's normals, or along the edge where the domain's border or a vanishing gradient leaves none.
+void write_normals(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings,
+                   const BlockVertices& vertices, const float* x, const float* y, const float* z, Normal* out) {
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < vertices.count; ++i) {
+        out[i] = {x[i], y[i], z[i]};
+        sum += x[i] + y[i] + z[i];
+    }
+    if (std::isfinite(sum) && !settings.has_domain) return;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i) {
+            const bool is_cropped =
+                settings.has_domain && EdgeValues{vertices.low[i], vertices.high[i]}.cropped(settings.iso);
+            out[i] =
+                outward_normal(out[i], is_cropped, static_cast<int>(axis), is_low_inside(blocks, block, vertices, i));
+        }
+}
+
+/// The points' places in steps of c / 2^bits.
+void write_positions(const Int3& at, std::uint32_t bits, const PointList& points, LatticePosition* out) {
+    const int steps_per_base_cell = base_cell_size << bits;
+    const Int3 corner{at.x * steps_per_base_cell, at.y * steps_per_base_cell, at.z * steps_per_base_cell};
+    const auto steps_per_unit = 1.0F / static_cast<float>(units_per_cell >> bits);
+    for (std::size_t i = 0; i < points.count; ++i)
+        out[i] = {corner.x + static_cast<int>(points.x[i] * steps_per_unit),
+                  corner.y + static_cast<int>(points.y[i] * steps_per_unit),
+                  corner.z + static_cast<int>(points.z[i] * steps_per_unit)};
+}
+
+/// Chooses the blocks with vertices.
+void number_vertices(Surface& s, bool with_normals, Mesh& mesh) {
+    const BlocksView blocks = s.view();
+    const LevelSets levels = s.level_sets();
+    const SignSets signs = s.sign_sets();
+    const CellSetView chosen = s.chosen_cells();
+    resize_for_overwrite(s.brick_counts, s.grid.bricks.size());
+    for_each_brick(s, [&](std::uint32_t brick) {
+        std::uint64_t in_brick = 0;
+        for_each_word(s.grid.bricks[brick], [&](int w) {
+            const LevelSetsAround around(levels, brick, w);
+            const std::uint64_t all = around.with_corner_points() & s.grid.bricks[brick].occupied[w];
+            const std::uint64_t crossed = all == 0 ? 0 : all & signs.blocks_seeing_both(brick, w);
+            for_each_cell(s.grid.bricks[brick], w, all & ~crossed,
+                          [&](std::uint32_t block, int) { s.edges[block] = {}; });
+            std::uint64_t with_vertices = 0;
+            for_each_cell(s.grid.bricks[brick], w, crossed, [&](std::uint32_t block, int bit) {
+                const LevelsAround here = around(bit);
+                for (int axis = 0; axis < 3; ++axis)
+                    s.edges[block].axis[axis] = CrossedEdges(blocks, block, here, axis).finest();
+                const int count = s.edges[block].count();
+                in_brick += static_cast<std::uint64_t>(count);
+                with_vertices |= std::uint64_t{count != 0} << bit;
+            });
+            chosen.word(brick, w) = with_vertices;
+        });
+        s.brick_counts[brick] = in_brick;
+    });
+    const std::uint64_t count = counts_to_starts(s.brick_counts);
+    for_each_brick(s, [&](std::uint32_t brick) {
+        std::uint64_t next = s.brick_counts[brick];
+        for_each_word(s.grid.bricks[brick], [&](int w) {
+            for_each_cell(s.grid.bricks[brick], w, chosen.word(brick, w), [&](std::uint32_t block, int) {
+                s.first_vertex[block] = static_cast<std::uint32_t>(next);
+                next += static_cast<std::uint64_t>(s.edges[block].count());
+            });
+        });
+    });
+    require_numbers(count, "the surface has", "vertices");
+    resize_for_overwrite(mesh.vertices, count);
+    resize_for_overwrite(mesh.normals, with_normals ? count : 0);
+}
+
+}  // namespace
+
+void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& mesh) {
+    number_vertices(s, user.normals, mesh);
+    const BlocksView blocks = s.view();
+    std::atomic<std::uint64_t> evaluations{0};
+    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+        BlockVertices vertices;
+        PointList points;
+        alignas(32) float nx[max_points];
+        alignas(32) float ny[max_points];
+        alignas(32) float nz[max_points];
+        const auto place_block = [&](std::uint32_t block) {
+            find_vertices(blocks, block, vertices);
+            const Int3 at = blocks.coordinate(block);
+            if (user.edge_points == EdgePoints::bisect) {
+                bisect(field, at, blocks, block, s.settings, worker, vertices);
+                evaluations.fetch_add(vertices.count * user.bisection_steps, std::memory_order_relaxed);
+            } else {
+                interpolate(blocks, block, s.settings, vertices);
+            }
+            list_points(vertices, s.settings.offset_bits, points);
+            write_positions(at, s.settings.offset_bits, points, mesh.vertices.data() + s.first_vertex[block]);
+            if (!user.normals) return;
+            field.normals(at, points, nx, ny, nz, worker);
+            write_normals(blocks, block, s.settings, vertices, nx, ny, nz, mesh.normals.data() + s.first_vertex[block]);
+        };
+        for (std::size_t brick = begin; brick < end; ++brick)
+            for_each_clustered_member(s.grid.bricks[brick],
+                                      &s.chosen_cells().word(static_cast<std::uint32_t>(brick), 0), place_block);
+    });
+    s.field_evaluations += evaluations.load(std::memory_order_relaxed);
+}
+
+}  // namespace meniscus::cpu

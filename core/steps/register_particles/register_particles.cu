@@ -1,0 +1,351 @@
+#include "steps/register_particles/register_particles.hpp"
+
+#include <utility>
+
+#include "engine/cuda/candidates.hpp"
+#include "engine/cuda/warp.hpp"
+#include "steps/cuda_steps.hpp"
+
+namespace meniscus::cuda {
+namespace {
+
+constexpr int place_bits = 3 * place_axis_bits;
+constexpr int cell_bits = 3 * brick_axis_bits + 12;
+static_assert(place_bits + cell_bits + 2 == 128);
+
+/// After every key of a particle, whose places in its cell do not use all bits.
+constexpr SortKey no_key = ~SortKey{0};
+
+__device__ SortKey sort_key(unsigned level, const ParticleKey& key) {
+    return (SortKey{level} << cell_bits | key.cell) << place_bits | key.place;
+}
+__device__ unsigned key_level(SortKey key) {
+    return static_cast<unsigned>(key >> (place_bits + cell_bits));
+}
+__device__ ParticleKey particle_key(SortKey key) {
+    constexpr std::uint64_t place_mask = (std::uint64_t{1} << place_bits) - 1;
+    constexpr std::uint64_t cell_mask = (std::uint64_t{1} << cell_bits) - 1;
+    return {static_cast<std::uint64_t>(key >> place_bits) & cell_mask, static_cast<std::uint64_t>(key) & place_mask};
+}
+
+__device__ std::uint32_t particle_count(const Frame& f) {
+    return f.counts->overflow != 0 ? 0 : f.input->particles;
+}
+
+__global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant__ Frame f) {
+    const std::uint32_t n = f.input->particles;
+    GridLoop{}.each(f.capacity.particles, [&](std::uint32_t i) {
+        if (i >= n) {
+            f.unsorted_keys[i] = no_key;
+            return;
+        }
+        const unsigned level = f.input->levels == nullptr ? 0 : f.input->levels[i];
+        f.unsorted_keys[i] =
+            sort_key(level, meniscus::particle_key(f.input->positions.snapped(i), f.cell_units[level]));
+    });
+}
+
+/// Whether a support cell, and whether a brick of them, begins with this particle.
+struct Begins {
+    bool cell, brick;
+    __device__ Begins(const SortKey* keys, std::uint32_t i)
+        : cell(i == 0 || keys[i] >> place_bits != keys[i - 1] >> place_bits),
+          brick(i == 0 || keys[i] >> (place_bits + 12) != keys[i - 1] >> (place_bits + 12)) {}
+};
+
+__global__ void __launch_bounds__(block_threads) mark_starts(const __grid_constant__ Frame f) {
+    const std::uint32_t n = f.input->particles;
+    GridLoop{}.each(n, [&](std::uint32_t i) {
+        const Begins begins(f.keys, i);
+        f.starts[i] = (begins.cell ? 1 : 0) | static_cast<std::uint64_t>(begins.brick ? 1 : 0) << 32;
+    });
+}
+
+__global__ void __launch_bounds__(block_threads) store_particles(const __grid_constant__ Frame f) {
+    const std::uint32_t n = f.input->particles;
+    const std::uint64_t most_bricks = f.capacity[Resource::particle_bricks];
+    GridLoop{}.each(n, [&](std::uint32_t i) {
+        const unsigned level = key_level(f.keys[i]);
+        const ParticleKey key = particle_key(f.keys[i]);
+        float4 p{0.0F, 0.0F, 0.0F, f.settings.weight};
+        key_position(key, f.cell_units[level], p.x, p.y, p.z);
+        f.particles[i] = p;
+
+        const Begins begins(f.keys, i);
+        const std::uint32_t cell = static_cast<std::uint32_t>(f.starts[i]) + (begins.cell ? 1 : 0) - 1;
+        const std::uint32_t brick = static_cast<std::uint32_t>(f.starts[i] >> 32) + (begins.brick ? 1 : 0) - 1;
+        if (begins.cell) f.first_particle[cell] = i;
+        if (begins.cell && brick < most_bricks) {
+            const int index = key_index(key.cell);
+            atomicOr(reinterpret_cast<Counter*>(&f.particle_bricks[brick].occupied[index >> 6]),
+                     Counter{1} << (index & 63));
+        }
+        if (begins.brick && brick < most_bricks) {
+            f.particle_bricks[brick].coordinate = key_brick(key.cell);
+            f.particle_bricks[brick].first = cell;
+            f.particle_brick_keys[brick] = brick_key(key_brick(key.cell));
+        }
+        // A level's bricks begin where the level's particles do; levels without particles have none.
+        if (begins.brick)
+            for (unsigned k = i == 0 ? 0 : key_level(f.keys[i - 1]) + 1; k <= level; ++k)
+                f.counts->first_particle_brick[k] = brick;
+        if (i == n - 1) {
+            for (unsigned k = level + 1; k <= particle_level_count; ++k) f.counts->first_particle_brick[k] = brick + 1;
+            f.first_particle[cell + 1] = n;
+            f.counts->particle_cells = cell + 1;
+            f.need(Resource::particle_bricks, brick + 1);
+        }
+    });
+}
+
+__global__ void __launch_bounds__(block_threads) count_support_cells(const __grid_constant__ Frame f) {
+    GridLoop{}.each(f.count(Resource::particle_bricks), [&](std::uint32_t b) { f.particle_bricks[b].count(); });
+}
+
+__global__ void __launch_bounds__(block_threads) measure_crowd(const __grid_constant__ Frame f) {
+    Counter crowd = 0;
+    GridLoop{}.each_together(f.counts->particle_cells, [&](std::uint32_t cell, bool exists) {
+        const Counter particles = exists ? f.first_particle[cell + 1] - f.first_particle[cell] : 0;
+        crowd += particles * particles;
+    });
+    add_of_lanes(&f.counts->crowd, crowd);
+}
+
+/// One thread: a crowded frame ends here, before it takes long.
+__global__ void stop_if_crowded(const __grid_constant__ Frame f) {
+    if (blockIdx.x == 0 && threadIdx.x == 0 && is_crowded(f.counts->crowd, f.input->particles, f.settings))
+        f.counts->overflow = 1;
+}
+
+/// The value of the density field at a particle is the sum of the weights that it will divide: all are computed before
+/// any is.
+__global__ void __launch_bounds__(block_threads, 3) measure_densities(const __grid_constant__ Frame f) {
+    GridLoop{}.each(particle_count(f), [&](std::uint32_t i) {
+        const unsigned level = key_level(f.keys[i]);
+        const ParticleKey key = particle_key(f.keys[i]);
+        const Units3 origin = cell_corner(key.cell, f.cell_units[level]);
+        constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
+        const float x[1] = {static_cast<float>(key.place & mask)},
+                    y[1] = {static_cast<float>(key.place >> place_axis_bits & mask)},
+                    z[1] = {static_cast<float>(key.place >> (2 * place_axis_bits))};
+        float sum[1] = {0.0F};
+        for_each_candidate(f, origin, {{x[0], y[0], z[0]}, {x[0], y[0], z[0]}},
+                           [&](const OneCandidate& c) { sum_values<1>(c.view(), x, y, z, sum); });
+        f.densities[i] = sum[0];
+    });
+}
+
+__global__ void __launch_bounds__(block_threads) divide_weights(const __grid_constant__ Frame f) {
+    GridLoop{}.each(particle_count(f), [&](std::uint32_t i) { f.particles[i].w /= f.densities[i]; });
+}
+
+__global__ void __launch_bounds__(block_threads) list_reached_bricks(const __grid_constant__ Frame f) {
+    const std::uint64_t room = f.capacity[Resource::reached_bricks];
+    const auto reached_by = [&](std::uint32_t cell) {
+        const SortKey key = f.keys[f.first_particle[cell]];
+        const unsigned level = key_level(key);
+        return reached_bricks(particle_key(key).cell, f.cell_units[level], f.settings.support[level]);
+    };
+    GridLoop{}.each_together(f.counts->particle_cells, [&](std::uint32_t cell, bool exists) {
+        ReachedBricks reached;
+        std::uint32_t count = 0;
+        if (exists) {
+            reached = reached_by(cell);
+            // Most cells reach what the one before does.
+            if (cell == 0 || !(reached == reached_by(cell - 1))) count = reached.count();
+        }
+        Counter at = take_places(&f.counts->needed[static_cast<int>(Resource::reached_bricks)], count);
+        if (count == 0 || at + count > room) return;
+        Int3 b;
+        for (b.z = reached.low.z; b.z <= reached.high.z; ++b.z)
+            for (b.y = reached.low.y; b.y <= reached.high.y; ++b.y)
+                for (b.x = reached.low.x; b.x <= reached.high.x; ++b.x) f.unsorted_reached_keys[at++] = brick_key(b);
+    });
+}
+
+constexpr std::uint64_t no_brick = ~std::uint64_t{0};
+
+/// The sorted keys that may name a brick.
+__device__ std::uint64_t reached_key_count(const Frame& f) {
+    const std::uint64_t listed = f.counts->needed[static_cast<int>(Resource::reached_bricks)];
+    return listed < f.capacity[Resource::reached_bricks] ? listed : f.capacity[Resource::reached_bricks];
+}
+
+__device__ bool is_first_of_key(const Frame& f, std::uint32_t i) {
+    return f.reached_keys[i] != no_brick && (i == 0 || f.reached_keys[i] != f.reached_keys[i - 1]);
+}
+
+__global__ void __launch_bounds__(block_threads) mark_first_keys(const __grid_constant__ Frame f) {
+    GridLoop{}.each(reached_key_count(f), [&](std::uint32_t i) { f.first_of_key[i] = is_first_of_key(f, i) ? 1 : 0; });
+}
+
+__global__ void __launch_bounds__(block_threads) store_bricks(const __grid_constant__ Frame f) {
+    const std::uint64_t keys = reached_key_count(f);
+    GridLoop{}.each(keys, [&](std::uint32_t i) {
+        const std::uint32_t brick = f.first_of_key[i];
+        if (is_first_of_key(f, i) && brick < f.capacity[Resource::bricks]) {
+            f.brick_keys[brick] = f.reached_keys[i];
+            f.bricks[brick].coordinate = brick_coordinate(f.reached_keys[i]);
+        }
+    });
+    if (blockIdx.x != 0 || threadIdx.x != 0) return;
+    f.need(Resource::bricks, f.first_of_key[keys]);
+    f.need(Resource::reached_bricks, f.counts->needed[static_cast<int>(Resource::reached_bricks)]);
+}
+
+/// Marks in shared memory, by many threads at once, in halves of words, which atomic operations are made for.
+struct SharedMarks {
+    unsigned* halves;
+    __device__ std::uint64_t word(int w) const {
+        return atomicOr(&halves[2 * w], 0U) | static_cast<std::uint64_t>(atomicOr(&halves[2 * w + 1], 0U)) << 32;
+    }
+    __device__ void add(int w, std::uint64_t cells) const {
+        const auto low = static_cast<unsigned>(cells);
+        const auto high = static_cast<unsigned>(cells >> 32);
+        if (low != 0) atomicOr(&halves[2 * w], low);
+        if (high != 0) atomicOr(&halves[2 * w + 1], high);
+    }
+};
+
+/// A block of threads for every brick: its warps share the runs of particles near it.
+__global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __grid_constant__ Frame f) {
+    __shared__ unsigned halves[2 * Brick::words];
+    const SharedMarks marks{halves};
+    const std::uint32_t bricks = f.count(Resource::bricks);
+    constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
+    const auto size = static_cast<float>(edge);
+    for (std::uint32_t b = blockIdx.x; b < bricks; b += gridDim.x) {
+        if (threadIdx.x < 2 * Brick::words) halves[threadIdx.x] = 0;
+        __syncthreads();
+        const Int3 at = f.bricks[b].coordinate;
+        const Units3 origin{at.x * edge, at.y * edge, at.z * edge};
+        unsigned run = 0;
+        for (unsigned k = 0; k < particle_level_count; ++k) {
+            const ParticleSetView set = f.set(k);
+            if (set.cells.brick_count == 0) continue;
+            NoBrickGuesses guesses;
+            set.for_each_run_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, guesses,
+                                  [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+                                      if (run++ % block_warps != warp_in_block()) return;
+                                      for (std::uint32_t i = begin + lane_index(); i < end; i += warp_threads) {
+                                          const float4 p = f.particles[i];
+                                          mark_reached(marks, p.x + shift[0], p.y + shift[1], p.z + shift[2],
+                                                       set.support);
+                                      }
+                                  });
+        }
+        __syncthreads();
+        if (threadIdx.x < Brick::words) {
+            const int w = static_cast<int>(threadIdx.x);
+            std::uint64_t cells = marks.word(w);
+            if (f.settings.has_domain && cells != 0)
+                cells &= word_in_domain(at, w, f.settings.domain_low, f.settings.domain_high);
+            f.bricks[b].occupied[w] = cells;
+        }
+        __syncthreads();
+        if (threadIdx.x == 0) f.members_before[b] = f.bricks[b].count();
+    }
+}
+
+__global__ void __launch_bounds__(block_threads) number_members(const __grid_constant__ Frame f) {
+    const std::uint32_t bricks = f.count(Resource::bricks);
+    GridLoop{}.each(bricks, [&](std::uint32_t b) {
+        f.bricks[b].first = static_cast<std::uint32_t>(f.members_before[b]);
+        if (b == bricks - 1) f.need(Resource::blocks, f.members_before[bricks]);
+    });
+}
+
+__global__ void __launch_bounds__(block_threads) find_neighbors(const __grid_constant__ Frame f) {
+    const BrickGridView grid = f.grid();
+    GridLoop{}.each(std::uint64_t{27} * grid.brick_count, [&](std::uint32_t i) {
+        const std::uint32_t b = i / 27;
+        const int n = static_cast<int>(i % 27);
+        f.neighbors[b].brick[n] = grid.find(f.bricks[b].coordinate + Int3{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1});
+    });
+}
+
+/// One thread for every word of a brick.
+__global__ void __launch_bounds__(block_threads) store_blocks(const __grid_constant__ Frame f) {
+    GridLoop{}.each(std::uint64_t{Brick::words} * f.count(Resource::bricks), [&](std::uint32_t i) {
+        const std::uint32_t b = i / Brick::words;
+        const int w = static_cast<int>(i % Brick::words);
+        const Brick& brick = f.bricks[b];
+        std::uint32_t block = brick.first + brick.rank[w];
+        for (std::uint64_t left = brick.occupied[w]; left != 0; left &= left - 1, ++block) {
+            f.brick[block] = b;
+            f.place[block] = static_cast<std::uint16_t>(64 * w + lowest_bit(left));
+            f.level[block] = 0;
+            f.wanted_points[block] = 0;
+            f.corner_points[block] = 0;
+            f.particle_counts[block] = 0;
+        }
+    });
+}
+
+/// Particles of level 0 in every stored base cell.
+__global__ void __launch_bounds__(block_threads) count_particles(const __grid_constant__ Frame f) {
+    const BrickGridView grid = f.grid();
+    GridLoop{}.each(particle_count(f), [&](std::uint32_t i) {
+        if (key_level(f.keys[i]) != 0) return;
+        const ParticleKey key = particle_key(f.keys[i]);
+        const Units3 corner = cell_corner(key.cell, f.cell_units[0]);
+        constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
+        const auto cell = [&](std::int64_t low, std::uint64_t in_cell) {
+            return static_cast<std::int32_t>(
+                floor_div(low + static_cast<std::int64_t>(in_cell & mask), units_per_base_cell));
+        };
+        const Int3 at{cell(corner.x, key.place), cell(corner.y, key.place >> place_axis_bits),
+                      cell(corner.z, key.place >> (2 * place_axis_bits))};
+        const std::uint32_t brick = grid.find(brick_of(at));
+        // Cells beyond the domain are not stored.
+        if (brick != no_index && grid.bricks[brick].holds(index_in_brick(at)))
+            atomicAdd(&f.particle_counts[grid.bricks[brick].number(index_in_brick(at))], 1U);
+    });
+}
+
+void sort_particles(Frame& f, const Launcher& launch) {
+    const std::uint64_t n = f.capacity.particles;
+    launch(n, block_threads, make_keys, f);
+    if (sort(f.scratch_memory(), f.unsorted_keys, f.keys, n, launch.stream) != f.keys)
+        std::swap(f.keys, f.unsorted_keys);
+    launch(n, block_threads, mark_starts, f);
+    exclusive_sum(f.scratch_memory(), f.starts, n, launch.stream);
+    check(cudaMemsetAsync(f.particle_bricks, 0, f.capacity[Resource::particle_bricks] * sizeof(Brick), launch.stream),
+          "cudaMemsetAsync");
+    launch(n, block_threads, store_particles, f);
+    launch(f.capacity[Resource::particle_bricks], block_threads, count_support_cells, f);
+    launch(n, block_threads, measure_crowd, f);
+    launch(1, block_threads, stop_if_crowded, f);
+}
+
+void store_reached_cells(Frame& f, const Launcher& launch) {
+    const std::uint64_t keys = f.capacity[Resource::reached_bricks];
+    const std::uint64_t bricks = f.capacity[Resource::bricks];
+    check(cudaMemsetAsync(f.unsorted_reached_keys, 0xFF, keys * sizeof(std::uint64_t), launch.stream),
+          "cudaMemsetAsync");
+    launch(f.capacity.particles, block_threads, list_reached_bricks, f);
+    if (sort(f.scratch_memory(), f.unsorted_reached_keys, f.reached_keys, keys, launch.stream) != f.reached_keys)
+        std::swap(f.reached_keys, f.unsorted_reached_keys);
+    launch(keys, block_threads, mark_first_keys, f);
+    exclusive_sum(f.scratch_memory(), f.first_of_key, keys + 1, launch.stream);
+    launch(keys, block_threads, store_bricks, f);
+    launch(bricks, 1, mark_reached_cells, f);
+    exclusive_sum(f.scratch_memory(), f.members_before, bricks + 1, launch.stream);
+    launch(bricks, block_threads, number_members, f);
+    launch(27 * bricks, block_threads, find_neighbors, f);
+    launch(Brick::words * bricks, block_threads, store_blocks, f);
+}
+
+}  // namespace
+
+void register_particles(Frame& frame, const Settings& user, const Launcher& launch) {
+    sort_particles(frame, launch);
+    store_reached_cells(frame, launch);
+    if (user.mode == Mode::adaptive && user.criterion == Criterion::count)
+        launch(frame.capacity.particles, block_threads, count_particles, frame);
+    if (user.field != Field::color) return;
+    launch(frame.capacity.particles, block_threads, measure_densities, frame);
+    launch(frame.capacity.particles, block_threads, divide_weights, frame);
+}
+
+}  // namespace meniscus::cuda

@@ -1,0 +1,222 @@
+#include "steps/sample_field/sample_field.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+
+#include "engine/cpu/clusters.hpp"
+#include "engine/cpu/surface.hpp"
+#include "engine/numbering.hpp"
+#include "field/lanes.hpp"
+#include "steps/adjust_levels/raise_levels.hpp"
+
+namespace meniscus::cpu {
+namespace {
+
+/// Enters new values of a block's missing points, given by bit; its samples move to new room.
+void enter_samples(Surface& s, std::uint32_t block, BlockMask missing, std::array<float, 64>& values,
+                   std::uint32_t room) {
+    const float* known = s.samples.data() + s.first_sample[block];
+    for (BlockMask left = s.sampled[block]; left != 0; left &= left - 1)
+        values[static_cast<std::size_t>(lowest_bit(left))] = *known++;
+    const BlockMask sampled = s.sampled[block] | missing;
+    float* out = s.samples.data() + room;
+    BlockMask above = 0;
+    if (sampled == ~BlockMask{0}) {
+        std::copy(values.begin(), values.end(), out);
+        for (int i = 0; i < 64; i += Lanes::count)
+            above |= BlockMask{not_above(Lanes::load(out + i), Lanes(s.settings.iso))} << i;
+        above = ~above;
+    } else {
+        for (BlockMask left = sampled; left != 0; left &= left - 1) {
+            const int bit = lowest_bit(left);
+            const float value = values[static_cast<std::size_t>(bit)];
+            *out++ = value;
+            above |= BlockMask{value > s.settings.iso} << bit;
+        }
+    }
+    if (s.settings.has_domain)
+        above &= domain_points(s.view().coordinate(block), s.settings.domain_low, s.settings.domain_high);
+    s.first_sample[block] = room;
+    s.sampled[block] = sampled;
+    s.inside[block] = above;
+    s.sign_sets().any_inside.put(s.brick[block], s.place[block], above != 0);
+    s.sign_sets().all_inside.put(s.brick[block], s.place[block], above == sampled);
+}
+
+BlockMask missing_points(const Surface& s, std::uint32_t block) {
+    return s.wanted_points[block] & ~s.sampled[block];
+}
+
+/// Of a level-1 edge's middle follows that of one of its halves.
+BlockMask followed_points(Wanted wanted, BlockMask missing) {
+    return wanted == Wanted::middles ? missing & level1_middles : 0;
+}
+
+/// Samples the chosen blocks of a cluster, whose samples move to `room` one after the other; returns how many points
+/// were new.
+std::uint64_t sample_cluster(Surface& s, FieldSource& field, Wanted wanted, const Brick& brick, const Int3& corner,
+                             const std::uint64_t* chosen, std::uint64_t& room, unsigned worker) {
+    const Int3 lowest = brick.corner() + corner;
+    std::uint32_t block[8];
+    ClusterPoints missing{};
+    ClusterPoints followed{};
+    for (std::size_t i = 0; i < 8; ++i) {
+        const int place = index_in_brick(corner + cluster_step(static_cast<int>(i)));
+        if ((chosen[place >> 6] >> (place & 63) & 1) == 0) continue;
+        block[i] = brick.number(place);
+        missing[i] = missing_points(s, block[i]);
+        followed[i] = followed_points(wanted, missing[i]);
+    }
+    ClusterValues values;
+    std::uint64_t evaluations = 0;
+    const auto sample = [&](const ClusterPoints& points, const auto& room_of) {
+        field.cluster_values(lowest, points, values, worker);
+        for (std::size_t i = 0; i < 8; ++i) {
+            if (points[i] == 0) continue;
+            evaluations += static_cast<std::uint64_t>(popcount(points[i]));
+            enter_samples(s, block[i], points[i], values[i], room_of(i));
+        }
+    };
+    sample(missing, [&](std::size_t i) {
+        const auto first = static_cast<std::uint32_t>(room);
+        room += static_cast<std::uint64_t>(popcount(s.sampled[block[i]] | missing[i]) + popcount(followed[i]));
+        return first;
+    });
+    bool any = false;
+    for (std::size_t i = 0; i < 8; ++i)
+        if (followed[i] != 0) {
+            followed[i] = half_edge_middles(s.inside[block[i]], followed[i]);
+            any = true;
+        }
+    if (any) sample(followed, [&](std::size_t i) { return s.first_sample[block[i]]; });
+    return evaluations;
+}
+
+/// Chooses of some cells of a word those with missing points by wanted(block, bit), and notes these.
+template <class WantedPoints>
+void choose_blocks(Surface& s, std::uint32_t brick, int w, std::uint64_t cells, const WantedPoints& wanted) {
+    std::uint64_t chosen = 0;
+    for_each_cell(s.grid.bricks[brick], w, cells, [&](std::uint32_t block, int bit) {
+        s.wanted_points[block] = wanted(block, bit);
+        chosen |= std::uint64_t{missing_points(s, block) != 0} << bit;
+    });
+    s.chosen_cells().word(brick, w) = chosen;
+}
+
+/// The cells of a word for which condition(number) holds.
+template <class Condition>
+std::uint64_t cells_where(const Brick& brick, int w, std::uint64_t cells, const Condition& condition) {
+    std::uint64_t result = 0;
+    for_each_cell(brick, w, cells,
+                  [&](std::uint32_t block, int bit) { result |= std::uint64_t{condition(block)} << bit; });
+    return result;
+}
+
+}  // namespace
+
+void sample_wanted_points(Surface& s, FieldSource& field, Wanted wanted) {
+    const CellSetView chosen = s.chosen_cells();
+    resize_for_overwrite(s.brick_counts, s.grid.bricks.size());
+    for_each_brick(s, [&](std::uint32_t b) {
+        std::uint64_t room = 0;
+        const Brick& brick = s.grid.bricks[b];
+        for_each_word(brick, [&](int w) {
+            for_each_cell(brick, w, chosen.word(b, w), [&](std::uint32_t block, int) {
+                const BlockMask missing = missing_points(s, block);
+                room += static_cast<std::uint64_t>(popcount(s.sampled[block] | missing) +
+                                                   popcount(followed_points(wanted, missing)));
+            });
+        });
+        s.brick_counts[b] = room;
+    });
+    // A block that gains points moves to new room at the end of the samples; its old room stays unused until the next
+    // frame.
+    const std::uint64_t added = counts_to_starts(s.brick_counts);
+    const std::size_t used = s.samples.size();
+    require_numbers(used + added, "the surface needs", "field samples");
+    if (added == 0) return;
+    if (s.samples.capacity() < used + added) s.samples.reserve(used + added + (used + added) / 4);
+    s.samples.resize(used + added);
+    std::atomic<std::uint64_t> evaluations{0};
+    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+        std::uint64_t here = 0;
+        for (std::size_t b = begin; b < end; ++b) {
+            const std::uint64_t* const cells = &chosen.word(static_cast<std::uint32_t>(b), 0);
+            std::uint64_t room = used + s.brick_counts[b];
+            for_each_cluster(cells, [&](const Int3& corner) {
+                here += sample_cluster(s, field, wanted, s.grid.bricks[b], corner, cells, room, worker);
+            });
+        }
+        evaluations.fetch_add(here, std::memory_order_relaxed);
+    });
+    s.field_evaluations += evaluations.load(std::memory_order_relaxed);
+}
+
+bool grow_band(Surface& s, const JoiningLevel& joining_level) {
+    const BlocksView blocks = s.view();
+    const LevelSets levels = s.level_sets();
+    const SignSets signs = s.sign_sets();
+    const auto joining = [&](std::uint32_t brick, int w) {
+        std::uint64_t cells = take_stale(s, StaleFor::band, brick, w) & ~levels.band(brick, w);
+        if (cells != 0) cells &= levels.beside(1, brick, w) & signs.cells_seeing_both(brick, w);
+        return cells_where(s.grid.bricks[brick], w, cells,
+                           [&](std::uint32_t block) { return joins_band(blocks, block); });
+    };
+    return raise_levels(s, joining, joining_level);
+}
+
+bool raise_at_slivers(Surface& s) {
+    const BlocksView blocks = s.view();
+    const LevelSets levels = s.level_sets();
+    const SignSets signs = s.sign_sets();
+    const auto missing = [&](std::uint32_t brick, int w) {
+        std::uint64_t cells = take_stale(s, StaleFor::slivers, brick, w);
+        if (cells != 0) cells &= cells_beside_finer(levels, brick, w);
+        if (cells != 0) cells &= signs.cells_seeing_both(brick, w);
+        return cells_where(s.grid.bricks[brick], w, cells,
+                           [&](std::uint32_t block) { return misses_surface_on_face(blocks, block); });
+    };
+    return raise_levels(s, missing, [&s](std::uint32_t block) { return s.level[block] + 1; });
+}
+
+void sample_corner_points(Surface& s, FieldSource& field) {
+    const LevelSets levels = s.level_sets();
+    for_each_word(s, [&](std::uint32_t brick, int w) {
+        s.chosen_cells().word(brick, w) = 0;
+        const std::uint64_t stale = take_stale(s, StaleFor::corner_points, brick, w);
+        if (stale == 0) return;
+        const LevelSetsAround around(levels, brick, w);
+        choose_blocks(s, brick, w, stale & around.with_corner_points(),
+                      [&](std::uint32_t, int bit) { return corner_points(around(bit)); });
+    });
+    sample_wanted_points(s, field, Wanted::corners);
+}
+
+void sample_field(Surface& s, FieldSource& field, const JoiningLevel& joining_level) {
+    for (;;) {
+        sample_corner_points(s, field);
+        const bool grown = grow_band(s, joining_level);
+        const bool raised = raise_at_slivers(s);
+        if (!grown && !raised) return;
+        adjust_levels(s);
+    }
+}
+
+void sample_edge_middles(Surface& s, FieldSource& field) {
+    const BlocksView blocks = s.view();
+    const LevelSets levels = s.level_sets();
+    const SignSets signs = s.sign_sets();
+    for_each_word(s, [&](std::uint32_t brick, int w) {
+        const LevelSetsAround around(levels, brick, w);
+        choose_blocks(
+            s, brick, w,
+            around.with_corner_points() & signs.blocks_seeing_both(brick, w) & s.grid.bricks[brick].occupied[w],
+            [&](std::uint32_t block, int bit) {
+                return s.sampled[block] == ~BlockMask{0} ? 0 : edge_middles(blocks, block, around(bit));
+            });
+    });
+    sample_wanted_points(s, field, Wanted::middles);
+}
+
+}  // namespace meniscus::cpu
