@@ -12,35 +12,35 @@ namespace meniscus {
 /// F is float or Lanes. q >= 0.
 template <class F>
 MENISCUS_HD inline F cubic_spline(F q) {
-    const F a = larger(F(1.0F) - q, F(0.0F));
-    const F b = larger(F(0.5F) - q, F(0.0F));
+    const F a = max(F(1.0F) - q, F(0.0F));
+    const F b = max(F(0.5F) - q, F(0.0F));
     const F b2 = b + b;
-    return fused_minus(b2 * b2, b, a * (a * a));
+    return fnma(b2 * b2, b, a * (a * a));
 }
 
 /// Derivative of cubic_spline by q.
 template <class F>
-MENISCUS_HD inline F cubic_spline_slope(F q) {
-    const F a = larger(F(1.0F) - q, F(0.0F));
-    const F b = larger(F(0.5F) - q, F(0.0F));
-    return fused(F(12.0F) * b, b, F(-3.0F) * (a * a));
+MENISCUS_HD inline F cubic_spline_derivative(F q) {
+    const F a = max(F(1.0F) - q, F(0.0F));
+    const F b = max(F(0.5F) - q, F(0.0F));
+    return fma(F(12.0F) * b, b, F(-3.0F) * (a * a));
 }
 
 /// 1 / h, not rounded below, so that the kernel is exactly zero from a distance of h on.
 inline float inverse_support(float support) {
     const float inverse = 1.0F / support;
-    return fused(inverse, support, -1.0F) < 0.0F ? std::nextafter(inverse, 1.0F) : inverse;
+    return fma(inverse, support, -1.0F) < 0.0F ? std::nextafter(inverse, 1.0F) : inverse;
 }
 
 template <class F>
 MENISCUS_HD inline F length(F dx, F dy, F dz) {
-    return root(fused(dx, dx, fused(dy, dy, dz * dz)));
+    return sqrt(fma(dx, dx, fma(dy, dy, dz * dz)));
 }
 
 /// Adds one particle's share to the field's value. Distances in units, weight = mass (over density) times W0.
 template <class F>
 MENISCUS_HD inline F add_value(F sum, F dx, F dy, F dz, float weight, float inverse_support) {
-    return fused(F(weight), cubic_spline(length(dx, dy, dz) * F(inverse_support)), sum);
+    return fma(F(weight), cubic_spline(length(dx, dy, dz) * F(inverse_support)), sum);
 }
 
 /// Adds one particle's share to the field's gradient (the paper's Equation 2), up to the factor 1/h that the caller's
@@ -48,18 +48,18 @@ MENISCUS_HD inline F add_value(F sum, F dx, F dy, F dz, float weight, float inve
 template <class F>
 MENISCUS_HD inline void add_gradient(F& x, F& y, F& z, F dx, F dy, F dz, float weight, float inverse_support) {
     const F distance = length(dx, dy, dz);
-    const F slope = F(weight) * cubic_spline_slope(distance * F(inverse_support)) / larger(distance, F(1.0F / 64.0F));
-    x = fused(slope, dx, x);
-    y = fused(slope, dy, y);
-    z = fused(slope, dz, z);
+    const F slope = F(weight) * cubic_spline_derivative(distance * F(inverse_support)) / max(distance, F(1.0F / 64.0F));
+    x = fma(slope, dx, x);
+    y = fma(slope, dy, y);
+    z = fma(slope, dz, z);
 }
 
 /// Second derivative of cubic_spline by q.
 template <class F>
-MENISCUS_HD inline F cubic_spline_bend(F q) {
-    const F a = larger(F(1.0F) - q, F(0.0F));
-    const F b = larger(F(0.5F) - q, F(0.0F));
-    return fused(F(-24.0F), b, F(6.0F) * a);
+MENISCUS_HD inline F cubic_spline_second_derivative(F q) {
+    const F a = max(F(1.0F) - q, F(0.0F));
+    const F b = max(F(0.5F) - q, F(0.0F));
+    return fma(F(-24.0F), b, F(6.0F) * a);
 }
 
 /// The field at a point to second order. Lengths in units.
@@ -73,25 +73,25 @@ struct FieldJet {
 /// Adds one particle's share to a jet.
 template <class F>
 MENISCUS_HD inline void add_jet(FieldJet<F>& jet, F dx, F dy, F dz, float weight, float inverse_support) {
-    const F distance = larger(length(dx, dy, dz), F(1.0F / 64.0F));
+    const F distance = max(length(dx, dy, dz), F(1.0F / 64.0F));
     const F q = distance * F(inverse_support);
     const F inverse = F(1.0F) / distance;
     const F scale = F(weight * inverse_support);
-    jet.value = fused(F(weight), cubic_spline(q), jet.value);
+    jet.value = fma(F(weight), cubic_spline(q), jet.value);
     // W'/r, and what W'' has beyond it along the direction to the particle.
-    const F first = scale * cubic_spline_slope(q) * inverse;
-    const F second = (scale * F(inverse_support) * cubic_spline_bend(q) - first) * (inverse * inverse);
-    jet.x = fused(first, dx, jet.x);
-    jet.y = fused(first, dy, jet.y);
-    jet.z = fused(first, dz, jet.z);
+    const F first = scale * cubic_spline_derivative(q) * inverse;
+    const F second = (scale * F(inverse_support) * cubic_spline_second_derivative(q) - first) * (inverse * inverse);
+    jet.x = fma(first, dx, jet.x);
+    jet.y = fma(first, dy, jet.y);
+    jet.z = fma(first, dz, jet.z);
     const F sx = second * dx;
     const F sy = second * dy;
-    jet.xx = fused(sx, dx, jet.xx) + first;
-    jet.yy = fused(sy, dy, jet.yy) + first;
-    jet.zz = fused(second * dz, dz, jet.zz) + first;
-    jet.xy = fused(sx, dy, jet.xy);
-    jet.xz = fused(sx, dz, jet.xz);
-    jet.yz = fused(sy, dz, jet.yz);
+    jet.xx = fma(sx, dx, jet.xx) + first;
+    jet.yy = fma(sy, dy, jet.yy) + first;
+    jet.zz = fma(second * dz, dz, jet.zz) + first;
+    jet.xy = fma(sx, dy, jet.xy);
+    jet.xz = fma(sx, dz, jet.xz);
+    jet.yz = fma(sy, dz, jet.yz);
 }
 
 }  // namespace meniscus

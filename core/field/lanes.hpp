@@ -43,36 +43,36 @@ struct Lanes {
     friend Lanes operator*(Lanes a, Lanes b) { return _mm256_mul_ps(a.v, b.v); }
     friend Lanes operator/(Lanes a, Lanes b) { return _mm256_div_ps(a.v, b.v); }
 };
-inline Lanes fused(Lanes a, Lanes b, Lanes c) {
+inline Lanes fma(Lanes a, Lanes b, Lanes c) {
     return _mm256_fmadd_ps(a.v, b.v, c.v);
 }
 /// c - a b, rounded once.
-inline Lanes fused_minus(Lanes a, Lanes b, Lanes c) {
+inline Lanes fnma(Lanes a, Lanes b, Lanes c) {
     return _mm256_fnmadd_ps(a.v, b.v, c.v);
 }
-inline Lanes root(Lanes a) {
+inline Lanes sqrt(Lanes a) {
     return _mm256_sqrt_ps(a.v);
 }
-inline Lanes larger(Lanes a, Lanes b) {
+inline Lanes max(Lanes a, Lanes b) {
     return _mm256_max_ps(a.v, b.v);
 }
-inline Lanes smaller(Lanes a, Lanes b) {
+inline Lanes min(Lanes a, Lanes b) {
     return _mm256_min_ps(a.v, b.v);
 }
 /// Rounded toward zero.
-inline Lanes truncated(Lanes a) {
+inline Lanes trunc(Lanes a) {
     return _mm256_round_ps(a.v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
 }
 /// The set of lanes in which a <= b.
-inline unsigned not_above(Lanes a, Lanes b) {
+inline unsigned less_equal(Lanes a, Lanes b) {
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
 }
 /// Stores the lanes of a set one after the other; writes eight floats in all.
-inline void store_set(float* p, Lanes a, unsigned set) {
+inline void compress_store(float* p, Lanes a, unsigned set) {
     const __m256i order = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(lanes_of_set[set].data()));
     _mm256_storeu_ps(p, _mm256_permutevar8x32_ps(a.v, order));
 }
-inline float smallest_lane(Lanes a) {
+inline float reduce_min(Lanes a) {
     __m128 v = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
     v = _mm_min_ps(v, _mm_movehl_ps(v, v));
     return _mm_cvtss_f32(_mm_min_ss(v, _mm_movehdup_ps(v)));
@@ -114,33 +114,33 @@ struct Lanes {
         return each([&](int i) { return a.v[i] / b.v[i]; });
     }
 };
-inline Lanes fused(const Lanes& a, const Lanes& b, const Lanes& c) {
+inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
     return Lanes::each([&](int i) { return std::fmaf(a.v[i], b.v[i], c.v[i]); });
 }
-inline Lanes fused_minus(const Lanes& a, const Lanes& b, const Lanes& c) {
+inline Lanes fnma(const Lanes& a, const Lanes& b, const Lanes& c) {
     return Lanes::each([&](int i) { return std::fmaf(-a.v[i], b.v[i], c.v[i]); });
 }
-inline Lanes root(const Lanes& a) {
+inline Lanes sqrt(const Lanes& a) {
     return Lanes::each([&](int i) { return std::sqrt(a.v[i]); });
 }
-inline Lanes larger(const Lanes& a, const Lanes& b) {
+inline Lanes max(const Lanes& a, const Lanes& b) {
     return Lanes::each([&](int i) { return a.v[i] > b.v[i] ? a.v[i] : b.v[i]; });
 }
-inline Lanes smaller(const Lanes& a, const Lanes& b) {
+inline Lanes min(const Lanes& a, const Lanes& b) {
     return Lanes::each([&](int i) { return a.v[i] < b.v[i] ? a.v[i] : b.v[i]; });
 }
-inline Lanes truncated(const Lanes& a) {
+inline Lanes trunc(const Lanes& a) {
     return Lanes::each([&](int i) { return std::trunc(a.v[i]); });
 }
-inline unsigned not_above(const Lanes& a, const Lanes& b) {
+inline unsigned less_equal(const Lanes& a, const Lanes& b) {
     unsigned set = 0;
     for (unsigned i = 0; i < Lanes::count; ++i) set |= (a.v[i] <= b.v[i] ? 1U : 0U) << i;
     return set;
 }
-inline void store_set(float* p, const Lanes& a, unsigned set) {
+inline void compress_store(float* p, const Lanes& a, unsigned set) {
     for (std::size_t i = 0; i < Lanes::count; ++i) p[i] = a.v[lanes_of_set[set][i]];
 }
-inline float smallest_lane(const Lanes& a) {
+inline float reduce_min(const Lanes& a) {
     float result = a.v[0];
     for (const float x : a.v) result = x < result ? x : result;
     return result;
@@ -148,40 +148,40 @@ inline float smallest_lane(const Lanes& a) {
 
 #endif
 
-inline float largest_lane(Lanes a) {
-    return -smallest_lane(Lanes(0.0F) - a);
+inline float reduce_max(Lanes a) {
+    return -reduce_min(Lanes(0.0F) - a);
 }
 
 #endif
 
-MENISCUS_HD inline float fused(float a, float b, float c) {
+MENISCUS_HD inline float fma(float a, float b, float c) {
 #ifdef __CUDA_ARCH__
     return fmaf(a, b, c);
 #else
     return __builtin_fmaf(a, b, c);
 #endif
 }
-MENISCUS_HD inline float fused_minus(float a, float b, float c) {
-    return fused(-a, b, c);
+MENISCUS_HD inline float fnma(float a, float b, float c) {
+    return fma(-a, b, c);
 }
-MENISCUS_HD inline float root(float a) {
+MENISCUS_HD inline float sqrt(float a) {
 #ifdef __CUDA_ARCH__
     return sqrtf(a);
 #else
     return __builtin_sqrtf(a);
 #endif
 }
-MENISCUS_HD inline float truncated(float a) {
+MENISCUS_HD inline float trunc(float a) {
 #ifdef __CUDA_ARCH__
     return truncf(a);
 #else
     return __builtin_truncf(a);
 #endif
 }
-MENISCUS_HD inline float larger(float a, float b) {
+MENISCUS_HD inline float max(float a, float b) {
     return a > b ? a : b;
 }
-MENISCUS_HD inline float smaller(float a, float b) {
+MENISCUS_HD inline float min(float a, float b) {
     return a < b ? a : b;
 }
 

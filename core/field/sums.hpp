@@ -48,11 +48,11 @@ MENISCUS_HD inline void sum_grid_values(const CandidateView& c, F x, const F (&y
 /// kernel at its distance from the box. `closest` becomes the largest of 1 - distance/h.
 template <class F>
 MENISCUS_HD inline void sum_bounds(const CandidateView& c, F x, F y, F z, float half, F& sum, F& closest) {
-    const auto gap = [half](F d) { return larger(larger(d - F(half), F(-half) - d), F(0.0F)); };
+    const auto gap = [half](F d) { return max(max(d - F(half), F(-half) - d), F(0.0F)); };
     for (std::size_t j = 0; j < c.count; ++j) {
         const F q = length(gap(x - F(c.x[j])), gap(y - F(c.y[j])), gap(z - F(c.z[j]))) * F(c.inverse_support);
-        sum = fused(F(c.weight[j]), cubic_spline(q), sum);
-        closest = larger(closest, F(1.0F) - q);
+        sum = fma(F(c.weight[j]), cubic_spline(q), sum);
+        closest = max(closest, F(1.0F) - q);
     }
 }
 
@@ -67,7 +67,7 @@ MENISCUS_HD inline void sum_gradients(const CandidateView& c, F x, F y, F z, F& 
 /// A gradient becomes the unit vector against it; not-a-numbers where it vanishes.
 template <class F>
 MENISCUS_HD inline void turn_outward(F& x, F& y, F& z) {
-    const F size = F(0.0F) - root(fused(x, x, fused(y, y, z * z)));
+    const F size = F(0.0F) - sqrt(fma(x, x, fma(y, y, z * z)));
     x = x / size;
     y = y / size;
     z = z / size;

@@ -39,9 +39,7 @@ struct BlocksView {
     TriangleSlots* slots = nullptr;
 
     MENISCUS_HD Int3 coordinate(std::uint32_t block) const {
-        const Int3 b = grid.bricks[brick[block]].coordinate;
-        const int p = place[block];
-        return {b.x * brick_size + (p & 15), b.y * brick_size + (p >> 4 & 15), b.z * brick_size + (p >> 8)};
+        return grid.bricks[brick[block]].corner() + place_in_brick(place[block]);
     }
     /// Offsets of -1, 0 or 1 a side; no_index where no block is stored, that is, where the field is zero.
     MENISCUS_HD std::uint32_t neighbor(std::uint32_t block, const Int3& offset) const {

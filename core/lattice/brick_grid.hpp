@@ -15,15 +15,31 @@ namespace meniscus {
 
 inline constexpr int brick_size = 16;  ///< members a side
 inline constexpr int brick_volume = brick_size * brick_size * brick_size;
+inline constexpr int brick_axis_shift = 4;  ///< log2 of brick_size
+inline constexpr int brick_index_bits = 3 * brick_axis_shift;
+inline constexpr int brick_axis_mask = brick_size - 1;
 inline constexpr std::uint32_t no_index = 0xFFFFFFFFU;
+static_assert(brick_size == 1 << brick_axis_shift);
+// A brick of base cells is the unit of encoding and streaming, too: meshes are ordered by the one and cut by the other.
+static_assert(brick_size == brick_base_cells);
 
 MENISCUS_HD constexpr Int3 brick_of(const Int3& c) {
-    return {c.x >> 4, c.y >> 4, c.z >> 4};
+    return {c.x >> brick_axis_shift, c.y >> brick_axis_shift, c.z >> brick_axis_shift};
 }
 /// Index inside a brick: x + 16 y + 256 z.
 MENISCUS_HD constexpr int index_in_brick(const Int3& c) {
-    return (c.x & 15) | (c.y & 15) << 4 | (c.z & 15) << 8;
+    return (c.x & brick_axis_mask) | (c.y & brick_axis_mask) << brick_axis_shift |
+           (c.z & brick_axis_mask) << (2 * brick_axis_shift);
 }
+/// The place in a brick that has this index, from the brick's corner.
+MENISCUS_HD constexpr Int3 place_in_brick(int index) {
+    return {index & brick_axis_mask, index >> brick_axis_shift & brick_axis_mask, index >> (2 * brick_axis_shift)};
+}
+
+/// The members of a word of Brick::occupied that lie at x = 0, one in each of its four rows.
+inline constexpr std::uint64_t first_of_rows = 0x0001000100010001ULL;
+/// Those at x = 15.
+inline constexpr std::uint64_t last_of_rows = first_of_rows << (brick_size - 1);
 
 /// Orders bricks by (z, y, x); 20 bits a side hold every brick of either grid.
 MENISCUS_HD constexpr std::uint64_t brick_key(const Int3& b) {
@@ -82,19 +98,30 @@ struct Brick {
     }
 };
 
+/// Slot of the brick at an offset of -1, 0 or 1 a side among the 27 around one.
+MENISCUS_HD constexpr int neighbor_slot(int dx, int dy, int dz) {
+    return 13 + dx + 3 * dy + 9 * dz;
+}
+/// The offset of a slot.
+MENISCUS_HD constexpr Int3 neighbor_offset(int slot) {
+    return {slot % 3 - 1, slot / 3 % 3 - 1, slot / 9 - 1};
+}
+inline constexpr int neighbor_slots = 27;
+inline constexpr int own_slot = neighbor_slot(0, 0, 0);
+
 /// The 27 bricks around one, itself in the middle; no_index where there is none.
 struct BrickNeighbors {
-    std::uint32_t brick[27];
+    std::uint32_t brick[neighbor_slots];
 };
 
 /// Any values will do: they cost time where wrong, and nothing else.
-struct BrickGuesses {
+struct BrickHints {
     std::uint32_t row[4] = {};  ///< by the parities of a row's y and z
     MENISCUS_HD std::uint32_t& of_row(int y, int z) { return row[(y & 1) | (z & 1) << 1]; }
 };
 
 /// Where remembering costs more than searching: a GPU's thread would keep them in memory.
-struct NoBrickGuesses {
+struct NoBrickHints {
     std::uint32_t none = no_index;
     MENISCUS_HD std::uint32_t& of_row(int, int) { return none = no_index; }
 };
@@ -105,9 +132,9 @@ struct BrickGridView {
     const BrickNeighbors* neighbors = nullptr;  ///< present only where neighbor() is used
     std::uint32_t brick_count = 0;
 
-    /// Index of the first brick whose key is not below this one. Right at once if it is `guess`.
-    MENISCUS_HD std::uint32_t lower_bound(std::uint64_t key, std::uint32_t guess) const {
-        if (guess < brick_count && keys[guess] >= key && (guess == 0 || keys[guess - 1] < key)) return guess;
+    /// Index of the first brick whose key is not below this one. Found at once if it is `hint`.
+    MENISCUS_HD std::uint32_t lower_bound(std::uint64_t key, std::uint32_t hint) const {
+        if (hint < brick_count && keys[hint] >= key && (hint == 0 || keys[hint - 1] < key)) return hint;
         std::uint32_t low = 0;
         std::uint32_t high = brick_count;
         while (low < high) {
@@ -129,14 +156,13 @@ struct BrickGridView {
     /// Number of the member at an offset from one in this brick, no farther than the bricks around; no_index if there
     /// is none.
     MENISCUS_HD std::uint32_t neighbor(std::uint32_t brick, int index, const Int3& offset) const {
-        const int x = (index & 15) + offset.x;
-        const int y = (index >> 4 & 15) + offset.y;
-        const int z = (index >> 8) + offset.z;
-        if (((x | y | z) & ~15) != 0) {
-            brick = neighbors[brick].brick[13 + (x >> 4) + 3 * (y >> 4) + 9 * (z >> 4)];
+        const Int3 to = place_in_brick(index) + offset;
+        if (((to.x | to.y | to.z) & ~brick_axis_mask) != 0) {
+            const Int3 beyond = brick_of(to);
+            brick = neighbors[brick].brick[neighbor_slot(beyond.x, beyond.y, beyond.z)];
             if (brick == no_index) return no_index;
         }
-        const int there = (x & 15) | (y & 15) << 4 | (z & 15) << 8;
+        const int there = index_in_brick(to);
         return bricks[brick].holds(there) ? bricks[brick].number(there) : no_index;
     }
 
@@ -146,15 +172,15 @@ struct BrickGridView {
     };
     MENISCUS_HD Pair neighbor_pair(std::uint32_t brick, int index, const Int3& offset) const {
         // In a row, members are numbered one after the other.
-        if ((index & 15) == brick_size - 1)
+        if ((index & brick_axis_mask) == brick_size - 1)
             return {neighbor(brick, index, offset), neighbor(brick, index, {1, offset.y, offset.z})};
-        const int y = (index >> 4 & 15) + offset.y;
-        const int z = (index >> 8) + offset.z;
-        if (((y | z) & ~15) != 0) {
-            brick = neighbors[brick].brick[13 + 3 * (y >> 4) + 9 * (z >> 4)];
+        const Int3 to = place_in_brick(index) + Int3{0, offset.y, offset.z};
+        if (((to.y | to.z) & ~brick_axis_mask) != 0) {
+            const Int3 beyond = brick_of(to);
+            brick = neighbors[brick].brick[neighbor_slot(0, beyond.y, beyond.z)];
             if (brick == no_index) return {no_index, no_index};
         }
-        const int there = (index & 15) | (y & 15) << 4 | (z & 15) << 8;
+        const int there = index_in_brick(to);
         const std::uint64_t members = bricks[brick].occupied[there >> 6] >> (there & 63);
         const std::uint32_t number = bricks[brick].number(there);
         const bool first = (members & 1) != 0;
@@ -162,19 +188,19 @@ struct BrickGridView {
     }
 
     /// Calls visit(brick, low, high) for every brick that the box [low, high] meets, in ascending order, with the part
-    /// of the box inside it. `guesses` are where the last call found its rows of bricks; one that has not gone far
+    /// of the box inside it. `hints` are where the last call found its rows of bricks; one that has not gone far
     /// finds them there again.
-    template <class Guesses, class Visit>
-    MENISCUS_HD void for_each_brick(const Int3& low, const Int3& high, Guesses& guesses, Visit&& visit) const {
+    template <class Hints, class Visit>
+    MENISCUS_HD void for_each_brick(const Int3& low, const Int3& high, Hints& hints, Visit&& visit) const {
         const Int3 brick_low = brick_of(low);
         const Int3 brick_high = brick_of(high);
         constexpr int end = brick_size - 1;
         for (std::int32_t z = brick_low.z; z <= brick_high.z; ++z)
             for (std::int32_t y = brick_low.y; y <= brick_high.y; ++y) {
                 const std::uint64_t last = brick_key({brick_high.x, y, z});
-                std::uint32_t& guess = guesses.of_row(y, z);
-                guess = lower_bound(brick_key({brick_low.x, y, z}), guess);
-                for (std::uint32_t i = guess; i < brick_count && keys[i] <= last; ++i) {
+                std::uint32_t& hint = hints.of_row(y, z);
+                hint = lower_bound(brick_key({brick_low.x, y, z}), hint);
+                for (std::uint32_t i = hint; i < brick_count && keys[i] <= last; ++i) {
                     const std::int32_t x = bricks[i].coordinate.x;
                     visit(bricks[i],
                           Int3{x == brick_low.x ? low.x & end : 0, y == brick_low.y ? low.y & end : 0,

@@ -28,9 +28,8 @@ struct CellSetView {
         const std::uint64_t own = moved_in_slice(brick, w, 0, offset.y, offset.z);
         if (offset.x == 0) return own;
         const std::uint64_t beyond = moved_in_slice(brick, w, offset.x, offset.y, offset.z);
-        constexpr std::uint64_t first = 0x0001000100010001ULL;
-        constexpr std::uint64_t last = first << 15;
-        return offset.x > 0 ? (own >> 1 & ~last) | (beyond << 15 & last) : (own << 1 & ~first) | (beyond >> 15 & first);
+        return offset.x > 0 ? (own >> 1 & ~last_of_rows) | (beyond << 15 & last_of_rows)
+                            : (own << 1 & ~first_of_rows) | (beyond >> 15 & first_of_rows);
     }
 
 private:
@@ -43,12 +42,12 @@ private:
     }
     /// y: in rows of four cells, -1 to 4. z: -1 to 16.
     MENISCUS_HD std::uint64_t word_or_none(std::uint32_t brick, int brick_x, int y, int z) const {
-        const int there = 13 + brick_x + 3 * (y >> 2) + 9 * (z >> 4);
-        if (there != 13) {
+        const int there = neighbor_slot(brick_x, y >> 2, z >> brick_axis_shift);
+        if (there != own_slot) {
             brick = grid.neighbors[brick].brick[there];
             if (brick == no_index) return 0;
         }
-        return word(brick, (y & 3) | (z & 15) << 2);
+        return word(brick, (y & 3) | (z & brick_axis_mask) << 2);
     }
 };
 

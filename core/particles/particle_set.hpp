@@ -47,9 +47,8 @@ struct ParticleSetView {
     /// Calls visit(first particle, one past the last, shift) for runs of particles, in their order, that hold all those
     /// within reach of the box. A particle's position plus shift (x, y, z) is relative to `origin`, a multiple of 16
     /// units.
-    template <class Guesses, class Visit>
-    MENISCUS_HD void for_each_run_near(const Units3& origin, const UnitBox& box, Guesses& guesses,
-                                       Visit&& visit) const {
+    template <class Hints, class Visit>
+    MENISCUS_HD void for_each_run_near(const Units3& origin, const UnitBox& box, Hints& hints, Visit&& visit) const {
         // Positions are whole units: one that is a support away or farther along an axis adds exactly zero.
         const auto below = [this](float v) { return static_cast<std::int64_t>(floorf(v - support)); };
         const auto above = [this](float v) { return static_cast<std::int64_t>(ceilf(v + support)) - 1; };
@@ -58,22 +57,21 @@ struct ParticleSetView {
         const Int3 high =
             cell_of(origin.x + above(box.high[0]), origin.y + above(box.high[1]), origin.z + above(box.high[2]));
         const std::int64_t edge = cell_units * brick_size;
-        cells.for_each_brick(
-            low, high, guesses, [&](const Brick& brick, const Int3& first_cell, const Int3& last_cell) {
-                const float shift[3] = {static_cast<float>(brick.coordinate.x * edge - origin.x),
-                                        static_cast<float>(brick.coordinate.y * edge - origin.y),
-                                        static_cast<float>(brick.coordinate.z * edge - origin.z)};
-                brick.for_each_run(first_cell, last_cell, [&](std::uint32_t cell, std::uint32_t count) {
-                    visit(first[cell], first[cell + count], shift);
-                });
+        cells.for_each_brick(low, high, hints, [&](const Brick& brick, const Int3& first_cell, const Int3& last_cell) {
+            const float shift[3] = {static_cast<float>(brick.coordinate.x * edge - origin.x),
+                                    static_cast<float>(brick.coordinate.y * edge - origin.y),
+                                    static_cast<float>(brick.coordinate.z * edge - origin.z)};
+            brick.for_each_run(first_cell, last_cell, [&](std::uint32_t cell, std::uint32_t count) {
+                visit(first[cell], first[cell + count], shift);
             });
+        });
     }
 
     /// Calls visit(x, y, z) for all particles of those runs, relative to `origin`.
     template <class Visit>
     MENISCUS_HD void for_each_near(const Units3& origin, const UnitBox& box, Visit&& visit) const {
-        BrickGuesses guesses;
-        for_each_run_near(origin, box, guesses, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+        BrickHints hints;
+        for_each_run_near(origin, box, hints, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
             for (std::uint32_t i = begin; i < end; ++i) visit(x[i] + shift[0], y[i] + shift[1], z[i] + shift[2]);
         });
     }

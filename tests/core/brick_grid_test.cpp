@@ -52,13 +52,13 @@ TEST(BrickGrid, NumbersMembersFindsNeighborsAndRunsAsASortedSetDoes) {
                       other == members.end() ? no_index : other->second);
         }
     }
-    BrickGuesses guesses;
+    BrickHints hints;
     for (int round = 0; round < 200; ++round) {
         const Int3 a{place(random), place(random), place(random)}, b{place(random), place(random), place(random)};
         const Int3 low{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
             high{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
         std::vector<std::uint32_t> found, expected;
-        view.for_each_brick(low, high, guesses, [&](const Brick& brick, const Int3& brick_low, const Int3& brick_high) {
+        view.for_each_brick(low, high, hints, [&](const Brick& brick, const Int3& brick_low, const Int3& brick_high) {
             brick.for_each_run(brick_low, brick_high, [&](std::uint32_t first, std::uint32_t count) {
                 for (std::uint32_t i = 0; i < count; ++i) found.push_back(first + i);
             });

@@ -20,11 +20,11 @@ public:
         const Lanes dx = from_box(0, x);
         const Lanes dy = from_box(1, y);
         const Lanes dz = from_box(2, z);
-        return not_above(fused(dx, dx, fused(dy, dy, dz * dz)), reach2_);
+        return less_equal(fma(dx, dx, fma(dy, dy, dz * dz)), reach2_);
     }
 
 private:
-    Lanes from_box(int axis, Lanes p) const { return p - larger(smaller(p, high_[axis]), low_[axis]); }
+    Lanes from_box(int axis, Lanes p) const { return p - max(min(p, high_[axis]), low_[axis]); }
 
     Lanes low_[3], high_[3], reach2_;
 };
@@ -55,10 +55,10 @@ void Candidates::append_near(const CandidateView& from, const std::array<float, 
         const Lanes y = Lanes::load(own.y + i) + shift_y;
         const Lanes z = Lanes::load(own.z + i) + shift_z;
         const unsigned near = vicinity.near(x, y, z) & of;
-        store_set(to_x + count, x, near);
-        store_set(to_y + count, y, near);
-        store_set(to_z + count, z, near);
-        store_set(to_weight + count, Lanes::load(own.weight + i), near);
+        compress_store(to_x + count, x, near);
+        compress_store(to_y + count, y, near);
+        compress_store(to_z + count, z, near);
+        compress_store(to_weight + count, Lanes::load(own.weight + i), near);
         count += static_cast<std::size_t>(popcount(near));
     };
     const std::size_t rest = from.count % Lanes::count;
@@ -74,7 +74,7 @@ void Candidates::gather(const ParticleSetView& set, const Units3& origin, const 
     reach_ = set.reach();
     inverse_support_ = inverse_support(set.support);
     const BoxVicinity vicinity(box, reach_);
-    set.for_each_run_near(origin, box, guesses_, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+    set.for_each_run_near(origin, box, hints_, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
         append_near({set.x + begin, set.y + begin, set.z + begin, set.weight + begin, end - begin, inverse_support_},
                     {shift[0], shift[1], shift[2]}, vicinity);
     });

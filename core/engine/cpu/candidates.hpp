@@ -33,7 +33,7 @@ private:
 
     Array<float> x_, y_, z_, weight_;
     std::size_t count_ = 0;
-    BrickGuesses guesses_;
+    BrickHints hints_;
     float reach_ = 0.0F;
     float inverse_support_ = 0.0F;
 };

@@ -22,19 +22,19 @@ UnitBox box_of(const PointList& points) {
         Lanes low = Lanes::load(coordinates[axis]);
         Lanes high = low;
         for (std::size_t i = Lanes::count; i < points.count; i += Lanes::count) {
-            low = smaller(low, Lanes::load(coordinates[axis] + i));
-            high = larger(high, Lanes::load(coordinates[axis] + i));
+            low = min(low, Lanes::load(coordinates[axis] + i));
+            high = max(high, Lanes::load(coordinates[axis] + i));
         }
-        box.low[axis] = smallest_lane(low);
-        box.high[axis] = largest_lane(high);
+        box.low[axis] = reduce_min(low);
+        box.high[axis] = reduce_max(high);
     }
     return box;
 }
 
 /// The smallest box around eight points.
 UnitBox box_of(const Point3<Lanes>& points) {
-    return {{smallest_lane(points.x), smallest_lane(points.y), smallest_lane(points.z)},
-            {largest_lane(points.x), largest_lane(points.y), largest_lane(points.z)}};
+    return {{reduce_min(points.x), reduce_min(points.y), reduce_min(points.z)},
+            {reduce_max(points.x), reduce_max(points.y), reduce_max(points.z)}};
 }
 
 /// The smallest box around points of a block.
@@ -69,7 +69,7 @@ void list_block_points(BlockMask points, const Int3& block, PointList& list) {
 }
 
 /// Spreads values in the order of some points to the places of their bits; returns where the values end.
-const float* spread(BlockMask points, const float* values, float* by_bit) {
+const float* scatter(BlockMask points, const float* values, float* by_bit) {
     for (BlockMask left = points; left != 0; left &= left - 1) by_bit[lowest_bit(left)] = *values++;
     return values;
 }
@@ -341,7 +341,7 @@ void ParticleField::cluster_values(const Int3& lowest_base_cell, const ClusterPo
     sum_points(near_box(lowest_base_cell, box_of(pool), worker), pool, sums);
     const float* next = sums;
     for (std::size_t i = 0; i < 8; ++i)
-        if (popcount(points[i]) <= few) next = spread(points[i], next, values[i].data());
+        if (popcount(points[i]) <= few) next = scatter(points[i], next, values[i].data());
 }
 
 void ParticleField::block_values(const Int3& base_cell, BlockMask points, float* values, unsigned worker) {
@@ -350,7 +350,7 @@ void ParticleField::block_values(const Int3& base_cell, BlockMask points, float*
     pad(list);
     alignas(32) float sums[max_points];
     sum_points(near_box(base_cell, box_of(points), worker), list, sums);
-    spread(points, sums, values);
+    scatter(points, sums, values);
 }
 
 void ParticleField::whole_block_values(const Int3& base_cell, float* values, unsigned worker) {

@@ -55,8 +55,7 @@ void number_members(BrickGrid& grid, Workers& workers) {
     workers.for_ranges(grid.bricks.size(), 64, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b) {
             const Int3 at = grid.bricks[b].coordinate;
-            for (int i = 0; i < 27; ++i)
-                grid.neighbors[b].brick[i] = view.find(at + Int3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1});
+            for (int i = 0; i < neighbor_slots; ++i) grid.neighbors[b].brick[i] = view.find(at + neighbor_offset(i));
         }
     });
 }

@@ -25,8 +25,8 @@ __device__ inline void for_each_candidate(const Frame& f, const Units3& origin, 
     for (unsigned k = 0; k < particle_level_count; ++k) {
         const ParticleSetView set = f.set(k);
         if (set.cells.brick_count == 0) continue;
-        NoBrickGuesses guesses;
-        set.for_each_run_near(origin, box, guesses, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+        NoBrickHints hints;
+        set.for_each_run_near(origin, box, hints, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
             for (std::uint32_t i = begin; i < end; ++i) {
                 const float4 p = f.particles[i];
                 visit(OneCandidate{{p.x + shift[0], p.y + shift[1], p.z + shift[2], p.w}, f.inverse_support[k]});
@@ -58,8 +58,8 @@ __device__ inline void for_each_staged_candidate(const Frame& f, const Units3& o
             __syncwarp();
             staged = 0;
         };
-        NoBrickGuesses guesses;
-        set.for_each_run_near(origin, box, guesses, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+        NoBrickHints hints;
+        set.for_each_run_near(origin, box, hints, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
             for (std::uint32_t start = begin; start < end; start += warp_threads) {
                 float4 p{};
                 bool near = false;
@@ -69,7 +69,7 @@ __device__ inline void for_each_staged_candidate(const Frame& f, const Units3& o
                     p.y += shift[1];
                     p.z += shift[2];
                     const auto gap = [&](float v, int axis) {
-                        return larger(larger(box.low[axis] - v, v - box.high[axis]), 0.0F);
+                        return max(max(box.low[axis] - v, v - box.high[axis]), 0.0F);
                     };
                     const float x = gap(p.x, 0), y = gap(p.y, 1), z = gap(p.z, 2);
                     near = x * x + y * y + z * z <= reach2;

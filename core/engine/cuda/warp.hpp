@@ -77,15 +77,15 @@ __device__ inline void add_of_lanes(unsigned long long* counter, unsigned long l
     if (lane_index() == 0 && value != 0) atomicAdd(counter, value);
 }
 
-__device__ inline float smallest_of_lanes(float value) {
+__device__ inline float reduce_min(float value) {
     for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2) {
         const float other = __shfl_xor_sync(all_lanes, value, static_cast<int>(distance));
         value = other < value ? other : value;
     }
     return value;
 }
-__device__ inline float largest_of_lanes(float value) {
-    return -smallest_of_lanes(-value);
+__device__ inline float reduce_max(float value) {
+    return -reduce_min(-value);
 }
 
 }  // namespace meniscus::cuda

@@ -25,20 +25,19 @@ void levels_are_new(Surface& s) {
 }
 
 void mark_stale_around(Surface& s, std::uint32_t brick, int w, std::uint64_t cells) {
-    constexpr std::uint64_t first = 0x0001000100010001ULL;
-    constexpr std::uint64_t last = first << 15;
-    const std::uint64_t along_x[3] = {cells << 15 & last, cells | (cells << 1 & ~first) | (cells >> 1 & ~last),
-                                      cells >> 15 & first};
-    for (int i = 0; i < 27; ++i) {
-        const int dy = i / 3 % 3 - 1;
-        const std::uint64_t row = along_x[i % 3];
+    const std::uint64_t along_x[3] = {cells << 15 & last_of_rows,
+                                      cells | (cells << 1 & ~first_of_rows) | (cells >> 1 & ~last_of_rows),
+                                      cells >> 15 & first_of_rows};
+    for (int i = 0; i < neighbor_slots; ++i) {
+        const auto [dx, dy, dz] = neighbor_offset(i);
+        const std::uint64_t row = along_x[dx + 1];
         const std::uint64_t near = dy < 0 ? row << 48 : dy > 0 ? row >> 48 : row | row << 16 | row >> 16;
         if (near == 0) continue;
         const int y = (w & 3) + dy;
-        const int z = (w >> 2) + i / 9 - 1;
-        const std::uint32_t there = s.grid.neighbors[brick].brick[13 + (i % 3 - 1) + 3 * (y >> 2) + 9 * (z >> 4)];
+        const int z = (w >> 2) + dz;
+        const std::uint32_t there = s.grid.neighbors[brick].brick[neighbor_slot(dx, y >> 2, z >> brick_axis_shift)];
         if (there == no_index) continue;
-        const int word = (y & 3) | (z & 15) << 2;
+        const int word = (y & 3) | (z & brick_axis_mask) << 2;
         const std::uint64_t members = near & s.grid.bricks[there].occupied[word];
         for (const StaleFor rule : all_rules)
             std::atomic_ref(s.stale_cells(rule).word(there, word)).fetch_or(members, std::memory_order_relaxed);

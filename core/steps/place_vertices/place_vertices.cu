@@ -113,8 +113,7 @@ __global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_co
                 x = v.coordinate(0, units_per_step);
                 y = v.coordinate(1, units_per_step);
                 z = v.coordinate(2, units_per_step);
-                box = {{smallest_of_lanes(x), smallest_of_lanes(y), smallest_of_lanes(z)},
-                       {largest_of_lanes(x), largest_of_lanes(y), largest_of_lanes(z)}};
+                box = {{reduce_min(x), reduce_min(y), reduce_min(z)}, {reduce_max(x), reduce_max(y), reduce_max(z)}};
             };
             if constexpr (bisects) {
                 // The paper's bisection: every step moves to the middle of the half that still has a change of sign.

@@ -102,9 +102,9 @@ MENISCUS_HD inline EdgeValues edge_values(const Values& own, const Values& next,
 template <class F>
 MENISCUS_HD inline F interpolated_offset(F low, F high, float iso, int bits) {
     const F t = (F(iso) - low) / (high - low);
-    const F half_steps = truncated(t * F(static_cast<float>(2 << bits))) + F(1.0F);
-    const F nearest = truncated(half_steps * F(0.5F));
-    return larger(smaller(nearest, F(static_cast<float>((1 << bits) - 1))), F(1.0F));
+    const F half_steps = trunc(t * F(static_cast<float>(2 << bits))) + F(1.0F);
+    const F nearest = trunc(half_steps * F(0.5F));
+    return max(min(nearest, F(static_cast<float>((1 << bits) - 1))), F(1.0F));
 }
 
 /// The field's normal, or along the edge where the domain's border or a vanishing gradient leaves none.

@@ -91,7 +91,7 @@ void ParticleSets::build_cells(ParticleSet& set) {
     set.cell_keys.resize(cells);
 
     const auto starts_brick = [&](std::size_t i) {
-        return i == 0 || set.cell_keys[i] >> 12 != set.cell_keys[i - 1] >> 12;
+        return i == 0 || set.cell_keys[i] >> brick_index_bits != set.cell_keys[i - 1] >> brick_index_bits;
     };
     set.cells.bricks.clear();
     set.cells.keys.clear();

@@ -10,7 +10,7 @@ namespace meniscus::cuda {
 namespace {
 
 constexpr int place_bits = 3 * place_axis_bits;
-constexpr int cell_bits = 3 * brick_axis_bits + 12;
+constexpr int cell_bits = 3 * brick_axis_bits + brick_index_bits;
 static_assert(place_bits + cell_bits + 2 == 128);
 
 /// After every key of a particle, whose places in its cell do not use all bits.
@@ -50,7 +50,8 @@ struct Begins {
     bool cell, brick;
     __device__ Begins(const SortKey* keys, std::uint32_t i)
         : cell(i == 0 || keys[i] >> place_bits != keys[i - 1] >> place_bits),
-          brick(i == 0 || keys[i] >> (place_bits + 12) != keys[i - 1] >> (place_bits + 12)) {}
+          brick(i == 0 ||
+                keys[i] >> (place_bits + brick_index_bits) != keys[i - 1] >> (place_bits + brick_index_bits)) {}
 };
 
 __global__ void __launch_bounds__(block_threads) mark_starts(const __grid_constant__ Frame f) {
@@ -223,8 +224,8 @@ __global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __g
         for (unsigned k = 0; k < particle_level_count; ++k) {
             const ParticleSetView set = f.set(k);
             if (set.cells.brick_count == 0) continue;
-            NoBrickGuesses guesses;
-            set.for_each_run_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, guesses,
+            NoBrickHints hints;
+            set.for_each_run_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, hints,
                                   [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
                                       if (run++ % block_warps != warp_in_block()) return;
                                       for (std::uint32_t i = begin + lane_index(); i < end; i += warp_threads) {
@@ -257,10 +258,10 @@ __global__ void __launch_bounds__(block_threads) number_members(const __grid_con
 
 __global__ void __launch_bounds__(block_threads) find_neighbors(const __grid_constant__ Frame f) {
     const BrickGridView grid = f.grid();
-    GridLoop{}.each(std::uint64_t{27} * grid.brick_count, [&](std::uint32_t i) {
-        const std::uint32_t b = i / 27;
-        const int n = static_cast<int>(i % 27);
-        f.neighbors[b].brick[n] = grid.find(f.bricks[b].coordinate + Int3{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1});
+    GridLoop{}.each(std::uint64_t{neighbor_slots} * grid.brick_count, [&](std::uint32_t i) {
+        const std::uint32_t b = i / neighbor_slots;
+        const int n = static_cast<int>(i % neighbor_slots);
+        f.neighbors[b].brick[n] = grid.find(f.bricks[b].coordinate + neighbor_offset(n));
     });
 }
 

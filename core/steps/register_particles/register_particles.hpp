@@ -98,27 +98,28 @@ MENISCUS_HD inline ParticleKey particle_key(const Units3& p, std::int64_t cell_u
     const std::int64_t place = ((p.z - cell.z * cell_units) << place_axis_bits | (p.y - cell.y * cell_units))
                                    << place_axis_bits |
                                (p.x - cell.x * cell_units);
-    return {static_cast<std::uint64_t>(bricks << 12 | index_in_brick(cell)), static_cast<std::uint64_t>(place)};
+    return {static_cast<std::uint64_t>(bricks << brick_index_bits | index_in_brick(cell)),
+            static_cast<std::uint64_t>(place)};
 }
 
 MENISCUS_HD inline Int3 key_brick(std::uint64_t cell_key) {
     constexpr std::int64_t mask = (std::int64_t{1} << brick_axis_bits) - 1;
     constexpr std::int32_t bias = 1 << (brick_axis_bits - 1);
-    const auto bricks = static_cast<std::int64_t>(cell_key >> 12);
+    const auto bricks = static_cast<std::int64_t>(cell_key >> brick_index_bits);
     return {static_cast<std::int32_t>(bricks & mask) - bias,
             static_cast<std::int32_t>(bricks >> brick_axis_bits & mask) - bias,
             static_cast<std::int32_t>(bricks >> (2 * brick_axis_bits)) - bias};
 }
 MENISCUS_HD inline int key_index(std::uint64_t cell_key) {
-    return static_cast<int>(cell_key & 0xFFF);
+    return static_cast<int>(cell_key & (brick_volume - 1));
 }
 
 /// A support cell's corner, in units.
 MENISCUS_HD inline Units3 cell_corner(std::uint64_t cell_key, std::int64_t cell_units) {
     const Int3 brick = key_brick(cell_key);
-    const int index = key_index(cell_key);
-    return {(brick.x * brick_size + (index & 15)) * cell_units, (brick.y * brick_size + (index >> 4 & 15)) * cell_units,
-            (brick.z * brick_size + (index >> 8)) * cell_units};
+    const Int3 place = place_in_brick(key_index(cell_key));
+    return {(brick.x * brick_size + place.x) * cell_units, (brick.y * brick_size + place.y) * cell_units,
+            (brick.z * brick_size + place.z) * cell_units};
 }
 
 /// The bricks of base cells that particles in a support cell may reach: all from `low` to `high`.
@@ -145,13 +146,13 @@ MENISCUS_HD inline ReachedBricks reached_bricks(std::uint64_t cell_key, std::int
 /// A key's position, in units from the corner of its support cell's brick.
 MENISCUS_HD inline void key_position(const ParticleKey& key, std::int64_t cell_units, float& x, float& y, float& z) {
     constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
-    const int index = key_index(key.cell);
+    const Int3 cell = place_in_brick(key_index(key.cell));
     const auto coordinate = [&](int in_brick, std::uint64_t in_cell) {
         return static_cast<float>(in_brick * cell_units + static_cast<std::int64_t>(in_cell & mask));
     };
-    x = coordinate(index & 15, key.place);
-    y = coordinate(index >> 4 & 15, key.place >> place_axis_bits);
-    z = coordinate(index >> 8, key.place >> (2 * place_axis_bits));
+    x = coordinate(cell.x, key.place);
+    y = coordinate(cell.y, key.place >> place_axis_bits);
+    z = coordinate(cell.z, key.place >> (2 * place_axis_bits));
 }
 
 /// Marks in a brick that one thread alone works on.
@@ -179,7 +180,7 @@ MENISCUS_HD inline void mark_reached(const Marks& marks, float x, float y, float
     // A cell's closed box also touches the plane below it.
     const auto gap = [&](float p, int i) {
         const float low = static_cast<float>(i) * edge;
-        return larger(larger(low - p, p - (low + edge)), 0.0F);
+        return max(max(low - p, p - (low + edge)), 0.0F);
     };
     if (z + reach < 0.0F || y + reach < 0.0F || x + reach < 0.0F) return;
     const int z0 = first(z - reach - 1.0F);
@@ -190,7 +191,7 @@ MENISCUS_HD inline void mark_reached(const Marks& marks, float x, float y, float
     const int x_high = last(x + (reach + 16.0F));
     if (x_low > x_high) return;
     // Most particles lie among others: rows that those have marked are passed over, four at a time.
-    const std::uint64_t widest = ((std::uint64_t{2} << x_high) - (std::uint64_t{1} << x_low)) * 0x0001000100010001ULL;
+    const std::uint64_t widest = ((std::uint64_t{2} << x_high) - (std::uint64_t{1} << x_low)) * first_of_rows;
     for (int cz = z0; cz <= z1; ++cz) {
         const float dz = gap(z, cz);
         for (int rows = y0 & ~3; rows <= y1; rows += 4) {
@@ -205,7 +206,7 @@ MENISCUS_HD inline void mark_reached(const Marks& marks, float x, float y, float
                 const float dy = gap(y, cy);
                 const float left = reach * reach - dz * dz - dy * dy;
                 if (left < 0.0F) continue;
-                const float span = root(left) + 16.0F;
+                const float span = sqrt(left) + 16.0F;
                 if (x + span < 0.0F) continue;
                 const int x0 = first(x - span);
                 const int x1 = last(x + span);
@@ -223,7 +224,8 @@ MENISCUS_HD inline std::uint64_t row_in_domain(const Int3& brick, int row, const
     const auto beyond = [](std::int32_t cell, std::int32_t first, std::int32_t last) {
         return cell * base_cell_size > last || (cell + 1) * base_cell_size < first;
     };
-    const Int3 first{brick.x * brick_size, brick.y * brick_size + (row & 15), brick.z * brick_size + (row >> 4)};
+    const Int3 first{brick.x * brick_size, brick.y * brick_size + (row & brick_axis_mask),
+                     brick.z * brick_size + (row >> brick_axis_shift)};
     std::uint64_t cells = 0;
     if (!beyond(first.z, low.z, high.z) && !beyond(first.y, low.y, high.y))
         for (int x = 0; x < brick_size; ++x)

@@ -25,7 +25,7 @@ void enter_samples(Surface& s, std::uint32_t block, BlockMask missing, std::arra
     if (sampled == ~BlockMask{0}) {
         std::copy(values.begin(), values.end(), out);
         for (int i = 0; i < 64; i += Lanes::count)
-            above |= BlockMask{not_above(Lanes::load(out + i), Lanes(s.settings.iso))} << i;
+            above |= BlockMask{less_equal(Lanes::load(out + i), Lanes(s.settings.iso))} << i;
         above = ~above;
     } else {
         for (BlockMask left = sampled; left != 0; left &= left - 1) {

@@ -24,13 +24,13 @@ namespace curvature_detail {
 
 template <class F>
 MENISCUS_HD inline F clamped(F v, F low, F high) {
-    return F(0.0F) - larger(F(0.0F) - larger(v, low), F(0.0F) - high);
+    return F(0.0F) - max(F(0.0F) - max(v, low), F(0.0F) - high);
 }
 
 /// Length of a squared gradient to divide by, never zero.
 template <class F>
 MENISCUS_HD inline F divisor(F x, F y, F z) {
-    return larger(fused(x, x, fused(y, y, z * z)), F(1e-30F));
+    return max(fma(x, x, fma(y, y, z * z)), F(1e-30F));
 }
 
 }  // namespace curvature_detail
@@ -47,16 +47,16 @@ MENISCUS_HD inline Point3<F> trilinear_root(const CellCorners<F>& corners) {
         for (int z = 0; z < 2; ++z)
             for (int y = 0; y < 2; ++y) {
                 slope_x[z][y] = c[1 + 2 * y + 4 * z] - c[2 * y + 4 * z];
-                plane[z][y] = fused(slope_x[z][y], p.x, c[2 * y + 4 * z]);
+                plane[z][y] = fma(slope_x[z][y], p.x, c[2 * y + 4 * z]);
             }
-        const F low = fused(plane[0][1] - plane[0][0], p.y, plane[0][0]);
-        const F high = fused(plane[1][1] - plane[1][0], p.y, plane[1][0]);
-        const F value = fused(high - low, p.z, low);
-        const F slope_low = fused(slope_x[0][1] - slope_x[0][0], p.y, slope_x[0][0]);
-        const F slope_high = fused(slope_x[1][1] - slope_x[1][0], p.y, slope_x[1][0]);
-        const F gx = fused(slope_high - slope_low, p.z, slope_low);
+        const F low = fma(plane[0][1] - plane[0][0], p.y, plane[0][0]);
+        const F high = fma(plane[1][1] - plane[1][0], p.y, plane[1][0]);
+        const F value = fma(high - low, p.z, low);
+        const F slope_low = fma(slope_x[0][1] - slope_x[0][0], p.y, slope_x[0][0]);
+        const F slope_high = fma(slope_x[1][1] - slope_x[1][0], p.y, slope_x[1][0]);
+        const F gx = fma(slope_high - slope_low, p.z, slope_low);
         const F rise_low = plane[0][1] - plane[0][0];
-        const F gy = fused((plane[1][1] - plane[1][0]) - rise_low, p.z, rise_low);
+        const F gy = fma((plane[1][1] - plane[1][0]) - rise_low, p.z, rise_low);
         const F gz = high - low;
         const F t = value / curvature_detail::divisor(gx, gy, gz);
         p.x = curvature_detail::clamped(p.x - t * gx, F(0.0F), F(1.0F));
@@ -87,25 +87,24 @@ MENISCUS_HD inline Point3<F> clamped_to_cell(const Point3<F>& p, const Point3<F>
 /// drop's size from outside of it.
 template <class F>
 MENISCUS_HD inline F total_curvature(const FieldJet<F>& j, float iso) {
-    const F size = larger(root(fused(j.x, j.x, fused(j.y, j.y, j.z * j.z))), F(1e-15F));
+    const F size = max(sqrt(fma(j.x, j.x, fma(j.y, j.y, j.z * j.z))), F(1e-15F));
     const F nx = j.x / size, ny = j.y / size, nz = j.z / size;
-    const F hx = fused(j.xx, nx, fused(j.xy, ny, j.xz * nz));
-    const F hy = fused(j.xy, nx, fused(j.yy, ny, j.yz * nz));
-    const F hz = fused(j.xz, nx, fused(j.yz, ny, j.zz * nz));
-    const F trace = (j.xx + j.yy + j.zz) - fused(nx, hx, fused(ny, hy, nz * hz));
+    const F hx = fma(j.xx, nx, fma(j.xy, ny, j.xz * nz));
+    const F hy = fma(j.xy, nx, fma(j.yy, ny, j.yz * nz));
+    const F hz = fma(j.xz, nx, fma(j.yz, ny, j.zz * nz));
+    const F trace = (j.xx + j.yy + j.zz) - fma(nx, hx, fma(ny, hy, nz * hz));
     // n . adjugate(H) n is the product of the two tangential eigenvalues.
     const F cxx = j.yy * j.zz - j.yz * j.yz, cyy = j.xx * j.zz - j.xz * j.xz, czz = j.xx * j.yy - j.xy * j.xy;
     const F cxy = j.xz * j.yz - j.xy * j.zz, cxz = j.xy * j.yz - j.xz * j.yy, cyz = j.xy * j.xz - j.yz * j.xx;
-    const F product =
-        fused(nx, fused(cxx, nx, fused(cxy, ny, cxz * nz)),
-              fused(ny, fused(cxy, nx, fused(cyy, ny, cyz * nz)), nz * fused(cxz, nx, fused(cyz, ny, czz * nz))));
+    const F product = fma(nx, fma(cxx, nx, fma(cxy, ny, cxz * nz)),
+                          fma(ny, fma(cxy, nx, fma(cyy, ny, cyz * nz)), nz * fma(cxz, nx, fma(cyz, ny, czz * nz))));
     const F half = F(0.5F) * trace;
-    const F spread = root(larger(half * half - product, F(0.0F)));
+    const F spread = sqrt(max(half * half - product, F(0.0F)));
     const F climb = (F(iso) - j.value) / size;  // the surface's distance along the gradient
     const auto curvature = [&](F eigenvalue) {
         // Within a factor of 2: a gradient that almost vanishes tells neither distance nor radius.
-        const F gap = curvature_detail::clamped(fused(eigenvalue, climb, size), F(0.5F) * size, F(2.0F) * size);
-        return larger(eigenvalue, F(0.0F) - eigenvalue) / gap;
+        const F gap = curvature_detail::clamped(fma(eigenvalue, climb, size), F(0.5F) * size, F(2.0F) * size);
+        return max(eigenvalue, F(0.0F) - eigenvalue) / gap;
     };
     return curvature(half + spread) + curvature(half - spread);
 }
@@ -125,15 +124,15 @@ MENISCUS_HD inline SurfaceSearch<F> search_surface(const CellCorners<F>& corners
                                                    float iso, const JetAt& jet_at) {
     const F edge(static_cast<float>(units_per_base_cell));
     const Point3<F> start = trilinear_root(corners);
-    const auto blend = [&](F from, F s) { return from + edge * fused(mixed, s - F(0.5F), F(0.5F)); };
+    const auto blend = [&](F from, F s) { return from + edge * fma(mixed, s - F(0.5F), F(0.5F)); };
     Point3<F> p{blend(corner.x, start.x), blend(corner.y, start.y), blend(corner.z, start.z)};
     p = clamped_to_cell(newton_step(jet_at(p), iso, p), corner);
     const FieldJet<F> jet = jet_at(p);
     const Point3<F> end = newton_step(jet, iso, p);
-    const auto depth = [&](F v, F low) { return F(0.0F) - larger(low - v, v - (low + edge)); };
+    const auto depth = [&](F v, F low) { return F(0.0F) - max(low - v, v - (low + edge)); };
     const F depth_x = depth(end.x, corner.x), depth_y = depth(end.y, corner.y), depth_z = depth(end.z, corner.z);
-    const F depth_xy = F(0.0F) - larger(F(0.0F) - depth_x, F(0.0F) - depth_y);
-    return {total_curvature(jet, iso), F(0.0F) - larger(F(0.0F) - depth_xy, F(0.0F) - depth_z)};
+    const F depth_xy = F(0.0F) - max(F(0.0F) - depth_x, F(0.0F) - depth_y);
+    return {total_curvature(jet, iso), F(0.0F) - max(F(0.0F) - depth_xy, F(0.0F) - depth_z)};
 }
 
 }  // namespace meniscus

@@ -51,7 +51,7 @@ struct CurvatureCriterion {
         for (int axis = 0; axis < 3; ++axis)
             for (int side = -1; side <= 1; side += 2) {
                 const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, side));
-                if (other != no_index) curvature = larger(curvature, 0.5F * cells[other].curvature);
+                if (other != no_index) curvature = max(curvature, 0.5F * cells[other].curvature);
             }
         const int level = curvature * 4.0F <= 3.0F * tolerance ? 1 : curvature <= 3.0F * tolerance ? 2 : 3;
         // A cell that joins the band later holds surface that its corners do not show.
