@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "engine/growth.hpp"
 #include "meniscus/memory.hpp"
 
 namespace meniscus {
@@ -15,7 +16,7 @@ void resize_for_overwrite(Array<T>& array, std::size_t n) {
     if (array.capacity() < n) {
         // Gives the old memory back first: nothing of it is needed, and the peak stays low.
         array = Array<T>(array.get_allocator());
-        array.reserve(n + n / 8);
+        array.reserve(with_room_to_grow(n));
     }
     array.resize(n);
 }

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "field/kernel.hpp"
+#include "particles/particle_set.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -32,8 +35,12 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     cell_size = world_cell_size(s);
     units_per_length = units_per_cell / cell_size;
     const double support_units = 2.0 * s.smoothing_length / s.cell_size * units_per_cell;
-    for (unsigned k = 0; k < particle_level_count; ++k)
+    for (unsigned k = 0; k < particle_level_count; ++k) {
         support[k] = static_cast<float>(std::ldexp(support_units, static_cast<int>(k)));
+        inverse_support[k] = meniscus::inverse_support(support[k]);
+        cell_units[k] = support_cell_units(static_cast<std::int64_t>(std::ceil(support[k])));
+    }
+    divides_by_density = s.field == Field::color;
     const double l = s.smoothing_length;
     weight = static_cast<float>(16.0 / (std::numbers::pi * l * l * l));
     iso = static_cast<float>(s.iso);
@@ -44,7 +51,15 @@ LatticeSettings::LatticeSettings(const Settings& s) {
         blob_closest =
             static_cast<float>(1.0 - std::min(0.25 * lone_particle_reach(s.iso) / lone_particle_reach(0.6), 1.0));
     if (s.cell_size > 0.17 * 2.0 * s.smoothing_length) blob_level = 3;
+    is_adaptive = s.mode == Mode::adaptive;
+    measures_bends = is_adaptive && s.criterion == Criterion::curvature;
+    counts_particles = is_adaptive && s.criterion == Criterion::count;
+    tolerance = static_cast<float>(s.tolerance);
+    count_threshold = s.count_threshold;
+    bisects = s.edge_points == EdgePoints::bisect;
+    bisection_steps = s.bisection_steps;
     offset_bits = meniscus::offset_bits(s);
+    has_normals = s.normals;
     if (s.domain) {
         has_domain = true;
         const auto& [low, high] = *s.domain;

@@ -13,17 +13,38 @@ namespace meniscus {
 
 inline constexpr unsigned particle_level_count = max_particle_level + 1;
 
+/// All that the loops and kernels see of the settings.
 struct LatticeSettings {
-    double cell_size = 0.0;                             ///< c, world units
-    double units_per_length = 0.0;                      ///< 4096 / c
-    std::array<float, particle_level_count> support{};  ///< h of each particle level, units
+    double cell_size = 0.0;         ///< c, world units
+    double units_per_length = 0.0;  ///< 4096 / c
+
+    // Of each particle level.
+    std::array<float, particle_level_count> support{};            ///< h, units
+    std::array<float, particle_level_count> inverse_support{};    ///< see inverse_support()
+    std::array<std::int64_t, particle_level_count> cell_units{};  ///< edge of a support cell, see support_cell_units()
+
+    // The field.
+    bool divides_by_density = false;  ///< the color field
     /// m / rho0 times the kernel's W0 = 16 / (pi h^3): both scale with 2^3k, so that all particle levels share it.
     float weight = 0.0F;
     float iso = 0.0F;
+
+    // The criterion of step 2. Neither counts nor bends: Mode::uniform.
+    bool is_adaptive = false;
+    bool measures_bends = false;    ///< Criterion::curvature
+    bool counts_particles = false;  ///< Criterion::count
+    float tolerance = 0.0F;         ///< in cells
+    std::uint32_t count_threshold = 1;
     float deep_inside = std::numeric_limits<float>::infinity();  ///< see BandTest
     float blob_closest = 0.75F;                                  ///< see BlobRule
     int blob_level = 2;
+
+    // Vertices.
+    bool bisects = false;
+    std::uint32_t bisection_steps = 0;  ///< on a finest edge
     std::uint32_t offset_bits = 6;
+    bool has_normals = true;
+
     bool has_domain = false;
     Int3 domain_low, domain_high;  ///< in cells, rounded outward
 

@@ -17,12 +17,6 @@ struct EdgeMasks {
     MENISCUS_HD int count() const { return popcount(axis[0]) + popcount(axis[1]) + popcount(axis[2]); }
 };
 
-/// Where a base cell's triangles go, as indices into the mesh.
-struct TriangleSlots {
-    std::uint32_t cells;   ///< its own marching-cubes triangles
-    std::uint32_t cracks;  ///< the crack filling of its faces
-};
-
 /// Arrays of one element per stored block unless said otherwise.
 struct BlocksView {
     BrickGridView grid;
@@ -36,7 +30,6 @@ struct BlocksView {
     float* samples = nullptr;  ///< field values, those of a block in the order of its points
     EdgeMasks* edges = nullptr;
     std::uint32_t* first_vertex = nullptr;
-    TriangleSlots* slots = nullptr;
 
     MENISCUS_HD Int3 coordinate(std::uint32_t block) const {
         return grid.bricks[brick[block]].corner() + place_in_brick(place[block]);

@@ -25,4 +25,20 @@ struct LevelSets {
     }
 };
 
+/// The cells of a word of Brick::occupied that are of at least each level, 1 to 3.
+struct WordLevels {
+    std::uint64_t at_least[4] = {};
+
+    /// level: of every block.
+    MENISCUS_HD WordLevels(const Brick& brick, int w, const std::uint8_t* level) {
+        std::uint32_t block = brick.first + brick.rank[w];
+        for (std::uint64_t left = brick.occupied[w]; left != 0; left &= left - 1, ++block) {
+            const std::uint64_t cell = left & (~left + 1);
+            if (level[block] >= 1) at_least[1] |= cell;
+            if (level[block] >= 2) at_least[2] |= cell;
+            if (level[block] >= 3) at_least[3] |= cell;
+        }
+    }
+};
+
 }  // namespace meniscus

@@ -1,6 +1,7 @@
-// Step 1 on the CPU: a frame's particles, one sorted set per particle level, and the base cells that they reach.
+// A frame's particles in the CPU's memory: one sorted set per particle level.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
@@ -8,9 +9,8 @@
 #include "engine/cpu/scan.hpp"
 #include "engine/cpu/workers.hpp"
 #include "field/lattice_settings.hpp"
-#include "meniscus/particle_frame.hpp"
+#include "particles/particle_key.hpp"
 #include "particles/particle_set.hpp"
-#include "steps/register_particles/register_particles.hpp"
 
 namespace meniscus::cpu {
 
@@ -34,29 +34,18 @@ struct ParticleSet {
     }
 };
 
-class ParticleSets {
-public:
+struct ParticleSets {
     ParticleSets(const std::shared_ptr<MemoryAccount>& account, Workers& workers, const LatticeSettings& settings);
 
-    /// Sorts a valid frame's particles. Weights are those of the density field. Throws LimitExceeded where they crowd.
-    void assign(const ParticleFrame& frame);
-    /// Fills `grid` with the base cells that a particle's support reaches; numbers stay to be given.
-    void mark_reached_cells(BrickGrid& grid);
-    /// Particles of level 0 per stored base cell.
-    void count_per_cell(const BrickGrid& grid, Array<std::uint32_t>& counts);
+    Workers& workers;
+    const LatticeSettings& settings;
+    std::array<ParticleSet, particle_level_count> of_level;
+    // While particles are registered.
+    Scan scan;
+    Array<std::uint64_t> reached_bricks;
 
-    ParticleSet& operator[](std::size_t level) { return sets_[level]; }
-    const ParticleSet& operator[](std::size_t level) const { return sets_[level]; }
-
-private:
-    void sort(const ParticleFrame& frame, unsigned level);
-    void build_cells(ParticleSet& set);
-
-    Workers& workers_;
-    const LatticeSettings& settings_;
-    Scan scan_;
-    std::array<ParticleSet, particle_level_count> sets_;
-    Array<std::uint64_t> reached_bricks_;
+    ParticleSet& operator[](std::size_t level) { return of_level[level]; }
+    const ParticleSet& operator[](std::size_t level) const { return of_level[level]; }
 };
 
 }  // namespace meniscus::cpu

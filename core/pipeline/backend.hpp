@@ -1,8 +1,6 @@
 // What the reconstructor asks of a backend: the CPU's and CUDA's stand beside it.
 #pragma once
 
-#include <array>
-#include <chrono>
 #include <memory>
 
 #include "meniscus/device_mesh.hpp"
@@ -27,36 +25,6 @@ public:
     virtual DeviceMesh reconstruct_on_device(const ParticleFrame&, Statistics&) {
         throw InvalidInput("the CPU backend has no mesh on a GPU: use reconstruct(), or Backend::cuda");
     }
-};
-
-/// Charges the time until the next call, or its own end, to a stage.
-class StageClock {
-public:
-    explicit StageClock(Statistics& statistics) : statistics_(statistics) {}
-    ~StageClock() { stop(); }
-    StageClock(const StageClock&) = delete;
-    StageClock& operator=(const StageClock&) = delete;
-
-    void enter(Stage stage) {
-        stop();
-        stage_ = stage;
-        running_ = true;
-        start_ = Clock::now();
-    }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    void stop() {
-        if (running_)
-            statistics_.stage_seconds[static_cast<std::size_t>(stage_)] +=
-                std::chrono::duration<double>(Clock::now() - start_).count();
-        running_ = false;
-    }
-
-    Statistics& statistics_;
-    Stage stage_{};
-    bool running_ = false;
-    Clock::time_point start_;
 };
 
 namespace cpu {

@@ -1,9 +1,9 @@
-// The way of a frame through the CPU backend: the paper's steps in their order.
+// The CPU backend: state, particles and field that live from frame to frame.
 #include "engine/cpu/particle_field.hpp"
-#include "engine/cpu/split_cells.hpp"
-#include "engine/cpu/surface.hpp"
-#include "particles/particle_sets.hpp"
 #include "pipeline/backend.hpp"
+#include "pipeline/cpu_pipeline.hpp"
+#include "pipeline/pipeline.hpp"
+#include "pipeline/stage_clock.hpp"
 #include "processor.hpp"
 
 namespace meniscus::cpu {
@@ -12,96 +12,45 @@ namespace {
 class Reconstruction final : public BackendReconstruction {
 public:
     Reconstruction(const Settings& user, unsigned threads, const std::shared_ptr<MemoryAccount>& account)
-        : user_(user),
-          settings_(user),
+        : settings_(user),
           workers_(threads),
-          surface_(account, workers_, settings_),
+          state_(account, workers_, settings_),
           particles_(account, workers_, settings_),
-          field_(account, workers_, particles_),
-          counts_(make_array<std::uint32_t>(account)),
-          reaches_(make_array<CellReach>(account)),
-          bends_(make_array<CellBend>(account)),
-          levels_(make_array<std::uint8_t>(account)) {}
+          near_(account, workers_.count(), particles_),
+          field_(near_),
+          found_levels_(make_array<std::uint8_t>(account)) {}
 
     MeshDownload reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) override {
         StageClock clock(statistics);
-        clock.enter(Stage::register_particles);
-        register_particles(frame);
-        clock.enter(Stage::sample_field);
-        field_.sample_base_vertices(surface_, reaches_);
-        clock.enter(Stage::split_cells);
-        find_band(surface_, reaches_);
-        if (measures_bends()) field_.measure_bends(surface_, reaches_, bends_);
-        const SplitCriterion split_criterion = criterion(frame);
-        split_cells(surface_, split_criterion);
-        clock.enter(Stage::adjust_levels);
-        if (user_.mode == Mode::adaptive) adjust_levels(surface_);
-        clock.enter(Stage::sample_field);
-        sample_field(surface_, field_,
-                     [&](std::uint32_t block) { return wanted_level(split_criterion, surface_.view(), block); });
-        if (user_.mode == Mode::adaptive) sample_edge_middles(surface_, field_);
-        emit(mesh, clock);
-        capped_ = false;
+        ParticleSteps steps(state_, field_, mesh, particles_, near_, frame);
+        run_pipeline(steps, clock);
+        is_capped_ = false;
 
-        statistics.field_evaluations = surface_.field_evaluations;
-        statistics.base_cells_by_level = count_band_cells(surface_);
+        statistics.field_evaluations = state_.field_evaluations;
+        statistics.base_cells_by_level = count_band_cells(state_);
         statistics.backend = "cpu";
         statistics.threads = workers_.count();
         return {};
     }
 
     void emit_capped(int max_level, Mesh& mesh) override {
-        if (!capped_) levels_.assign(surface_.level.begin(), surface_.level.end());
-        capped_ = true;
-        cap_levels(surface_, levels_, max_level);
-        Statistics not_told;
-        StageClock clock(not_told);
-        emit(mesh, clock);
+        if (!is_capped_) found_levels_.assign(state_.level.begin(), state_.level.end());
+        is_capped_ = true;
+        cap_levels(state_, found_levels_, max_level);
+        SurfaceSteps steps(state_, field_, mesh);
+        NoClock clock;
+        emit_mesh(steps, clock);
     }
 
 private:
-    /// From levels and samples to the mesh.
-    void emit(Mesh& mesh, StageClock& clock) {
-        clock.enter(Stage::count_triangles);
-        count_triangles(surface_, mesh);
-        clock.enter(Stage::place_vertices);
-        place_vertices(surface_, field_, user_, mesh);
-        clock.enter(Stage::emit_triangles);
-        emit_triangles(surface_, mesh);
-        clock.enter(Stage::fill_cracks);
-        fill_cracks(surface_, mesh);
-    }
-
-    void register_particles(const ParticleFrame& frame) {
-        particles_.assign(frame);
-        particles_.mark_reached_cells(surface_.grid);
-        number_members(surface_.grid, workers_);
-        store_blocks(surface_);
-        if (counts_particles()) particles_.count_per_cell(surface_.grid, counts_);
-        field_.begin_frame(user_.field);
-    }
-
-    bool counts_particles() const { return user_.mode == Mode::adaptive && user_.criterion == Criterion::count; }
-
-    bool measures_bends() const { return user_.mode == Mode::adaptive && user_.criterion == Criterion::curvature; }
-
-    SplitCriterion criterion(const ParticleFrame& frame) const {
-        if (counts_particles()) return CountCriterion{counts_.data(), user_.count_threshold, !frame.levels.empty()};
-        if (measures_bends()) return CurvatureCriterion{bends_.data(), static_cast<float>(user_.tolerance)};
-        return UniformCriterion{};
-    }
-
-    Settings user_;
     LatticeSettings settings_;
     Workers workers_;
-    Surface surface_;
+    State state_;
     ParticleSets particles_;
+    Neighborhoods near_;
     ParticleField field_;
-    Array<std::uint32_t> counts_;
-    Array<CellReach> reaches_;
-    Array<CellBend> bends_;
-    Array<std::uint8_t> levels_;  ///< of the last frame, once a mesh of it was emitted with capped ones
-    bool capped_ = false;
+    Array<std::uint8_t> found_levels_;  ///< of the last frame, once a mesh of it was emitted with capped ones
+    bool is_capped_ = false;
 };
 
 }  // namespace

@@ -1,36 +1,56 @@
-// The paper's steps on the GPU. Each puts kernels on the launcher's stream and waits for nothing.
+// The paper's steps on the GPU. Each puts kernels on the launcher's stream and waits for nothing; pipeline/pipeline.hpp
+// calls them in their order.
 #pragma once
 
-#include "engine/cuda/device_state.hpp"
 #include "engine/cuda/launch.hpp"
-#include "meniscus/settings.hpp"
+#include "engine/cuda/state.hpp"
+#include "steps/sample_field/slivers.hpp"
 
 namespace meniscus::cuda {
 
-/// Step 1. Also tells the frame which of its arrays hold the sorted keys.
-void register_particles(Frame& frame, const Settings& user, const Launcher& launch);
+// Field: ParticleField, or what a test puts in its place; see there.
+
+/// Step 1: sorts the particles, and stores the base cells that they reach. Also tells the state which of its arrays
+/// hold the sorted keys.
+void register_particles(State& state, const Launcher& launch);
+/// Divides the particles' weights by the density at their places: the color field.
+void divide_weights_by_density(const State& state, const Launcher& launch);
+/// Numbers the members of the bricks, whose bits are set and counted in members_before; makes their blocks, none of
+/// them in the band.
+void store_blocks(const State& state, const Launcher& launch);
+
 /// Step 4's first part: the values at base vertices, and what a cell's particles may do in it.
-void sample_base_vertices(const Frame& frame, const Launcher& launch);
-/// Step 2: the band and the levels.
-void split_cells(const Frame& frame, const Settings& user, bool has_particle_levels, const Launcher& launch);
-/// The levels as sets of cells, after they have been given to all blocks at once.
-void collect_level_sets(const Frame& frame, const Launcher& launch);
-/// Step 3.
-void adjust_levels(const Frame& frame, const Launcher& launch);
-/// Step 4. Samples what the cells of the band need, until no cell joins the band or goes up for it.
-void sample_field(const Frame& frame, const Launcher& launch);
-/// Samples the middles of coarse edges that cross the surface.
-void sample_edge_middles(const Frame& frame, const Launcher& launch);
+void sample_base_vertices(const State& state, const Launcher& launch);
+
+/// Step 2: puts the stored cells that may hold surface into the band, and gives each the level that the criterion of
+/// the settings asks for.
+void split_cells(const State& state, bool has_particle_levels, const Launcher& launch);
+/// How much the surface bends in every cell of the band.
+void measure_bends(const State& state, const Launcher& launch);
+
+/// After levels have been given to all blocks at once: collects them as sets of cells.
+void collect_level_sets(const State& state, const Launcher& launch);
+/// Step 3: balance and promotion among the cells of the band, until nothing changes.
+void adjust_levels(const State& state, const Launcher& launch);
 /// After a frame: gives every cell the level that it had, or max_level where that is coarser, and takes back what was
-/// counted from step 5 on. first: whether the frame's levels are still those that it found.
-void cap_levels(const Frame& frame, int max_level, bool first, const Launcher& launch);
-/// Step 5.
-void count_triangles(const Frame& frame, const Launcher& launch);
+/// counted from step 5 on. first: whether the levels are still those that the frame found.
+void cap_levels(const State& state, int max_level, bool first, const Launcher& launch);
+
+/// Step 4: samples what the cells of the band need, until no cell joins the band or goes up for it.
+template <class Field>
+void sample_field(const State& state, const Field& field, Slivers slivers, const Launcher& launch);
+/// Samples the middles of coarse edges that cross the surface.
+template <class Field>
+void sample_edge_middles(const State& state, const Field& field, const Launcher& launch);
+
+/// Step 5: counts the triangles, and gives each its place in the mesh.
+void count_triangles(const State& state, const Launcher& launch);
 /// Step 6. Also decides whether there is room for the mesh.
-void place_vertices(const Frame& frame, const Launcher& launch);
+template <class Field>
+void place_vertices(const State& state, const Field& field, const Launcher& launch);
 /// Step 7.
-void emit_triangles(const Frame& frame, const Launcher& launch);
+void emit_triangles(const State& state, const Launcher& launch);
 /// Algorithm 3.
-void fill_cracks(const Frame& frame, const Launcher& launch);
+void fill_cracks(const State& state, const Launcher& launch);
 
 }  // namespace meniscus::cuda

@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "engine/cpu/surface.hpp"
 #include "lattice/block_mask.hpp"
+#include "steps/cpu_steps.hpp"
 
 namespace meniscus {
 namespace {

@@ -9,6 +9,7 @@
 #include "engine/cpu/particle_field.hpp"
 #include "field/kernel.hpp"
 #include "particles/particle_sets.hpp"
+#include "steps/cpu_steps.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus {
@@ -66,9 +67,10 @@ void expect_naive_values(const Settings& user, const test::Particles& particles)
     const auto account = std::make_shared<MemoryAccount>();
     cpu::Workers workers(1);
     cpu::ParticleSets sets(account, workers, settings);
-    cpu::ParticleField field(account, workers, sets);
-    sets.assign(particles.frame());
-    field.begin_frame(user.field);
+    cpu::State state(account, workers, settings);
+    cpu::Neighborhoods near(account, workers.count(), sets);
+    cpu::ParticleField field(near);
+    cpu::register_particles(state, sets, near, particles.frame());
     const NaiveField naive(user, particles);
 
     std::mt19937 random(9);

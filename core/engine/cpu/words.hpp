@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "engine/cpu/surface.hpp"
+#include "engine/cpu/state.hpp"
 
 namespace meniscus::cpu {
 
@@ -25,7 +25,7 @@ void for_each_word(const Brick& brick, const Visit& visit) {
 
 /// Calls visit(number) for every brick, in parallel.
 template <class Visit>
-void for_each_brick(Surface& s, const Visit& visit) {
+void for_each_brick(State& s, const Visit& visit) {
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b) visit(static_cast<std::uint32_t>(b));
     });
@@ -33,7 +33,7 @@ void for_each_brick(Surface& s, const Visit& visit) {
 
 /// Calls visit(brick's number, w) for every word of every brick that has a member.
 template <class Visit>
-void for_each_word(Surface& s, const Visit& visit) {
+void for_each_word(State& s, const Visit& visit) {
     for_each_brick(s,
                    [&](std::uint32_t brick) { for_each_word(s.grid.bricks[brick], [&](int w) { visit(brick, w); }); });
 }

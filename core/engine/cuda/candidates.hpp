@@ -2,7 +2,7 @@
 // find them gives the same sums.
 #pragma once
 
-#include "engine/cuda/device_state.hpp"
+#include "engine/cuda/state.hpp"
 #include "engine/cuda/warp.hpp"
 #include "field/sums.hpp"
 
@@ -20,7 +20,7 @@ struct OneCandidate {
 /// Calls visit(OneCandidate) for all particles near a box, level by level: one thread alone, for a point far from
 /// others.
 template <class Visit>
-__device__ inline void for_each_candidate(const Frame& f, const Units3& origin, const UnitBox& box,
+__device__ inline void for_each_candidate(const State& f, const Units3& origin, const UnitBox& box,
                                           const Visit& visit) {
     for (unsigned k = 0; k < particle_level_count; ++k) {
         const ParticleSetView set = f.set(k);
@@ -29,7 +29,8 @@ __device__ inline void for_each_candidate(const Frame& f, const Units3& origin, 
         set.for_each_run_near(origin, box, hints, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
             for (std::uint32_t i = begin; i < end; ++i) {
                 const float4 p = f.particles[i];
-                visit(OneCandidate{{p.x + shift[0], p.y + shift[1], p.z + shift[2], p.w}, f.inverse_support[k]});
+                visit(
+                    OneCandidate{{p.x + shift[0], p.y + shift[1], p.z + shift[2], p.w}, f.settings.inverse_support[k]});
             }
         });
     }
@@ -44,7 +45,7 @@ struct Staging {
 /// The same, by all lanes of a warp for points that lie together: they fetch particles side by side, keep those within
 /// reach of the box, and each of them visits all.
 template <class Visit>
-__device__ inline void for_each_staged_candidate(const Frame& f, const Units3& origin, const UnitBox& box,
+__device__ inline void for_each_staged_candidate(const State& f, const Units3& origin, const UnitBox& box,
                                                  Staging& staging, const Visit& visit) {
     const unsigned lane = lane_index();
     for (unsigned k = 0; k < particle_level_count; ++k) {
@@ -54,7 +55,8 @@ __device__ inline void for_each_staged_candidate(const Frame& f, const Units3& o
         unsigned staged = 0;
         const auto visit_staged = [&] {
             __syncwarp();
-            for (unsigned j = 0; j < staged; ++j) visit(OneCandidate{staging.particles[j], f.inverse_support[k]});
+            for (unsigned j = 0; j < staged; ++j)
+                visit(OneCandidate{staging.particles[j], f.settings.inverse_support[k]});
             __syncwarp();
             staged = 0;
         };

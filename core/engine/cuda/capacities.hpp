@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "engine/growth.hpp"
 #include "lattice/brick_grid.hpp"
 #include "lattice/host_device.hpp"
 
@@ -57,7 +58,7 @@ private:
     static bool grow(std::uint64_t& capacity, std::uint64_t needed, std::uint64_t most) {
         constexpr std::uint64_t least = 256;  // also of what is not needed at all, so that no array is empty
         if (capacity >= least && needed <= capacity) return false;
-        capacity = std::max({least, needed, std::min(needed + needed / 8, most)});
+        capacity = std::max({least, needed, std::min(with_room_to_grow(needed), most)});
         return true;
     }
 };

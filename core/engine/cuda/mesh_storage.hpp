@@ -38,7 +38,7 @@ struct MeshStorage {
     std::mutex copying;                   ///< one copies at a time
     Download download;                    ///< its pinned memory outlives the stream, whose end waits for the copies
     Stream stream;
-    std::array<DeviceMemory, 2> sets;  ///< see Frame::for_each_mesh_array()
+    std::array<DeviceMemory, 2> sets;  ///< see State::for_each_mesh_array()
 };
 
 }  // namespace meniscus::cuda

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <memory>
 
-#include "engine/cuda/device_state.hpp"
 #include "engine/cuda/pinned_memory.hpp"
+#include "engine/cuda/state.hpp"
 #include "meniscus/particle_frame.hpp"
 
 namespace meniscus::cuda {
@@ -19,23 +19,23 @@ public:
     }
 
     /// The last upload must have ended. Positions travel as they are given, and are widened on the device.
-    void start(const ParticleFrame& particles, const Frame& frame, cudaStream_t stream) {
+    void start(const ParticleFrame& particles, const State& state, cudaStream_t stream) {
         const auto positions =
             particles.is_quantized() ? std::as_bytes(particles.quantized) : std::as_bytes(particles.positions);
         const auto levels = std::as_bytes(particles.levels);
         staging_.reserve(positions.size() + levels.size());
-        send(positions, staging_.get(), frame.upload, stream);
-        send(levels, staging_.get() + positions.size(), frame.upload_levels(), stream);
+        send(positions, staging_.get(), state.upload, stream);
+        send(levels, staging_.get() + positions.size(), state.upload_levels(), stream);
 
         auto& input = *new (input_.get()) FrameInput;
         input.particles = static_cast<std::uint32_t>(particles.count());
-        input.positions = positions_view(particles, frame.settings.units_per_length);
+        input.positions = positions_view(particles, state.settings.units_per_length);
         if (particles.is_quantized())
-            input.positions.quantized = reinterpret_cast<const std::uint16_t*>(frame.upload);
+            input.positions.quantized = reinterpret_cast<const std::uint16_t*>(state.upload);
         else
-            input.positions.positions = reinterpret_cast<const float*>(frame.upload);
-        if (!particles.levels.empty()) input.levels = reinterpret_cast<const std::uint8_t*>(frame.upload_levels());
-        check(cudaMemcpyAsync(frame.input, &input, sizeof(FrameInput), cudaMemcpyHostToDevice, stream),
+            input.positions.positions = reinterpret_cast<const float*>(state.upload);
+        if (!particles.levels.empty()) input.levels = reinterpret_cast<const std::uint8_t*>(state.upload_levels());
+        check(cudaMemcpyAsync(state.input, &input, sizeof(FrameInput), cudaMemcpyHostToDevice, stream),
               "cudaMemcpyAsync");
     }
 

@@ -1,30 +1,28 @@
+// Step 3 on the CPU: rules look again only at cells near which a level has changed.
 #include "steps/adjust_levels/adjust_levels.hpp"
 
-#include "engine/cpu/surface.hpp"
 #include "steps/adjust_levels/raise_levels.hpp"
+#include "steps/cpu_steps.hpp"
 
 namespace meniscus::cpu {
 
-void levels_are_new(Surface& s) {
+void collect_level_sets(State& s) {
     const std::size_t words = s.grid.bricks.size() * Brick::words;
-    for (auto& set : s.at_least) resize_for_overwrite(set, words);
+    for (int level = 1; level <= 3; ++level) resize_for_overwrite(s.at_least[level], words);
     for (auto& set : s.stale) resize_for_overwrite(set, words);
     const LevelSets levels = s.level_sets();
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b)
             for (int w = 0; w < Brick::words; ++w) {
                 const auto brick = static_cast<std::uint32_t>(b);
-                std::uint64_t cells[4] = {};
-                for_each_cell(s.grid.bricks[b], w, s.grid.bricks[b].occupied[w], [&](std::uint32_t block, int bit) {
-                    for (int level = 1; level <= s.level[block]; ++level) cells[level] |= std::uint64_t{1} << bit;
-                });
-                for (int level = 1; level <= 3; ++level) levels.at_least[level].word(brick, w) = cells[level];
+                const WordLevels cells(s.grid.bricks[b], w, s.level.data());
+                for (int level = 1; level <= 3; ++level) levels.at_least[level].word(brick, w) = cells.at_least[level];
                 for (const StaleFor rule : all_rules) s.stale_cells(rule).word(brick, w) = s.grid.bricks[b].occupied[w];
             }
     });
 }
 
-void mark_stale_around(Surface& s, std::uint32_t brick, int w, std::uint64_t cells) {
+void mark_stale_around(State& s, std::uint32_t brick, int w, std::uint64_t cells) {
     const std::uint64_t along_x[3] = {cells << 15 & last_of_rows,
                                       cells | (cells << 1 & ~first_of_rows) | (cells >> 1 & ~last_of_rows),
                                       cells >> 15 & first_of_rows};
@@ -44,7 +42,7 @@ void mark_stale_around(Surface& s, std::uint32_t brick, int w, std::uint64_t cel
     }
 }
 
-void adjust_levels(Surface& s) {
+void adjust_levels(State& s) {
     const LevelSets levels = s.level_sets();
     const auto one_more = [&](std::uint32_t block) { return s.level[block] + 1; };
     const auto unbalanced = [&](std::uint32_t brick, int w) {

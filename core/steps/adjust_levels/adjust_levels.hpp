@@ -45,4 +45,23 @@ MENISCUS_HD inline std::uint64_t cells_to_promote(const LevelSets& levels, std::
     return promoted;
 }
 
+/// Gives some cells of a word new_level(block), above the level that each has; the sets follow.
+template <class NewLevel>
+MENISCUS_HD inline void raise_cells(const LevelSets& levels, std::uint8_t* level, std::uint32_t brick, int w,
+                                    std::uint64_t cells, const NewLevel& new_level) {
+    const Brick& members = levels.at_least[1].grid.bricks[brick];
+    std::uint64_t level2 = 0, level3 = 0;
+    for (std::uint64_t left = cells; left != 0; left &= left - 1) {
+        const std::uint64_t cell = left & (~left + 1);
+        const std::uint32_t block = members.number(64 * w + lowest_bit(left));
+        const int raised = new_level(block);
+        level[block] = static_cast<std::uint8_t>(raised);
+        if (raised >= 2) level2 |= cell;
+        if (raised >= 3) level3 |= cell;
+    }
+    levels.at_least[1].word(brick, w) |= cells;
+    levels.at_least[2].word(brick, w) |= level2;
+    levels.at_least[3].word(brick, w) |= level3;
+}
+
 }  // namespace meniscus

@@ -1,3 +1,4 @@
+// A coarser surface from the samples of a finer one.
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
 
@@ -6,18 +7,18 @@ namespace {
 
 /// One thread: nothing is counted from step 5 on, and what was counted last may have found too little room for the
 /// mesh.
-__global__ void count_anew(const __grid_constant__ Frame f) {
+__global__ void count_anew(const __grid_constant__ State f) {
     if (blockIdx.x != 0 || threadIdx.x != 0) return;
     Counts& counts = *f.counts;
     for (const Resource r : {Resource::vertices, Resource::triangles}) counts.needed[static_cast<int>(r)] = 0;
     for (const List l : {List::vertices, List::band, List::cracks}) counts.listed[static_cast<int>(l)] = 0;
     for (std::size_t level = 0; level < triangle_level_count; ++level) counts.triangles[level] = 0;
     for (std::uint32_t& cells : counts.band_cells) cells = 0;
-    counts.overflow = 0;
+    counts.stop = Stop::none;
 }
 
 /// The split criterion's levels are no longer needed: their array keeps those that the frame found.
-__global__ void __launch_bounds__(block_threads) cap_each(const __grid_constant__ Frame f, int max_level, bool first) {
+__global__ void __launch_bounds__(block_threads) cap_each(const __grid_constant__ State f, int max_level, bool first) {
     const auto cap = static_cast<std::uint8_t>(max_level);
     GridLoop{}.each(f.count(Resource::blocks), [&](std::uint32_t b) {
         if (first) f.wanted_level[b] = f.level[b];
@@ -28,10 +29,10 @@ __global__ void __launch_bounds__(block_threads) cap_each(const __grid_constant_
 
 }  // namespace
 
-void cap_levels(const Frame& frame, int max_level, bool first, const Launcher& launch) {
-    launch(1, block_threads, count_anew, frame);
-    launch(frame.capacity[Resource::blocks], block_threads, cap_each, frame, max_level, first);
-    collect_level_sets(frame, launch);
+void cap_levels(const State& state, int max_level, bool first, const Launcher& launch) {
+    launch(1, block_threads, count_anew, state);
+    launch(state.capacity[Resource::blocks], block_threads, cap_each, state, max_level, first);
+    collect_level_sets(state, launch);
 }
 
 }  // namespace meniscus::cuda

@@ -5,23 +5,24 @@
 #include <cstdint>
 #include <utility>
 
-#include "engine/cpu/surface.hpp"
+#include "engine/cpu/state.hpp"
 #include "engine/cpu/words.hpp"
+#include "steps/adjust_levels/adjust_levels.hpp"
 
 namespace meniscus::cpu {
 
 /// Adds the cells of a word and the 26 around each of them to the stale cells of all rules.
-void mark_stale_around(Surface& s, std::uint32_t brick, int w, std::uint64_t cells);
+void mark_stale_around(State& s, std::uint32_t brick, int w, std::uint64_t cells);
 
 /// Takes a rule's stale cells out of a word.
-inline std::uint64_t take_stale(Surface& s, StaleFor rule, std::uint32_t brick, int w) {
+inline std::uint64_t take_stale(State& s, StaleFor rule, std::uint32_t brick, int w) {
     return std::exchange(s.stale_cells(rule).word(brick, w), 0);
 }
 
 /// Raises the cells that raised(brick, w) gives for every word, all by the same state, to new_level(cell's number);
 /// returns whether there were any.
 template <class Raised, class NewLevel>
-bool raise_levels(Surface& s, const Raised& raised, const NewLevel& new_level) {
+bool raise_levels(State& s, const Raised& raised, const NewLevel& new_level) {
     const CellSetView changes = s.chosen_cells();
     std::atomic<bool> changed{false};
     for_each_word(s, [&](std::uint32_t brick, int w) {
@@ -33,11 +34,7 @@ bool raise_levels(Surface& s, const Raised& raised, const NewLevel& new_level) {
     for_each_word(s, [&](std::uint32_t brick, int w) {
         const std::uint64_t cells = changes.word(brick, w);
         if (cells == 0) return;
-        for_each_cell(s.grid.bricks[brick], w, cells, [&](std::uint32_t block, int bit) {
-            s.level[block] = static_cast<std::uint8_t>(new_level(block));
-            for (int level = 1; level <= s.level[block]; ++level)
-                levels.at_least[level].word(brick, w) |= std::uint64_t{1} << bit;
-        });
+        raise_cells(levels, s.level.data(), brick, w, cells, new_level);
         mark_stale_around(s, brick, w, cells);
     });
     return true;

@@ -5,7 +5,7 @@
 
 #include <cooperative_groups.h>
 
-#include "engine/cuda/device_state.hpp"
+#include "engine/cuda/state.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/adjust_levels/adjust_levels.hpp"
 
@@ -14,7 +14,7 @@ namespace meniscus::cuda {
 /// The sweeps of one cooperative kernel. All threads of the grid must call all functions, in the same order.
 class Sweeps {
 public:
-    __device__ explicit Sweeps(const Frame& f)
+    __device__ explicit Sweeps(const State& f)
         : f_(f), levels_(f.level_sets()), words_(std::uint64_t{Brick::words} * levels_.at_least[1].grid.brick_count) {
         if (is_first_thread()) f_.counts->changed[0] = f_.counts->changed[1] = f_.counts->changed[2] = 0;
         wait();
@@ -81,25 +81,13 @@ private:
             const std::uint64_t cells = f_.raised[i];
             if (cells == 0) return;
             f_.raised[i] = 0;
-            const Brick& brick = f_.bricks[i / Brick::words];
-            std::uint64_t level2 = 0, level3 = 0;
-            for (std::uint64_t left = cells; left != 0; left &= left - 1) {
-                const std::uint64_t cell = left & (~left + 1);
-                const std::uint32_t block = brick.number(static_cast<int>(64 * (i % Brick::words)) + lowest_bit(left));
-                const int level = new_level(block);
-                f_.level[block] = static_cast<std::uint8_t>(level);
-                if (level >= 2) level2 |= cell;
-                if (level >= 3) level3 |= cell;
-            }
-            f_.at_least[1][i] |= cells;
-            f_.at_least[2][i] |= level2;
-            f_.at_least[3][i] |= level3;
+            raise_cells(levels_, f_.level, i / Brick::words, static_cast<int>(i % Brick::words), cells, new_level);
         });
         wait();
         return true;
     }
 
-    const Frame& f_;
+    const State& f_;
     LevelSets levels_;
     std::uint64_t words_;
     unsigned sweep_ = 0;

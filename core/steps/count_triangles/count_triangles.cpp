@@ -1,10 +1,11 @@
+// Step 5 on the CPU, and the order of the mesh.
 #include "steps/count_triangles/count_triangles.hpp"
 
 #include <algorithm>
 
-#include "engine/cpu/surface.hpp"
 #include "engine/cpu/words.hpp"
 #include "engine/numbering.hpp"
+#include "steps/cpu_steps.hpp"
 #include "steps/fill_cracks/fill_cracks.hpp"
 
 namespace meniscus::cpu {
@@ -13,7 +14,7 @@ namespace {
 constexpr std::size_t crack_level = static_cast<std::size_t>(TriangleLevel::crack);
 
 /// Leaves in brick_counts how many come before each brick's.
-void list_mixed_cells(Surface& s) {
+void list_mixed_cells(State& s) {
     const LevelSets levels = s.level_sets();
     const SignSets signs = s.sign_sets();
     const CellSetView mixed = s.chosen_cells();
@@ -38,7 +39,7 @@ void list_mixed_cells(Surface& s) {
 }
 
 /// The mesh's order: by level, by brick within a level, by base cell within a brick.
-void order_by_level_and_brick(Surface& s, Mesh& mesh) {
+void order_by_level_and_brick(State& s, Mesh& mesh) {
     const std::size_t bricks = s.grid.bricks.size();
     resize_for_overwrite(s.brick_triangles, bricks);
     const auto each_block = [&](std::size_t brick, const auto& visit) {
@@ -94,25 +95,25 @@ void order_by_level_and_brick(Surface& s, Mesh& mesh) {
 
 }  // namespace
 
-std::array<std::uint64_t, 3> count_band_cells(Surface& s) {
-    std::array<std::uint64_t, 3> of_at_least{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (const std::uint64_t cells : s.at_least[i]) of_at_least[i] += static_cast<std::uint64_t>(popcount(cells));
-    return {of_at_least[0] - of_at_least[1], of_at_least[1] - of_at_least[2], of_at_least[2]};
+std::array<std::uint64_t, 3> count_band_cells(State& s) {
+    std::array<std::uint64_t, 4> of_at_least{};
+    for (std::size_t level = 1; level <= 3; ++level)
+        for (const std::uint64_t cells : s.at_least[level]) of_at_least[level] += static_cast<std::uint64_t>(popcount(cells));
+    return {of_at_least[1] - of_at_least[2], of_at_least[2] - of_at_least[3], of_at_least[3]};
 }
 
-void count_triangles(Surface& s, Mesh& mesh) {
+void count_triangles(State& s, Mesh& mesh) {
     list_mixed_cells(s);
-    resize_for_overwrite(s.has_cracks, s.mixed_cells.size());
+    resize_for_overwrite(s.is_cracked, s.mixed_cells.size());
     const bool one_level = std::all_of(s.mixed_cells.begin(), s.mixed_cells.end(),
                                        [&](std::uint32_t b) { return s.level[b] == s.level[s.mixed_cells[0]]; });
-    const BlocksView blocks = s.view();
+    const BlocksView blocks = s.blocks();
     s.workers.for_ranges(s.mixed_cells.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t block = s.mixed_cells[i];
             s.slots[block] = {count_cell_triangles(blocks, block, cube_table.data()),
                               one_level ? 0 : count_crack_triangles(blocks, block, crack_table.data())};
-            s.has_cracks[i] = s.slots[block].cracks != 0 ? 1 : 0;
+            s.is_cracked[i] = s.slots[block].cracks != 0 ? 1 : 0;
         }
     });
     order_by_level_and_brick(s, mesh);

@@ -1,3 +1,4 @@
+// Step 5 on the GPU, and the order of the mesh.
 #include "steps/count_triangles/count_triangles.hpp"
 
 #include "engine/cuda/closed_cell.hpp"
@@ -8,7 +9,7 @@
 namespace meniscus::cuda {
 namespace {
 
-__global__ void __launch_bounds__(block_threads) list_band(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) list_band(const __grid_constant__ State f) {
     const BlocksView blocks = f.blocks();
     std::uint32_t band_cells[3] = {0, 0, 0};
     GridLoop{}.each_together(blocks.count, [&](std::uint32_t b, bool exists) {
@@ -17,7 +18,7 @@ __global__ void __launch_bounds__(block_threads) list_band(const __grid_constant
             band_cells[l - 1] += static_cast<std::uint32_t>(__popc(__ballot_sync(all_lanes, level == l ? 1 : 0)));
         const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(List::band)], level != 0 ? 1 : 0);
         if (level != 0)
-            f.band[at] = b;
+            f.band_cells[at] = b;
         else if (exists)
             f.triangles_before[b] = {};
     });
@@ -27,11 +28,11 @@ __global__ void __launch_bounds__(block_threads) list_band(const __grid_constant
 }
 
 /// One warp for every cell of the band.
-__global__ void __launch_bounds__(block_threads) count_cells(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) count_cells(const __grid_constant__ State f) {
     const BlocksView blocks = f.blocks();
     Counter total[3] = {0, 0, 0};
     each_by_warp(f.listed(List::band), [&](std::uint32_t i) {
-        const std::uint32_t block = f.band[i];
+        const std::uint32_t block = f.band_cells[i];
         const int level = blocks.level[block];
         const int stride = level_stride(level);
         const SubcellCorners corners = subcell_corners(blocks, block_of_lane(blocks, block), stride);
@@ -49,31 +50,61 @@ __global__ void __launch_bounds__(block_threads) count_cells(const __grid_consta
             if (total[l] != 0) atomicAdd(&f.counts->triangles[l], total[l]);
 }
 
-__global__ void __launch_bounds__(block_threads, 3) count_cracks(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads, 3) count_cracks(const __grid_constant__ State f) {
     const BlocksView blocks = f.blocks();
     constexpr int crack = static_cast<int>(TriangleLevel::crack);
     Counter total = 0;
     GridLoop{}.each_together(f.listed(List::band), [&](std::uint32_t i, bool exists) {
-        const std::uint32_t block = exists ? f.band[i] : 0;
+        const std::uint32_t block = exists ? f.band_cells[i] : 0;
         const std::uint32_t count = exists ? count_crack_triangles(blocks, block, f.crack_table) : 0;
         const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(List::cracks)], count != 0 ? 1 : 0);
         if (count == 0) return;
         f.triangles_before[block].of[crack] = count;
-        f.cracked[at] = block;
+        f.cracked_cells[at] = block;
         total += count;
     });
     add_of_lanes(&f.counts->triangles[crack], total);
 }
 
+/// The mesh's order: by level, by brick within a level. Every thread adds up the few levels for itself.
+__global__ void __launch_bounds__(block_threads) order_by_level_and_brick(const __grid_constant__ State f) {
+    Counter first[triangle_level_count];
+    Counter total = 0;
+    for (std::size_t level = 0; level < triangle_level_count; ++level) {
+        first[level] = total;
+        total += f.counts->triangles[level];
+    }
+    if (blockIdx.x == 0 && threadIdx.x == 0) {
+        for (std::size_t level = 0; level < triangle_level_count; ++level)
+            f.counts->first_triangle[level] = static_cast<std::uint32_t>(first[level]);
+        // Step 6 asks whether there is room, once vertices are counted, too.
+        f.counts->needed[static_cast<int>(Resource::triangles)] = total;
+    }
+    const std::uint32_t bricks = f.count(Resource::bricks);
+    const std::uint32_t blocks = f.count(Resource::blocks);
+    GridLoop{}.each(bricks, [&](std::uint32_t b) {
+        const LevelCounts begin = f.triangles_before[f.bricks[b].first];
+        const LevelCounts end = f.triangles_before[b + 1 < bricks ? f.bricks[b + 1].first : blocks];
+        const Int3 at = f.bricks[b].coordinate;
+        MeshBrick brick;
+        brick.coordinate = {at.x, at.y, at.z};
+        for (std::size_t level = 0; level < triangle_level_count; ++level)
+            brick.ranges[level] = {static_cast<std::uint32_t>(first[level]) + begin.of[level],
+                                   end.of[level] - begin.of[level]};
+        f.mesh_bricks[b] = brick;
+    });
+}
+
 }  // namespace
 
-void count_triangles(const Frame& frame, const Launcher& launch) {
-    const std::uint64_t blocks = frame.capacity[Resource::blocks];
-    launch(blocks, block_threads, list_band, frame);
-    launch(blocks, block_warps, count_cells, frame);
-    launch(blocks, block_threads, count_cracks, frame);
+void count_triangles(const State& state, const Launcher& launch) {
+    const std::uint64_t blocks = state.capacity[Resource::blocks];
+    launch(blocks, block_threads, list_band, state);
+    launch(blocks, block_warps, count_cells, state);
+    launch(blocks, block_threads, count_cracks, state);
     // Blocks are numbered brick by brick: one sum orders the mesh by brick and by cell within a brick, for all levels.
-    exclusive_sum(frame.scratch_memory(), frame.triangles_before, blocks + 1, launch.stream);
+    exclusive_sum(state.scratch_memory(), state.triangles_before, blocks + 1, launch.stream);
+    launch(state.capacity[Resource::bricks], block_threads, order_by_level_and_brick, state);
 }
 
 }  // namespace meniscus::cuda

@@ -1,11 +1,12 @@
+// Step 7 on the CPU.
 #include "steps/emit_triangles/emit_triangles.hpp"
 
-#include "engine/cpu/surface.hpp"
+#include "steps/cpu_steps.hpp"
 
 namespace meniscus::cpu {
 
-void emit_triangles(Surface& s, Mesh& mesh) {
-    const BlocksView blocks = s.view();
+void emit_triangles(State& s, Mesh& mesh) {
+    const BlocksView blocks = s.blocks();
     s.workers.for_ranges(s.mixed_cells.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i)
             emit_cell_triangles(blocks, s.mixed_cells[i], cube_table.data(),

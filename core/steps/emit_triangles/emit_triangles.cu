@@ -1,3 +1,4 @@
+// Step 7 on the GPU.
 #include "steps/emit_triangles/emit_triangles.hpp"
 
 #include "engine/cuda/closed_cell.hpp"
@@ -8,12 +9,12 @@ namespace meniscus::cuda {
 namespace {
 
 /// One warp for every cell of the band, one lane for every subcell.
-__global__ void __launch_bounds__(block_threads, 3) emit_cells(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads, 3) emit_cells(const __grid_constant__ State f) {
     __shared__ ClosedCell shared[block_warps];
     ClosedCell& cell = shared[warp_in_block()];
     const BlocksView blocks = f.blocks();
     each_by_warp(f.listed(List::band), [&](std::uint32_t i) {
-        const std::uint32_t block = f.band[i];
+        const std::uint32_t block = f.band_cells[i];
         const int level = blocks.level[block];
         const int stride = level_stride(level);
         const std::uint32_t own = block_of_lane(blocks, block);
@@ -40,8 +41,8 @@ __global__ void __launch_bounds__(block_threads, 3) emit_cells(const __grid_cons
 
 }  // namespace
 
-void emit_triangles(const Frame& frame, const Launcher& launch) {
-    launch(frame.capacity[Resource::blocks], block_warps, emit_cells, frame);
+void emit_triangles(const State& state, const Launcher& launch) {
+    launch(state.capacity[Resource::blocks], block_warps, emit_cells, state);
 }
 
 }  // namespace meniscus::cuda

@@ -1,14 +1,15 @@
+// Algorithm 3 on the CPU.
 #include "steps/fill_cracks/fill_cracks.hpp"
 
-#include "engine/cpu/surface.hpp"
+#include "steps/cpu_steps.hpp"
 
 namespace meniscus::cpu {
 
-void fill_cracks(Surface& s, Mesh& mesh) {
-    const BlocksView blocks = s.view();
+void fill_cracks(State& s, Mesh& mesh) {
+    const BlocksView blocks = s.blocks();
     s.workers.for_ranges(s.mixed_cells.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i)
-            if (s.has_cracks[i] != 0) {
+            if (s.is_cracked[i] != 0) {
                 const std::uint32_t block = s.mixed_cells[i];
                 emit_crack_triangles(blocks, block, ClosedCell(blocks, block), crack_table.data(),
                                      mesh.triangles.data() + s.slots[block].cracks);

@@ -1,3 +1,4 @@
+// Step 6 on the CPU: the vertices of a block side by side in lanes.
 #include "steps/place_vertices/place_vertices.hpp"
 
 #include <algorithm>
@@ -7,10 +8,10 @@
 
 #include "engine/cpu/block_points.hpp"
 #include "engine/cpu/clusters.hpp"
-#include "engine/cpu/surface.hpp"
 #include "engine/cpu/words.hpp"
 #include "engine/numbering.hpp"
 #include "field/lanes.hpp"
+#include "steps/cpu_steps.hpp"
 
 namespace meniscus::cpu {
 namespace {
@@ -105,21 +106,18 @@ void list_points(const BlockVertices& vertices, std::uint32_t bits, PointList& p
     points.count = vertices.count;
 }
 
-/// The paper's bisection, on the finest edge: the halves of coarse edges have been chosen by the samples already.
 void bisect(FieldSource& field, const Int3& at, const BlocksView& blocks, std::uint32_t block,
             const LatticeSettings& settings, unsigned worker, BlockVertices& vertices) {
     PointList points;
     alignas(32) float values[max_points];
-    const int whole = 1 << settings.offset_bits;
-    const int middle = whole / 2;
-    for (std::size_t i = 0; i < vertices.count; ++i) vertices.offset[i] = static_cast<float>(middle);
-    // Every step moves to the middle of the half that still has a change of sign.
-    for (int half = whole / 4; half >= 1; half /= 2) {
+    const int bits = static_cast<int>(settings.offset_bits);
+    for (std::size_t i = 0; i < vertices.count; ++i) vertices.offset[i] = bisection_start(bits);
+    for (int step = first_bisection_step(bits); step >= 1; step /= 2) {
         list_points(vertices, settings.offset_bits, points);
         field.values(at, points, values, worker);
         for (std::size_t i = 0; i < vertices.count; ++i) {
-            const bool same_as_low = (values[i] > settings.iso) == is_low_inside(blocks, block, vertices, i);
-            vertices.offset[i] += static_cast<float>(same_as_low ? half : -half);
+            vertices.offset[i] = bisected_offset(vertices.offset[i], step, values[i] > settings.iso,
+                                                 is_low_inside(blocks, block, vertices, i));
         }
     }
 }
@@ -142,20 +140,14 @@ void write_normals(const BlocksView& blocks, std::uint32_t block, const LatticeS
         }
 }
 
-/// The points' places in steps of c / 2^bits.
-void write_positions(const Int3& at, std::uint32_t bits, const PointList& points, LatticePosition* out) {
-    const int steps_per_base_cell = base_cell_size << bits;
-    const Int3 corner{at.x * steps_per_base_cell, at.y * steps_per_base_cell, at.z * steps_per_base_cell};
-    const auto steps_per_unit = 1.0F / static_cast<float>(units_per_cell >> bits);
+void write_positions(const Int3& at, int bits, const PointList& points, LatticePosition* out) {
     for (std::size_t i = 0; i < points.count; ++i)
-        out[i] = {corner.x + static_cast<int>(points.x[i] * steps_per_unit),
-                  corner.y + static_cast<int>(points.y[i] * steps_per_unit),
-                  corner.z + static_cast<int>(points.z[i] * steps_per_unit)};
+        out[i] = lattice_position(at, bits, points.x[i], points.y[i], points.z[i]);
 }
 
 /// Chooses the blocks with vertices.
-void number_vertices(Surface& s, bool with_normals, Mesh& mesh) {
-    const BlocksView blocks = s.view();
+void number_vertices(State& s, Mesh& mesh) {
+    const BlocksView blocks = s.blocks();
     const LevelSets levels = s.level_sets();
     const SignSets signs = s.sign_sets();
     const CellSetView chosen = s.chosen_cells();
@@ -193,14 +185,14 @@ void number_vertices(Surface& s, bool with_normals, Mesh& mesh) {
     });
     require_numbers(count, "the surface has", "vertices");
     resize_for_overwrite(mesh.vertices, count);
-    resize_for_overwrite(mesh.normals, with_normals ? count : 0);
+    resize_for_overwrite(mesh.normals, s.settings.has_normals ? count : 0);
 }
 
 }  // namespace
 
-void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& mesh) {
-    number_vertices(s, user.normals, mesh);
-    const BlocksView blocks = s.view();
+void place_vertices(State& s, FieldSource& field, Mesh& mesh) {
+    number_vertices(s, mesh);
+    const BlocksView blocks = s.blocks();
     std::atomic<std::uint64_t> evaluations{0};
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         BlockVertices vertices;
@@ -211,15 +203,16 @@ void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& 
         const auto place_block = [&](std::uint32_t block) {
             find_vertices(blocks, block, vertices);
             const Int3 at = blocks.coordinate(block);
-            if (user.edge_points == EdgePoints::bisect) {
+            if (s.settings.bisects) {
                 bisect(field, at, blocks, block, s.settings, worker, vertices);
-                evaluations.fetch_add(vertices.count * user.bisection_steps, std::memory_order_relaxed);
+                evaluations.fetch_add(vertices.count * s.settings.bisection_steps, std::memory_order_relaxed);
             } else {
                 interpolate(blocks, block, s.settings, vertices);
             }
             list_points(vertices, s.settings.offset_bits, points);
-            write_positions(at, s.settings.offset_bits, points, mesh.vertices.data() + s.first_vertex[block]);
-            if (!user.normals) return;
+            write_positions(at, static_cast<int>(s.settings.offset_bits), points,
+                            mesh.vertices.data() + s.first_vertex[block]);
+            if (!s.settings.has_normals) return;
             field.normals(at, points, nx, ny, nz, worker);
             write_normals(blocks, block, s.settings, vertices, nx, ny, nz, mesh.normals.data() + s.first_vertex[block]);
         };

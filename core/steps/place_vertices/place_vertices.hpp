@@ -107,6 +107,29 @@ MENISCUS_HD inline F interpolated_offset(F low, F high, float iso, int bits) {
     return max(min(nearest, F(static_cast<float>((1 << bits) - 1))), F(1.0F));
 }
 
+/// The paper's bisection, in steps of c / 2^bits: the first point tried on a finest edge is its middle. The halves of
+/// coarse edges have been chosen by the samples already.
+MENISCUS_HD inline float bisection_start(int bits) {
+    return static_cast<float>((1 << bits) / 2);
+}
+/// How far the second point lies from the first; each further one half as far, down to 1.
+MENISCUS_HD inline int first_bisection_step(int bits) {
+    return (1 << bits) / 4;
+}
+/// The next point: the middle of the half that still has a change of sign. inside: whether the last point is.
+MENISCUS_HD inline float bisected_offset(float offset, int step, bool inside, bool low_inside) {
+    return offset + static_cast<float>(inside == low_inside ? step : -step);
+}
+
+/// A point in units from a base cell's corner, a whole number of steps of c / 2^bits, on the refined lattice.
+MENISCUS_HD inline LatticePosition lattice_position(const Int3& base_cell, int bits, float x, float y, float z) {
+    const int steps_per_base_cell = base_cell_size << bits;
+    const float steps_per_unit = 1.0F / static_cast<float>(units_per_cell >> bits);
+    return {base_cell.x * steps_per_base_cell + static_cast<int>(x * steps_per_unit),
+            base_cell.y * steps_per_base_cell + static_cast<int>(y * steps_per_unit),
+            base_cell.z * steps_per_base_cell + static_cast<int>(z * steps_per_unit)};
+}
+
 /// The field's normal, or along the edge where the domain's border or a vanishing gradient leaves none.
 MENISCUS_HD inline Normal outward_normal(const Normal& of_field, bool cropped, int axis, bool low_inside) {
     const float sum = of_field[0] + of_field[1] + of_field[2];

@@ -1,80 +1,52 @@
-#include "particles/particle_sets.hpp"
+// Step 1 on the CPU: particles are sorted as keys and read back from them.
+#include "steps/register_particles/register_particles.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "engine/cpu/words.hpp"
+#include "engine/numbering.hpp"
+#include "particles/positions.hpp"
+#include "steps/cpu_steps.hpp"
+#include "steps/register_particles/crowd.hpp"
 
 namespace meniscus::cpu {
-ParticleSet::ParticleSet(const std::shared_ptr<MemoryAccount>& account)
-    : cells(account),
-      keys(make_array<ParticleKey>(account)),
-      first(make_array<std::uint32_t>(account)),
-      cell_keys(make_array<std::uint64_t>(account)),
-      x(make_array<float>(account)),
-      y(make_array<float>(account)),
-      z(make_array<float>(account)),
-      weight(make_array<float>(account)),
-      densities(make_array<float>(account)) {}
+namespace {
 
-ParticleSets::ParticleSets(const std::shared_ptr<MemoryAccount>& account, Workers& workers,
-                           const LatticeSettings& settings)
-    : workers_(workers),
-      settings_(settings),
-      scan_(account),
-      sets_{ParticleSet(account), ParticleSet(account), ParticleSet(account), ParticleSet(account)},
-      reached_bricks_(make_array<std::uint64_t>(account)) {
-    for (unsigned k = 0; k < particle_level_count; ++k) {
-        sets_[k].support = settings.support[k];
-        sets_[k].cell_units = support_cell_units(static_cast<std::int64_t>(std::ceil(settings.support[k])));
-    }
-}
-
-void ParticleSets::assign(const ParticleFrame& frame) {
-    for (unsigned k = 0; k < particle_level_count; ++k) {
-        sort(frame, k);
-        build_cells(sets_[k]);
-    }
-    std::uint64_t crowd = 0;
-    for (const ParticleSet& set : sets_)
-        for (std::uint32_t cell = 0; cell < set.cells.members; ++cell) {
-            const std::uint64_t particles = set.first[cell + 1] - set.first[cell];
-            crowd += particles * particles;
-        }
-    require_uncrowded(crowd, frame.count(), settings_);
-}
-
-void ParticleSets::sort(const ParticleFrame& frame, unsigned level) {
-    ParticleSet& set = sets_[level];
-    const PositionsView positions = positions_view(frame, settings_.units_per_length);
+/// Those of one level.
+void sort_particles(ParticleSets& sets, const ParticleFrame& frame, unsigned level) {
+    ParticleSet& set = sets[level];
+    const PositionsView positions = positions_view(frame, sets.settings.units_per_length);
     const auto write = [&](std::size_t i, std::size_t at) {
         set.keys[at] = particle_key(positions.snapped(i), set.cell_units);
     };
     if (frame.levels.empty()) {
         resize_for_overwrite(set.keys, level == 0 ? frame.count() : 0);
-        workers_.for_ranges(set.keys.size(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
+        sets.workers.for_ranges(set.keys.size(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
             for (std::size_t i = begin; i < end; ++i) write(i, i);
         });
     } else {
         const auto belongs = [&](std::size_t i) -> std::uint64_t { return frame.levels[i] == level ? 1 : 0; };
         const auto count = static_cast<std::size_t>(std::count(frame.levels.begin(), frame.levels.end(), level));
         resize_for_overwrite(set.keys, count);
-        scan_.exclusive(workers_, frame.count(), belongs, [&](std::size_t i, std::uint64_t at) {
+        sets.scan.exclusive(sets.workers, frame.count(), belongs, [&](std::size_t i, std::uint64_t at) {
             if (belongs(i) != 0) write(i, at);
         });
     }
-    workers_.sort(set.keys.data(), set.keys.data() + set.keys.size(), std::less<>());
+    sets.workers.sort(set.keys.data(), set.keys.data() + set.keys.size(), std::less<>());
     for (Array<float>* a : {&set.x, &set.y, &set.z, &set.weight}) {
         resize_for_overwrite(*a, set.count() + Lanes::count);
         std::fill(a->end() - Lanes::count, a->end(), 0.0F);
     }
-    workers_.for_ranges(set.count(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
+    sets.workers.for_ranges(set.count(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {
             key_position(set.keys[i], set.cell_units, set.x[i], set.y[i], set.z[i]);
-            set.weight[i] = settings_.weight;
+            set.weight[i] = sets.settings.weight;
         }
     });
 }
 
-void ParticleSets::build_cells(ParticleSet& set) {
+/// The support cells of a sorted set.
+void store_support_cells(ParticleSets& sets, ParticleSet& set) {
     const auto& keys = set.keys;
     const auto starts_cell = [&](std::size_t i) -> std::uint64_t {
         return i == 0 || keys[i].cell != keys[i - 1].cell ? 1 : 0;
@@ -82,7 +54,7 @@ void ParticleSets::build_cells(ParticleSet& set) {
     resize_for_overwrite(set.first, keys.size() + 1);
     resize_for_overwrite(set.cell_keys, keys.size());
     const std::uint64_t cells =
-        scan_.exclusive(workers_, keys.size(), starts_cell, [&](std::size_t i, std::uint64_t at) {
+        sets.scan.exclusive(sets.workers, keys.size(), starts_cell, [&](std::size_t i, std::uint64_t at) {
             if (starts_cell(i) == 0) return;
             set.first[at] = static_cast<std::uint32_t>(i);
             set.cell_keys[at] = keys[i].cell;
@@ -113,11 +85,22 @@ void ParticleSets::build_cells(ParticleSet& set) {
     set.cells.members = members;
 }
 
-void ParticleSets::mark_reached_cells(BrickGrid& grid) {
+void require_uncrowded(const ParticleSets& sets, std::uint64_t particles) {
+    std::uint64_t crowd = 0;
+    for (const ParticleSet& set : sets.of_level)
+        for (std::uint32_t cell = 0; cell < set.cells.members; ++cell) {
+            const std::uint64_t in_cell = set.first[cell + 1] - set.first[cell];
+            crowd += in_cell * in_cell;
+        }
+    if (is_crowded(crowd, particles, sets.settings)) throw_crowded(crowd, particles);
+}
+
+/// Fills `grid` with the base cells that a particle's support reaches; numbers stay to be given.
+void mark_reached_cells(ParticleSets& sets, BrickGrid& grid) {
     // Every brick that a support cell's particles may reach, each once.
     constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
-    reached_bricks_.clear();
-    for (const ParticleSet& set : sets_) {
+    sets.reached_bricks.clear();
+    for (const ParticleSet& set : sets.of_level) {
         ReachedBricks last;
         for (std::size_t i = 0; i < set.cell_keys.size(); ++i) {
             const ReachedBricks reached = reached_bricks(set.cell_keys[i], set.cell_units, set.support);
@@ -127,37 +110,42 @@ void ParticleSets::mark_reached_cells(BrickGrid& grid) {
             Int3 c;
             for (c.z = low.z; c.z <= high.z; ++c.z)
                 for (c.y = low.y; c.y <= high.y; ++c.y)
-                    for (c.x = low.x; c.x <= high.x; ++c.x) reached_bricks_.push_back(brick_key(c));
+                    for (c.x = low.x; c.x <= high.x; ++c.x) sets.reached_bricks.push_back(brick_key(c));
         }
     }
-    std::sort(reached_bricks_.begin(), reached_bricks_.end());
-    reached_bricks_.erase(std::unique(reached_bricks_.begin(), reached_bricks_.end()), reached_bricks_.end());
+    std::sort(sets.reached_bricks.begin(), sets.reached_bricks.end());
+    sets.reached_bricks.erase(std::unique(sets.reached_bricks.begin(), sets.reached_bricks.end()),
+                              sets.reached_bricks.end());
 
-    resize_for_overwrite(grid.bricks, reached_bricks_.size());
-    resize_for_overwrite(grid.keys, reached_bricks_.size());
-    workers_.for_ranges(reached_bricks_.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+    resize_for_overwrite(grid.bricks, sets.reached_bricks.size());
+    resize_for_overwrite(grid.keys, sets.reached_bricks.size());
+    sets.workers.for_ranges(sets.reached_bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {
             Brick& brick = grid.bricks[i];
-            grid.keys[i] = reached_bricks_[i];
-            brick.coordinate = brick_coordinate(reached_bricks_[i]);
+            grid.keys[i] = sets.reached_bricks[i];
+            brick.coordinate = brick_coordinate(sets.reached_bricks[i]);
             brick.clear();
             const Units3 origin{brick.coordinate.x * edge, brick.coordinate.y * edge, brick.coordinate.z * edge};
             const auto size = static_cast<float>(edge);
-            for (const ParticleSet& set : sets_)
+            for (const ParticleSet& set : sets.of_level)
                 set.view().for_each_near(
                     origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
                     [&](float x, float y, float z) { mark_reached(BrickMarks{brick}, x, y, z, set.support); });
-            if (!settings_.has_domain) continue;
+            if (!sets.settings.has_domain) continue;
             for (int w = 0; w < Brick::words; ++w)
-                brick.occupied[w] &= word_in_domain(brick.coordinate, w, settings_.domain_low, settings_.domain_high);
+                brick.occupied[w] &=
+                    word_in_domain(brick.coordinate, w, sets.settings.domain_low, sets.settings.domain_high);
         }
     });
 }
 
-void ParticleSets::count_per_cell(const BrickGrid& grid, Array<std::uint32_t>& counts) {
+/// Particles of level 0 in every stored base cell.
+void count_particles(State& s, const ParticleSets& sets) {
+    const BrickGrid& grid = s.grid;
+    Array<std::uint32_t>& counts = s.particle_counts;
     resize_for_overwrite(counts, grid.members);
-    const ParticleSet& set = sets_[0];
-    workers_.for_ranges(grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+    const ParticleSet& set = sets[0];
+    s.workers.for_ranges(grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {
             const Brick& brick = grid.bricks[i];
             const std::uint32_t last = i + 1 < grid.bricks.size() ? grid.bricks[i + 1].first : grid.members;
@@ -175,6 +163,73 @@ void ParticleSets::count_per_cell(const BrickGrid& grid, Array<std::uint32_t>& c
             });
         }
     });
+}
+
+}  // namespace
+
+void number_members(BrickGrid& grid, Workers& workers) {
+    std::uint64_t total = 0;
+    for (Brick& b : grid.bricks) {
+        b.first = static_cast<std::uint32_t>(total);
+        total += b.count();
+        require_numbers(total, "the frame reaches", "base cells");
+    }
+    grid.members = static_cast<std::uint32_t>(total);
+    resize_for_overwrite(grid.neighbors, grid.bricks.size());
+    const BrickGridView view = grid.view();
+    workers.for_ranges(grid.bricks.size(), 64, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t b = begin; b < end; ++b) {
+            const Int3 at = grid.bricks[b].coordinate;
+            for (int i = 0; i < neighbor_slots; ++i) grid.neighbors[b].brick[i] = view.find(at + neighbor_offset(i));
+        }
+    });
+}
+
+void store_blocks(State& s) {
+    const std::size_t n = s.block_count();
+    resize_for_overwrite(s.brick, n);
+    resize_for_overwrite(s.place, n);
+    resize_for_overwrite(s.level, n);
+    resize_for_overwrite(s.sampled, n);
+    resize_for_overwrite(s.inside, n);
+    resize_for_overwrite(s.wanted_points, n);
+    resize_for_overwrite(s.first_sample, n);
+    resize_for_overwrite(s.edges, n);
+    resize_for_overwrite(s.first_vertex, n);
+    resize_for_overwrite(s.slots, n);
+    // Passes do not write the words without a member.
+    for (auto* set : {&s.any_inside, &s.all_inside, &s.chosen}) set->assign(s.grid.bricks.size() * Brick::words, 0);
+    s.samples.clear();
+    s.field_evaluations = 0;
+    s.workers.for_ranges(s.grid.bricks.size(), 4, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t b = begin; b < end; ++b) {
+            const Brick& brick = s.grid.bricks[b];
+            std::uint32_t block = brick.first;
+            for (int w = 0; w < Brick::words; ++w)
+                for (std::uint64_t left = brick.occupied[w]; left != 0; left &= left - 1, ++block) {
+                    s.brick[block] = static_cast<std::uint32_t>(b);
+                    s.place[block] = static_cast<std::uint16_t>(64 * w + lowest_bit(left));
+                    s.level[block] = 0;
+                    s.sampled[block] = 0;
+                    s.inside[block] = 0;
+                    s.first_sample[block] = 0;
+                }
+        }
+    });
+}
+
+void register_particles(State& s, ParticleSets& sets, Neighborhoods& near, const ParticleFrame& frame) {
+    for (unsigned k = 0; k < particle_level_count; ++k) {
+        sort_particles(sets, frame, k);
+        store_support_cells(sets, sets[k]);
+    }
+    require_uncrowded(sets, frame.count());
+    mark_reached_cells(sets, s.grid);
+    number_members(s.grid, s.workers);
+    store_blocks(s);
+    if (s.settings.counts_particles) count_particles(s, sets);
+    near.forget();
+    if (s.settings.divides_by_density) divide_weights_by_density(sets, near);
 }
 
 }  // namespace meniscus::cpu

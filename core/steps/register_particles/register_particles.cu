@@ -1,38 +1,17 @@
+// Step 1 on the GPU: particles are sorted as keys and read back from them.
 #include "steps/register_particles/register_particles.hpp"
 
 #include <utility>
 
-#include "engine/cuda/candidates.hpp"
+#include "engine/cuda/sort_key.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
+#include "steps/register_particles/crowd.hpp"
 
 namespace meniscus::cuda {
 namespace {
 
-constexpr int place_bits = 3 * place_axis_bits;
-constexpr int cell_bits = 3 * brick_axis_bits + brick_index_bits;
-static_assert(place_bits + cell_bits + 2 == 128);
-
-/// After every key of a particle, whose places in its cell do not use all bits.
-constexpr SortKey no_key = ~SortKey{0};
-
-__device__ SortKey sort_key(unsigned level, const ParticleKey& key) {
-    return (SortKey{level} << cell_bits | key.cell) << place_bits | key.place;
-}
-__device__ unsigned key_level(SortKey key) {
-    return static_cast<unsigned>(key >> (place_bits + cell_bits));
-}
-__device__ ParticleKey particle_key(SortKey key) {
-    constexpr std::uint64_t place_mask = (std::uint64_t{1} << place_bits) - 1;
-    constexpr std::uint64_t cell_mask = (std::uint64_t{1} << cell_bits) - 1;
-    return {static_cast<std::uint64_t>(key >> place_bits) & cell_mask, static_cast<std::uint64_t>(key) & place_mask};
-}
-
-__device__ std::uint32_t particle_count(const Frame& f) {
-    return f.counts->overflow != 0 ? 0 : f.input->particles;
-}
-
-__global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant__ State f) {
     const std::uint32_t n = f.input->particles;
     GridLoop{}.each(f.capacity.particles, [&](std::uint32_t i) {
         if (i >= n) {
@@ -41,7 +20,7 @@ __global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant
         }
         const unsigned level = f.input->levels == nullptr ? 0 : f.input->levels[i];
         f.unsorted_keys[i] =
-            sort_key(level, meniscus::particle_key(f.input->positions.snapped(i), f.cell_units[level]));
+            sort_key(level, meniscus::particle_key(f.input->positions.snapped(i), f.settings.cell_units[level]));
     });
 }
 
@@ -54,7 +33,7 @@ struct Begins {
                 keys[i] >> (place_bits + brick_index_bits) != keys[i - 1] >> (place_bits + brick_index_bits)) {}
 };
 
-__global__ void __launch_bounds__(block_threads) mark_starts(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) mark_starts(const __grid_constant__ State f) {
     const std::uint32_t n = f.input->particles;
     GridLoop{}.each(n, [&](std::uint32_t i) {
         const Begins begins(f.keys, i);
@@ -62,14 +41,14 @@ __global__ void __launch_bounds__(block_threads) mark_starts(const __grid_consta
     });
 }
 
-__global__ void __launch_bounds__(block_threads) store_particles(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) store_particles(const __grid_constant__ State f) {
     const std::uint32_t n = f.input->particles;
     const std::uint64_t most_bricks = f.capacity[Resource::particle_bricks];
     GridLoop{}.each(n, [&](std::uint32_t i) {
         const unsigned level = key_level(f.keys[i]);
         const ParticleKey key = particle_key(f.keys[i]);
         float4 p{0.0F, 0.0F, 0.0F, f.settings.weight};
-        key_position(key, f.cell_units[level], p.x, p.y, p.z);
+        key_position(key, f.settings.cell_units[level], p.x, p.y, p.z);
         f.particles[i] = p;
 
         const Begins begins(f.keys, i);
@@ -99,11 +78,11 @@ __global__ void __launch_bounds__(block_threads) store_particles(const __grid_co
     });
 }
 
-__global__ void __launch_bounds__(block_threads) count_support_cells(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) count_support_cells(const __grid_constant__ State f) {
     GridLoop{}.each(f.count(Resource::particle_bricks), [&](std::uint32_t b) { f.particle_bricks[b].count(); });
 }
 
-__global__ void __launch_bounds__(block_threads) measure_crowd(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) measure_crowd(const __grid_constant__ State f) {
     Counter crowd = 0;
     GridLoop{}.each_together(f.counts->particle_cells, [&](std::uint32_t cell, bool exists) {
         const Counter particles = exists ? f.first_particle[cell + 1] - f.first_particle[cell] : 0;
@@ -113,39 +92,17 @@ __global__ void __launch_bounds__(block_threads) measure_crowd(const __grid_cons
 }
 
 /// One thread: a crowded frame ends here, before it takes long.
-__global__ void stop_if_crowded(const __grid_constant__ Frame f) {
+__global__ void stop_if_crowded(const __grid_constant__ State f) {
     if (blockIdx.x == 0 && threadIdx.x == 0 && is_crowded(f.counts->crowd, f.input->particles, f.settings))
-        f.counts->overflow = 1;
+        f.counts->stop = Stop::crowded;
 }
 
-/// The value of the density field at a particle is the sum of the weights that it will divide: all are computed before
-/// any is.
-__global__ void __launch_bounds__(block_threads, 3) measure_densities(const __grid_constant__ Frame f) {
-    GridLoop{}.each(particle_count(f), [&](std::uint32_t i) {
-        const unsigned level = key_level(f.keys[i]);
-        const ParticleKey key = particle_key(f.keys[i]);
-        const Units3 origin = cell_corner(key.cell, f.cell_units[level]);
-        constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
-        const float x[1] = {static_cast<float>(key.place & mask)},
-                    y[1] = {static_cast<float>(key.place >> place_axis_bits & mask)},
-                    z[1] = {static_cast<float>(key.place >> (2 * place_axis_bits))};
-        float sum[1] = {0.0F};
-        for_each_candidate(f, origin, {{x[0], y[0], z[0]}, {x[0], y[0], z[0]}},
-                           [&](const OneCandidate& c) { sum_values<1>(c.view(), x, y, z, sum); });
-        f.densities[i] = sum[0];
-    });
-}
-
-__global__ void __launch_bounds__(block_threads) divide_weights(const __grid_constant__ Frame f) {
-    GridLoop{}.each(particle_count(f), [&](std::uint32_t i) { f.particles[i].w /= f.densities[i]; });
-}
-
-__global__ void __launch_bounds__(block_threads) list_reached_bricks(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) list_reached_bricks(const __grid_constant__ State f) {
     const std::uint64_t room = f.capacity[Resource::reached_bricks];
     const auto reached_by = [&](std::uint32_t cell) {
         const SortKey key = f.keys[f.first_particle[cell]];
         const unsigned level = key_level(key);
-        return reached_bricks(particle_key(key).cell, f.cell_units[level], f.settings.support[level]);
+        return reached_bricks(particle_key(key).cell, f.settings.cell_units[level], f.settings.support[level]);
     };
     GridLoop{}.each_together(f.counts->particle_cells, [&](std::uint32_t cell, bool exists) {
         ReachedBricks reached;
@@ -167,20 +124,20 @@ __global__ void __launch_bounds__(block_threads) list_reached_bricks(const __gri
 constexpr std::uint64_t no_brick = ~std::uint64_t{0};
 
 /// The sorted keys that may name a brick.
-__device__ std::uint64_t reached_key_count(const Frame& f) {
+__device__ std::uint64_t reached_key_count(const State& f) {
     const std::uint64_t listed = f.counts->needed[static_cast<int>(Resource::reached_bricks)];
     return listed < f.capacity[Resource::reached_bricks] ? listed : f.capacity[Resource::reached_bricks];
 }
 
-__device__ bool is_first_of_key(const Frame& f, std::uint32_t i) {
+__device__ bool is_first_of_key(const State& f, std::uint32_t i) {
     return f.reached_keys[i] != no_brick && (i == 0 || f.reached_keys[i] != f.reached_keys[i - 1]);
 }
 
-__global__ void __launch_bounds__(block_threads) mark_first_keys(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) mark_first_keys(const __grid_constant__ State f) {
     GridLoop{}.each(reached_key_count(f), [&](std::uint32_t i) { f.first_of_key[i] = is_first_of_key(f, i) ? 1 : 0; });
 }
 
-__global__ void __launch_bounds__(block_threads) store_bricks(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) store_bricks(const __grid_constant__ State f) {
     const std::uint64_t keys = reached_key_count(f);
     GridLoop{}.each(keys, [&](std::uint32_t i) {
         const std::uint32_t brick = f.first_of_key[i];
@@ -209,7 +166,7 @@ struct SharedMarks {
 };
 
 /// A block of threads for every brick: its warps share the runs of particles near it.
-__global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __grid_constant__ State f) {
     __shared__ unsigned halves[2 * Brick::words];
     const SharedMarks marks{halves};
     const std::uint32_t bricks = f.count(Resource::bricks);
@@ -248,7 +205,7 @@ __global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __g
     }
 }
 
-__global__ void __launch_bounds__(block_threads) number_members(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) number_members(const __grid_constant__ State f) {
     const std::uint32_t bricks = f.count(Resource::bricks);
     GridLoop{}.each(bricks, [&](std::uint32_t b) {
         f.bricks[b].first = static_cast<std::uint32_t>(f.members_before[b]);
@@ -256,7 +213,7 @@ __global__ void __launch_bounds__(block_threads) number_members(const __grid_con
     });
 }
 
-__global__ void __launch_bounds__(block_threads) find_neighbors(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) find_neighbors(const __grid_constant__ State f) {
     const BrickGridView grid = f.grid();
     GridLoop{}.each(std::uint64_t{neighbor_slots} * grid.brick_count, [&](std::uint32_t i) {
         const std::uint32_t b = i / neighbor_slots;
@@ -266,7 +223,7 @@ __global__ void __launch_bounds__(block_threads) find_neighbors(const __grid_con
 }
 
 /// One thread for every word of a brick.
-__global__ void __launch_bounds__(block_threads) store_blocks(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) make_blocks(const __grid_constant__ State f) {
     GridLoop{}.each(std::uint64_t{Brick::words} * f.count(Resource::bricks), [&](std::uint32_t i) {
         const std::uint32_t b = i / Brick::words;
         const int w = static_cast<int>(i % Brick::words);
@@ -284,12 +241,12 @@ __global__ void __launch_bounds__(block_threads) store_blocks(const __grid_const
 }
 
 /// Particles of level 0 in every stored base cell.
-__global__ void __launch_bounds__(block_threads) count_particles(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) count_particles(const __grid_constant__ State f) {
     const BrickGridView grid = f.grid();
-    GridLoop{}.each(particle_count(f), [&](std::uint32_t i) {
+    GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
         if (key_level(f.keys[i]) != 0) return;
         const ParticleKey key = particle_key(f.keys[i]);
-        const Units3 corner = cell_corner(key.cell, f.cell_units[0]);
+        const Units3 corner = cell_corner(key.cell, f.settings.cell_units[0]);
         constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
         const auto cell = [&](std::int64_t low, std::uint64_t in_cell) {
             return static_cast<std::int32_t>(
@@ -304,7 +261,7 @@ __global__ void __launch_bounds__(block_threads) count_particles(const __grid_co
     });
 }
 
-void sort_particles(Frame& f, const Launcher& launch) {
+void sort_particles(State& f, const Launcher& launch) {
     const std::uint64_t n = f.capacity.particles;
     launch(n, block_threads, make_keys, f);
     if (sort(f.scratch_memory(), f.unsorted_keys, f.keys, n, launch.stream) != f.keys)
@@ -319,7 +276,7 @@ void sort_particles(Frame& f, const Launcher& launch) {
     launch(1, block_threads, stop_if_crowded, f);
 }
 
-void store_reached_cells(Frame& f, const Launcher& launch) {
+void store_reached_bricks(State& f, const Launcher& launch) {
     const std::uint64_t keys = f.capacity[Resource::reached_bricks];
     const std::uint64_t bricks = f.capacity[Resource::bricks];
     check(cudaMemsetAsync(f.unsorted_reached_keys, 0xFF, keys * sizeof(std::uint64_t), launch.stream),
@@ -331,22 +288,24 @@ void store_reached_cells(Frame& f, const Launcher& launch) {
     exclusive_sum(f.scratch_memory(), f.first_of_key, keys + 1, launch.stream);
     launch(keys, block_threads, store_bricks, f);
     launch(bricks, 1, mark_reached_cells, f);
-    exclusive_sum(f.scratch_memory(), f.members_before, bricks + 1, launch.stream);
-    launch(bricks, block_threads, number_members, f);
-    launch(27 * bricks, block_threads, find_neighbors, f);
-    launch(Brick::words * bricks, block_threads, store_blocks, f);
 }
 
 }  // namespace
 
-void register_particles(Frame& frame, const Settings& user, const Launcher& launch) {
-    sort_particles(frame, launch);
-    store_reached_cells(frame, launch);
-    if (user.mode == Mode::adaptive && user.criterion == Criterion::count)
-        launch(frame.capacity.particles, block_threads, count_particles, frame);
-    if (user.field != Field::color) return;
-    launch(frame.capacity.particles, block_threads, measure_densities, frame);
-    launch(frame.capacity.particles, block_threads, divide_weights, frame);
+void store_blocks(const State& state, const Launcher& launch) {
+    const std::uint64_t bricks = state.capacity[Resource::bricks];
+    exclusive_sum(state.scratch_memory(), state.members_before, bricks + 1, launch.stream);
+    launch(bricks, block_threads, number_members, state);
+    launch(neighbor_slots * bricks, block_threads, find_neighbors, state);
+    launch(Brick::words * bricks, block_threads, make_blocks, state);
+}
+
+void register_particles(State& state, const Launcher& launch) {
+    sort_particles(state, launch);
+    store_reached_bricks(state, launch);
+    store_blocks(state, launch);
+    if (state.settings.counts_particles) launch(state.capacity.particles, block_threads, count_particles, state);
+    if (state.settings.divides_by_density) divide_weights_by_density(state, launch);
 }
 
 }  // namespace meniscus::cuda

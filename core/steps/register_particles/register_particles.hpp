@@ -1,126 +1,16 @@
-// Step 1: particles are snapped to the lattice, sorted, and registered in the base cells that they lie in and reach.
+// Step 1: which base cells the particles reach.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 
 #include "field/lanes.hpp"
-#include "field/lattice_settings.hpp"
 #include "lattice/brick_grid.hpp"
 #include "lattice/coordinates.hpp"
 #include "lattice/host_device.hpp"
-#include "meniscus/error.hpp"
-#include "meniscus/particle_frame.hpp"
-#include "particles/particle_set.hpp"
+#include "particles/particle_key.hpp"
 
 namespace meniscus {
-
-/// The positions of a frame, in one of the two encodings of ParticleFrame.
-struct PositionsView {
-    const float* positions = nullptr;
-    const std::uint16_t* quantized = nullptr;
-    double low[3] = {}, high[3] = {};  ///< of the quantization box
-    double units_per_length = 0.0;
-
-    MENISCUS_HD Units3 snapped(std::size_t i) const {
-        std::int64_t p[3];
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double x = quantized != nullptr ? low[axis] + static_cast<double>(quantized[3 * i + axis]) *
-                                                                    (high[axis] - low[axis]) / 65535.0
-                                                  : static_cast<double>(positions[3 * i + axis]);
-            p[axis] = snap(x, units_per_length);
-        }
-        return {p[0], p[1], p[2]};
-    }
-};
-
-/// Of a valid frame.
-inline PositionsView positions_view(const ParticleFrame& frame, double units_per_length) {
-    PositionsView view;
-    if (frame.is_quantized())
-        view.quantized = frame.quantized.data();
-    else
-        view.positions = frame.positions.data();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        view.low[axis] = frame.quantization_box.min[axis];
-        view.high[axis] = frame.quantization_box.max[axis];
-    }
-    view.units_per_length = units_per_length;
-    return view;
-}
-
-/// Where a particle stands in the one order in which the field is summed: by brick of support cells, by support cell,
-/// by position. Two particles with the same key are the same.
-struct ParticleKey {
-    std::uint64_t cell;   ///< brick (z, y, x), then index_in_brick
-    std::uint64_t place;  ///< units from the cell's corner: z, y, x, 21 bits each
-
-    MENISCUS_HD bool operator<(const ParticleKey& o) const { return cell != o.cell ? cell < o.cell : place < o.place; }
-};
-
-/// How many particles may share a support cell, in the mean over the particles. Water has 8; summing the field takes so
-/// much longer that a frame in the wrong unit, or with all its particles in one place, would take hours.
-inline constexpr double most_crowded = 1024.0;
-
-/// In the same mean, for frames of any size. crowd: the sum of the squares of the cells' numbers of particles.
-MENISCUS_HD inline bool is_crowded(std::uint64_t crowd, std::uint64_t particles, const LatticeSettings& settings) {
-    constexpr std::uint64_t small = 16384;
-    // Support cells are as large as base cells where those are larger than the support.
-    const double cell = static_cast<double>(units_per_base_cell) / static_cast<double>(settings.support[0]);
-    const double room = cell > 1.0 ? cell * cell * cell : 1.0;
-    return static_cast<double>(crowd) >
-           most_crowded * room * static_cast<double>(particles < small ? small : particles);
-}
-
-/// Throws LimitExceeded for a frame that is_crowded().
-inline void require_uncrowded(std::uint64_t crowd, std::uint64_t particles, const LatticeSettings& settings) {
-    if (!is_crowded(crowd, particles, settings)) return;
-    throw LimitExceeded("a particle shares its surroundings of one kernel support with " +
-                        std::to_string(crowd / particles) +
-                        " others in the mean, far more than the field can be summed over (about " +
-                        std::to_string(static_cast<int>(most_crowded)) +
-                        "): are the positions in the unit of the particle radius, and not all in one place?");
-}
-
-inline constexpr int brick_axis_bits = 17;  ///< support cells are no smaller than base cells
-inline constexpr int place_axis_bits = 21;
-static_assert(std::int64_t{max_support_cells} * units_per_cell < (std::int64_t{1} << place_axis_bits));
-
-MENISCUS_HD inline ParticleKey particle_key(const Units3& p, std::int64_t cell_units) {
-    constexpr std::int64_t bias = std::int64_t{1} << (brick_axis_bits - 1);
-    const Int3 cell{static_cast<std::int32_t>(floor_div(p.x, cell_units)),
-                    static_cast<std::int32_t>(floor_div(p.y, cell_units)),
-                    static_cast<std::int32_t>(floor_div(p.z, cell_units))};
-    const Int3 brick = brick_of(cell);
-    const std::int64_t bricks =
-        ((brick.z + bias) << brick_axis_bits | (brick.y + bias)) << brick_axis_bits | (brick.x + bias);
-    const std::int64_t place = ((p.z - cell.z * cell_units) << place_axis_bits | (p.y - cell.y * cell_units))
-                                   << place_axis_bits |
-                               (p.x - cell.x * cell_units);
-    return {static_cast<std::uint64_t>(bricks << brick_index_bits | index_in_brick(cell)),
-            static_cast<std::uint64_t>(place)};
-}
-
-MENISCUS_HD inline Int3 key_brick(std::uint64_t cell_key) {
-    constexpr std::int64_t mask = (std::int64_t{1} << brick_axis_bits) - 1;
-    constexpr std::int32_t bias = 1 << (brick_axis_bits - 1);
-    const auto bricks = static_cast<std::int64_t>(cell_key >> brick_index_bits);
-    return {static_cast<std::int32_t>(bricks & mask) - bias,
-            static_cast<std::int32_t>(bricks >> brick_axis_bits & mask) - bias,
-            static_cast<std::int32_t>(bricks >> (2 * brick_axis_bits)) - bias};
-}
-MENISCUS_HD inline int key_index(std::uint64_t cell_key) {
-    return static_cast<int>(cell_key & (brick_volume - 1));
-}
-
-/// A support cell's corner, in units.
-MENISCUS_HD inline Units3 cell_corner(std::uint64_t cell_key, std::int64_t cell_units) {
-    const Int3 brick = key_brick(cell_key);
-    const Int3 place = place_in_brick(key_index(cell_key));
-    return {(brick.x * brick_size + place.x) * cell_units, (brick.y * brick_size + place.y) * cell_units,
-            (brick.z * brick_size + place.z) * cell_units};
-}
 
 /// The bricks of base cells that particles in a support cell may reach: all from `low` to `high`.
 struct ReachedBricks {
@@ -141,18 +31,6 @@ MENISCUS_HD inline ReachedBricks reached_bricks(std::uint64_t cell_key, std::int
         return static_cast<std::int32_t>(floor_div(p + cell_units + reach, edge));
     };
     return {{low(corner.x), low(corner.y), low(corner.z)}, {high(corner.x), high(corner.y), high(corner.z)}};
-}
-
-/// A key's position, in units from the corner of its support cell's brick.
-MENISCUS_HD inline void key_position(const ParticleKey& key, std::int64_t cell_units, float& x, float& y, float& z) {
-    constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
-    const Int3 cell = place_in_brick(key_index(key.cell));
-    const auto coordinate = [&](int in_brick, std::uint64_t in_cell) {
-        return static_cast<float>(in_brick * cell_units + static_cast<std::int64_t>(in_cell & mask));
-    };
-    x = coordinate(cell.x, key.place);
-    y = coordinate(cell.y, key.place >> place_axis_bits);
-    z = coordinate(cell.z, key.place >> (2 * place_axis_bits));
 }
 
 /// Marks in a brick that one thread alone works on.

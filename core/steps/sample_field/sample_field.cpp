@@ -1,3 +1,4 @@
+// Step 4 on the CPU: blocks are sampled in clusters of eight, which share the particles near them.
 #include "steps/sample_field/sample_field.hpp"
 
 #include <algorithm>
@@ -5,16 +6,16 @@
 #include <atomic>
 
 #include "engine/cpu/clusters.hpp"
-#include "engine/cpu/surface.hpp"
 #include "engine/numbering.hpp"
 #include "field/lanes.hpp"
 #include "steps/adjust_levels/raise_levels.hpp"
+#include "steps/cpu_steps.hpp"
 
 namespace meniscus::cpu {
 namespace {
 
 /// Enters new values of a block's missing points, given by bit; its samples move to new room.
-void enter_samples(Surface& s, std::uint32_t block, BlockMask missing, std::array<float, 64>& values,
+void enter_samples(State& s, std::uint32_t block, BlockMask missing, std::array<float, 64>& values,
                    std::uint32_t room) {
     const float* known = s.samples.data() + s.first_sample[block];
     for (BlockMask left = s.sampled[block]; left != 0; left &= left - 1)
@@ -36,7 +37,7 @@ void enter_samples(Surface& s, std::uint32_t block, BlockMask missing, std::arra
         }
     }
     if (s.settings.has_domain)
-        above &= domain_points(s.view().coordinate(block), s.settings.domain_low, s.settings.domain_high);
+        above &= domain_points(s.blocks().coordinate(block), s.settings.domain_low, s.settings.domain_high);
     s.first_sample[block] = room;
     s.sampled[block] = sampled;
     s.inside[block] = above;
@@ -44,7 +45,7 @@ void enter_samples(Surface& s, std::uint32_t block, BlockMask missing, std::arra
     s.sign_sets().all_inside.put(s.brick[block], s.place[block], above == sampled);
 }
 
-BlockMask missing_points(const Surface& s, std::uint32_t block) {
+BlockMask missing_points(const State& s, std::uint32_t block) {
     return s.wanted_points[block] & ~s.sampled[block];
 }
 
@@ -55,7 +56,7 @@ BlockMask followed_points(Wanted wanted, BlockMask missing) {
 
 /// Samples the chosen blocks of a cluster, whose samples move to `room` one after the other; returns how many points
 /// were new.
-std::uint64_t sample_cluster(Surface& s, FieldSource& field, Wanted wanted, const Brick& brick, const Int3& corner,
+std::uint64_t sample_cluster(State& s, FieldSource& field, Wanted wanted, const Brick& brick, const Int3& corner,
                              const std::uint64_t* chosen, std::uint64_t& room, unsigned worker) {
     const Int3 lowest = brick.corner() + corner;
     std::uint32_t block[8];
@@ -95,7 +96,7 @@ std::uint64_t sample_cluster(Surface& s, FieldSource& field, Wanted wanted, cons
 
 /// Chooses of some cells of a word those with missing points by wanted(block, bit), and notes these.
 template <class WantedPoints>
-void choose_blocks(Surface& s, std::uint32_t brick, int w, std::uint64_t cells, const WantedPoints& wanted) {
+void choose_blocks(State& s, std::uint32_t brick, int w, std::uint64_t cells, const WantedPoints& wanted) {
     std::uint64_t chosen = 0;
     for_each_cell(s.grid.bricks[brick], w, cells, [&](std::uint32_t block, int bit) {
         s.wanted_points[block] = wanted(block, bit);
@@ -115,7 +116,7 @@ std::uint64_t cells_where(const Brick& brick, int w, std::uint64_t cells, const 
 
 }  // namespace
 
-void sample_wanted_points(Surface& s, FieldSource& field, Wanted wanted) {
+void sample_wanted_points(State& s, FieldSource& field, Wanted wanted) {
     const CellSetView chosen = s.chosen_cells();
     resize_for_overwrite(s.brick_counts, s.grid.bricks.size());
     for_each_brick(s, [&](std::uint32_t b) {
@@ -153,8 +154,11 @@ void sample_wanted_points(Surface& s, FieldSource& field, Wanted wanted) {
     s.field_evaluations += evaluations.load(std::memory_order_relaxed);
 }
 
-bool grow_band(Surface& s, const JoiningLevel& joining_level) {
-    const BlocksView blocks = s.view();
+namespace {
+
+/// Takes the cells into the band that a neighbor's samples show to hold surface; returns whether there were any.
+bool grow_band(State& s, const WantedLevel& wanted_level) {
+    const BlocksView blocks = s.blocks();
     const LevelSets levels = s.level_sets();
     const SignSets signs = s.sign_sets();
     const auto joining = [&](std::uint32_t brick, int w) {
@@ -163,11 +167,13 @@ bool grow_band(Surface& s, const JoiningLevel& joining_level) {
         return cells_where(s.grid.bricks[brick], w, cells,
                            [&](std::uint32_t block) { return joins_band(blocks, block); });
     };
-    return raise_levels(s, joining, joining_level);
+    return raise_levels(s, joining, wanted_level);
 }
 
-bool raise_at_slivers(Surface& s) {
-    const BlocksView blocks = s.view();
+/// Raises the cells by one level that would cut off a finer neighbor's surface in a sliver; returns whether there were
+/// any.
+bool raise_at_slivers(State& s) {
+    const BlocksView blocks = s.blocks();
     const LevelSets levels = s.level_sets();
     const SignSets signs = s.sign_sets();
     const auto missing = [&](std::uint32_t brick, int w) {
@@ -180,7 +186,8 @@ bool raise_at_slivers(Surface& s) {
     return raise_levels(s, missing, [&s](std::uint32_t block) { return s.level[block] + 1; });
 }
 
-void sample_corner_points(Surface& s, FieldSource& field) {
+/// Samples the corner points of the cells whose surroundings have changed.
+void sample_corner_points(State& s, FieldSource& field) {
     const LevelSets levels = s.level_sets();
     for_each_word(s, [&](std::uint32_t brick, int w) {
         s.chosen_cells().word(brick, w) = 0;
@@ -193,18 +200,20 @@ void sample_corner_points(Surface& s, FieldSource& field) {
     sample_wanted_points(s, field, Wanted::corners);
 }
 
-void sample_field(Surface& s, FieldSource& field, const JoiningLevel& joining_level) {
+}  // namespace
+
+void sample_field(State& s, FieldSource& field, const WantedLevel& wanted_level, Slivers slivers) {
     for (;;) {
         sample_corner_points(s, field);
-        const bool grown = grow_band(s, joining_level);
-        const bool raised = raise_at_slivers(s);
+        const bool grown = grow_band(s, wanted_level);
+        const bool raised = slivers == Slivers::raised && raise_at_slivers(s);
         if (!grown && !raised) return;
         adjust_levels(s);
     }
 }
 
-void sample_edge_middles(Surface& s, FieldSource& field) {
-    const BlocksView blocks = s.view();
+void sample_edge_middles(State& s, FieldSource& field) {
+    const BlocksView blocks = s.blocks();
     const LevelSets levels = s.level_sets();
     const SignSets signs = s.sign_sets();
     for_each_word(s, [&](std::uint32_t brick, int w) {

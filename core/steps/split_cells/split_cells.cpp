@@ -1,12 +1,15 @@
+// Step 2 on the CPU.
 #include "steps/split_cells/split_cells.hpp"
 
-#include "engine/cpu/split_cells.hpp"
-#include "steps/adjust_levels/raise_levels.hpp"
+#include "engine/cpu/words.hpp"
+#include "steps/cpu_steps.hpp"
 
 namespace meniscus::cpu {
+namespace {
 
-void find_band(Surface& s, const Array<CellReach>& reaches) {
-    const BlocksView blocks = s.view();
+/// Puts the stored cells that may hold surface into the band, at level 1.
+void find_band(State& s) {
+    const BlocksView blocks = s.blocks();
     const BandTest test{s.settings.iso, s.settings.deep_inside};
     resize_for_overwrite(s.base_deep, s.grid.bricks.size() * Brick::words);
     const BaseVertexSets vertices{s.sign_sets().any_inside, {s.grid.view(), s.base_deep.data()}};
@@ -28,27 +31,40 @@ void find_band(Surface& s, const Array<CellReach>& reaches) {
     for_each_word(s, [&](std::uint32_t brick, int w) {
         const CornerSets corners(vertices, brick, w);
         for_each_cell(s.grid.bricks[brick], w, s.grid.bricks[brick].occupied[w], [&](std::uint32_t block, int bit) {
-            s.level[block] = corners.may_hold_surface(bit, test, reaches[block].bound) ? 1 : 0;
+            s.level[block] = corners.may_hold_surface(bit, test, s.reaches[block].bound) ? 1 : 0;
         });
     });
 }
 
-int wanted_level(const SplitCriterion& criterion, const BlocksView& blocks, std::uint32_t block) {
-    return std::visit([&](const auto& level_of) { return level_of(blocks, block); }, criterion);
+/// Gives every cell of the band the level that the criterion asks for.
+template <class Criterion>
+WantedLevel choose_levels(State& s, const Criterion& level_of) {
+    const BlocksView blocks = s.blocks();
+    s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t b = begin; b < end; ++b)
+            if (s.level[b] != 0)
+                s.level[b] = static_cast<std::uint8_t>(level_of(blocks, static_cast<std::uint32_t>(b)));
+    });
+    return [&s, level_of](std::uint32_t block) { return level_of(s.blocks(), block); };
 }
 
-void split_cells(Surface& s, const SplitCriterion& criterion) {
-    const BlocksView blocks = s.view();
-    std::visit(
-        [&](const auto& level_of) {
-            s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
-                for (std::size_t b = begin; b < end; ++b)
-                    if (s.level[b] != 0)
-                        s.level[b] = static_cast<std::uint8_t>(level_of(blocks, static_cast<std::uint32_t>(b)));
-            });
-        },
-        criterion);
-    levels_are_new(s);
+WantedLevel choose_levels(State& s, bool has_particle_levels) {
+    const LatticeSettings& settings = s.settings;
+    if (settings.measures_bends) return choose_levels(s, CurvatureCriterion{s.bends.data(), settings.tolerance});
+    if (settings.counts_particles)
+        return choose_levels(s,
+                             CountCriterion{s.particle_counts.data(), settings.count_threshold, has_particle_levels});
+    return choose_levels(s, UniformCriterion{});
+}
+
+}  // namespace
+
+WantedLevel split_cells(State& s, Neighborhoods& near, bool has_particle_levels) {
+    find_band(s);
+    if (s.settings.measures_bends) measure_bends(s, near);
+    WantedLevel wanted_level = choose_levels(s, has_particle_levels);
+    collect_level_sets(s);
+    return wanted_level;
 }
 
 }  // namespace meniscus::cpu

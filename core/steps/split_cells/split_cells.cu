@@ -1,6 +1,6 @@
+// Step 2 on the GPU.
 #include "steps/split_cells/split_cells.hpp"
 
-#include "engine/cuda/candidates.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
 
@@ -10,7 +10,7 @@ namespace {
 /// Calls visit(word's number, its members, bit, block) for the words of bricks with members, each by all lanes of a
 /// warp: half a word at a time, a lane for every bit. `block` is meaningful where the bit is a member.
 template <class Visit>
-__device__ void each_word_by_warp(const Frame& f, const Visit& visit) {
+__device__ void each_word_by_warp(const State& f, const Visit& visit) {
     each_by_warp(Brick::words * f.count(Resource::bricks), [&](std::uint32_t i) {
         const Brick& brick = f.bricks[i / Brick::words];
         const int w = static_cast<int>(i % Brick::words);
@@ -24,7 +24,7 @@ __device__ void each_word_by_warp(const Frame& f, const Visit& visit) {
 }
 
 /// All words: those without a member are neighbors of others.
-__global__ void __launch_bounds__(block_threads) collect_base_vertices(const __grid_constant__ Frame f) {
+__global__ void __launch_bounds__(block_threads) collect_base_vertices(const __grid_constant__ State f) {
     const BlocksView blocks = f.blocks();
     const BandTest test{f.settings.iso, f.settings.deep_inside};
     each_word_by_warp(f, [&](std::uint32_t word, std::uint64_t members, int bit, std::uint32_t block) {
@@ -42,8 +42,8 @@ __global__ void __launch_bounds__(block_threads) collect_base_vertices(const __g
 }
 
 /// Cells of the band get level 1.
-__global__ void __launch_bounds__(block_threads, 4) find_band(const __grid_constant__ Frame f, bool bends) {
-    const BaseVertexSets vertices = f.base_vertices();
+__global__ void __launch_bounds__(block_threads, 4) find_band(const __grid_constant__ State f, bool bends) {
+    const BaseVertexSets vertices{{f.grid(), f.base_inside}, {f.grid(), f.base_deep}};
     const BandTest test{f.settings.iso, f.settings.deep_inside};
     each_word_by_warp(f, [&](std::uint32_t word, std::uint64_t members, int bit, std::uint32_t block) {
         if (members == 0) return;
@@ -54,49 +54,13 @@ __global__ void __launch_bounds__(block_threads, 4) find_band(const __grid_const
         if (!bends) return;
         if (exists) f.bends[block] = {0.0F, 1};
         const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(List::bends)], in_band ? 1 : 0);
-        if (in_band) f.work[at] = block;
+        if (in_band) f.chosen[at] = block;
     });
-}
-
-__global__ void __launch_bounds__(block_threads, 2) measure_bends(const __grid_constant__ Frame f) {
-    const BlocksView blocks = f.blocks();
-    const BlobRule blobs{f.settings.blob_closest, f.settings.blob_level};
-    const float iso = f.settings.iso;
-    const std::uint32_t cells = f.listed(List::bends);
-    GridLoop{}.each(cells, [&](std::uint32_t i) {
-        const std::uint32_t block = f.work[i];
-        const ClosedCell cell(blocks, block);
-        CellCorners<float> corners;
-        int inside_corners = 0;
-        for (int k = 0; k < 8; ++k) {
-            corners.value[k] = (cell.block[k] == no_index ? 0.0F : blocks.value(cell.block[k], 0)) - iso;
-            inside_corners += static_cast<int>(blocks.inside_or_none(cell.block[k]) & 1);
-        }
-        // Relative to the corner of the cell's cluster, as on the CPU: the search meets points that are no whole units.
-        const Int3 at = blocks.coordinate(block);
-        const Int3 cluster{at.x & ~1, at.y & ~1, at.z & ~1};
-        constexpr float edge = units_per_base_cell;
-        const Point3<float> corner{static_cast<float>(at.x - cluster.x) * edge,
-                                   static_cast<float>(at.y - cluster.y) * edge,
-                                   static_cast<float>(at.z - cluster.z) * edge};
-        const auto jet_at = [&](const Point3<float>& p) {
-            FieldJet<float> jet;
-            // Wider by a unit, since the sides of the box are rounded.
-            const UnitBox box{{p.x - 1.0F, p.y - 1.0F, p.z - 1.0F}, {p.x + 1.0F, p.y + 1.0F, p.z + 1.0F}};
-            for_each_candidate(f, base_cell_origin(cluster), box,
-                               [&](const OneCandidate& c) { sum_jets(c.view(), p.x, p.y, p.z, jet); });
-            return jet;
-        };
-        const SurfaceSearch<float> search =
-            search_surface(corners, is_mixed(inside_corners) ? 1.0F : 0.0F, corner, iso, jet_at);
-        f.bends[block] = cell_bend(search, inside_corners, blobs.least_level(inside_corners, f.reaches[block]));
-    });
-    if (blockIdx.x == 0 && threadIdx.x == 0) f.counts->field_evaluations += Counter{2} * cells;
 }
 
 template <class Criterion>
 __global__ void __launch_bounds__(block_threads)
-    choose_levels(const __grid_constant__ Frame f, const Criterion level_of) {
+    choose_levels(const __grid_constant__ State f, const Criterion level_of) {
     const BlocksView blocks = f.blocks();
     GridLoop{}.each(blocks.count, [&](std::uint32_t b) {
         f.wanted_level[b] = static_cast<std::uint8_t>(level_of(blocks, b));
@@ -104,52 +68,25 @@ __global__ void __launch_bounds__(block_threads)
     });
 }
 
-/// One thread for every word of a brick.
-__global__ void __launch_bounds__(block_threads) list_level_sets(const __grid_constant__ Frame f) {
-    const LevelSets levels = f.level_sets();
-    GridLoop{}.each(std::uint64_t{Brick::words} * f.count(Resource::bricks), [&](std::uint32_t i) {
-        const Brick& brick = f.bricks[i / Brick::words];
-        const int w = static_cast<int>(i % Brick::words);
-        std::uint64_t level1 = 0, level2 = 0, level3 = 0;
-        std::uint32_t block = brick.first + brick.rank[w];
-        for (std::uint64_t left = brick.occupied[w]; left != 0; left &= left - 1, ++block) {
-            const std::uint64_t cell = left & (~left + 1);
-            const int level = f.level[block];
-            if (level >= 1) level1 |= cell;
-            if (level >= 2) level2 |= cell;
-            if (level >= 3) level3 |= cell;
-        }
-        f.at_least[1][i] = level1;
-        f.at_least[2][i] = level2;
-        f.at_least[3][i] = level3;
-        f.raised[i] = 0;
-    });
-}
-
 }  // namespace
 
-void split_cells(const Frame& frame, const Settings& user, bool has_particle_levels, const Launcher& launch) {
-    const std::uint64_t blocks = frame.capacity[Resource::blocks];
-    const bool adaptive = user.mode == Mode::adaptive;
-    const bool bends = adaptive && user.criterion == Criterion::curvature;
-    const std::uint64_t words = Brick::words * frame.capacity[Resource::bricks];
-    launch(words, block_warps, collect_base_vertices, frame);
-    launch(words, block_warps, find_band, frame, bends);
-    if (bends) {
-        launch(blocks, block_threads, measure_bends, frame);
-        launch(blocks, block_threads, choose_levels<CurvatureCriterion>, frame,
-               CurvatureCriterion{frame.bends, static_cast<float>(user.tolerance)});
-    } else if (adaptive) {
-        launch(blocks, block_threads, choose_levels<CountCriterion>, frame,
-               CountCriterion{frame.particle_counts, user.count_threshold, has_particle_levels});
+void split_cells(const State& state, bool has_particle_levels, const Launcher& launch) {
+    const LatticeSettings& settings = state.settings;
+    const std::uint64_t blocks = state.capacity[Resource::blocks];
+    const std::uint64_t words = Brick::words * state.capacity[Resource::bricks];
+    launch(words, block_warps, collect_base_vertices, state);
+    launch(words, block_warps, find_band, state, settings.measures_bends);
+    if (settings.measures_bends) {
+        measure_bends(state, launch);
+        launch(blocks, block_threads, choose_levels<CurvatureCriterion>, state,
+               CurvatureCriterion{state.bends, settings.tolerance});
+    } else if (settings.counts_particles) {
+        launch(blocks, block_threads, choose_levels<CountCriterion>, state,
+               CountCriterion{state.particle_counts, settings.count_threshold, has_particle_levels});
     } else {
-        launch(blocks, block_threads, choose_levels<UniformCriterion>, frame, UniformCriterion{});
+        launch(blocks, block_threads, choose_levels<UniformCriterion>, state, UniformCriterion{});
     }
-    collect_level_sets(frame, launch);
-}
-
-void collect_level_sets(const Frame& frame, const Launcher& launch) {
-    launch(Brick::words * frame.capacity[Resource::bricks], block_threads, list_level_sets, frame);
+    collect_level_sets(state, launch);
 }
 
 }  // namespace meniscus::cuda

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "engine/block_state.hpp"
 #include "field/lanes.hpp"
 #include "lattice/blocks.hpp"
 #include "lattice/cell_set.hpp"
@@ -33,12 +34,6 @@ struct UniformCriterion {
     MENISCUS_HD int operator()(const BlocksView&, std::uint32_t) const { return 3; }
 };
 
-/// What is known of the surface in a cell of the band before it is sampled; zeros outside of the band.
-struct CellBend {
-    float curvature;  ///< both principal curvatures, absolute, added; times c
-    int least_level;  ///< for what curvature does not tell: a surface that no corner shows
-};
-
 /// A face of edge s that is blended between its corners departs from a surface of principal curvatures k and m by
 /// (|k| + |m|) s^2 / 12 in the mean, which may be at most `tolerance` cells. A cell bends at least half as much as its
 /// face neighbors, so that levels do not fall off faster than the surface calms.
@@ -58,12 +53,6 @@ struct CurvatureCriterion {
         const int least = blocks.level[block] == 0 ? 2 : cells[block].least_level;
         return level > least ? level : least;
     }
-};
-
-/// What a cell's particles alone say of it.
-struct CellReach {
-    float bound;    ///< no field value in the cell is above this
-    float closest;  ///< largest 1 - distance/h of a particle from the cell
 };
 
 /// Drops that no corner shows: a cell whose corners are all outside, but with a particle so near that its own blob may

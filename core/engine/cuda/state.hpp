@@ -1,13 +1,14 @@
-// What the kernels of a frame work on: arrays of fixed capacity in device memory, and counts that stay there.
+// What the steps on a GPU work on: arrays of fixed capacity in device memory, and counts that stay there.
 //
 // A kernel that finds how many elements there are writes the number into Counts, with nothing beyond the capacity, and
-// sets Counts::overflow where that is too little. All that follows then finds no elements, and the frame runs once more
+// sets Counts::stop where that is too little. All that follows then finds no elements, and the frame runs once more
 // with more room.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
+#include "engine/block_state.hpp"
 #include "engine/cuda/capacities.hpp"
 #include "engine/cuda/scans.hpp"
 #include "field/lattice_settings.hpp"
@@ -15,8 +16,7 @@
 #include "lattice/level_sets.hpp"
 #include "meniscus/mesh.hpp"
 #include "particles/particle_set.hpp"
-#include "steps/register_particles/register_particles.hpp"
-#include "steps/split_cells/split_cells.hpp"
+#include "particles/positions.hpp"
 #include "tables/tables.hpp"
 
 namespace meniscus::cuda {
@@ -43,6 +43,13 @@ enum class List : std::uint8_t {
 };
 inline constexpr std::size_t list_count = 8;
 
+/// Why the kernels of a frame do nothing more.
+enum class Stop : std::uint32_t {
+    none,
+    too_little_room,  ///< an array is too small: Counts::needed tells
+    crowded,          ///< the particles lie too densely, see is_crowded()
+};
+
 /// Zero at a frame's begin.
 struct Counts {
     Counter needed[resource_count];
@@ -54,8 +61,8 @@ struct Counts {
     std::uint32_t particle_cells;
     std::uint32_t first_particle_brick[particle_level_count + 1];
     std::uint32_t listed[list_count];
-    std::uint32_t changed[3];  ///< see raise_levels.hpp
-    std::uint32_t overflow;
+    std::uint32_t changed[3];  ///< see Sweeps
+    Stop stop;
 };
 
 /// Places arrays one after the other.
@@ -72,15 +79,11 @@ struct Layout {
     }
 };
 
-struct Frame {
-    // The user's choices.
-    LatticeSettings settings;
-    bool bisects = false;
-    std::uint32_t bisection_steps = 0;
-    bool has_normals = true;
-    std::int64_t cell_units[particle_level_count] = {};
-    float inverse_support[particle_level_count] = {};
+template <class T>
+using Pointer = T*;
 
+struct State : BlockState<Pointer> {
+    LatticeSettings settings;
     Capacities capacity;
     FrameInput* input = nullptr;
     Counts* counts = nullptr;
@@ -109,33 +112,17 @@ struct Frame {
     std::uint64_t* brick_keys = nullptr;
     BrickNeighbors* neighbors = nullptr;
     std::uint64_t* members_before = nullptr;  ///< and one past the last
-    std::uint64_t* base_inside = nullptr;     ///< see BaseVertexSets
-    std::uint64_t* base_deep = nullptr;
-    std::uint64_t* at_least[4] = {};  ///< see LevelSets
-    std::uint64_t* raised = nullptr;  ///< a set of cells too; empty between sweeps
+    std::uint64_t* base_inside = nullptr;     ///< a set of blocks, see BaseVertexSets
+    std::uint64_t* raised = nullptr;          ///< a set of cells too; empty between sweeps
 
-    // Of every block; BlocksView explains those that are not explained here.
-    std::uint32_t* brick = nullptr;
-    std::uint16_t* place = nullptr;
-    std::uint8_t* level = nullptr;
-    std::uint8_t* wanted_level = nullptr;  ///< by the split criterion
-    BlockMask* sampled = nullptr;
-    BlockMask* inside = nullptr;
-    BlockMask* corner_points = nullptr;  ///< points that cells of the band need as corners
-    BlockMask* wanted_points = nullptr;
-    std::uint32_t* first_sample = nullptr;
+    // Of every block.
+    std::uint8_t* wanted_level = nullptr;       ///< by the split criterion
+    BlockMask* corner_points = nullptr;         ///< points that cells of the band need as corners
     std::uint32_t* old_first_sample = nullptr;  ///< while a block's samples move
-    EdgeMasks* edges = nullptr;
-    std::uint32_t* first_vertex = nullptr;    ///< and one past the last
-    LevelCounts* triangles_before = nullptr;  ///< by level, and one past the last
-    std::uint32_t* particle_counts = nullptr;
-    CellReach* reaches = nullptr;
-    CellBend* bends = nullptr;
-    std::uint32_t* work = nullptr;  ///< the lists up to List::vertices, one after the other
-    std::uint32_t* band = nullptr;
-    std::uint32_t* cracked = nullptr;
-
-    float* samples = nullptr;
+    LevelCounts* triangles_before = nullptr;    ///< by level, and one past the last
+    std::uint32_t* chosen = nullptr;            ///< the lists up to List::vertices, one after the other
+    std::uint32_t* band_cells = nullptr;
+    std::uint32_t* cracked_cells = nullptr;
 
     // The mesh, in memory of its own: that of a frame before may be on its way to the host, from the other set of these
     // arrays.
@@ -144,7 +131,7 @@ struct Frame {
     Normal* normals = nullptr;
     Triangle* triangles = nullptr;
 
-    explicit Frame(const LatticeSettings& lattice_settings) : settings(lattice_settings) {}
+    explicit State(const LatticeSettings& lattice_settings) : BlockState{}, settings(lattice_settings) {}
 
     /// Gives take(pointer, number of elements) every array but the mesh's.
     template <class Take>
@@ -174,35 +161,23 @@ struct Frame {
         take(neighbors, brick_count);
         take(members_before, brick_count + 1);
         take(base_inside, brick_count * Brick::words);
-        take(base_deep, brick_count * Brick::words);
-        for (int l = 1; l <= 3; ++l) take(at_least[l], brick_count * Brick::words);
         take(raised, brick_count * Brick::words);
-        take(brick, blocks);
-        take(place, blocks);
-        take(level, blocks);
+        for_each_set([&](auto*& set) { take(set, brick_count * Brick::words); });
+        for_each_block_array([&](auto*& array) { take(array, blocks + 1); });
         take(wanted_level, blocks);
-        take(sampled, blocks);
-        take(inside, blocks);
         take(corner_points, blocks);
-        take(wanted_points, blocks);
-        take(first_sample, blocks);
         take(old_first_sample, blocks);
-        take(edges, blocks);
-        take(first_vertex, blocks + 1);
         take(triangles_before, blocks + 1);
-        take(particle_counts, blocks);
-        take(reaches, blocks);
-        take(bends, blocks);
-        take(work, blocks);
-        take(band, blocks);
-        take(cracked, blocks);
+        take(chosen, blocks);
+        take(band_cells, blocks);
+        take(cracked_cells, blocks);
         take(samples, capacity[Resource::samples]);
     }
     template <class Take>
     void for_each_mesh_array(Take& take) {
         take(mesh_bricks, capacity[Resource::bricks]);
         take(vertices, capacity[Resource::vertices]);
-        take(normals, has_normals ? capacity[Resource::vertices] : 0);
+        take(normals, settings.has_normals ? capacity[Resource::vertices] : 0);
         take(triangles, capacity[Resource::triangles]);
     }
 
@@ -218,42 +193,43 @@ struct Frame {
         return layout.bytes;
     }
 
+    /// After lay_out().
+    void upload_tables(cudaStream_t stream) const {
+        check(cudaMemcpyAsync(const_cast<CubeCase*>(cube_table), meniscus::cube_table.data(), sizeof(CubeTable),
+                              cudaMemcpyHostToDevice, stream),
+              "cudaMemcpyAsync");
+        check(cudaMemcpyAsync(const_cast<CrackCase*>(crack_table), meniscus::crack_table.data(), sizeof(CrackTable),
+                              cudaMemcpyHostToDevice, stream),
+              "cudaMemcpyAsync");
+    }
+
     /// Where the positions' levels lie in the upload.
     std::byte* upload_levels() const { return upload + 12 * capacity.particles; }
     Scratch scratch_memory() const { return {scratch, scratch_bytes}; }
 
+    __device__ bool goes_on() const { return counts->stop == Stop::none; }
     __device__ std::uint32_t count(Resource r) const {
-        return counts->overflow != 0 ? 0 : static_cast<std::uint32_t>(counts->needed[static_cast<int>(r)]);
+        return goes_on() ? static_cast<std::uint32_t>(counts->needed[static_cast<int>(r)]) : 0;
     }
-    __device__ std::uint32_t listed(List l) const {
-        return counts->overflow != 0 ? 0 : counts->listed[static_cast<int>(l)];
-    }
-    /// Tells how many are needed; called by one thread.
+    __device__ std::uint32_t listed(List l) const { return goes_on() ? counts->listed[static_cast<int>(l)] : 0; }
+    /// Tells how many elements are needed, and stops where there is no room for them; called by one thread.
     __device__ void need(Resource r, std::uint64_t number) const {
         counts->needed[static_cast<int>(r)] = number;
-        if (number > capacity[r] || number >= too_many(r)) counts->overflow = 1;
+        if (goes_on() && (number > capacity[r] || number >= too_many(r))) counts->stop = Stop::too_little_room;
     }
+
+    __device__ std::uint32_t particle_count() const { return goes_on() ? input->particles : 0; }
 
     /// The particles of a level, but for their coordinates, which are in `particles`.
     __device__ ParticleSetView set(unsigned k) const {
         const std::uint32_t begin = counts->first_particle_brick[k];
         const BrickGridView grid{particle_bricks + begin, particle_brick_keys + begin, nullptr,
                                  counts->first_particle_brick[k + 1] - begin};
-        return {grid, first_particle, nullptr, nullptr, nullptr, nullptr, cell_units[k], settings.support[k]};
+        return {grid, first_particle, nullptr, nullptr, nullptr, nullptr, settings.cell_units[k], settings.support[k]};
     }
     __device__ BrickGridView grid() const { return {bricks, brick_keys, neighbors, count(Resource::bricks)}; }
-    __device__ BlocksView blocks() const {
-        return {grid(),       count(Resource::blocks),
-                brick,        place,
-                level,        sampled,
-                inside,       first_sample,
-                samples,      edges,
-                first_vertex, nullptr};
-    }
-    __device__ BaseVertexSets base_vertices() const { return {{grid(), base_inside}, {grid(), base_deep}}; }
-    __device__ LevelSets level_sets() const {
-        return {{{}, {grid(), at_least[1]}, {grid(), at_least[2]}, {grid(), at_least[3]}}};
-    }
+    __device__ BlocksView blocks() const { return blocks_view(*this, grid(), count(Resource::blocks)); }
+    __device__ LevelSets level_sets() const { return level_sets_of(*this, grid()); }
 };
 
 }  // namespace meniscus::cuda

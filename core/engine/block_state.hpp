@@ -1,0 +1,103 @@
+// What both engines keep of every stored base cell (block), named once.
+#pragma once
+
+#include <cstdint>
+
+#include "lattice/block_mask.hpp"
+#include "lattice/blocks.hpp"
+#include "lattice/host_device.hpp"
+#include "lattice/level_sets.hpp"
+#include "meniscus/memory.hpp"
+
+namespace meniscus {
+
+/// What is known of the surface in a cell of the band before it is sampled; zeros outside of the band.
+struct CellBend {
+    float curvature;  ///< both principal curvatures, absolute, added; times c
+    int least_level;  ///< for what curvature does not tell: a surface that no corner shows
+};
+
+/// What a cell's particles alone say of it.
+struct CellReach {
+    float bound;    ///< no field value in the cell is above this
+    float closest;  ///< largest 1 - distance/h of a particle from the cell
+};
+
+/// A<T>: an array of T in the engine's memory, Array<T> on the host and T* on a device.
+template <template <class> class A>
+struct BlockState {
+    // Of every block, and room for one more; BlocksView explains those that are not explained here.
+    A<std::uint32_t> brick;
+    A<std::uint16_t> place;
+    A<std::uint8_t> level;
+    A<BlockMask> sampled;
+    A<BlockMask> inside;
+    A<BlockMask> wanted_points;  ///< to be sampled
+    A<std::uint32_t> first_sample;
+    A<EdgeMasks> edges;
+    A<std::uint32_t> first_vertex;
+    A<std::uint32_t> particle_counts;  ///< particles of level 0; Criterion::count only
+    A<CellReach> reaches;
+    A<CellBend> bends;  ///< Criterion::curvature only
+
+    A<float> samples;
+
+    // Sets of blocks, see CellSetView.
+    A<std::uint64_t> base_deep;    ///< see BaseVertexSets
+    A<std::uint64_t> at_least[4];  ///< see LevelSets; by level, from 1
+
+    /// Calls visit(array) for all that have an element for every block.
+    template <class Visit>
+    void for_each_block_array(const Visit& visit) {
+        visit(brick);
+        visit(place);
+        visit(level);
+        visit(sampled);
+        visit(inside);
+        visit(wanted_points);
+        visit(first_sample);
+        visit(edges);
+        visit(first_vertex);
+        visit(particle_counts);
+        visit(reaches);
+        visit(bends);
+    }
+    /// Calls visit(array) for all that have an element for every word of Brick::occupied.
+    template <class Visit>
+    void for_each_set(const Visit& visit) {
+        visit(base_deep);
+        for (int level_index = 1; level_index <= 3; ++level_index) visit(at_least[level_index]);
+    }
+};
+
+template <class T>
+T* first_of(Array<T>& array) {
+    return array.data();
+}
+template <class T>
+MENISCUS_HD T* first_of(T* array) {
+    return array;
+}
+
+/// grid: of the blocks; count: how many there are.
+template <class State>
+MENISCUS_HD BlocksView blocks_view(State& s, const BrickGridView& grid, std::uint32_t count) {
+    return {grid,
+            count,
+            first_of(s.brick),
+            first_of(s.place),
+            first_of(s.level),
+            first_of(s.sampled),
+            first_of(s.inside),
+            first_of(s.first_sample),
+            first_of(s.samples),
+            first_of(s.edges),
+            first_of(s.first_vertex)};
+}
+
+template <class State>
+MENISCUS_HD LevelSets level_sets_of(State& s, const BrickGridView& grid) {
+    return {{{}, {grid, first_of(s.at_least[1])}, {grid, first_of(s.at_least[2])}, {grid, first_of(s.at_least[3])}}};
+}
+
+}  // namespace meniscus

@@ -1,0 +1,35 @@
+// The particles near clusters of base cells and near boxes in them, found once for all that ask.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/cpu/candidates.hpp"
+#include "particles/particle_sets.hpp"
+
+namespace meniscus::cpu {
+
+/// Each worker has lists of its own: what it is given is valid until it asks again.
+class Neighborhoods {
+public:
+    Neighborhoods(const std::shared_ptr<MemoryAccount>& account, unsigned workers, ParticleSets& sets);
+
+    /// After particles or their weights have changed.
+    void forget();
+
+    /// The particles near the cluster (clusters.hpp) of a base cell, relative to the cluster's lowest corner.
+    const CandidateLists::Levels& near_cluster(const Int3& base_cell, unsigned worker);
+    /// Those near a box, both relative to a base cell's corner.
+    const CandidateLists::Levels& near_box(const Int3& base_cell, const UnitBox& box, unsigned worker);
+    /// Those near a box, both relative to an origin that may lie anywhere.
+    const CandidateLists::Levels& near_box(const Units3& origin, const UnitBox& box, unsigned worker);
+
+    /// Gives every worker room for the longest lists that any has met, so that a warm frame allocates nothing.
+    void even_out();
+
+private:
+    ParticleSets& sets_;
+    std::vector<CandidateLists> lists_;  ///< one of each worker
+};
+
+}  // namespace meniscus::cpu

@@ -1,0 +1,60 @@
+// Values of the field at lists of points, eight points at a time.
+#pragma once
+
+#include <cstddef>
+
+#include "engine/cpu/candidates.hpp"
+#include "engine/cpu/field_source.hpp"
+#include "field/sums.hpp"
+#include "particles/particle_set.hpp"
+
+namespace meniscus::cpu {
+
+/// The smallest box around padded points.
+inline UnitBox box_of(const PointList& points) {
+    UnitBox box;
+    const float* coordinates[3] = {points.x, points.y, points.z};
+    for (int axis = 0; axis < 3; ++axis) {
+        Lanes low = Lanes::load(coordinates[axis]);
+        Lanes high = low;
+        for (std::size_t i = Lanes::count; i < points.count; i += Lanes::count) {
+            low = min(low, Lanes::load(coordinates[axis] + i));
+            high = max(high, Lanes::load(coordinates[axis] + i));
+        }
+        box.low[axis] = reduce_min(low);
+        box.high[axis] = reduce_max(high);
+    }
+    return box;
+}
+
+/// Lanes beyond the last point repeat it.
+inline void pad(PointList& points) {
+    for (std::size_t i = points.count; i % Lanes::count != 0; ++i) {
+        points.x[i] = points.x[points.count - 1];
+        points.y[i] = points.y[points.count - 1];
+        points.z[i] = points.z[points.count - 1];
+    }
+}
+
+/// Values at G registers of points from the i-th on.
+template <int G>
+void sum_group(const CandidateLists::Levels& near, const PointList& points, std::size_t i, float* out) {
+    Lanes x[G], y[G], z[G], sum[G];
+    for (int g = 0; g < G; ++g) {
+        const std::size_t at = i + static_cast<std::size_t>(g) * Lanes::count;
+        x[g] = Lanes::load(points.x + at);
+        y[g] = Lanes::load(points.y + at);
+        z[g] = Lanes::load(points.z + at);
+        sum[g] = Lanes(0.0F);
+    }
+    for (const Candidates& c : near) sum_values<G>(c.view(), x, y, z, sum);
+    for (int g = 0; g < G; ++g) sum[g].store(out + i + static_cast<std::size_t>(g) * Lanes::count);
+}
+
+inline void sum_points(const CandidateLists::Levels& near, const PointList& points, float* out) {
+    std::size_t i = 0;
+    for (; points.count > i + Lanes::count; i += 2 * Lanes::count) sum_group<2>(near, points, i, out);
+    if (points.count > i) sum_group<1>(near, points, i, out);
+}
+
+}  // namespace meniscus::cpu

@@ -1,0 +1,55 @@
+// What the steps on the CPU work on, between particles and mesh.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "engine/arrays.hpp"
+#include "engine/block_state.hpp"
+#include "engine/cpu/workers.hpp"
+#include "field/lattice_settings.hpp"
+#include "lattice/level_sets.hpp"
+#include "lattice/sign_sets.hpp"
+#include "meniscus/mesh.hpp"
+
+namespace meniscus::cpu {
+
+/// What must look again at a cell after a level near it has changed.
+enum class StaleFor : std::uint8_t { balance, promotion, corner_points, band, slivers };
+inline constexpr std::array all_rules{StaleFor::balance, StaleFor::promotion, StaleFor::corner_points, StaleFor::band,
+                                      StaleFor::slivers};
+
+/// Where a base cell's triangles go, as indices into the mesh.
+struct TriangleSlots {
+    std::uint32_t cells;   ///< its own marching-cubes triangles
+    std::uint32_t cracks;  ///< the crack filling of its faces
+};
+
+struct State : BlockState<Array> {
+    State(const std::shared_ptr<MemoryAccount>& account, Workers& workers, const LatticeSettings& settings);
+
+    Workers& workers;
+    const LatticeSettings& settings;
+
+    BrickGrid grid;                    ///< the stored base cells (blocks)
+    Array<TriangleSlots> slots;        ///< of every block that is a mixed cell
+    Array<std::uint32_t> mixed_cells;  ///< the cells of the surface band that see both signs, ascending
+    Array<std::uint8_t> is_cracked;    ///< for each of them, whether any of its faces is to be filled
+    Array<std::array<std::uint32_t, triangle_level_count>> brick_triangles;  ///< per brick and level
+    Array<std::uint64_t> brick_counts;  ///< while a brick's samples or vertices are counted and numbered
+    // Sets of base cells, see CellSetView.
+    Array<std::uint64_t> any_inside, all_inside;               ///< see SignSets
+    Array<std::uint64_t> chosen;                               ///< by a pass, for the next one
+    std::array<Array<std::uint64_t>, all_rules.size()> stale;  ///< by rule
+    std::uint64_t field_evaluations = 0;
+
+    std::uint32_t block_count() const { return grid.members; }
+    BlocksView blocks() { return blocks_view(*this, grid.view(), block_count()); }
+    LevelSets level_sets() { return level_sets_of(*this, grid.view()); }
+    SignSets sign_sets() { return {{grid.view(), any_inside.data()}, {grid.view(), all_inside.data()}}; }
+    CellSetView stale_cells(StaleFor rule) { return {grid.view(), stale[static_cast<std::size_t>(rule)].data()}; }
+    CellSetView chosen_cells() { return {grid.view(), chosen.data()}; }
+};
+
+}  // namespace meniscus::cpu

@@ -1,0 +1,30 @@
+// All arrays of the sets are charged to one account.
+#include "particles/particle_sets.hpp"
+
+namespace meniscus::cpu {
+
+ParticleSet::ParticleSet(const std::shared_ptr<MemoryAccount>& account)
+    : cells(account),
+      keys(make_array<ParticleKey>(account)),
+      first(make_array<std::uint32_t>(account)),
+      cell_keys(make_array<std::uint64_t>(account)),
+      x(make_array<float>(account)),
+      y(make_array<float>(account)),
+      z(make_array<float>(account)),
+      weight(make_array<float>(account)),
+      densities(make_array<float>(account)) {}
+
+ParticleSets::ParticleSets(const std::shared_ptr<MemoryAccount>& account, Workers& own_workers,
+                           const LatticeSettings& own_settings)
+    : workers(own_workers),
+      settings(own_settings),
+      of_level{ParticleSet(account), ParticleSet(account), ParticleSet(account), ParticleSet(account)},
+      scan(account),
+      reached_bricks(make_array<std::uint64_t>(account)) {
+    for (unsigned k = 0; k < particle_level_count; ++k) {
+        of_level[k].support = settings.support[k];
+        of_level[k].cell_units = settings.cell_units[k];
+    }
+}
+
+}  // namespace meniscus::cpu

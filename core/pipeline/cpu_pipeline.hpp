@@ -1,0 +1,54 @@
+// The steps of one frame on the CPU, as pipeline.hpp calls them.
+#pragma once
+
+#include <utility>
+
+#include "engine/cpu/field_source.hpp"
+#include "engine/cpu/neighborhoods.hpp"
+#include "engine/cpu/state.hpp"
+#include "meniscus/mesh.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "steps/cpu_steps.hpp"
+
+namespace meniscus::cpu {
+
+/// The steps from levels on: they ask nothing but values and normals of the field. `mesh` takes the result.
+class SurfaceSteps {
+public:
+    SurfaceSteps(State& state, FieldSource& field, Mesh& mesh) : state_(state), field_(field), mesh_(mesh) {}
+
+    bool is_adaptive() const { return state_.settings.is_adaptive; }
+    void adjust_levels() { cpu::adjust_levels(state_); }
+    void sample_field() { cpu::sample_field(state_, field_, wanted_level_, slivers_); }
+    void sample_edge_middles() { cpu::sample_edge_middles(state_, field_); }
+    void count_triangles() { cpu::count_triangles(state_, mesh_); }
+    void place_vertices() { cpu::place_vertices(state_, field_, mesh_); }
+    void emit_triangles() { cpu::emit_triangles(state_, mesh_); }
+    void fill_cracks() { cpu::fill_cracks(state_, mesh_); }
+
+protected:
+    State& state_;
+    FieldSource& field_;
+    Mesh& mesh_;
+    WantedLevel wanted_level_;  ///< of cells that join the band
+    Slivers slivers_ = Slivers::raised;
+};
+
+/// Those and the ones before, which ask for particles.
+class ParticleSteps : public SurfaceSteps {
+public:
+    ParticleSteps(State& state, FieldSource& field, Mesh& mesh, ParticleSets& sets, Neighborhoods& near,
+                  const ParticleFrame& frame)
+        : SurfaceSteps(state, field, mesh), sets_(sets), near_(near), frame_(frame) {}
+
+    void register_particles() { cpu::register_particles(state_, sets_, near_, frame_); }
+    void sample_base_vertices() { cpu::sample_base_vertices(state_, near_); }
+    void split_cells() { wanted_level_ = cpu::split_cells(state_, near_, !frame_.levels.empty()); }
+
+private:
+    ParticleSets& sets_;
+    Neighborhoods& near_;
+    const ParticleFrame& frame_;
+};
+
+}  // namespace meniscus::cpu

@@ -1,0 +1,147 @@
+// The kernels of a frame by steps:
+//
+//   Upload       pinned memory -> upload, FrameInput                        (outside of the graph: its size is the
+//   frame's) register     make_keys, sort, mark_starts, scan, store_particles, count_support_cells, measure_crowd;
+//                list_reached_bricks, sort, mark_first_keys, scan, store_bricks, mark_reached_cells;
+//                scan, number_members, find_neighbors, make_blocks; measure_densities, divide_weights or
+//                count_particles
+//   sample       sample_base
+//   split        collect_base_vertices, find_band, measure_listed, choose_levels, list_level_sets
+//   adjust       balance_and_promote                                        (cooperative)
+//   sample       list_corner_points, sample_list, settle_band               (cooperative); list_edge_middles, ...
+//   count        list_band, count_cells, count_cracks, scan, order_by_level_and_brick
+//   place        count_vertices, scan, require_room, place_listed
+//   emit, fill   emit_cells, fill_listed
+//   Counts       -> pinned memory; the host waits
+//   PendingMesh  the mesh -> pinned memory -> the caller's arrays           (when they ask for it, on a stream of its
+//   own)
+//
+// What overlaps: pieces of the upload with copying into pinned memory, pieces of the download with copying out of it, a
+// frame's download with the next one's kernels, and whole frames of different sessions, each on streams of its own.
+#include "pipeline/cuda_frame_run.hpp"
+
+#include <algorithm>
+
+#include "engine/numbering.hpp"
+#include "pipeline/cuda_pipeline.hpp"
+#include "pipeline/pipeline.hpp"
+#include "pipeline/stage_clock.hpp"
+#include "steps/register_particles/crowd.hpp"
+
+namespace meniscus::cuda {
+
+FrameRun::FrameRun(const LatticeSettings& settings, int device, MeshSets& sets,
+                   const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account)
+    : device_(device),
+      sets_(sets),
+      upload_(account),
+      host_counts_(account),
+      memory_(device, stream_.get(), device_account),
+      state_(settings) {
+    int processors = 0;
+    check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "cudaDeviceGetAttribute");
+    launcher_ = {stream_.get(), 8 * static_cast<unsigned>(processors)};
+    host_counts_.reserve(sizeof(Counts));
+}
+
+void FrameRun::run(const ParticleFrame& particles) {
+    const bool has_levels = !particles.levels.empty();
+    if (has_levels != has_levels_) drop_graphs();
+    has_levels_ = has_levels;
+    particles_ = particles.count();
+    bool grown = make_room({});
+    sets_.take(state_);
+    for (;;) {
+        clock_.start(stream_.get());
+        upload_.start(particles, state_, stream_.get());
+        CapturedRun& captured = current_graph();
+        if (!grown && settled_ && !captured.graph.is_captured())
+            captured.graph.capture(stream_.get(), [&] { enqueue(true); });
+        if (captured.graph.is_captured())
+            captured.graph.launch(stream_.get());
+        else
+            enqueue(false);
+        stream_.synchronize();
+        if (counts().stop == Stop::none) break;
+        if (counts().stop == Stop::crowded) throw_crowded(counts().crowd, particles_);
+        make_more_room();
+        grown = true;
+    }
+    settled_ = !grown;
+}
+
+void FrameRun::emit_capped(int max_level, bool first) {
+    sets_.take(state_);
+    for (;; first = false) {
+        cap_levels(state_, max_level, first, launcher_);
+        SurfaceSteps<ParticleField> steps(state_, {}, launcher_);
+        NoClock clock;
+        emit_mesh(steps, clock);
+        fetch_counts();
+        stream_.synchronize();
+        if (counts().stop == Stop::none) break;
+        make_more_room();
+    }
+}
+
+void FrameRun::enqueue(bool captured) {
+    // Sorting swaps arrays in the copy, and the next frame begins with them as they are laid out.
+    State state = state_;
+    check(cudaMemsetAsync(state.counts, 0, sizeof(Counts), stream_.get()), "cudaMemsetAsync");
+    ParticleSteps steps(state, has_levels_, launcher_);
+    clock_.begin(stream_.get(), captured);
+    run_pipeline(steps, clock_);
+    clock_.finish();
+    fetch_counts();
+}
+
+void FrameRun::fetch_counts() {
+    check(cudaMemcpyAsync(host_counts_.get(), state_.counts, sizeof(Counts), cudaMemcpyDeviceToHost, stream_.get()),
+          "cudaMemcpyAsync");
+}
+
+FrameRun::CapturedRun& FrameRun::current_graph() {
+    CapturedRun& run = graphs_[sets_.current()];
+    if (const std::uint64_t version = sets_.version(sets_.current()); run.mesh_version != version) {
+        run.graph.drop();
+        run.mesh_version = version;
+    }
+    return run;
+}
+
+void FrameRun::drop_graphs() {
+    for (CapturedRun& run : graphs_) run.graph.drop();
+}
+
+bool FrameRun::make_room(const Needed& needed) {
+    const Capacities before = state_.capacity;
+    if (!state_.capacity.grow_to(particles_, needed)) return false;
+    sets_.forget_refusal();
+    drop_graphs();
+    if (state_.capacity.same_but_for_mesh(before)) return true;
+    const Capacities& room = state_.capacity;
+    const std::uint64_t sums =
+        std::max({room.particles, room[Resource::reached_bricks], room[Resource::bricks], room[Resource::blocks]}) + 1;
+    state_.scratch_bytes = scratch_bytes(room.particles, room[Resource::reached_bricks], sums);
+    sets_.with_room([&] { memory_.assign(state_.lay_out(nullptr)); });
+    state_.lay_out(memory_.get());
+    state_.upload_tables(stream_.get());
+    return true;
+}
+
+void FrameRun::make_more_room() {
+    require_room_for_numbers();
+    if (!make_room(counts().needed)) throw DeviceError("reconstruction", "the counts contradict each other", device_);
+    sets_.with_room([&] { sets_.fit(state_); });
+}
+
+void FrameRun::require_room_for_numbers() const {
+    require_numbers(needed(Resource::reached_bricks), "the particles reach", "bricks, repetitions counted");
+    require_numbers(needed(Resource::bricks), "the particles reach", "bricks", too_many(Resource::bricks));
+    require_numbers(needed(Resource::blocks), "the frame reaches", "base cells");
+    require_numbers(needed(Resource::samples), "the surface needs", "field samples");
+    require_numbers(needed(Resource::triangles), "the surface has", "triangles");
+    require_numbers(needed(Resource::vertices), "the surface has", "vertices");
+}
+
+}  // namespace meniscus::cuda

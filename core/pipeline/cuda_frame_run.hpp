@@ -1,0 +1,85 @@
+// A frame's run on the GPU: upload, kernels, counts; again with more room until everything fits; as a graph once it
+// does.
+//
+// All arrays lie in one piece of device memory, laid out for capacities that grow when a frame needs more; then the
+// frame runs once more. Counts stay on the device: kernels loop over as many elements as they find there, from launches
+// sized by capacities. Sweeps that end when nothing changes end on the device (steps/adjust_levels/sweeps.hpp). So the
+// host waits once a frame, for the counts. Once a frame has passed without growth, its chain of kernels is captured as
+// a graph, which later frames replay until something grows. A first frame runs some times: each run ends where an array
+// is too small, and what comes after it is only known to the next.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "engine/cuda/device_memory.hpp"
+#include "engine/cuda/event_clock.hpp"
+#include "engine/cuda/graph.hpp"
+#include "engine/cuda/launch.hpp"
+#include "engine/cuda/mesh_sets.hpp"
+#include "engine/cuda/pinned_memory.hpp"
+#include "engine/cuda/state.hpp"
+#include "engine/cuda/upload.hpp"
+#include "meniscus/particle_frame.hpp"
+
+namespace meniscus::cuda {
+
+class FrameRun {
+public:
+    FrameRun(const LatticeSettings& settings, int device, MeshSets& sets, const std::shared_ptr<MemoryAccount>& account,
+             const std::shared_ptr<MemoryAccount>& device_account);
+
+    /// A valid frame, up to its mesh on the device. Throws LimitExceeded for one that crowds, and for one that needs
+    /// more than can be numbered or held.
+    void run(const ParticleFrame& particles);
+    /// The mesh of the last frame once more, with no cell finer than max_level. first: whether the levels on the device
+    /// are still those that the frame found.
+    void emit_capped(int max_level, bool first);
+
+    const State& state() const { return state_; }
+    /// Of the last run.
+    const Counts& counts() const { return *reinterpret_cast<const Counts*>(host_counts_.get()); }
+    /// How many elements the last run needed.
+    std::uint64_t needed(Resource r) const { return counts().needed[static_cast<int>(r)]; }
+    const EventClock& clock() const { return clock_; }
+    Stream& stream() { return stream_; }
+
+private:
+    /// One set of mesh arrays has one graph, since graphs hold addresses.
+    struct CapturedRun {
+        Graph graph;
+        std::uint64_t mesh_version = 0;  ///< of the mesh arrays that it was captured for
+    };
+
+    /// Puts the kernels of a frame whose particles are on their way on the stream. captured: into a graph.
+    void enqueue(bool captured);
+    void fetch_counts();
+    /// The graph for the current set of mesh arrays; dropped if those have moved.
+    CapturedRun& current_graph();
+    void drop_graphs();
+    using Needed = decltype(Counts::needed);
+    /// In the mesh's arrays by number only, see MeshSets::fit(). Returns whether there was too little.
+    bool make_room(const Needed& needed);
+    /// After a run that has found too little. Where that was room for the mesh alone, all that the mesh is made of
+    /// stays.
+    void make_more_room();
+    void require_room_for_numbers() const;
+
+    int device_;
+    MeshSets& sets_;
+    // A frame that failed may have left copies under way: pinned memory outlives the stream, whose end waits for them.
+    Upload upload_;
+    PinnedMemory host_counts_;
+    Stream stream_;
+    DeviceMemory memory_;
+    State state_;
+    Launcher launcher_;
+    EventClock clock_;
+    std::array<CapturedRun, 2> graphs_;  ///< one for each set of mesh arrays
+    std::uint64_t particles_ = 0;        ///< of the last frame
+    bool settled_ = false;               ///< whether the last frame needed no more room
+    bool has_levels_ = false;
+};
+
+}  // namespace meniscus::cuda

@@ -1,0 +1,48 @@
+// The steps of one frame on a GPU, as pipeline.hpp calls them: each puts kernels on the stream and waits for nothing.
+#pragma once
+
+#include "engine/cuda/launch.hpp"
+#include "engine/cuda/particle_field.hpp"
+#include "engine/cuda/state.hpp"
+#include "steps/cuda_steps.hpp"
+
+namespace meniscus::cuda {
+
+/// The steps from levels on: they ask nothing but values and normals of the field. Field: see ParticleField.
+template <class Field>
+class SurfaceSteps {
+public:
+    SurfaceSteps(State& state, const Field& field, const Launcher& launch)
+        : state_(state), field_(field), launch_(launch) {}
+
+    bool is_adaptive() const { return state_.settings.is_adaptive; }
+    void adjust_levels() { cuda::adjust_levels(state_, launch_); }
+    void sample_field() { cuda::sample_field(state_, field_, slivers_, launch_); }
+    void sample_edge_middles() { cuda::sample_edge_middles(state_, field_, launch_); }
+    void count_triangles() { cuda::count_triangles(state_, launch_); }
+    void place_vertices() { cuda::place_vertices(state_, field_, launch_); }
+    void emit_triangles() { cuda::emit_triangles(state_, launch_); }
+    void fill_cracks() { cuda::fill_cracks(state_, launch_); }
+
+protected:
+    State& state_;
+    Field field_;
+    const Launcher& launch_;
+    Slivers slivers_ = Slivers::raised;
+};
+
+/// Those and the ones before, which ask for particles; these are on their way to State::upload.
+class ParticleSteps : public SurfaceSteps<ParticleField> {
+public:
+    ParticleSteps(State& state, bool has_particle_levels, const Launcher& launch)
+        : SurfaceSteps(state, ParticleField{}, launch), has_particle_levels_(has_particle_levels) {}
+
+    void register_particles() { cuda::register_particles(state_, launch_); }
+    void sample_base_vertices() { cuda::sample_base_vertices(state_, launch_); }
+    void split_cells() { cuda::split_cells(state_, has_particle_levels_, launch_); }
+
+private:
+    bool has_particle_levels_;
+};
+
+}  // namespace meniscus::cuda

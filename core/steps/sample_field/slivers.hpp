@@ -1,0 +1,13 @@
+// What becomes of a cell that would cut off a finer neighbor's surface in a sliver at their common face.
+#pragma once
+
+#include <cstdint>
+
+namespace meniscus {
+
+enum class Slivers : std::uint8_t {
+    raised,  ///< the cell goes up one level: what a reconstruction does
+    kept,    ///< the crack patterns close the sliver: tests, so that these patterns meet every case
+};
+
+}  // namespace meniscus

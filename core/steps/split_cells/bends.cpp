@@ -1,0 +1,98 @@
+// Curvature at a point of the surface in every cell of the band, the eight cells of a cluster at once.
+#include <atomic>
+
+#include "engine/cpu/clusters.hpp"
+#include "field/sums.hpp"
+#include "steps/cpu_steps.hpp"
+#include "steps/split_cells/curvature.hpp"
+#include "steps/split_cells/split_cells.hpp"
+
+namespace meniscus::cpu {
+namespace {
+
+constexpr float base_edge = units_per_base_cell;
+
+/// The smallest box around eight points.
+UnitBox box_of(const Point3<Lanes>& points) {
+    return {{reduce_min(points.x), reduce_min(points.y), reduce_min(points.z)},
+            {reduce_max(points.x), reduce_max(points.y), reduce_max(points.z)}};
+}
+
+}  // namespace
+
+void measure_bends(State& s, Neighborhoods& near) {
+    resize_for_overwrite(s.bends, s.block_count());
+    const BlocksView blocks = s.blocks();
+    const BlobRule blobs{s.settings.blob_closest, s.settings.blob_level};
+    const float iso = s.settings.iso;
+    std::atomic<std::uint64_t> evaluations{0};
+    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+        for (std::size_t b = begin; b < end; ++b) {
+            const Brick& brick = s.grid.bricks[b];
+            for_each_cluster(brick.occupied, [&](const Int3& corner) {
+                std::uint32_t block[8];
+                std::uint64_t cells = 0;
+                int first = 0;
+                for (int i = 0; i < 8; ++i) {
+                    const int place = index_in_brick(corner + cluster_step(i));
+                    block[i] = brick.holds(place) ? brick.number(place) : no_index;
+                    if (block[i] != no_index) s.bends[block[i]] = {0.0F, 1};
+                    const bool in_band = blocks.level_or_none(block[i]) != 0;
+                    if (in_band && cells++ == 0) first = i;
+                    if (!in_band) block[i] = no_index;
+                }
+                if (cells == 0) return;
+                // The cells share their corners: x + 3 y + 9 z.
+                float vertices[27];
+                unsigned inside_vertices = 0;
+                for (int i = 0; i < 27; ++i) {
+                    const std::uint32_t owner = blocks.grid.neighbor(static_cast<std::uint32_t>(b),
+                                                                     index_in_brick(corner), {i % 3, i / 3 % 3, i / 9});
+                    vertices[i] = (owner == no_index ? 0.0F : blocks.value(owner, 0)) - iso;
+                    inside_vertices |= static_cast<unsigned>(blocks.inside_or_none(owner) & 1) << i;
+                }
+                alignas(32) float corners[8][8], starts[3][8], mixed[8];  // [corner][cell]
+                int inside_corners[8];
+                for (int i = 0; i < 8; ++i) {
+                    // Lanes of cells outside the band repeat another's, so that the box around their points stays
+                    // small.
+                    const Int3 step = cluster_step(block[i] != no_index ? i : first);
+                    inside_corners[i] = 0;
+                    for (int k = 0; k < 8; ++k) {
+                        const int vertex = step.x + (k & 1) + 3 * (step.y + (k >> 1 & 1)) + 9 * (step.z + (k >> 2));
+                        corners[k][i] = vertices[vertex];
+                        inside_corners[i] += static_cast<int>(inside_vertices >> vertex & 1);
+                    }
+                    mixed[i] = is_mixed(inside_corners[i]) ? 1.0F : 0.0F;
+                    starts[0][i] = static_cast<float>(step.x) * base_edge;
+                    starts[1][i] = static_cast<float>(step.y) * base_edge;
+                    starts[2][i] = static_cast<float>(step.z) * base_edge;
+                }
+                evaluations.fetch_add(2 * cells, std::memory_order_relaxed);
+                const Int3 base = brick.corner() + corner;
+                const auto jet_at = [&](const Point3<Lanes>& p) {
+                    FieldJet<Lanes> jet;
+                    for (const Candidates& c : near.near_box(base, box_of(p), worker))
+                        sum_jets(c.view(), p.x, p.y, p.z, jet);
+                    return jet;
+                };
+                CellCorners<Lanes> values;
+                for (int k = 0; k < 8; ++k) values.value[k] = Lanes::load(corners[k]);
+                const Point3<Lanes> origin{Lanes::load(starts[0]), Lanes::load(starts[1]), Lanes::load(starts[2])};
+                const SurfaceSearch<Lanes> search = search_surface(values, Lanes::load(mixed), origin, iso, jet_at);
+                alignas(32) float curvature[8], inside[8];
+                search.curvature.store(curvature);
+                search.inside.store(inside);
+                for (int i = 0; i < 8; ++i) {
+                    if (block[i] == no_index) continue;
+                    s.bends[block[i]] = cell_bend({curvature[i], inside[i]}, inside_corners[i],
+                                                  blobs.least_level(inside_corners[i], s.reaches[block[i]]));
+                }
+            });
+        }
+    });
+    s.field_evaluations += evaluations.load(std::memory_order_relaxed);
+    near.even_out();
+}
+
+}  // namespace meniscus::cpu

@@ -1,0 +1,142 @@
+// The pipeline's first steps, which ask for particles, are replaced; the others are the reconstruction's own.
+#include "support/noise.hpp"
+
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <random>
+
+#include "engine/cpu/clusters.hpp"
+#include "engine/cpu/state.hpp"
+#include "pipeline/cpu_pipeline.hpp"
+#include "pipeline/pipeline.hpp"
+#include "pipeline/stage_clock.hpp"
+
+namespace meniscus::test {
+namespace {
+
+class NoiseField final : public cpu::FieldSource {
+public:
+    explicit NoiseField(const NoiseWorld& world) : world_(world) {}
+
+    void values(const Int3& base_cell, cpu::PointList& points, float* out, unsigned) override {
+        for (std::size_t i = 0; i < points.count; ++i)
+            out[i] = noise_value(world_, base_cell, points.x[i], points.y[i], points.z[i]);
+    }
+    void cluster_values(const Int3& lowest_base_cell, const cpu::ClusterPoints& points, cpu::ClusterValues& out,
+                        unsigned) override {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            for (BlockMask left = points[i]; left != 0; left &= left - 1) {
+                const int bit = lowest_bit(left);
+                const auto coordinate = [bit](int axis) {
+                    return static_cast<float>(point_coordinate(bit, axis) * units_per_cell);
+                };
+                out[i][static_cast<std::size_t>(bit)] =
+                    noise_value(world_, lowest_base_cell + cpu::cluster_step(static_cast<int>(i)), coordinate(0),
+                                coordinate(1), coordinate(2));
+            }
+    }
+    void normals(const Int3&, cpu::PointList& points, float* x, float* y, float* z, unsigned) override {
+        for (std::size_t i = 0; i < points.count; ++i) x[i] = y[i] = z[i] = std::nanf("");
+    }
+
+private:
+    NoiseWorld world_;
+};
+
+class NoiseSteps : public cpu::SurfaceSteps {
+public:
+    NoiseSteps(cpu::State& state, cpu::FieldSource& field, Mesh& mesh, const NoiseWorld& world)
+        : SurfaceSteps(state, field, mesh), world_(world), levels_(noise_levels(world)) {
+        if (world.keeps_slivers) slivers_ = Slivers::kept;
+    }
+
+    void register_particles() {
+        state_.grid.bricks.resize(1);
+        Brick& brick = state_.grid.bricks[0];
+        brick.coordinate = {};
+        brick.clear();
+        mark_world(world_, brick.occupied);
+        state_.grid.keys.assign(1, brick_key(brick.coordinate));
+        cpu::number_members(state_.grid, state_.workers);
+        cpu::store_blocks(state_);
+    }
+    void sample_base_vertices() {
+        const Brick& brick = state_.grid.bricks[0];
+        for (std::uint32_t b = 0; b < state_.block_count(); ++b) state_.wanted_points[b] = 1;
+        state_.chosen.assign(std::begin(brick.occupied), std::end(brick.occupied));
+        cpu::sample_wanted_points(state_, field_, cpu::Wanted::corners);
+    }
+    /// As with particles, a cell may start outside the band only if its corners agree.
+    void split_cells() {
+        const BlocksView blocks = state_.blocks();
+        for (std::uint32_t b = 0; b < state_.block_count(); ++b) {
+            const ClosedCell cell(blocks, b);
+            int inside = 0;
+            for (const std::uint32_t corner : cell.block) inside += static_cast<int>(blocks.inside_or_none(corner) & 1);
+            const bool agree = inside == 0 || inside == 8;
+            state_.level[b] = !agree || levels_.starts[b] ? levels_.wanted[b] : std::uint8_t{0};
+        }
+        cpu::collect_level_sets(state_);
+        wanted_level_ = [this](std::uint32_t block) { return levels_.wanted[block]; };
+    }
+
+private:
+    NoiseWorld world_;
+    NoiseLevels levels_;
+};
+
+}  // namespace
+
+Settings noise_settings(const NoiseWorld& world) {
+    Settings settings;
+    settings.particle_radius = 1.0;
+    settings.iso = 1.0;
+    settings.mode = world.uniform ? Mode::uniform : Mode::adaptive;
+    if (world.bisects) settings.edge_points = EdgePoints::bisect;
+    return settings;
+}
+
+NoiseLevels noise_levels(const NoiseWorld& world) {
+    std::mt19937_64 random(world.seed);
+    std::uniform_int_distribution<int> level(1, 3);
+    std::bernoulli_distribution starts(world.band_share);
+    NoiseLevels levels;
+    for (int i = 0; i < world.side * world.side * world.side; ++i) {
+        levels.wanted.push_back(static_cast<std::uint8_t>(world.uniform ? 3 : level(random)));
+        levels.starts.push_back(starts(random));
+    }
+    return levels;
+}
+
+void mark_world(const NoiseWorld& world, std::uint64_t* occupied) {
+    for (int z = 0; z < world.side; ++z)
+        for (int y = 0; y < world.side; ++y)
+            for (int x = 0; x < world.side; ++x) {
+                const int index = index_in_brick({x, y, z});
+                occupied[index >> 6] |= std::uint64_t{1} << (index & 63);
+            }
+}
+
+Mesh mesh_of_noise_on_cpu(const NoiseWorld& world) {
+    const LatticeSettings settings(noise_settings(world));
+    const auto account = std::make_shared<MemoryAccount>();
+    cpu::Workers workers(1);
+    cpu::State state(account, workers, settings);
+    NoiseField field(world);
+    Mesh mesh;
+    mesh.cell_size = settings.cell_size;
+    mesh.offset_bits = settings.offset_bits;
+    NoiseSteps steps(state, field, mesh, world);
+    NoClock clock;
+    run_pipeline(steps, clock);
+    if (world.max_level < 3) {
+        Array<std::uint8_t> found;
+        found.assign(state.level.begin(), state.level.end());
+        cpu::cap_levels(state, found, world.max_level);
+        emit_mesh(steps, clock);
+    }
+    return mesh;
+}
+
+}  // namespace meniscus::test

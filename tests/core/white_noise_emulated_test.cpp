@@ -1,0 +1,173 @@
+// White noise over random levels through the pipeline with CUDA's steps, on the device in software: closed, and the
+// CPU's mesh to the bit.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "engine/cuda/device_memory.hpp"
+#include "pipeline/cuda_pipeline.hpp"
+#include "pipeline/pipeline.hpp"
+#include "pipeline/stage_clock.hpp"
+#include "support/mesh_check.hpp"
+#include "support/noise.hpp"
+// The steps are templates over the field.
+#include "steps/place_vertices/place_vertices.cu"
+#include "steps/sample_field/sample_field.cu"
+
+namespace meniscus {
+namespace {
+
+/// In the place of cuda::ParticleField.
+struct NoiseField {
+    test::NoiseWorld world;
+
+    template <int G>
+    void values(const cuda::State&, const Int3& base_cell, const UnitBox&, cuda::Staging&, const float (&x)[G],
+                const float (&y)[G], const float (&z)[G], float (&value)[G]) const {
+        for (int g = 0; g < G; ++g) value[g] = test::noise_value(world, base_cell, x[g], y[g], z[g]);
+    }
+    Normal normal(const cuda::State&, const Int3&, const UnitBox&, cuda::Staging&, float, float, float) const {
+        const float none = std::nanf("");
+        return {none, none, none};
+    }
+};
+
+/// The device's memory is the host's: what asks for particles is done by the host between waits for the stream.
+class NoiseSteps : public cuda::SurfaceSteps<NoiseField> {
+public:
+    NoiseSteps(cuda::State& state, const test::NoiseWorld& world, const cuda::Launcher& launch)
+        : SurfaceSteps(state, NoiseField{world}, launch), levels_(test::noise_levels(world)) {
+        if (world.keeps_slivers) slivers_ = Slivers::kept;
+    }
+
+    void register_particles() {
+        wait();
+        std::memset(state_.counts, 0, sizeof(cuda::Counts));
+        Brick& brick = state_.bricks[0];
+        brick.coordinate = {};
+        brick.clear();
+        test::mark_world(field_.world, brick.occupied);
+        state_.brick_keys[0] = brick_key(brick.coordinate);
+        state_.members_before[0] = brick.count();
+        state_.counts->needed[static_cast<int>(cuda::Resource::bricks)] = 1;
+        cuda::store_blocks(state_, launch_);
+    }
+    void sample_base_vertices() {
+        wait();
+        const BlocksView blocks = state_.blocks();
+        for (std::uint32_t b = 0; b < blocks.count; ++b) {
+            const float value = test::noise_value(field_.world, blocks.coordinate(b), 0.0F, 0.0F, 0.0F);
+            state_.samples[b] = value;
+            state_.first_sample[b] = b;
+            state_.sampled[b] = 1;
+            state_.inside[b] = value > state_.settings.iso ? 1 : 0;
+        }
+        state_.counts->needed[static_cast<int>(cuda::Resource::samples)] = blocks.count;
+    }
+    /// As with particles, a cell may start outside the band only if its corners agree.
+    void split_cells() {
+        const BlocksView blocks = state_.blocks();
+        for (std::uint32_t b = 0; b < blocks.count; ++b) {
+            const ClosedCell cell(blocks, b);
+            int inside = 0;
+            for (const std::uint32_t corner : cell.block) inside += static_cast<int>(blocks.inside_or_none(corner) & 1);
+            const bool agree = inside == 0 || inside == 8;
+            state_.wanted_level[b] = levels_.wanted[b];
+            state_.level[b] = !agree || levels_.starts[b] ? levels_.wanted[b] : std::uint8_t{0};
+        }
+        cuda::collect_level_sets(state_, launch_);
+    }
+
+private:
+    void wait() { cuda::check(cudaStreamSynchronize(launch_.stream), "cudaStreamSynchronize"); }
+
+    test::NoiseLevels levels_;
+};
+
+class NoiseOnDevice {
+public:
+    explicit NoiseOnDevice(const test::NoiseWorld& world)
+        : memory_(0, stream_.get(), std::make_shared<MemoryAccount>()),
+          mesh_memory_(0, stream_.get(), std::make_shared<MemoryAccount>()),
+          state_(LatticeSettings(test::noise_settings(world))) {
+        constexpr std::uint64_t room = 65536;
+        state_.capacity.particles = 1;
+        state_.capacity.of.fill(room);
+        state_.capacity.of[static_cast<std::size_t>(cuda::Resource::bricks)] = 1;
+        state_.capacity.of[static_cast<std::size_t>(cuda::Resource::blocks)] = 4096;
+        state_.scratch_bytes = cuda::scratch_bytes(room, room, room);
+        memory_.assign(state_.lay_out(nullptr));
+        state_.lay_out(memory_.get());
+        mesh_memory_.assign(state_.lay_out_mesh(nullptr));
+        state_.lay_out_mesh(mesh_memory_.get());
+        state_.upload_tables(stream_.get());
+    }
+
+    Mesh mesh(const test::NoiseWorld& world) {
+        const cuda::Launcher launch{stream_.get(), 4};
+        NoiseSteps steps(state_, world, launch);
+        NoClock clock;
+        run_pipeline(steps, clock);
+        if (world.max_level < 3) {
+            cuda::cap_levels(state_, world.max_level, true, launch);
+            emit_mesh(steps, clock);
+        }
+        stream_.synchronize();
+        EXPECT_EQ(state_.counts->stop, cuda::Stop::none);
+        const auto needed = [&](cuda::Resource r) { return state_.counts->needed[static_cast<int>(r)]; };
+        Mesh mesh;
+        mesh.cell_size = state_.settings.cell_size;
+        mesh.offset_bits = state_.settings.offset_bits;
+        mesh.vertices.assign(state_.vertices, state_.vertices + needed(cuda::Resource::vertices));
+        mesh.triangles.assign(state_.triangles, state_.triangles + needed(cuda::Resource::triangles));
+        for (std::size_t level = 0; level < triangle_level_count; ++level)
+            mesh.levels[level] = {state_.counts->first_triangle[level],
+                                  static_cast<std::uint32_t>(state_.counts->triangles[level])};
+        return mesh;
+    }
+
+private:
+    cuda::Stream stream_;
+    cuda::DeviceMemory memory_, mesh_memory_;
+    cuda::State state_;
+};
+
+void expect_closed(const test::NoiseWorld& world, std::uint64_t first, std::uint64_t count) {
+    NoiseOnDevice device(world);
+    test::for_each_seed(world, first, count, [&](const test::NoiseWorld& seeded) {
+        const Mesh mesh = device.mesh(seeded);
+        const test::MeshReport report = test::check(mesh);
+        ASSERT_TRUE(report.closed_manifold()) << "seed " << seeded.seed << ": " << report.text();
+        const Mesh expected = test::mesh_of_noise_on_cpu(seeded);
+        ASSERT_EQ(mesh.vertices, expected.vertices) << "seed " << seeded.seed;
+        ASSERT_EQ(mesh.triangles, expected.triangles) << "seed " << seeded.seed;
+        ASSERT_FALSE(mesh.triangles.empty()) << "seed " << seeded.seed;
+    });
+}
+
+TEST(WhiteNoiseEmulated, GivesClosedManifoldsOverRandomLevels) {
+    expect_closed({}, 1, 60);
+}
+TEST(WhiteNoiseEmulated, GivesClosedManifoldsWhereSliversAreRaised) {
+    expect_closed({.keeps_slivers = false}, 7001, 25);
+}
+TEST(WhiteNoiseEmulated, GivesClosedManifoldsWhereFewPointsAreInsideOrOutside) {
+    expect_closed({.share = 0.15}, 1001, 20);
+    expect_closed({.share = 0.85}, 2001, 20);
+}
+TEST(WhiteNoiseEmulated, GivesClosedManifoldsWhereValuesLieOnTheIsoValue) {
+    expect_closed({.ties = true}, 3001, 20);
+}
+TEST(WhiteNoiseEmulated, GivesClosedManifoldsWhenTheBandMustGrow) {
+    expect_closed({.share = 0.02, .band_share = 0.1}, 4001, 20);
+}
+TEST(WhiteNoiseEmulated, GivesClosedManifoldsWhereLevelsAreCapped) {
+    for (const int max_level : {1, 2}) expect_closed({.max_level = max_level}, 8001, 20);
+}
+TEST(WhiteNoiseEmulated, GivesClosedManifoldsInUniformModeAndWithBisection) {
+    expect_closed({.side = 3, .uniform = true}, 5001, 10);
+    expect_closed({.bisects = true, .keeps_slivers = false}, 6001, 10);
+}
+
+}  // namespace
+}  // namespace meniscus
