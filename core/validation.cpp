@@ -82,6 +82,17 @@ void validate(const ParticleFrame& frame, const Settings& settings) {
                                std::to_string(*coarsest) + ", must be 0 to " + std::to_string(max_particle_level));
         require_support(settings, *coarsest);
     }
+    if (frame.arrays.size() > max_particle_arrays)
+        throw LimitExceeded("the frame has " + std::to_string(frame.arrays.size()) + " arrays, at most " +
+                            std::to_string(max_particle_arrays) + " are possible: leave some out");
+    for (const ParticleArray& array : frame.arrays) {
+        if (array.element_bytes < 1)
+            throw InvalidInput("array '" + std::string(array.name) + "' has elements of 0 bytes, must have at least 1");
+        if (array.data.size() / array.element_bytes != count || array.data.size() % array.element_bytes != 0)
+            throw InvalidInput("array '" + std::string(array.name) + "' has " + std::to_string(array.data.size()) +
+                               " bytes, must have " + std::to_string(array.element_bytes) + " for each of " +
+                               std::to_string(count) + " particles");
+    }
     const double limit = static_cast<double>(max_cell) * world_cell_size(settings);
     if (frame.is_quantized()) {
         const Box& box = frame.quantization_box;

@@ -6,6 +6,8 @@ namespace meniscus::cpu {
 ParticleSet::ParticleSet(const std::shared_ptr<MemoryAccount>& account)
     : cells(account),
       keys(make_array<ParticleKey>(account)),
+      identified(make_array<IdentifiedKey>(account)),
+      sources(make_array<std::uint32_t>(account)),
       first(make_array<std::uint32_t>(account)),
       cell_keys(make_array<std::uint64_t>(account)),
       x(make_array<float>(account)),

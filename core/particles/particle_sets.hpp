@@ -14,12 +14,20 @@
 
 namespace meniscus::cpu {
 
+/// A particle as it is sorted where the frame brings more than positions.
+struct IdentifiedKey {
+    ParticleKey key;
+    std::uint32_t source;  ///< its index in the frame
+};
+
 /// The particles of one level.
 struct ParticleSet {
     explicit ParticleSet(const std::shared_ptr<MemoryAccount>& account);
 
     BrickGrid cells;
     Array<ParticleKey> keys;
+    Array<IdentifiedKey> identified;  ///< while they are sorted
+    Array<std::uint32_t> sources;     ///< each particle's index in the frame; empty for a frame without arrays
     Array<std::uint32_t> first;
     Array<std::uint64_t> cell_keys;
     // Of every particle, and room for whole lanes beyond the last; ParticleSetView explains them.

@@ -45,11 +45,13 @@ FrameRun::FrameRun(const LatticeSettings& settings, int device, MeshSets& sets,
 }
 
 void FrameRun::run(const ParticleFrame& particles) {
-    const bool has_levels = !particles.levels.empty();
-    if (has_levels != has_levels_) drop_graphs();
-    has_levels_ = has_levels;
+    const FrameParts parts{!particles.levels.empty(), !particles.arrays.empty()};
+    if (parts != parts_) drop_graphs();
+    parts_ = parts;
     particles_ = particles.count();
-    bool grown = make_room({});
+    std::uint64_t payload_bytes = 0;
+    for (const ParticleArray& array : particles.arrays) payload_bytes += array.element_bytes;
+    bool grown = make_room({}, payload_bytes);
     sets_.take(state_);
     for (;;) {
         clock_.start(stream_.get());
@@ -88,7 +90,7 @@ void FrameRun::enqueue(bool captured) {
     // Sorting swaps arrays in the copy, and the next frame begins with them as they are laid out.
     State state = state_;
     check(cudaMemsetAsync(state.counts, 0, sizeof(Counts), stream_.get()), "cudaMemsetAsync");
-    ParticleSteps steps(state, has_levels_, launcher_);
+    ParticleSteps steps(state, parts_, launcher_);
     clock_.begin(stream_.get(), captured);
     run_pipeline(steps, clock_);
     clock_.finish();
@@ -113,16 +115,19 @@ void FrameRun::drop_graphs() {
     for (CapturedRun& run : graphs_) run.graph.drop();
 }
 
-bool FrameRun::make_room(const Needed& needed) {
+bool FrameRun::make_room(const Needed& needed, std::uint64_t payload_bytes) {
     const Capacities before = state_.capacity;
-    if (!state_.capacity.grow_to(particles_, needed)) return false;
+    const bool more_payload = payload_bytes > state_.payload_bytes;
+    if (!state_.capacity.grow_to(particles_, needed) && !more_payload) return false;
     sets_.forget_refusal();
     drop_graphs();
-    if (state_.capacity.same_but_for_mesh(before)) return true;
+    if (state_.capacity.same_but_for_mesh(before) && !more_payload) return true;
+    if (more_payload) state_.payload_bytes = payload_bytes;
     const Capacities& room = state_.capacity;
     const std::uint64_t sums =
         std::max({room.particles, room[Resource::reached_bricks], room[Resource::bricks], room[Resource::blocks]}) + 1;
-    state_.scratch_bytes = scratch_bytes(room.particles, room[Resource::reached_bricks], sums);
+    state_.scratch_bytes =
+        scratch_bytes(room.particles, state_.payload_bytes != 0, room[Resource::reached_bricks], sums);
     sets_.with_room([&] { memory_.assign(state_.lay_out(nullptr)); });
     state_.lay_out(memory_.get());
     state_.upload_tables(stream_.get());
@@ -131,7 +136,8 @@ bool FrameRun::make_room(const Needed& needed) {
 
 void FrameRun::make_more_room() {
     require_room_for_numbers();
-    if (!make_room(counts().needed)) throw DeviceError("reconstruction", "the counts contradict each other", device_);
+    if (!make_room(counts().needed, 0))
+        throw DeviceError("reconstruction", "the counts contradict each other", device_);
     sets_.with_room([&] { sets_.fit(state_); });
 }
 

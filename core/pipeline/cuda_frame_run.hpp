@@ -22,6 +22,7 @@
 #include "engine/cuda/state.hpp"
 #include "engine/cuda/upload.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "pipeline/cuda_pipeline.hpp"
 
 namespace meniscus::cuda {
 
@@ -60,7 +61,7 @@ private:
     void drop_graphs();
     using Needed = decltype(Counts::needed);
     /// In the mesh's arrays by number only, see MeshSets::fit(). Returns whether there was too little.
-    bool make_room(const Needed& needed);
+    bool make_room(const Needed& needed, std::uint64_t payload_bytes);
     /// After a run that has found too little. Where that was room for the mesh alone, all that the mesh is made of
     /// stays.
     void make_more_room();
@@ -79,7 +80,7 @@ private:
     std::array<CapturedRun, 2> graphs_;  ///< one for each set of mesh arrays
     std::uint64_t particles_ = 0;        ///< of the last frame
     bool settled_ = false;               ///< whether the last frame needed no more room
-    bool has_levels_ = false;
+    FrameParts parts_;                   ///< of the last frame
 };
 
 }  // namespace meniscus::cuda

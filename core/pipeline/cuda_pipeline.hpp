@@ -31,18 +31,25 @@ protected:
     Slivers slivers_ = Slivers::raised;
 };
 
+/// What a frame brings beside positions: kernels are chosen by it.
+struct FrameParts {
+    bool levels = false;
+    bool payload = false;
+    bool operator==(const FrameParts&) const = default;
+};
+
 /// Those and the ones before, which ask for particles; these are on their way to State::upload.
 class ParticleSteps : public SurfaceSteps<ParticleField> {
 public:
-    ParticleSteps(State& state, bool has_particle_levels, const Launcher& launch)
-        : SurfaceSteps(state, ParticleField{}, launch), has_particle_levels_(has_particle_levels) {}
+    ParticleSteps(State& state, const FrameParts& parts, const Launcher& launch)
+        : SurfaceSteps(state, ParticleField{}, launch), parts_(parts) {}
 
-    void register_particles() { cuda::register_particles(state_, launch_); }
+    void register_particles() { cuda::register_particles(state_, parts_.payload, launch_); }
     void sample_base_vertices() { cuda::sample_base_vertices(state_, launch_); }
-    void split_cells() { cuda::split_cells(state_, has_particle_levels_, launch_); }
+    void split_cells() { cuda::split_cells(state_, parts_.levels, launch_); }
 
 private:
-    bool has_particle_levels_;
+    FrameParts parts_;
 };
 
 }  // namespace meniscus::cuda

@@ -11,8 +11,8 @@ namespace meniscus::cuda {
 // Field: ParticleField, or what a test puts in its place; see there.
 
 /// Step 1: sorts the particles, and stores the base cells that they reach. Also tells the state which of its arrays
-/// hold the sorted keys.
-void register_particles(State& state, const Launcher& launch);
+/// hold the sorted keys. has_payload: whether State::sources is to tell where each particle came from.
+void register_particles(State& state, bool has_payload, const Launcher& launch);
 /// Divides the particles' weights by the density at their places: the color field.
 void divide_weights_by_density(const State& state, const Launcher& launch);
 /// Numbers the members of the bricks, whose bits are set and counted in members_before; makes their blocks, none of

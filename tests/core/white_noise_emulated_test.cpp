@@ -95,7 +95,7 @@ public:
         state_.capacity.of.fill(room);
         state_.capacity.of[static_cast<std::size_t>(cuda::Resource::bricks)] = 1;
         state_.capacity.of[static_cast<std::size_t>(cuda::Resource::blocks)] = 4096;
-        state_.scratch_bytes = cuda::scratch_bytes(room, room, room);
+        state_.scratch_bytes = cuda::scratch_bytes(room, false, room, room);
         memory_.assign(state_.lay_out(nullptr));
         state_.lay_out(memory_.get());
         mesh_memory_.assign(state_.lay_out_mesh(nullptr));

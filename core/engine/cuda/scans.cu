@@ -1,3 +1,4 @@
+// CUB, compiled once.
 #include "engine/cuda/scans.hpp"
 
 #include <algorithm>
@@ -32,6 +33,20 @@ Key* sort_keys(void* memory, std::size_t& bytes, Key* keys, Key* room, std::size
     return buffers.Current();
 }
 
+SortKey* sort_pairs(void* memory, std::size_t& bytes, SortKey* keys, SortKey* room, std::uint32_t* values,
+                    std::uint32_t* values_room, std::size_t n, cudaStream_t stream) {
+    cub::DoubleBuffer<SortKey> key_buffers(keys, room);
+    cub::DoubleBuffer<std::uint32_t> value_buffers(values, values_room);
+    check(cub::DeviceRadixSort::SortPairs(memory, bytes, key_buffers, value_buffers, static_cast<std::int64_t>(n), 0,
+                                          static_cast<int>(8 * sizeof(SortKey)), stream),
+          "cub::DeviceRadixSort");
+    if (memory != nullptr && value_buffers.Current() != values)
+        check(cudaMemcpyAsync(values, value_buffers.Current(), n * sizeof(std::uint32_t), cudaMemcpyDeviceToDevice,
+                              stream),
+              "cudaMemcpyAsync");
+    return key_buffers.Current();
+}
+
 template <class T>
 std::size_t scan_bytes(std::size_t n) {
     std::size_t bytes = 0;
@@ -48,8 +63,10 @@ std::size_t sort_bytes(std::size_t n) {
 
 }  // namespace
 
-std::size_t scratch_bytes(std::size_t particle_keys, std::size_t brick_keys, std::size_t sums) {
-    return std::max({sort_bytes<SortKey>(particle_keys), sort_bytes<std::uint64_t>(brick_keys),
+std::size_t scratch_bytes(std::size_t particle_keys, bool has_values, std::size_t brick_keys, std::size_t sums) {
+    std::size_t pair_bytes = 0;
+    if (has_values) sort_pairs(nullptr, pair_bytes, nullptr, nullptr, nullptr, nullptr, particle_keys, nullptr);
+    return std::max({pair_bytes, sort_bytes<SortKey>(particle_keys), sort_bytes<std::uint64_t>(brick_keys),
                      scan_bytes<std::uint32_t>(sums), scan_bytes<std::uint64_t>(sums), scan_bytes<LevelCounts>(sums)});
 }
 
@@ -69,6 +86,11 @@ void exclusive_sum(const Scratch& scratch, LevelCounts* values, std::size_t n, c
 SortKey* sort(const Scratch& scratch, SortKey* keys, SortKey* room, std::size_t n, cudaStream_t stream) {
     std::size_t bytes = scratch.bytes;
     return sort_keys(scratch.memory, bytes, keys, room, n, stream);
+}
+SortKey* sort_with_values(const Scratch& scratch, SortKey* keys, SortKey* room, std::uint32_t* values,
+                          std::uint32_t* values_room, std::size_t n, cudaStream_t stream) {
+    std::size_t bytes = scratch.bytes;
+    return sort_pairs(scratch.memory, bytes, keys, room, values, values_room, n, stream);
 }
 std::uint64_t* sort(const Scratch& scratch, std::uint64_t* keys, std::uint64_t* room, std::size_t n,
                     cudaStream_t stream) {

@@ -16,6 +16,7 @@
 #include "lattice/level_sets.hpp"
 #include "meniscus/mesh.hpp"
 #include "particles/particle_set.hpp"
+#include "particles/payload.hpp"
 #include "particles/positions.hpp"
 #include "tables/tables.hpp"
 
@@ -28,6 +29,7 @@ struct FrameInput {
     std::uint32_t particles = 0;
     PositionsView positions;               ///< device pointers
     const std::uint8_t* levels = nullptr;  ///< device pointer, or none
+    PayloadView payload;                   ///< device pointers
 };
 
 /// Lists of blocks, filled in any order.
@@ -85,6 +87,7 @@ using Pointer = T*;
 struct State : BlockState<Pointer> {
     LatticeSettings settings;
     Capacities capacity;
+    std::uint64_t payload_bytes = 0;  ///< room in the upload for each particle's
     FrameInput* input = nullptr;
     Counts* counts = nullptr;
     const CubeCase* cube_table = nullptr;
@@ -93,9 +96,13 @@ struct State : BlockState<Pointer> {
     std::size_t scratch_bytes = 0;
 
     // Of every particle. Those of a level lie together, levels in ascending order; ParticleSetView explains the rest.
-    std::byte* upload = nullptr;  ///< 12 bytes for positions, one for the level
+    std::byte* upload = nullptr;  ///< 12 bytes for positions, one for the level, payload_bytes
     SortKey* keys = nullptr;      ///< level, ParticleKey::cell, ParticleKey::place
     SortKey* unsorted_keys = nullptr;
+    // Only where particles carry a payload:
+    std::uint32_t* sources = nullptr;  ///< each sorted particle's index in the frame
+    std::uint32_t* sources_room = nullptr;
+
     std::uint64_t* starts = nullptr;  ///< support cells that begin before it, and in the upper half bricks of them
     float4* particles = nullptr;      ///< position and weight
     float* densities = nullptr;       ///< color field only
@@ -144,9 +151,11 @@ struct State : BlockState<Pointer> {
         take(cube_table, cube_case_count);
         take(crack_table, crack_case_count);
         take(scratch, scratch_bytes);
-        take(upload, 13 * n);
+        take(upload, (13 + payload_bytes) * n);
         take(keys, n);
         take(unsorted_keys, n);
+        take(sources, payload_bytes != 0 ? n : 0);
+        take(sources_room, payload_bytes != 0 ? n : 0);
         take(starts, n);
         take(particles, n);
         take(densities, n);
@@ -205,6 +214,8 @@ struct State : BlockState<Pointer> {
 
     /// Where the positions' levels lie in the upload.
     std::byte* upload_levels() const { return upload + 12 * capacity.particles; }
+    /// Where the payload's arrays lie there, one after the other.
+    std::byte* upload_payload() const { return upload + 13 * capacity.particles; }
     Scratch scratch_memory() const { return {scratch, scratch_bytes}; }
 
     __device__ bool goes_on() const { return counts->stop == Stop::none; }

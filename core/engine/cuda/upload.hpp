@@ -23,9 +23,16 @@ public:
         const auto positions =
             particles.is_quantized() ? std::as_bytes(particles.quantized) : std::as_bytes(particles.positions);
         const auto levels = std::as_bytes(particles.levels);
-        staging_.reserve(positions.size() + levels.size());
-        send(positions, staging_.get(), state.upload, stream);
-        send(levels, staging_.get() + positions.size(), state.upload_levels(), stream);
+        std::size_t bytes = positions.size() + levels.size();
+        for (const ParticleArray& array : particles.arrays) bytes += array.data.size();
+        staging_.reserve(bytes);
+        std::byte* staging = staging_.get();
+        const auto send_next = [&](std::span<const std::byte> from, std::byte* to) {
+            send(from, staging, to, stream);
+            staging += from.size();
+        };
+        send_next(positions, state.upload);
+        send_next(levels, state.upload_levels());
 
         auto& input = *new (input_.get()) FrameInput;
         input.particles = static_cast<std::uint32_t>(particles.count());
@@ -35,6 +42,13 @@ public:
         else
             input.positions.positions = reinterpret_cast<const float*>(state.upload);
         if (!particles.levels.empty()) input.levels = reinterpret_cast<const std::uint8_t*>(state.upload_levels());
+        input.payload = payload_view(particles);
+        std::byte* to = state.upload_payload();
+        for (std::size_t i = 0; i < particles.arrays.size(); ++i) {
+            send_next(particles.arrays[i].data, to);
+            input.payload.data[i] = to;
+            to += particles.arrays[i].data.size();
+        }
         check(cudaMemcpyAsync(state.input, &input, sizeof(FrameInput), cudaMemcpyHostToDevice, stream),
               "cudaMemcpyAsync");
     }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "meniscus/settings.hpp"
 
@@ -12,12 +13,24 @@ namespace meniscus {
 /// Coarsest particle level of adaptive SPH: level k has radius and support times 2^k and mass times 8^k.
 inline constexpr unsigned max_particle_level = 3;
 
+/// Most arrays that a frame can bring beside positions and levels.
+inline constexpr std::size_t max_particle_arrays = 16;
+
+/// What every particle carries beside its position and level; borrowed.
+struct ParticleArray {
+    std::string_view name;            ///< for messages
+    std::span<const std::byte> data;  ///< element_bytes for each particle, one particle after the other
+    std::size_t element_bytes = 0;    ///< at least 1
+};
+
 /// Positions in one of two encodings; the other stays empty. Borrowed: the memory must outlive the call.
 struct ParticleFrame {
     std::span<const float> positions;          ///< x y z per particle, world units
     std::span<const std::uint16_t> quantized;  ///< x y z per particle: min + q (max - min) / 65535 of quantization_box
     Box quantization_box;                      ///< used with `quantized` only
     std::span<const std::uint8_t> levels;      ///< empty (uniform SPH), or one per particle, 0 (finest) to 3
+    /// Orders particles that lie at one place; the surface does not depend on it.
+    std::span<const ParticleArray> arrays;
 
     bool is_quantized() const { return !quantized.empty(); }
     std::size_t count() const { return (is_quantized() ? quantized.size() : positions.size()) / 3; }

@@ -5,6 +5,7 @@
 
 #include "engine/cpu/words.hpp"
 #include "engine/numbering.hpp"
+#include "particles/payload.hpp"
 #include "particles/positions.hpp"
 #include "steps/cpu_steps.hpp"
 #include "steps/register_particles/crowd.hpp"
@@ -12,27 +13,67 @@
 namespace meniscus::cpu {
 namespace {
 
+/// Calls write(particle's index in the frame, at) for the particles of a level, at = 0, 1, ...; resize(n) first.
+template <class Resize, class Write>
+void for_each_of_level(ParticleSets& sets, const ParticleFrame& frame, unsigned level, const Resize& resize,
+                       const Write& write) {
+    if (frame.levels.empty()) {
+        const std::size_t count = level == 0 ? frame.count() : 0;
+        resize(count);
+        sets.workers.for_ranges(count, 8192, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t i = begin; i < end; ++i) write(i, i);
+        });
+        return;
+    }
+    const auto belongs = [&](std::size_t i) -> std::uint64_t { return frame.levels[i] == level ? 1 : 0; };
+    resize(static_cast<std::size_t>(std::count(frame.levels.begin(), frame.levels.end(), level)));
+    sets.scan.exclusive(sets.workers, frame.count(), belongs, [&](std::size_t i, std::uint64_t at) {
+        if (belongs(i) != 0) write(i, at);
+    });
+}
+
+/// Where only positions matter, particles of the same key are the same: keys are all there is to sort.
+void sort_keys(ParticleSets& sets, ParticleSet& set, const ParticleFrame& frame, unsigned level) {
+    const PositionsView positions = positions_view(frame, sets.settings.units_per_length);
+    for_each_of_level(
+        sets, frame, level, [&](std::size_t n) { resize_for_overwrite(set.keys, n); },
+        [&](std::size_t i, std::size_t at) { set.keys[at] = particle_key(positions.snapped(i), set.cell_units); });
+    sets.workers.sort(set.keys.data(), set.keys.data() + set.keys.size(), std::less<>());
+    set.sources.clear();
+}
+
+/// Keys with the particles' indices, those of the same key in the order of their payload: the order is the same in
+/// whatever order the frame has them.
+void sort_identified_keys(ParticleSets& sets, ParticleSet& set, const ParticleFrame& frame, unsigned level) {
+    const PositionsView positions = positions_view(frame, sets.settings.units_per_length);
+    for_each_of_level(
+        sets, frame, level, [&](std::size_t n) { resize_for_overwrite(set.identified, n); },
+        [&](std::size_t i, std::size_t at) {
+            set.identified[at] = {particle_key(positions.snapped(i), set.cell_units), static_cast<std::uint32_t>(i)};
+        });
+    const PayloadView payload = payload_view(frame);
+    sets.workers.sort(set.identified.data(), set.identified.data() + set.identified.size(),
+                      [&](const IdentifiedKey& a, const IdentifiedKey& b) {
+                          if (a.key < b.key) return true;
+                          return !(b.key < a.key) && payload.before(a.source, b.source);
+                      });
+    resize_for_overwrite(set.keys, set.identified.size());
+    resize_for_overwrite(set.sources, set.identified.size());
+    sets.workers.for_ranges(set.identified.size(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i) {
+            set.keys[i] = set.identified[i].key;
+            set.sources[i] = set.identified[i].source;
+        }
+    });
+}
+
 /// Those of one level.
 void sort_particles(ParticleSets& sets, const ParticleFrame& frame, unsigned level) {
     ParticleSet& set = sets[level];
-    const PositionsView positions = positions_view(frame, sets.settings.units_per_length);
-    const auto write = [&](std::size_t i, std::size_t at) {
-        set.keys[at] = particle_key(positions.snapped(i), set.cell_units);
-    };
-    if (frame.levels.empty()) {
-        resize_for_overwrite(set.keys, level == 0 ? frame.count() : 0);
-        sets.workers.for_ranges(set.keys.size(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
-            for (std::size_t i = begin; i < end; ++i) write(i, i);
-        });
-    } else {
-        const auto belongs = [&](std::size_t i) -> std::uint64_t { return frame.levels[i] == level ? 1 : 0; };
-        const auto count = static_cast<std::size_t>(std::count(frame.levels.begin(), frame.levels.end(), level));
-        resize_for_overwrite(set.keys, count);
-        sets.scan.exclusive(sets.workers, frame.count(), belongs, [&](std::size_t i, std::uint64_t at) {
-            if (belongs(i) != 0) write(i, at);
-        });
-    }
-    sets.workers.sort(set.keys.data(), set.keys.data() + set.keys.size(), std::less<>());
+    if (frame.arrays.empty())
+        sort_keys(sets, set, frame, level);
+    else
+        sort_identified_keys(sets, set, frame, level);
     for (Array<float>* a : {&set.x, &set.y, &set.z, &set.weight}) {
         resize_for_overwrite(*a, set.count() + Lanes::count);
         std::fill(a->end() - Lanes::count, a->end(), 0.0F);

@@ -11,9 +11,10 @@
 namespace meniscus::cuda {
 namespace {
 
-__global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant__ State f, bool identified) {
     const std::uint32_t n = f.input->particles;
     GridLoop{}.each(f.capacity.particles, [&](std::uint32_t i) {
+        if (identified) f.sources[i] = i;
         if (i >= n) {
             f.unsorted_keys[i] = no_key;
             return;
@@ -21,6 +22,19 @@ __global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant
         const unsigned level = f.input->levels == nullptr ? 0 : f.input->levels[i];
         f.unsorted_keys[i] =
             sort_key(level, meniscus::particle_key(f.input->positions.snapped(i), f.settings.cell_units[level]));
+    });
+}
+
+/// Particles of the same key in the order of their payload: one thread sorts them. After stop_if_crowded: then they are
+/// not many.
+__global__ void __launch_bounds__(block_threads) order_by_payload(const __grid_constant__ State f) {
+    const std::uint32_t n = f.particle_count();
+    GridLoop{}.each(n, [&](std::uint32_t i) {
+        const SortKey key = f.keys[i];
+        if (i > 0 && f.keys[i - 1] == key) return;
+        std::uint32_t end = i + 1;
+        while (end < n && f.keys[end] == key) ++end;
+        if (end > i + 1) sort_by_payload(f.input->payload, f.sources + i, end - i);
     });
 }
 
@@ -261,11 +275,13 @@ __global__ void __launch_bounds__(block_threads) count_particles(const __grid_co
     });
 }
 
-void sort_particles(State& f, const Launcher& launch) {
+void sort_particles(State& f, bool has_payload, const Launcher& launch) {
     const std::uint64_t n = f.capacity.particles;
-    launch(n, block_threads, make_keys, f);
-    if (sort(f.scratch_memory(), f.unsorted_keys, f.keys, n, launch.stream) != f.keys)
-        std::swap(f.keys, f.unsorted_keys);
+    launch(n, block_threads, make_keys, f, has_payload);
+    const SortKey* const sorted = has_payload ? sort_with_values(f.scratch_memory(), f.unsorted_keys, f.keys, f.sources,
+                                                                 f.sources_room, n, launch.stream)
+                                              : sort(f.scratch_memory(), f.unsorted_keys, f.keys, n, launch.stream);
+    if (sorted != f.keys) std::swap(f.keys, f.unsorted_keys);
     launch(n, block_threads, mark_starts, f);
     exclusive_sum(f.scratch_memory(), f.starts, n, launch.stream);
     check(cudaMemsetAsync(f.particle_bricks, 0, f.capacity[Resource::particle_bricks] * sizeof(Brick), launch.stream),
@@ -274,6 +290,7 @@ void sort_particles(State& f, const Launcher& launch) {
     launch(f.capacity[Resource::particle_bricks], block_threads, count_support_cells, f);
     launch(n, block_threads, measure_crowd, f);
     launch(1, block_threads, stop_if_crowded, f);
+    if (has_payload) launch(n, block_threads, order_by_payload, f);
 }
 
 void store_reached_bricks(State& f, const Launcher& launch) {
@@ -300,8 +317,8 @@ void store_blocks(const State& state, const Launcher& launch) {
     launch(Brick::words * bricks, block_threads, make_blocks, state);
 }
 
-void register_particles(State& state, const Launcher& launch) {
-    sort_particles(state, launch);
+void register_particles(State& state, bool has_payload, const Launcher& launch) {
+    sort_particles(state, has_payload, launch);
     store_reached_bricks(state, launch);
     store_blocks(state, launch);
     if (state.settings.counts_particles) launch(state.capacity.particles, block_threads, count_particles, state);

@@ -2,6 +2,9 @@
 #include "engine/cuda/scans.hpp"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace meniscus::cuda {
 namespace {
@@ -30,7 +33,7 @@ Key* sorted(Key* keys, Key* room, std::size_t n, cudaStream_t stream) {
 
 }  // namespace
 
-std::size_t scratch_bytes(std::size_t, std::size_t, std::size_t) {
+std::size_t scratch_bytes(std::size_t, bool, std::size_t, std::size_t) {
     return 256;
 }
 void exclusive_sum(const Scratch&, std::uint32_t* values, std::size_t n, cudaStream_t stream) {
@@ -44,6 +47,16 @@ void exclusive_sum(const Scratch&, LevelCounts* values, std::size_t n, cudaStrea
 }
 SortKey* sort(const Scratch&, SortKey* keys, SortKey* room, std::size_t n, cudaStream_t stream) {
     return sorted(keys, room, n, stream);
+}
+SortKey* sort_with_values(const Scratch&, SortKey* keys, SortKey* room, std::uint32_t* values, std::uint32_t*,
+                          std::size_t n, cudaStream_t stream) {
+    emulated_device::submit(stream, [=] {
+        std::vector<std::pair<SortKey, std::uint32_t>> pairs(n);
+        for (std::size_t i = 0; i < n; ++i) pairs[i] = {keys[i], values[i]};
+        std::stable_sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        for (std::size_t i = 0; i < n; ++i) std::tie(room[i], values[i]) = pairs[i];
+    });
+    return room;
 }
 std::uint64_t* sort(const Scratch&, std::uint64_t* keys, std::uint64_t* room, std::size_t n, cudaStream_t stream) {
     return sorted(keys, room, n, stream);

@@ -1,0 +1,64 @@
+// Particles that carry more than a position, on the device in software: the CPU's order, and its mesh.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "meniscus/meniscus.hpp"
+#include "pipeline/backend.hpp"
+#include "pipeline/cuda_frame_run.hpp"
+#include "support/particles.hpp"
+#include "support/payload.hpp"
+
+namespace meniscus {
+namespace {
+
+class Device {
+public:
+    /// The payloads of the sorted particles, all levels in one.
+    std::vector<std::vector<std::byte>> sorted_payloads(test::ParticlesWithPayload& particles) {
+        run_.run(particles.frame());
+        std::vector<std::vector<std::byte>> payloads;
+        for (std::size_t i = 0; i < particles.particles.count(); ++i)
+            payloads.push_back(particles.payload_of(run_.state().sources[i]));
+        return payloads;
+    }
+    void run(const ParticleFrame& frame) { run_.run(frame); }
+
+private:
+    std::shared_ptr<MemoryAccount> account_ = std::make_shared<MemoryAccount>();
+    cuda::MeshSets sets_{0, account_, account_};
+    cuda::FrameRun run_{LatticeSettings(test::default_settings()), 0, sets_, account_, account_};
+};
+
+TEST(PayloadEmulated, ComesInTheSameOrderWhateverTheOrderOfTheFrame) {
+    for (const bool levels : {false, true}) {
+        Device device;
+        test::ParticlesWithPayload particles = test::crowded_places(levels);
+        const auto expected = device.sorted_payloads(particles);
+        // The same device: with more room, then captured as a graph, then replayed, with frames without payload
+        // between.
+        for (unsigned seed = 1; seed <= 6; ++seed) {
+            test::ParticlesWithPayload other = particles.shuffled(seed);
+            EXPECT_EQ(device.sorted_payloads(other), expected) << "seed " << seed;
+            if (seed % 3 == 0) device.run(particles.particles.frame());
+        }
+    }
+}
+
+TEST(PayloadEmulated, LeavesTheSurfaceAsItIs) {
+    test::ParticlesWithPayload particles = test::crowded_places(true);
+    const Mesh expected = test::reconstruct(test::default_settings(), particles.particles.frame());
+    const auto account = std::make_shared<MemoryAccount>();
+    const auto backend = cuda::make_reconstruction(test::default_settings(), 0, account, account);
+    Statistics statistics;
+    for (int round = 0; round < 4; ++round) {
+        Mesh mesh;
+        mesh.cell_size = expected.cell_size;
+        mesh.offset_bits = expected.offset_bits;
+        backend->reconstruct(particles.frame(), mesh, statistics).finish();
+        EXPECT_EQ(mesh_sha256(mesh), mesh_sha256(expected));
+    }
+}
+
+}  // namespace
+}  // namespace meniscus
