@@ -31,14 +31,13 @@ public:
         field_.sample_base_vertices(surface_, reaches_);
         clock.enter(Stage::split_cells);
         find_band(surface_, reaches_);
-        if (measures_bends()) field_.measure_bends(surface_, reaches_, bends_);
-        const SplitCriterion split_criterion = criterion(frame);
-        split_cells(surface_, split_criterion);
+        if (splits_by<CurvatureCriterion>()) field_.measure_bends(surface_, reaches_, bends_);
+        const SplitRule rule = split_rule(frame);
+        split_cells(surface_, rule);
         clock.enter(Stage::adjust_levels);
         if (user_.mode == Mode::adaptive) adjust_levels(surface_);
         clock.enter(Stage::sample_field);
-        sample_field(surface_, field_,
-                     [&](std::uint32_t block) { return wanted_level(split_criterion, surface_.view(), block); });
+        sample_field(surface_, field_, [&](std::uint32_t block) { return wanted_level(rule, surface_.view(), block); });
         if (user_.mode == Mode::adaptive) sample_edge_middles(surface_, field_);
         emit(mesh, clock);
         capped_ = false;
@@ -77,18 +76,24 @@ private:
         particles_.mark_reached_cells(surface_.grid);
         number_members(surface_.grid, workers_);
         store_blocks(surface_);
-        if (counts_particles()) particles_.count_per_cell(surface_.grid, counts_);
+        if (splits_by<CountCriterion>()) particles_.count_per_cell(surface_.grid, counts_);
         field_.begin_frame(user_.field);
     }
 
-    bool counts_particles() const { return user_.mode == Mode::adaptive && user_.criterion == Criterion::count; }
+    template <class Chosen>
+    bool splits_by() const {
+        return user_.mode == Mode::adaptive && std::holds_alternative<Chosen>(user_.criterion);
+    }
 
-    bool measures_bends() const { return user_.mode == Mode::adaptive && user_.criterion == Criterion::curvature; }
-
-    SplitCriterion criterion(const ParticleFrame& frame) const {
-        if (counts_particles()) return CountCriterion{counts_.data(), user_.count_threshold, !frame.levels.empty()};
-        if (measures_bends()) return CurvatureCriterion{bends_.data(), static_cast<float>(user_.tolerance)};
-        return UniformCriterion{};
+    SplitRule rule_of(const CurvatureCriterion& chosen, const ParticleFrame&) const {
+        return CurvatureRule{bends_.data(), static_cast<float>(chosen.tolerance)};
+    }
+    SplitRule rule_of(const CountCriterion& chosen, const ParticleFrame& frame) const {
+        return CountRule{counts_.data(), chosen.threshold, !frame.levels.empty()};
+    }
+    SplitRule split_rule(const ParticleFrame& frame) const {
+        if (user_.mode == Mode::uniform) return UniformRule{};
+        return std::visit([&](const auto& chosen) { return rule_of(chosen, frame); }, user_.criterion);
     }
 
     Settings user_;

@@ -55,8 +55,9 @@ public:
           storage_(std::make_shared<MeshStorage>(device, account, device_account)),
           memory_(device, stream_.get(), device_account),
           frame_(LatticeSettings(user)) {
-        frame_.bisects = user.edge_points == EdgePoints::bisect;
-        frame_.bisection_steps = user.bisection_steps;
+        const Bisection* const bisection = std::get_if<Bisection>(&user.edge_points);
+        frame_.bisects = bisection != nullptr;
+        frame_.bisection_steps = bisection != nullptr ? bisection->steps : 0;
         frame_.has_normals = user.normals;
         for (unsigned k = 0; k < particle_level_count; ++k) {
             const float support = frame_.settings.support[k];

@@ -68,7 +68,7 @@ struct World {
     double share = 0.5;
     bool ties = false;
     bool uniform = false;
-    EdgePoints edge_points = EdgePoints::interpolate;
+    EdgePoints edge_points = Interpolation{};
     bool raise_at_slivers = true;
     int max_level = 3;        ///< of the levels from which the mesh is emitted
     double band_share = 1.0;  ///< base cells that start in the band; the others must join where the samples say so
@@ -186,7 +186,7 @@ TEST(WhiteNoise, GivesClosedManifoldsInUniformMode) {
     expect_closed({.side = 3, .uniform = true}, 5001, 50);
 }
 TEST(WhiteNoise, GivesClosedManifoldsWithBisection) {
-    expect_closed({.edge_points = EdgePoints::bisect}, 6001, 50);
+    expect_closed({.edge_points = Bisection{}}, 6001, 50);
 }
 
 }  // namespace

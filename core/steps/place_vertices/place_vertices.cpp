@@ -201,6 +201,7 @@ void number_vertices(Surface& s, bool with_normals, Mesh& mesh) {
 void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& mesh) {
     number_vertices(s, user.normals, mesh);
     const BlocksView blocks = s.view();
+    const Bisection* const bisection = std::get_if<Bisection>(&user.edge_points);
     std::atomic<std::uint64_t> evaluations{0};
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         BlockVertices vertices;
@@ -211,9 +212,9 @@ void place_vertices(Surface& s, FieldSource& field, const Settings& user, Mesh& 
         const auto place_block = [&](std::uint32_t block) {
             find_vertices(blocks, block, vertices);
             const Int3 at = blocks.coordinate(block);
-            if (user.edge_points == EdgePoints::bisect) {
+            if (bisection != nullptr) {
                 bisect(field, at, blocks, block, s.settings, worker, vertices);
-                evaluations.fetch_add(vertices.count * user.bisection_steps, std::memory_order_relaxed);
+                evaluations.fetch_add(vertices.count * bisection->steps, std::memory_order_relaxed);
             } else {
                 interpolate(blocks, block, s.settings, vertices);
             }

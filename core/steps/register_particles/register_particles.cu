@@ -342,7 +342,7 @@ void store_reached_cells(Frame& f, const Launcher& launch) {
 void register_particles(Frame& frame, const Settings& user, const Launcher& launch) {
     sort_particles(frame, launch);
     store_reached_cells(frame, launch);
-    if (user.mode == Mode::adaptive && user.criterion == Criterion::count)
+    if (user.mode == Mode::adaptive && std::holds_alternative<CountCriterion>(user.criterion))
         launch(frame.capacity.particles, block_threads, count_particles, frame);
     if (user.field != Field::color) return;
     launch(frame.capacity.particles, block_threads, measure_densities, frame);

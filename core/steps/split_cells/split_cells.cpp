@@ -33,11 +33,11 @@ void find_band(Surface& s, const Array<CellReach>& reaches) {
     });
 }
 
-int wanted_level(const SplitCriterion& criterion, const BlocksView& blocks, std::uint32_t block) {
-    return std::visit([&](const auto& level_of) { return level_of(blocks, block); }, criterion);
+int wanted_level(const SplitRule& rule, const BlocksView& blocks, std::uint32_t block) {
+    return std::visit([&](const auto& level_of) { return level_of(blocks, block); }, rule);
 }
 
-void split_cells(Surface& s, const SplitCriterion& criterion) {
+void split_cells(Surface& s, const SplitRule& rule) {
     const BlocksView blocks = s.view();
     std::visit(
         [&](const auto& level_of) {
@@ -47,7 +47,7 @@ void split_cells(Surface& s, const SplitCriterion& criterion) {
                         s.level[b] = static_cast<std::uint8_t>(level_of(blocks, static_cast<std::uint32_t>(b)));
             });
         },
-        criterion);
+        rule);
     levels_are_new(s);
 }
 

@@ -94,9 +94,8 @@ __global__ void __launch_bounds__(block_threads, 2) measure_bends(const __grid_c
     if (blockIdx.x == 0 && threadIdx.x == 0) f.counts->field_evaluations += Counter{2} * cells;
 }
 
-template <class Criterion>
-__global__ void __launch_bounds__(block_threads)
-    choose_levels(const __grid_constant__ Frame f, const Criterion level_of) {
+template <class Rule>
+__global__ void __launch_bounds__(block_threads) choose_levels(const __grid_constant__ Frame f, const Rule level_of) {
     const BlocksView blocks = f.blocks();
     GridLoop{}.each(blocks.count, [&](std::uint32_t b) {
         f.wanted_level[b] = static_cast<std::uint8_t>(level_of(blocks, b));
@@ -126,25 +125,30 @@ __global__ void __launch_bounds__(block_threads) list_level_sets(const __grid_co
     });
 }
 
+void choose_by(const CurvatureCriterion& chosen, const Frame& frame, bool, const Launcher& launch) {
+    const std::uint64_t blocks = frame.capacity[Resource::blocks];
+    launch(blocks, block_threads, measure_bends, frame);
+    launch(blocks, block_threads, choose_levels<CurvatureRule>, frame,
+           CurvatureRule{frame.bends, static_cast<float>(chosen.tolerance)});
+}
+
+void choose_by(const CountCriterion& chosen, const Frame& frame, bool has_particle_levels, const Launcher& launch) {
+    launch(frame.capacity[Resource::blocks], block_threads, choose_levels<CountRule>, frame,
+           CountRule{frame.particle_counts, chosen.threshold, has_particle_levels});
+}
+
 }  // namespace
 
 void split_cells(const Frame& frame, const Settings& user, bool has_particle_levels, const Launcher& launch) {
-    const std::uint64_t blocks = frame.capacity[Resource::blocks];
     const bool adaptive = user.mode == Mode::adaptive;
-    const bool bends = adaptive && user.criterion == Criterion::curvature;
+    const bool bends = adaptive && std::holds_alternative<CurvatureCriterion>(user.criterion);
     const std::uint64_t words = Brick::words * frame.capacity[Resource::bricks];
     launch(words, block_warps, collect_base_vertices, frame);
     launch(words, block_warps, find_band, frame, bends);
-    if (bends) {
-        launch(blocks, block_threads, measure_bends, frame);
-        launch(blocks, block_threads, choose_levels<CurvatureCriterion>, frame,
-               CurvatureCriterion{frame.bends, static_cast<float>(user.tolerance)});
-    } else if (adaptive) {
-        launch(blocks, block_threads, choose_levels<CountCriterion>, frame,
-               CountCriterion{frame.particle_counts, user.count_threshold, has_particle_levels});
-    } else {
-        launch(blocks, block_threads, choose_levels<UniformCriterion>, frame, UniformCriterion{});
-    }
+    if (adaptive)
+        std::visit([&](const auto& chosen) { choose_by(chosen, frame, has_particle_levels, launch); }, user.criterion);
+    else
+        launch(frame.capacity[Resource::blocks], block_threads, choose_levels<UniformRule>, frame, UniformRule{});
     collect_level_sets(frame, launch);
 }
 
