@@ -35,6 +35,19 @@ void require_box(const char* name, const Box& box, bool may_be_flat) {
     }
 }
 
+void require(const CurvatureCriterion& criterion) {
+    require_positive("tolerance", criterion.tolerance);
+}
+void require(const CountCriterion& criterion) {
+    if (criterion.threshold < 1) throw InvalidInput("count threshold is 0, must be at least 1");
+}
+void require(const Interpolation&) {}
+void require(const Bisection& bisection) {
+    if (bisection.steps < 1 || bisection.steps > Bisection::max_steps)
+        throw InvalidInput("bisection steps are " + std::to_string(bisection.steps) + ", must be 1 to " +
+                           std::to_string(Bisection::max_steps));
+}
+
 /// The coarsest particle level's support must stay exact in float32.
 void require_support(const Settings& s, unsigned coarsest_level) {
     const double cells = std::ldexp(2.0 * s.smoothing_length / s.cell_size, static_cast<int>(coarsest_level));
@@ -55,10 +68,8 @@ void validate(const Settings& s) {
     // In float32 the iso value must remain above zero, or the outside would be inside.
     require_positive("iso value", static_cast<float>(s.iso));
     require_support(s, 0);
-    require_positive("tolerance", s.tolerance);
-    if (s.count_threshold < 1) throw InvalidInput("count threshold is 0, must be at least 1");
-    if (s.edge_points == EdgePoints::bisect && (s.bisection_steps < 1 || s.bisection_steps > 7))
-        throw InvalidInput("bisection steps are " + std::to_string(s.bisection_steps) + ", must be 1 to 7");
+    std::visit([](const auto& criterion) { require(criterion); }, s.criterion);
+    std::visit([](const auto& edge_points) { require(edge_points); }, s.edge_points);
     if (s.domain) require_box("domain", *s.domain, false);
 }
 

@@ -65,6 +65,25 @@ void use_log_format(LogFormat format) {
     spdlog::set_formatter(std::move(formatter));
 }
 
+void use_log_level(LogLevel level) {
+    const auto level_of_spdlog = [level] {
+        switch (level) {
+            case LogLevel::debug:
+                return spdlog::level::debug;
+            case LogLevel::info:
+                return spdlog::level::info;
+            case LogLevel::warning:
+                return spdlog::level::warn;
+            case LogLevel::error:
+                return spdlog::level::err;
+            case LogLevel::off:
+                break;
+        }
+        return spdlog::level::off;
+    };
+    spdlog::set_level(level_of_spdlog());
+}
+
 void log(spdlog::level::level_enum level, const LogSubject& subject, const std::string& message) {
     current_subject = &subject;
     spdlog::log(level, "{}", message);

@@ -13,9 +13,37 @@
 namespace meniscus::server {
 
 enum class LogFormat { text, json };
+constexpr std::string_view name_of(LogFormat format) {
+    switch (format) {
+        case LogFormat::text:
+            return "text";
+        case LogFormat::json:
+            return "json";
+    }
+    return {};
+}
 
-/// For spdlog's default logger, whatever calls it.
+/// The least important lines that are logged.
+enum class LogLevel { debug, info, warning, error, off };
+constexpr std::string_view name_of(LogLevel level) {
+    switch (level) {
+        case LogLevel::debug:
+            return "debug";
+        case LogLevel::info:
+            return "info";
+        case LogLevel::warning:
+            return "warning";
+        case LogLevel::error:
+            return "error";
+        case LogLevel::off:
+            return "off";
+    }
+    return {};
+}
+
+/// Both are of spdlog's default logger, which all lines go through.
 void use_log_format(LogFormat format);
+void use_log_level(LogLevel level);
 
 /// What a line is about.
 struct LogSubject {

@@ -66,7 +66,7 @@ int run(const meniscus::server::CommandLine& command_line) {
     const sigset_t signals = block_signals();
     spdlog::set_default_logger(spdlog::stderr_color_mt("meniscusd"));
     meniscus::server::use_log_format(command_line.log_format);
-    spdlog::set_level(command_line.log_level);
+    use_log_level(command_line.log_level);
     spdlog::flush_on(spdlog::level::debug);
     gpr_set_log_function(log_grpc_for_debugging);
     // What protobuf would print of messages that do not parse is their senders' to choose.

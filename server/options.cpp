@@ -7,10 +7,9 @@
 #include <chrono>
 #include <iterator>
 #include <limits>
-#include <map>
 
 #include "available_memory.hpp"
-#include "meniscus/error.hpp"
+#include "meniscus/names.hpp"
 #include "settings_sources.hpp"
 
 namespace meniscus::server {
@@ -37,18 +36,6 @@ EarlyExit refuse(const std::vector<std::string>& problems) {
     for (const std::string& problem : problems)
         exit.text += fmt::format("meniscusd: {}\n", problem.substr(0, problem.find('\n')));
     return exit;
-}
-
-spdlog::level::level_enum log_level_by_name(const std::string& name) {
-    static const std::map<std::string, spdlog::level::level_enum> levels{{"debug", spdlog::level::debug},
-                                                                         {"info", spdlog::level::info},
-                                                                         {"warning", spdlog::level::warn},
-                                                                         {"error", spdlog::level::err},
-                                                                         {"off", spdlog::level::off}};
-    const auto found = levels.find(name);
-    if (found == levels.end())
-        throw InvalidInput(fmt::format("--log-level is {}; it must be debug, info, warning, error or off", name));
-    return found->second;
 }
 
 }  // namespace
@@ -100,10 +87,11 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.add_flag("--channelz", server.standard_services.channelz, "Let clients ask for connections and their traffic");
 
     app.add_option_function<std::string>(
-           "--backend", [&server](const std::string& name) { server.backend.backend = backend_by_name(name); },
-           "auto, cpu or cuda")
+           "--backend",
+           [&server](const std::string& name) { server.backend.backend = by_name<Backend>(name, "backend"); },
+           listed(names<Backend>))
         ->type_name("NAME")
-        ->default_str("auto");
+        ->default_str(std::string(name_of(server.backend.backend)));
     app.add_option(
            "--devices", server.devices,
            "GPUs to use, as 0,1: each session on the one with the most free memory. Default: all that can be used")
@@ -155,20 +143,17 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->transform(CLI::AsSizeValue(false))
         ->type_name("BYTES");
     app.add_option_function<std::string>(
-           "--log-level", [&](const std::string& name) { command_line.log_level = log_level_by_name(name); },
-           "debug, info, warning, error or off")
+           "--log-level",
+           [&](const std::string& name) { command_line.log_level = by_name<LogLevel>(name, "--log-level"); },
+           listed(names<LogLevel>))
         ->type_name("NAME")
-        ->default_str("info");
-
+        ->default_str(std::string(name_of(command_line.log_level)));
     app.add_option_function<std::string>(
            "--log-format",
-           [&](const std::string& name) {
-               command_line.log_format = name == "json" ? LogFormat::json : LogFormat::text;
-           },
+           [&](const std::string& name) { command_line.log_format = by_name<LogFormat>(name, "--log-format"); },
            "text, or json: one object a line")
-        ->check(CLI::IsMember({"text", "json"}).description(""))
         ->type_name("NAME")
-        ->default_str("text");
+        ->default_str(std::string(name_of(command_line.log_format)));
 
     try {
         app.parse(argc, argv);

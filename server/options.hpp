@@ -1,8 +1,6 @@
 // The settings of meniscusd: its command line, its environment, its file.
 #pragma once
 
-#include <spdlog/common.h>
-
 #include <optional>
 #include <string>
 
@@ -13,7 +11,7 @@ namespace meniscus::server {
 
 struct CommandLine {
     ServerOptions server;
-    spdlog::level::level_enum log_level = spdlog::level::info;
+    LogLevel log_level = LogLevel::info;
     LogFormat log_format = LogFormat::text;
     bool check_config = false;  ///< only say whether the settings can be used
 };

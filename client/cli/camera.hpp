@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "cli/rasterizer.hpp"
@@ -12,6 +13,15 @@ namespace meniscus::cli {
 using Vector3 = std::array<double, 3>;
 
 enum class UpAxis { y, z };
+constexpr std::string_view name_of(UpAxis axis) {
+    switch (axis) {
+        case UpAxis::y:
+            return "y";
+        case UpAxis::z:
+            return "z";
+    }
+    return {};
+}
 
 /// Looks at a cloud of points from a direction, in perspective, so that they fill the picture.
 class Camera {

@@ -8,6 +8,7 @@
 #include "cli/recording_files.hpp"
 #include "formats/atomic_file.hpp"
 #include "formats/vtk_writer.hpp"
+#include "meniscus/names.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 struct ConvertOptions {
     RecordingSelection recording;
     std::string directory;
-    std::string format = "ply";
+    std::string format{name_of(MeshFormat::ply)};
 };
 
 void write_particles(const std::filesystem::path& path, const formats::RecordedParticles& particles) {
@@ -52,8 +53,10 @@ void add_convert(CLI::App& app) {
     CLI::App& command = *app.add_subcommand("convert", "Write frames of a recording as files of their own");
     options->recording.add_to(command);
     command.add_option("-o,--output", options->directory, "Folder for the files")->required();
+    std::vector<std::string> formats(names<MeshFormat>.begin(), names<MeshFormat>.end());
+    formats.emplace_back("vtk");
     command.add_option("--format", options->format, "Of the meshes; vtk: the particles")
-        ->check(CLI::IsMember({"ply", "obj", "bricks", "vtk"}))
+        ->check(CLI::IsMember(formats))
         ->capture_default_str();
     command.callback([options] { convert(*options); });
 }

@@ -5,8 +5,20 @@
 #include "formats/extension.hpp"
 #include "formats/mesh_file.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/names.hpp"
 
 namespace meniscus::cli {
+namespace {
+
+MeshFormat format_of(const std::filesystem::path& path) {
+    const std::string extension = formats::lower_extension(path);
+    if (extension.starts_with('.'))
+        if (const auto format = find_by_name<MeshFormat>(std::string_view(extension).substr(1))) return *format;
+    throw InvalidInput(path.string() + ": meshes are written as " + listed(names<MeshFormat>) + ", not as '" +
+                       extension + "'");
+}
+
+}  // namespace
 
 void check_folder(const std::filesystem::path& path) {
     const std::filesystem::path folder = path.parent_path();
@@ -15,25 +27,24 @@ void check_folder(const std::filesystem::path& path) {
 }
 
 void check_mesh_path(const std::filesystem::path& path) {
-    const std::string extension = formats::lower_extension(path);
-    if (extension != ".ply" && extension != ".obj" && extension != ".bricks")
-        throw InvalidInput(path.string() + ": meshes are written as .ply, .obj or .bricks, not as '" + extension + "'");
+    format_of(path);
     check_folder(path);
 }
 
 void write_surface(const std::filesystem::path& path, const Surface& surface) {
-    const std::string extension = formats::lower_extension(path);
-    if (extension == ".bricks")
-        formats::write_bricks(path, surface.encoded());
-    else if (extension == ".obj")
-        formats::write_obj(path, surface.mesh());
-    else
-        formats::write_ply(path, surface.mesh());
+    switch (format_of(path)) {
+        case MeshFormat::ply:
+            return formats::write_ply(path, surface.mesh());
+        case MeshFormat::obj:
+            return formats::write_obj(path, surface.mesh());
+        case MeshFormat::bricks:
+            return formats::write_bricks(path, surface.encoded());
+    }
 }
 
 std::filesystem::path frame_path(const std::filesystem::path& directory, std::uint64_t index,
-                                 const std::string& extension) {
-    return FilePattern((directory / ("frame_{:06}." + extension)).string()).at(index);
+                                 std::string_view extension) {
+    return FilePattern((directory / ("frame_{:06}." + std::string(extension))).string()).at(index);
 }
 
 }  // namespace meniscus::cli

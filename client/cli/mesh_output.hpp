@@ -2,21 +2,35 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "cli/surfaces.hpp"
 
 namespace meniscus::cli {
 
+/// The formats that meshes are written in; a name is also the file's extension.
+enum class MeshFormat { ply, obj, bricks };
+constexpr std::string_view name_of(MeshFormat format) {
+    switch (format) {
+        case MeshFormat::ply:
+            return "ply";
+        case MeshFormat::obj:
+            return "obj";
+        case MeshFormat::bricks:
+            return "bricks";
+    }
+    return {};
+}
+
 /// Throws InvalidInput unless the path's folder exists: to be called before long work.
 void check_folder(const std::filesystem::path& path);
-/// Throws InvalidInput unless the extension is .ply, .obj or .bricks and the folder exists: to be called before long
-/// work.
+/// Throws InvalidInput unless the extension names a MeshFormat and the folder exists: to be called before long work.
 void check_mesh_path(const std::filesystem::path& path);
 /// Writes the format that the extension names.
 void write_surface(const std::filesystem::path& path, const Surface& surface);
 
 /// "DIR/frame_000012.ply"
 std::filesystem::path frame_path(const std::filesystem::path& directory, std::uint64_t index,
-                                 const std::string& extension);
+                                 std::string_view extension);
 
 }  // namespace meniscus::cli

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/named_option.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -14,7 +15,6 @@ constexpr std::size_t largest_side = 8192;
 struct PictureCommand {
     std::string mesh;
     std::string out;
-    std::string up = "y";
     std::vector<double> view;
     PictureOptions options;
 };
@@ -24,7 +24,6 @@ void picture(PictureCommand command) {
         command.options.azimuth = command.view[0];
         command.options.elevation = command.view[1];
     }
-    command.options.up = command.up == "z" ? UpAxis::z : UpAxis::y;
     formats::write_png(command.out, draw_picture(formats::read_mesh(command.mesh), command.options));
 }
 
@@ -46,9 +45,7 @@ void add_picture(CLI::App& app) {
     command.add_option("--view", options->view, "AZIMUTH ELEVATION: where the viewer stands, degrees (default 30 25)")
         ->expected(2)
         ->check(CLI::Range(-360.0, 360.0));
-    command.add_option("--up", options->up, "Axis that points up")
-        ->check(CLI::IsMember({"y", "z"}))
-        ->capture_default_str();
+    add_named_option(command, "--up", options->options.up, "Axis that points up");
     command.callback([options] { picture(*options); });
 }
 

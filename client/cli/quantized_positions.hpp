@@ -2,11 +2,24 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "meniscus/particle_frame.hpp"
 
 namespace meniscus::cli {
+
+/// How positions are uploaded.
+enum class PositionEncoding { float32, uint16 };
+constexpr std::string_view name_of(PositionEncoding encoding) {
+    switch (encoding) {
+        case PositionEncoding::float32:
+            return "float32";
+        case PositionEncoding::uint16:
+            return "uint16";
+    }
+    return {};
+}
 
 class QuantizedPositions {
 public:

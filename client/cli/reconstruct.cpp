@@ -10,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/file_pattern.hpp"
 #include "cli/mesh_output.hpp"
+#include "cli/named_option.hpp"
 #include "cli/quantized_positions.hpp"
 #include "cli/settings_options.hpp"
 #include "cli/statistics_json.hpp"
@@ -30,7 +31,7 @@ struct ReconstructOptions {
     double particle_radius = 0.0;
     SettingsOptions settings;
     SurfacesOptions surfaces;
-    std::string positions = "float32";
+    PositionEncoding positions = PositionEncoding::float32;
     unsigned repeat = 1;
     std::optional<std::uint64_t> start;
     std::optional<std::uint64_t> end;
@@ -118,7 +119,7 @@ void reconstruct(const ReconstructOptions& options) {
             throw InvalidInput(path.string() + ": " + e.what());
         }
         std::optional<QuantizedPositions> quantized;
-        if (options.positions == "uint16") quantized.emplace(particles.frame());
+        if (options.positions == PositionEncoding::uint16) quantized.emplace(particles.frame());
         // Files do not tell their simulation time.
         for (unsigned run = 0; run < options.repeat; ++run)
             surfaces->submit(quantized ? quantized->frame() : particles.frame(), 0.0);
@@ -144,11 +145,8 @@ void add_reconstruct(CLI::App& app) {
     command.add_option("--particle-radius", options->particle_radius, "World units")->required();
     options->settings.add_to(command);
     options->surfaces.add_to(command);
-    command
-        .add_option("--positions", options->positions,
-                    "Encoding of the positions; uint16 is over the frame's bounding box")
-        ->check(CLI::IsMember({"float32", "uint16"}))
-        ->capture_default_str();
+    add_named_option(command, "--positions", options->positions,
+                     "Encoding of the positions; uint16 is over the frame's bounding box");
     command.add_option("--start", options->start, "First frame of a sequence");
     command.add_option("--end", options->end, "Last frame of a sequence");
     command.add_option("--repeat", options->repeat, "Reconstruct each frame so often")

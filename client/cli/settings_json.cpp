@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "meniscus/names.hpp"
+
 namespace meniscus::cli {
 
 nlohmann::ordered_json to_json(const Settings& settings) {
@@ -10,13 +12,13 @@ nlohmann::ordered_json to_json(const Settings& settings) {
     out["smoothing_length"] = settings.smoothing_length;
     out["cell_size"] = settings.cell_size;
     out["iso"] = settings.iso;
-    out["field"] = settings.field == Field::density ? "density" : "color";
-    out["mode"] = settings.mode == Mode::uniform ? "uniform" : "adaptive";
-    out["criterion"] = settings.criterion == Criterion::count ? "count" : "curvature";
-    out["tolerance"] = settings.tolerance;
-    out["count_threshold"] = settings.count_threshold;
-    out["edge_points"] = settings.edge_points == EdgePoints::bisect ? "bisect" : "interpolate";
-    out["bisection_steps"] = settings.bisection_steps;
+    out["field"] = name_of(settings.field);
+    out["mode"] = name_of(settings.mode);
+    out["criterion"] = name_of(settings.criterion);
+    out["tolerance"] = value_or_default<CurvatureCriterion>(settings.criterion).tolerance;
+    out["count_threshold"] = value_or_default<CountCriterion>(settings.criterion).threshold;
+    out["edge_points"] = name_of(settings.edge_points);
+    out["bisection_steps"] = value_or_default<Bisection>(settings.edge_points).steps;
     out["normals"] = settings.normals;
     if (settings.domain) out["domain"] = {{"min", settings.domain->min}, {"max", settings.domain->max}};
     return out;

@@ -7,6 +7,7 @@
 
 namespace meniscus::cli {
 
+/// Every key is always there: a parameter of a choice that was not made has its default.
 nlohmann::ordered_json to_json(const Settings& settings);
 
 }  // namespace meniscus::cli

@@ -7,6 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/mesh_output.hpp"
+#include "cli/named_option.hpp"
 #include "cli/quantized_positions.hpp"
 #include "cli/settings_options.hpp"
 #include "cli/statistics_json.hpp"
@@ -22,15 +23,15 @@ namespace meniscus::cli {
 namespace {
 
 struct SimulateOptions {
-    std::string scene = "dam-break";
+    simulator::SceneKind scene = simulator::SceneKind::dam_break;
     std::size_t particles = 16000;
     std::uint64_t frames = 100;
     double frame_seconds = 0.02;
     bool adaptive = false;
-    std::string positions = "float32";
+    PositionEncoding positions = PositionEncoding::float32;
     std::string session;
     std::string out;
-    std::string format = "ply";
+    MeshFormat format = MeshFormat::ply;
     std::string particles_out;
     std::string stats;
     SettingsOptions settings;
@@ -48,8 +49,7 @@ void simulate(const SimulateOptions& options) {
     if (!options.session.empty() && options.surfaces.server.address.empty())
         throw InvalidInput("--session '" + options.session + "' needs --server");
     check_folder(options.stats);
-    simulator::Simulation simulation(
-        simulator::make_scene(*simulator::scene_by_name(options.scene), options.particles));
+    simulator::Simulation simulation(simulator::make_scene(options.scene, options.particles));
     const Settings settings = options.settings.build(static_cast<double>(simulation.scene().particle_radius));
     std::cerr << "particle radius " << settings.particle_radius << '\n';
     for (const std::string& folder : {options.out, options.particles_out})
@@ -58,7 +58,8 @@ void simulate(const SimulateOptions& options) {
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     const auto handle = [&](const Surface& surface) {
         const client::FrameStatistics& s = surface.statistics();
-        if (!options.out.empty()) write_surface(frame_path(options.out, surface.index(), options.format), surface);
+        if (!options.out.empty())
+            write_surface(frame_path(options.out, surface.index(), name_of(options.format)), surface);
         if (!options.stats.empty()) {
             nlohmann::ordered_json figures{{"frame", surface.index()}};
             figures.update(to_json({s}, mesh_sha256(surface.mesh())));
@@ -78,7 +79,7 @@ void simulate(const SimulateOptions& options) {
         upload.levels = particles.levels;
         if (!options.particles_out.empty()) formats::write_vtk(frame_path(options.particles_out, frame, "vtk"), upload);
         std::optional<QuantizedPositions> quantized;
-        if (options.positions == "uint16") quantized.emplace(upload);
+        if (options.positions == PositionEncoding::uint16) quantized.emplace(upload);
         surfaces->submit(quantized ? quantized->frame() : upload, simulation.time());
     }
     surfaces->finish();
@@ -91,9 +92,7 @@ void simulate(const SimulateOptions& options) {
 void add_simulate(CLI::App& app) {
     auto options = std::make_shared<SimulateOptions>();
     CLI::App& command = *app.add_subcommand("simulate", "Simulate water and reconstruct its surface frame by frame");
-    command.add_option("--scene", options->scene, "What happens")
-        ->check(CLI::IsMember({"dam-break", "double-dam-break", "pour-on-obstacle"}))
-        ->capture_default_str();
+    add_named_option(command, "--scene", options->scene, "What happens");
     command
         .add_option("--particles", options->particles,
                     "Number of particles; the scene's size stays, their radius follows")
@@ -107,17 +106,12 @@ void add_simulate(CLI::App& app) {
                      "uploaded as one of level 1");
     options->surfaces.add_to(command);
     options->settings.add_to(command);
-    command
-        .add_option("--positions", options->positions,
-                    "Encoding of the positions; uint16 is over the frame's bounding box")
-        ->check(CLI::IsMember({"float32", "uint16"}))
-        ->capture_default_str();
+    add_named_option(command, "--positions", options->positions,
+                     "Encoding of the positions; uint16 is over the frame's bounding box");
     command.add_option("--session", options->session,
                        "With --server: UUID of the session to create (default: a new one)");
     command.add_option("--out", options->out, "Folder for the meshes");
-    command.add_option("--format", options->format, "Format of the meshes")
-        ->check(CLI::IsMember({"ply", "obj", "bricks"}))
-        ->capture_default_str();
+    add_named_option(command, "--format", options->format, "Format of the meshes");
     command.add_option("--particles-out", options->particles_out, "Folder for the particles, as VTK");
     command.add_option("--stats", options->stats, "Figures of each frame, as JSON");
     command.callback([options] { simulate(*options); });

@@ -20,13 +20,13 @@ nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::s
     out["particles"] = s.particles;
     out["vertices"] = s.vertices;
     out["triangles"] = s.triangles;
-    const auto& t = s.triangles_by_level;
-    out["triangles_by_level"] = {{"level1", t[0]}, {"level2", t[1]}, {"level3", t[2]}, {"crack", t[3]}};
-    const auto& b = s.base_cells_by_level;
-    out["base_cells_by_level"] = {{"level1", b[0]}, {"level2", b[1]}, {"level3", b[2]}};
+    for (const TriangleLevel level : choices<TriangleLevel>)
+        out["triangles_by_level"][std::string(name_of(level))] = s.triangles_by_level[static_cast<std::size_t>(level)];
+    for (std::size_t i = 0; i < s.base_cells_by_level.size(); ++i)
+        out["base_cells_by_level"][std::string(names<TriangleLevel>[i])] = s.base_cells_by_level[i];
     out["field_evaluations"] = s.field_evaluations;
-    for (std::size_t i = 0; i < stage_count; ++i)
-        out["stage_seconds"][std::string(stage_names[i])] = s.stage_seconds[i];
+    for (const Stage stage : choices<Stage>)
+        out["stage_seconds"][std::string(name_of(stage))] = s.stage_seconds[static_cast<std::size_t>(stage)];
     out["download_seconds"] = s.download_seconds;
     out["total_seconds"] = s.total_seconds;
     out["first_seconds"] = runs.front().total_seconds;

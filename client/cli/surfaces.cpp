@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/local_surfaces.hpp"
+#include "cli/named_option.hpp"
 #include "cli/policy_options.hpp"
 #include "cli/server_surfaces.hpp"
 #include "formats/brick_file.hpp"
@@ -34,11 +35,7 @@ const client::ReceivedFrame& Surface::encoded() const {
 }
 
 CLI::Option* add_backend_option(CLI::App& command, Backend& backend) {
-    return command
-        .add_option_function<std::string>(
-            "--backend", [&backend](const std::string& name) { backend = backend_by_name(name); },
-            "Of this process: cpu, cuda, or auto: a GPU if one can be used")
-        ->default_str("auto");
+    return add_named_option(command, "--backend", backend, "Of this process; auto: a GPU if one can be used");
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cli/server_flags.hpp"
+#include "meniscus/backend_options.hpp"
 #include "meniscus/client/client.hpp"
 
 namespace CLI {

@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/mesh_output.hpp"
+#include "cli/named_option.hpp"
 #include "cli/server_flags.hpp"
 #include "cli/watch_wishes.hpp"
 #include "formats/atomic_file.hpp"
@@ -17,7 +18,7 @@ struct WatchOptions {
     std::string session;
     ServerFlags server;
     std::string directory;
-    std::string format = "ply";
+    MeshFormat format = MeshFormat::ply;
     std::uint64_t frames = 0;  ///< 0: until the session ends
     WatchWishes wishes;
 };
@@ -34,7 +35,7 @@ void watch(const WatchOptions& options) {
     for (std::uint64_t received = 0; options.frames == 0 || received < options.frames; ++received) {
         const auto frame = watcher.next();
         if (!frame) return;
-        const auto path = frame_path(options.directory, frame->index, options.format);
+        const auto path = frame_path(options.directory, frame->index, name_of(options.format));
         write_surface(path, Surface(*frame));
         std::uint64_t triangles = 0;
         for (const auto& brick : frame->bricks) triangles += brick->triangles;
@@ -51,9 +52,7 @@ void add_watch(CLI::App& app) {
     command.add_option("SESSION", options->session, "The session's id")->required();
     options->server.add_to(command, "Where it is")->required();
     command.add_option("-o,--output", options->directory, "Folder for the meshes")->required();
-    command.add_option("--format", options->format, "Format of the meshes")
-        ->check(CLI::IsMember({"ply", "obj", "bricks"}))
-        ->capture_default_str();
+    add_named_option(command, "--format", options->format, "Format of the meshes");
     command.add_option("--frames", options->frames, "End after so many; 0: when the session ends")
         ->capture_default_str();
     options->wishes.add_to(command);

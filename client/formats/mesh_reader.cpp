@@ -118,6 +118,12 @@ TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes) {
     return mesh;
 }
 
+/// The byte of the level that write_obj() names a group by; -1 for other groups.
+int level_of_group(std::string_view group) {
+    const auto level = find_by_name<TriangleLevel>(group);
+    return level ? level_byte(*level) : -1;
+}
+
 TriangleMesh read_obj(const std::string& name, std::string_view bytes) {
     ByteCursor in(name, bytes);
     TriangleMesh mesh;
@@ -135,7 +141,7 @@ TriangleMesh read_obj(const std::string& name, std::string_view bytes) {
                                static_cast<float>(words.number("nz"))});
         } else if (keyword == "g") {
             const std::string_view group = words.skip_space() ? words.word() : std::string_view{};
-            level = group == "level1" ? 1 : group == "level2" ? 2 : group == "level3" ? 3 : group == "crack" ? 0 : -1;
+            level = level_of_group(group);
         } else if (keyword == "f") {
             corners.clear();
             while (words.skip_space()) {

@@ -68,7 +68,6 @@ void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
 }
 
 void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
-    static constexpr std::array group_names{"level1", "level2", "level3", "crack"};
     const bool wide = needs_double(mesh);
     const bool normals = mesh.normals.size() == mesh.vertices.size();
     std::string out = "# Meniscus\n";
@@ -91,10 +90,10 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
         out += '\n';
         flush(file, out, flush_bytes);
     }
-    for (std::size_t level = 0; level < triangle_level_count; ++level) {
-        const TriangleRange range = mesh.levels[level];
+    for (const TriangleLevel level : choices<TriangleLevel>) {
+        const TriangleRange range = mesh.levels[static_cast<std::size_t>(level)];
         if (range.count == 0) continue;
-        out += "g " + std::string(group_names[level]) + "\n";
+        out += "g " + std::string(name_of(level)) + "\n";
         for (std::size_t i = range.first; i < std::size_t{range.first} + range.count; ++i) {
             out += 'f';
             for (const std::uint32_t v : mesh.triangles[i]) {

@@ -41,13 +41,6 @@ void fill_dams(Scene& scene, std::size_t columns) {
 
 }  // namespace
 
-std::optional<SceneKind> scene_by_name(const std::string& name) {
-    if (name == "dam-break") return SceneKind::dam_break;
-    if (name == "double-dam-break") return SceneKind::double_dam_break;
-    if (name == "pour-on-obstacle") return SceneKind::pour_on_obstacle;
-    return std::nullopt;
-}
-
 Scene make_scene(SceneKind kind, std::size_t particles) {
     constexpr std::size_t limit = 100'000'000;
     if (particles < 1 || particles > limit)

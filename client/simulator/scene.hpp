@@ -3,7 +3,7 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "simulator/boundary.hpp"
@@ -11,9 +11,17 @@
 namespace meniscus::simulator {
 
 enum class SceneKind { dam_break, double_dam_break, pour_on_obstacle };
-
-/// The kind called "dam-break", "double-dam-break" or "pour-on-obstacle"; none for other names.
-std::optional<SceneKind> scene_by_name(const std::string& name);
+constexpr std::string_view name_of(SceneKind kind) {
+    switch (kind) {
+        case SceneKind::dam_break:
+            return "dam-break";
+        case SceneKind::double_dam_break:
+            return "double-dam-break";
+        case SceneKind::pour_on_obstacle:
+            return "pour-on-obstacle";
+    }
+    return {};
+}
 
 /// Water that enters through a round nozzle in the lid, straight down.
 struct Nozzle {

@@ -36,9 +36,9 @@ struct BlockState {
     A<std::uint32_t> first_sample;
     A<EdgeMasks> edges;
     A<std::uint32_t> first_vertex;
-    A<std::uint32_t> particle_counts;  ///< particles of level 0; Criterion::count only
+    A<std::uint32_t> particle_counts;  ///< particles of level 0; CountCriterion only
     A<CellReach> reaches;
-    A<CellBend> bends;  ///< Criterion::curvature only
+    A<CellBend> bends;  ///< CurvatureCriterion only
 
     A<float> samples;
 

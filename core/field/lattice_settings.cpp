@@ -52,12 +52,18 @@ LatticeSettings::LatticeSettings(const Settings& s) {
             static_cast<float>(1.0 - std::min(0.25 * lone_particle_reach(s.iso) / lone_particle_reach(0.6), 1.0));
     if (s.cell_size > 0.17 * 2.0 * s.smoothing_length) blob_level = 3;
     is_adaptive = s.mode == Mode::adaptive;
-    measures_bends = is_adaptive && s.criterion == Criterion::curvature;
-    counts_particles = is_adaptive && s.criterion == Criterion::count;
-    tolerance = static_cast<float>(s.tolerance);
-    count_threshold = s.count_threshold;
-    bisects = s.edge_points == EdgePoints::bisect;
-    bisection_steps = s.bisection_steps;
+    if (const auto* curvature = std::get_if<CurvatureCriterion>(&s.criterion); curvature != nullptr && is_adaptive) {
+        measures_bends = true;
+        tolerance = static_cast<float>(curvature->tolerance);
+    }
+    if (const auto* count = std::get_if<CountCriterion>(&s.criterion); count != nullptr && is_adaptive) {
+        counts_particles = true;
+        count_threshold = count->threshold;
+    }
+    if (const auto* bisection = std::get_if<Bisection>(&s.edge_points)) {
+        bisects = true;
+        bisection_steps = bisection->steps;
+    }
     offset_bits = meniscus::offset_bits(s);
     has_normals = s.normals;
     if (s.domain) {

@@ -31,8 +31,8 @@ struct LatticeSettings {
 
     // The criterion of step 2. Neither counts nor bends: Mode::uniform.
     bool is_adaptive = false;
-    bool measures_bends = false;    ///< Criterion::curvature
-    bool counts_particles = false;  ///< Criterion::count
+    bool measures_bends = false;    ///< CurvatureCriterion
+    bool counts_particles = false;  ///< CountCriterion
     float tolerance = 0.0F;         ///< in cells
     std::uint32_t count_threshold = 1;
     float deep_inside = std::numeric_limits<float>::infinity();  ///< see BandTest

@@ -1,6 +1,9 @@
 #include "conversion/settings_conversion.hpp"
 
+#include <google/protobuf/unknown_field_set.h>
+
 #include <string>
+#include <vector>
 
 #include "meniscus/error.hpp"
 
@@ -23,52 +26,112 @@ void to_wire(const std::array<double, 3>& vector, v1::Vector3& wire) {
     wire.set_z(vector[2]);
 }
 
-Field field_from_wire(v1::Field wire) {
+v1::Field to_wire(Field field) {
+    switch (field) {
+        case Field::color:
+            return v1::FIELD_COLOR;
+        case Field::density:
+            return v1::FIELD_DENSITY;
+    }
+    return v1::FIELD_UNSPECIFIED;
+}
+
+Field from_wire(v1::Field wire) {
     switch (wire) {
         case v1::FIELD_UNSPECIFIED:
         case v1::FIELD_COLOR:
             return Field::color;
         case v1::FIELD_DENSITY:
             return Field::density;
-        default:
-            refuse_enum("field", wire);
+        case v1::Field_INT_MIN_SENTINEL_DO_NOT_USE_:
+        case v1::Field_INT_MAX_SENTINEL_DO_NOT_USE_:
+            break;
     }
+    refuse_enum("field", wire);
 }
 
-Mode mode_from_wire(v1::Mode wire) {
+v1::Mode to_wire(Mode mode) {
+    switch (mode) {
+        case Mode::adaptive:
+            return v1::MODE_ADAPTIVE;
+        case Mode::uniform:
+            return v1::MODE_UNIFORM;
+    }
+    return v1::MODE_UNSPECIFIED;
+}
+
+Mode from_wire(v1::Mode wire) {
     switch (wire) {
         case v1::MODE_UNSPECIFIED:
         case v1::MODE_ADAPTIVE:
             return Mode::adaptive;
         case v1::MODE_UNIFORM:
             return Mode::uniform;
-        default:
-            refuse_enum("mode", wire);
+        case v1::Mode_INT_MIN_SENTINEL_DO_NOT_USE_:
+        case v1::Mode_INT_MAX_SENTINEL_DO_NOT_USE_:
+            break;
     }
+    refuse_enum("mode", wire);
 }
 
-Criterion criterion_from_wire(v1::Criterion wire) {
-    switch (wire) {
-        case v1::CRITERION_UNSPECIFIED:
-        case v1::CRITERION_CURVATURE:
-            return Criterion::curvature;
-        case v1::CRITERION_COUNT:
-            return Criterion::count;
-        default:
-            refuse_enum("criterion", wire);
-    }
+void to_wire(const CurvatureCriterion& criterion, v1::Settings& wire) {
+    wire.mutable_curvature()->set_tolerance(criterion.tolerance);
+}
+void to_wire(const CountCriterion& criterion, v1::Settings& wire) {
+    wire.mutable_count()->set_threshold(criterion.threshold);
+}
+void to_wire(const Interpolation&, v1::Settings& wire) {
+    wire.mutable_interpolation();
+}
+void to_wire(const Bisection& bisection, v1::Settings& wire) {
+    wire.mutable_bisection()->set_steps(bisection.steps);
 }
 
-EdgePoints edge_points_from_wire(v1::EdgePoints wire) {
-    switch (wire) {
-        case v1::EDGE_POINTS_UNSPECIFIED:
-        case v1::EDGE_POINTS_INTERPOLATE:
-            return EdgePoints::interpolate;
-        case v1::EDGE_POINTS_BISECT:
-            return EdgePoints::bisect;
-        default:
-            refuse_enum("edge_points", wire);
+Criterion criterion_from_wire(const v1::Settings& wire) {
+    switch (wire.criterion_case()) {
+        case v1::Settings::kCurvature: {
+            CurvatureCriterion criterion;
+            if (wire.curvature().has_tolerance()) criterion.tolerance = wire.curvature().tolerance();
+            return criterion;
+        }
+        case v1::Settings::kCount: {
+            CountCriterion criterion;
+            if (wire.count().has_threshold()) criterion.threshold = wire.count().threshold();
+            return criterion;
+        }
+        case v1::Settings::CRITERION_NOT_SET:
+            break;
     }
+    return Settings{}.criterion;
+}
+
+EdgePoints edge_points_from_wire(const v1::Settings& wire) {
+    switch (wire.edge_points_case()) {
+        case v1::Settings::kInterpolation:
+            return Interpolation{};
+        case v1::Settings::kBisection: {
+            Bisection bisection;
+            if (wire.bisection().has_steps()) bisection.steps = wire.bisection().steps();
+            return bisection;
+        }
+        case v1::Settings::EDGE_POINTS_NOT_SET:
+            break;
+    }
+    return Settings{}.edge_points;
+}
+
+/// A choice that this version cannot make must not fall back to a default.
+void refuse_unknown_fields(const google::protobuf::Message& message, const std::string& name) {
+    const google::protobuf::Reflection& reflection = *message.GetReflection();
+    const auto& unknown = reflection.GetUnknownFields(message);
+    if (!unknown.empty())
+        throw InvalidInput(name + " have the field " + std::to_string(unknown.field(0).number()) +
+                           ", which this version does not know: they come from another version of Meniscus");
+    std::vector<const google::protobuf::FieldDescriptor*> fields;
+    reflection.ListFields(message, &fields);
+    for (const auto* field : fields)
+        if (!field->is_repeated() && field->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_MESSAGE)
+            refuse_unknown_fields(reflection.GetMessage(message, field), name);
 }
 
 }  // namespace
@@ -87,18 +150,16 @@ v1::Box to_wire(const Box& box) {
 }
 
 Settings from_wire(const v1::Settings& wire) {
+    refuse_unknown_fields(wire, "settings");
     Settings settings;
     settings.particle_radius = wire.particle_radius();
     if (wire.has_smoothing_length()) settings.smoothing_length = wire.smoothing_length();
     if (wire.has_cell_size()) settings.cell_size = wire.cell_size();
     if (wire.has_iso()) settings.iso = wire.iso();
-    settings.field = field_from_wire(wire.field());
-    settings.mode = mode_from_wire(wire.mode());
-    settings.criterion = criterion_from_wire(wire.criterion());
-    if (wire.has_tolerance()) settings.tolerance = wire.tolerance();
-    if (wire.has_count_threshold()) settings.count_threshold = wire.count_threshold();
-    settings.edge_points = edge_points_from_wire(wire.edge_points());
-    if (wire.has_bisection_steps()) settings.bisection_steps = wire.bisection_steps();
+    settings.field = from_wire(wire.field());
+    settings.mode = from_wire(wire.mode());
+    settings.criterion = criterion_from_wire(wire);
+    settings.edge_points = edge_points_from_wire(wire);
     if (wire.has_normals()) settings.normals = wire.normals();
     if (wire.has_domain()) settings.domain = from_wire(wire.domain(), "settings.domain");
     return settings;
@@ -110,14 +171,10 @@ v1::Settings to_wire(const Settings& settings) {
     wire.set_smoothing_length(settings.smoothing_length);
     wire.set_cell_size(settings.cell_size);
     wire.set_iso(settings.iso);
-    wire.set_field(settings.field == Field::density ? v1::FIELD_DENSITY : v1::FIELD_COLOR);
-    wire.set_mode(settings.mode == Mode::uniform ? v1::MODE_UNIFORM : v1::MODE_ADAPTIVE);
-    wire.set_criterion(settings.criterion == Criterion::count ? v1::CRITERION_COUNT : v1::CRITERION_CURVATURE);
-    wire.set_tolerance(settings.tolerance);
-    wire.set_count_threshold(settings.count_threshold);
-    wire.set_edge_points(settings.edge_points == EdgePoints::bisect ? v1::EDGE_POINTS_BISECT
-                                                                    : v1::EDGE_POINTS_INTERPOLATE);
-    wire.set_bisection_steps(settings.bisection_steps);
+    wire.set_field(to_wire(settings.field));
+    wire.set_mode(to_wire(settings.mode));
+    std::visit([&](const auto& criterion) { to_wire(criterion, wire); }, settings.criterion);
+    std::visit([&](const auto& edge_points) { to_wire(edge_points, wire); }, settings.edge_points);
     wire.set_normals(settings.normals);
     if (settings.domain) *wire.mutable_domain() = to_wire(*settings.domain);
     return wire;

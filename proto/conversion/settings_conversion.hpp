@@ -8,8 +8,8 @@
 
 namespace meniscus::conversion {
 
-/// Fills the defaults in. Throws InvalidInput for a missing corner of a box and for enum values this version does not
-/// know; ranges are core's to check.
+/// Fills the defaults in. Throws InvalidInput for a missing corner of a box, and for fields and enum values that this
+/// version does not know; ranges are core's to check.
 Settings from_wire(const v1::Settings& wire);
 v1::Settings to_wire(const Settings& settings);
 

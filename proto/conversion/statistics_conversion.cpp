@@ -2,16 +2,88 @@
 
 namespace meniscus::conversion {
 
+namespace {
+
+void set_seconds(v1::StageSeconds& wire, Stage stage, double seconds) {
+    switch (stage) {
+        case Stage::register_particles:
+            return wire.set_register_particles(seconds);
+        case Stage::split_cells:
+            return wire.set_split_cells(seconds);
+        case Stage::adjust_levels:
+            return wire.set_adjust_levels(seconds);
+        case Stage::sample_field:
+            return wire.set_sample_field(seconds);
+        case Stage::count_triangles:
+            return wire.set_count_triangles(seconds);
+        case Stage::place_vertices:
+            return wire.set_place_vertices(seconds);
+        case Stage::emit_triangles:
+            return wire.set_emit_triangles(seconds);
+        case Stage::fill_cracks:
+            return wire.set_fill_cracks(seconds);
+    }
+}
+
+double seconds_of(const v1::StageSeconds& wire, Stage stage) {
+    switch (stage) {
+        case Stage::register_particles:
+            return wire.register_particles();
+        case Stage::split_cells:
+            return wire.split_cells();
+        case Stage::adjust_levels:
+            return wire.adjust_levels();
+        case Stage::sample_field:
+            return wire.sample_field();
+        case Stage::count_triangles:
+            return wire.count_triangles();
+        case Stage::place_vertices:
+            return wire.place_vertices();
+        case Stage::emit_triangles:
+            return wire.emit_triangles();
+        case Stage::fill_cracks:
+            return wire.fill_cracks();
+    }
+    return 0.0;
+}
+
+void set_count(v1::LevelCounts& wire, TriangleLevel level, std::uint64_t count) {
+    switch (level) {
+        case TriangleLevel::level1:
+            return wire.set_level1(count);
+        case TriangleLevel::level2:
+            return wire.set_level2(count);
+        case TriangleLevel::level3:
+            return wire.set_level3(count);
+        case TriangleLevel::crack:
+            return wire.set_crack(count);
+    }
+}
+
+std::uint64_t count_of(const v1::LevelCounts& wire, TriangleLevel level) {
+    switch (level) {
+        case TriangleLevel::level1:
+            return wire.level1();
+        case TriangleLevel::level2:
+            return wire.level2();
+        case TriangleLevel::level3:
+            return wire.level3();
+        case TriangleLevel::crack:
+            return wire.crack();
+    }
+    return 0;
+}
+
+}  // namespace
+
 void to_wire(const Statistics& statistics, v1::FrameStatistics& wire) {
     wire.set_particles(statistics.particles);
     wire.set_vertices(statistics.vertices);
     wire.set_triangles(statistics.triangles);
 
-    v1::LevelCounts& triangles = *wire.mutable_triangles_by_level();
-    triangles.set_level1(statistics.triangles_by_level[0]);
-    triangles.set_level2(statistics.triangles_by_level[1]);
-    triangles.set_level3(statistics.triangles_by_level[2]);
-    triangles.set_crack(statistics.triangles_by_level[3]);
+    for (const TriangleLevel level : choices<TriangleLevel>)
+        set_count(*wire.mutable_triangles_by_level(), level,
+                  statistics.triangles_by_level[static_cast<std::size_t>(level)]);
 
     v1::LevelCounts& cells = *wire.mutable_base_cells_by_level();
     cells.set_level1(statistics.base_cells_by_level[0]);
@@ -20,16 +92,8 @@ void to_wire(const Statistics& statistics, v1::FrameStatistics& wire) {
 
     wire.set_field_evaluations(statistics.field_evaluations);
 
-    const auto seconds = [&](Stage stage) { return statistics.stage_seconds[static_cast<std::size_t>(stage)]; };
-    v1::StageSeconds& stages = *wire.mutable_stage_seconds();
-    stages.set_register_particles(seconds(Stage::register_particles));
-    stages.set_split_cells(seconds(Stage::split_cells));
-    stages.set_adjust_levels(seconds(Stage::adjust_levels));
-    stages.set_sample_field(seconds(Stage::sample_field));
-    stages.set_count_triangles(seconds(Stage::count_triangles));
-    stages.set_place_vertices(seconds(Stage::place_vertices));
-    stages.set_emit_triangles(seconds(Stage::emit_triangles));
-    stages.set_fill_cracks(seconds(Stage::fill_cracks));
+    for (const Stage stage : choices<Stage>)
+        set_seconds(*wire.mutable_stage_seconds(), stage, statistics.stage_seconds[static_cast<std::size_t>(stage)]);
 
     wire.set_total_seconds(statistics.total_seconds);
     wire.set_download_seconds(statistics.download_seconds);
@@ -47,17 +111,15 @@ Statistics from_wire(const v1::FrameStatistics& wire) {
     statistics.vertices = wire.vertices();
     statistics.triangles = wire.triangles();
 
-    const v1::LevelCounts& triangles = wire.triangles_by_level();
-    statistics.triangles_by_level = {triangles.level1(), triangles.level2(), triangles.level3(), triangles.crack()};
+    for (const TriangleLevel level : choices<TriangleLevel>)
+        statistics.triangles_by_level[static_cast<std::size_t>(level)] = count_of(wire.triangles_by_level(), level);
     const v1::LevelCounts& cells = wire.base_cells_by_level();
     statistics.base_cells_by_level = {cells.level1(), cells.level2(), cells.level3()};
 
     statistics.field_evaluations = wire.field_evaluations();
 
-    const v1::StageSeconds& stages = wire.stage_seconds();
-    statistics.stage_seconds = {stages.register_particles(), stages.split_cells(),     stages.adjust_levels(),
-                                stages.sample_field(),       stages.count_triangles(), stages.place_vertices(),
-                                stages.emit_triangles(),     stages.fill_cracks()};
+    for (const Stage stage : choices<Stage>)
+        statistics.stage_seconds[static_cast<std::size_t>(stage)] = seconds_of(wire.stage_seconds(), stage);
 
     statistics.total_seconds = wire.total_seconds();
     statistics.download_seconds = wire.download_seconds();

@@ -59,7 +59,7 @@ struct PrometheusMetrics::Instruments {
 
     std::array<prometheus::Histogram*, stage_count> stages = [this] {
         std::array<prometheus::Histogram*, stage_count> all{};
-        for (std::size_t i = 0; i < stage_count; ++i) all[i] = &stage(stage_names[i]);
+        for (std::size_t i = 0; i < stage_count; ++i) all[i] = &stage(names<Stage>[i]);
         return all;
     }();
     prometheus::Histogram& download = stage("download");

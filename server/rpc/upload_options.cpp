@@ -19,10 +19,12 @@ UploadPolicy policy_of(const v1::StreamOpen& message) {
         case v1::UPLOAD_POLICY_EVERY_NTH:
             if (message.nth() == 0) throw InvalidInput("nth is 0; with UPLOAD_POLICY_EVERY_NTH it must be at least 1");
             return UploadPolicy::every_nth;
-        default:
-            throw InvalidInput(fmt::format("policy has the value {}, which this version does not know",
-                                           static_cast<int>(message.policy())));
+        case v1::UploadPolicy_INT_MIN_SENTINEL_DO_NOT_USE_:
+        case v1::UploadPolicy_INT_MAX_SENTINEL_DO_NOT_USE_:
+            break;
     }
+    throw InvalidInput(
+        fmt::format("policy has the value {}, which this version does not know", static_cast<int>(message.policy())));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "meniscus/error.hpp"
+#include "meniscus/names.hpp"
 #include "security/small_file.hpp"
 
 namespace meniscus::server {
@@ -16,13 +17,6 @@ namespace {
 
 /// Of a token: 128 bits as hexadecimal digits have twice as many.
 constexpr std::size_t shortest_token = 16;
-
-std::optional<Role> role_by_name(const std::string& name) {
-    if (name == "uploader") return Role::uploader;
-    if (name == "watcher") return Role::watcher;
-    if (name == "admin") return Role::admin;
-    return std::nullopt;
-}
 
 }  // namespace
 
@@ -51,8 +45,9 @@ Tokens Tokens::load(const std::string& path) {
         if (role_name.empty() || role_name.starts_with('#')) continue;
         if (!(words >> name >> token) || words >> more)
             throw InvalidInput(fmt::format("{}:{}: a line must be: ROLE NAME TOKEN", path, number));
-        const auto role = role_by_name(role_name);
-        if (!role) throw InvalidInput(fmt::format("{}:{}: the role must be uploader, watcher or admin", path, number));
+        // What stands there may be a token.
+        const auto role = find_by_name<Role>(role_name);
+        if (!role) throw InvalidInput(fmt::format("{}:{}: the role must be {}", path, number, listed(names<Role>)));
         if (token.size() < shortest_token)
             throw InvalidInput(
                 fmt::format("{}:{}: the token has {} characters; it needs at least {} (make one with "

@@ -10,6 +10,17 @@
 namespace meniscus::server {
 
 enum class Role { uploader, watcher, admin };
+constexpr std::string_view name_of(Role role) {
+    switch (role) {
+        case Role::uploader:
+            return "uploader";
+        case Role::watcher:
+            return "watcher";
+        case Role::admin:
+            return "admin";
+    }
+    return {};
+}
 
 /// Who makes a call. By default one who was not asked: may do everything, has no name.
 struct Caller {

@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "meniscus/backend_options.hpp"
 #include "meniscus/devices.hpp"
-#include "meniscus/settings.hpp"
 
 namespace meniscus::server {
 

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "meniscus/backend_options.hpp"
 #include "meniscus/settings.hpp"
 #include "sessions/channel.hpp"
 #include "sessions/limits.hpp"

@@ -12,7 +12,13 @@ namespace {
 static_assert(int{v1::StreamResponse::kDrainingFieldNumber} == int{v1::WatchResponse::kDrainingFieldNumber});
 
 v1::DropReason to_wire(DropReason reason) {
-    return reason == DropReason::replaced ? v1::DROP_REASON_REPLACED : v1::DROP_REASON_NOT_NTH;
+    switch (reason) {
+        case DropReason::replaced:
+            return v1::DROP_REASON_REPLACED;
+        case DropReason::not_nth:
+            return v1::DROP_REASON_NOT_NTH;
+    }
+    return v1::DROP_REASON_UNSPECIFIED;
 }
 
 }  // namespace

@@ -7,9 +7,9 @@ namespace meniscus::benchmarks {
 void add_backend_options(CLI::App& command, BackendOptions& options) {
     command
         .add_option_function<std::string>(
-            "--backend", [&options](const std::string& name) { options.backend = backend_by_name(name); },
-            "auto, cpu or cuda")
-        ->default_str("cpu");
+            "--backend", [&options](const std::string& name) { options.backend = by_name<Backend>(name, "backend"); },
+            listed(names<Backend>))
+        ->default_str(std::string(name_of(options.backend)));
     command.add_option("--threads", options.threads, "Worker threads; 0: one per processor")->capture_default_str();
 }
 

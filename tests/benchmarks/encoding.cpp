@@ -21,7 +21,7 @@ namespace {
 struct EncodingOptions {
     std::string in;
     double particle_radius = 0.025;
-    std::string water = "splashing";
+    std::string water{name_of(WaterKind::splashing)};
     std::size_t particles = 16 * basin_particles;
     double cell_size = Settings{}.cell_size;
     std::vector<int> speeds{10, 7, 5, 0};
@@ -90,7 +90,7 @@ void print(const Row& row) {
 }
 
 void run_encoding(const EncodingOptions& options) {
-    const WaterKind kind = water_by_name(options.water);
+    const WaterKind kind = by_name<WaterKind>(options.water, "water");
     const std::vector<float> positions =
         options.in.empty() ? make_water(kind, options.particles, static_cast<float>(options.particle_radius))
                            : formats::read_particles(options.in).positions;
@@ -109,14 +109,15 @@ void run_encoding(const EncodingOptions& options) {
             throw InvalidInput("there is no surface to encode: " + std::to_string(frame.count()) + " particles");
         for (const int speed : options.speeds)
             for (const int bits : options.normal_bits) {
-                rows.push_back(measure(mesh, mode == Mode::uniform ? "uniform" : "adaptive",
-                                       {.normal_bits = bits, .speed = speed}, options.repeats));
+                rows.push_back(
+                    measure(mesh, std::string(name_of(mode)), {.normal_bits = bits, .speed = speed}, options.repeats));
                 print(rows.back());
             }
     }
     nlohmann::ordered_json summary;
     summary["runs"] = "one thread; median of " + std::to_string(options.repeats);
-    summary["input"] = options.in.empty() ? name_of(kind) : std::filesystem::path(options.in).filename().string();
+    summary["input"] =
+        options.in.empty() ? std::string(name_of(kind)) : std::filesystem::path(options.in).filename().string();
     summary["particles"] = frame.count();
     summary["cell_size"] = options.cell_size;
     write_report(options.out, "encoding", summary, rows);
@@ -130,7 +131,8 @@ void add_encoding(CLI::App& app) {
         *app.add_subcommand("encoding", "Draco by bricks: speed, bits per triangle, overhead against one piece");
     command.add_option("IN", options->in, "Particles; without it water is generated");
     command.add_option("--particle-radius", options->particle_radius, "World units")->capture_default_str();
-    command.add_option("--water", options->water, "Generated water: splashing or calm")->capture_default_str();
+    command.add_option("--water", options->water, "Generated water: " + listed(names<WaterKind>))
+        ->capture_default_str();
     command.add_option("--particles", options->particles, "Of generated water")->capture_default_str();
     command.add_option("--cell-size", options->cell_size, "In particle radii")->capture_default_str();
     command.add_option("--speed", options->speeds, "Draco's speeds, 0 to 10")->capture_default_str();

@@ -25,11 +25,11 @@ struct ExperimentOptions {
     unsigned repeats = 1;
     BackendOptions backend = one_cpu_thread;
     Settings settings;
+    CurvatureCriterion criterion;
     std::string out = "tests/benchmarks/results";
 };
 
 constexpr std::array<Mode, 2> modes{Mode::uniform, Mode::adaptive};
-constexpr std::array<const char*, 2> mode_names{"uniform", "adaptive"};
 
 /// One mode's reconstructor, and what it did for every frame.
 struct Series {
@@ -64,6 +64,7 @@ constexpr auto thousand_triangles = [](const Statistics& s) { return 1e-3 * stat
 
 BothSeries simulate(const ExperimentOptions& options, const simulator::Scene& scene) {
     Settings settings = options.settings;
+    settings.criterion = options.criterion;
     settings.particle_radius = static_cast<double>(scene.particle_radius);
     BothSeries series;
     for (std::size_t m = 0; m < modes.size(); ++m) {
@@ -122,7 +123,8 @@ void write_plots(const std::filesystem::path& directory, const BothSeries& serie
         formats::write_file(directory / file, to_svg({title, "frame", unit, frames, std::move(lines)}));
     };
     const auto both = [&](const auto& of) {
-        return std::vector<Line>{{mode_names[0], series[0]->figures(of)}, {mode_names[1], series[1]->figures(of)}};
+        return std::vector<Line>{{std::string(name_of(modes[0])), series[0]->figures(of)},
+                                 {std::string(name_of(modes[1])), series[1]->figures(of)}};
     };
     constexpr const char* time_unit = "milliseconds, warm";
     constexpr const char* triangle_unit = "thousand triangles";
@@ -131,7 +133,7 @@ void write_plots(const std::filesystem::path& directory, const BothSeries& serie
 
     std::vector<Line> stages;
     for (std::size_t i = 0; i < stage_count; ++i) {
-        std::string name(stage_names[i]);
+        std::string name(names<Stage>[i]);
         std::replace(name.begin(), name.end(), '_', ' ');
         stages.push_back({name, adaptive.figures([i](const Statistics& s) { return 1e3 * s.stage_seconds[i]; })});
     }
@@ -153,7 +155,7 @@ void run_experiment(const ExperimentOptions& options) {
     Rows rows = Rows::array();
     for (std::size_t i = 0; i < options.frames; ++i)
         for (std::size_t m = 0; m < modes.size(); ++m) {
-            Row row{{"frame", i + 1}, {"mode", mode_names[m]}};
+            Row row{{"frame", i + 1}, {"mode", name_of(modes[m])}};
             add_statistics(row, series[m]->frames[i]);
             rows.push_back(std::move(row));
         }
@@ -162,7 +164,7 @@ void run_experiment(const ExperimentOptions& options) {
     add_backend(summary, options.backend);
     summary["particles"] = options.particles;
     summary["cell_size"] = options.settings.cell_size;
-    summary["tolerance"] = options.settings.tolerance;
+    summary["tolerance"] = options.criterion.tolerance;
     summary["adaptive_against_uniform"] = summarize(series);
     write_report(options.out, "experiment", summary, rows);
     write_plots(options.out, series);
@@ -190,7 +192,7 @@ void add_experiment(CLI::App& app) {
         ->capture_default_str();
     add_backend_options(command, options->backend);
     command.add_option("--cell-size", options->settings.cell_size, "In particle radii")->capture_default_str();
-    command.add_option("--tolerance", options->settings.tolerance, "Of the curvature criterion, in cells")
+    command.add_option("--tolerance", options->criterion.tolerance, "Of the curvature criterion, in cells")
         ->capture_default_str();
     command.add_option("--out", options->out, "Folder for the results")->capture_default_str();
     command.callback([options] { run_experiment(*options); });

@@ -70,12 +70,11 @@ std::uint64_t reconstruction_bytes(const Statistics& s) {
 void add_statistics(Row& row, const Statistics& s) {
     row["total_seconds"] = s.total_seconds;
     row["reconstruction_seconds"] = reconstruction_seconds(s);
-    for (std::size_t i = 0; i < stage_count; ++i) row[std::string(stage_names[i]) + "_seconds"] = s.stage_seconds[i];
+    for (const Stage stage : choices<Stage>)
+        row[std::string(name_of(stage)) + "_seconds"] = s.stage_seconds[static_cast<std::size_t>(stage)];
     row["triangles"] = s.triangles;
-    row["level1_triangles"] = s.triangles_by_level[0];
-    row["level2_triangles"] = s.triangles_by_level[1];
-    row["level3_triangles"] = s.triangles_by_level[2];
-    row["crack_triangles"] = s.triangles_by_level[3];
+    for (const TriangleLevel level : choices<TriangleLevel>)
+        row[std::string(name_of(level)) + "_triangles"] = s.triangles_by_level[static_cast<std::size_t>(level)];
     row["vertices"] = s.vertices;
     row["field_evaluations"] = s.field_evaluations;
     row["peak_bytes"] = s.peak_bytes;

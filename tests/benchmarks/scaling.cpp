@@ -21,7 +21,7 @@ struct ScalingOptions {
     std::size_t max_particles = 1024 * basin_particles;
     std::size_t max_particles_fine = 256 * basin_particles;
     BackendOptions backend = one_cpu_thread;
-    double tolerance = Settings{}.tolerance;
+    CurvatureCriterion criterion;
     RepeatLimits limits;
     std::string out = "tests/benchmarks/results";
 };
@@ -74,7 +74,7 @@ Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<flo
     settings.particle_radius = particle_radius;
     settings.cell_size = cell_size;
     settings.mode = mode;
-    settings.tolerance = options.tolerance;
+    settings.criterion = options.criterion;
     ParticleFrame frame;
     frame.positions = positions;
     Mesh mesh;
@@ -85,7 +85,7 @@ Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<flo
     Row row;
     row["water"] = name_of(kind);
     row["cell_size"] = cell_size;
-    row["mode"] = mode == Mode::uniform ? "uniform" : "adaptive";
+    row["mode"] = name_of(mode);
     row["particles"] = s.particles;
     row["warm_runs"] = runs.count;
     row["first_seconds"] = runs.first.total_seconds;
@@ -146,7 +146,7 @@ void run_scaling(const ScalingOptions& options) {
     nlohmann::ordered_json summary;
     summary["runs"] = "warm medians; first: a new reconstructor's first frame";
     add_backend(summary, options.backend);
-    summary["tolerance"] = options.tolerance;
+    summary["tolerance"] = options.criterion.tolerance;
     const bool on_device = summary["backend"] == "cuda";
     const MachinePeaks peaks = on_device ? measure_device_peaks() : measure_peaks();
     summary["peaks_of"] = on_device ? "the device" : "one core";
@@ -158,7 +158,7 @@ void run_scaling(const ScalingOptions& options) {
               << "water     c    mode      particles s/million   first  B/part.  B/triang.  allocs   mul-add   copy\n";
     Rows rows = Rows::array();
     for (std::size_t particles = basin_particles; particles <= options.max_particles; particles *= growth)
-        for (const WaterKind kind : water_kinds) {
+        for (const WaterKind kind : choices<WaterKind>) {
             const std::vector<float> positions = make_water(kind, particles, static_cast<float>(particle_radius));
             for (const double cell_size : {coarse, fine}) {
                 if (cell_size == fine && particles > options.max_particles_fine) continue;
@@ -188,7 +188,7 @@ void add_scaling(CLI::App& app) {
     command.add_option("--max-particles-fine", options->max_particles_fine, "Largest scene at cell size 0.5")
         ->capture_default_str();
     add_backend_options(command, options->backend);
-    command.add_option("--tolerance", options->tolerance, "Of the curvature criterion, in cells")
+    command.add_option("--tolerance", options->criterion.tolerance, "Of the curvature criterion, in cells")
         ->capture_default_str();
     command.add_option("--repeats", options->limits.runs, "Warm runs of each case, of which the median counts")
         ->check(CLI::Range(1U, 1000U))

@@ -34,7 +34,14 @@ public:
     Basin(std::vector<float>& positions, float distance, float x, float z, std::uint32_t seed)
         : positions_(positions), distance_(distance), x_(x), z_(z), noise_(seed) {}
 
-    void fill(WaterKind kind) { kind == WaterKind::calm ? add_calm_block() : add_splash(); }
+    void fill(WaterKind kind) {
+        switch (kind) {
+            case WaterKind::splashing:
+                return add_splash();
+            case WaterKind::calm:
+                return add_calm_block();
+        }
+    }
 
 private:
     void add(float x, float y, float z, float jitter) {
@@ -97,16 +104,6 @@ private:
 };
 
 }  // namespace
-
-std::string name_of(WaterKind kind) {
-    return kind == WaterKind::calm ? "calm" : "splashing";
-}
-
-WaterKind water_by_name(const std::string& name) {
-    for (const WaterKind kind : water_kinds)
-        if (name_of(kind) == name) return kind;
-    throw InvalidInput("water is '" + name + "', must be splashing or calm");
-}
 
 std::vector<float> make_water(WaterKind kind, std::size_t particles, float particle_radius) {
     const std::size_t basins = std::max<std::size_t>(1, particles / basin_particles);

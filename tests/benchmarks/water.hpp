@@ -1,9 +1,8 @@
 // Water of any amount whose surface grows with it: basins side by side.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <string>
+#include <string_view>
 #include <vector>
 
 namespace meniscus::benchmarks {
@@ -12,11 +11,15 @@ enum class WaterKind {
     splashing,  ///< half of it a jittered block, half of it drops, threads and sheets in the air
     calm,       ///< a block at rest with low waves
 };
-inline constexpr std::array<WaterKind, 2> water_kinds{WaterKind::splashing, WaterKind::calm};
-
-std::string name_of(WaterKind kind);
-/// The kind so named. Throws InvalidInput for other names.
-WaterKind water_by_name(const std::string& name);
+constexpr std::string_view name_of(WaterKind kind) {
+    switch (kind) {
+        case WaterKind::splashing:
+            return "splashing";
+        case WaterKind::calm:
+            return "calm";
+    }
+    return {};
+}
 
 /// What one basin holds.
 inline constexpr std::size_t basin_particles = 16000;

@@ -4,6 +4,7 @@
 
 #include "cli/file_pattern.hpp"
 #include "cli/quantized_positions.hpp"
+#include "cli/settings_json.hpp"
 #include "cli/statistics_json.hpp"
 #include "formats/atomic_file.hpp"
 #include "sample_files.hpp"
@@ -52,6 +53,28 @@ TEST(QuantizedPositions, AreWithinHalfAStepAndExactAtTheCorners) {
     EXPECT_EQ(view.quantized[0], 0U);
     EXPECT_EQ(view.quantized[3], 65535U);
     EXPECT_EQ(view.quantized[1], 0U);  // a flat axis
+}
+
+TEST(SettingsAsJson, HaveEveryKeyWhateverIsChosen) {
+    Settings settings;
+    const auto keys = [](const nlohmann::ordered_json& json) {
+        std::vector<std::string> all;
+        for (const auto& [key, value] : json.items()) all.push_back(key);
+        return all;
+    };
+    const nlohmann::ordered_json defaults = to_json(settings);
+    EXPECT_EQ(keys(defaults), (std::vector<std::string>{"particle_radius", "smoothing_length", "cell_size", "iso",
+                                                        "field", "mode", "criterion", "tolerance", "count_threshold",
+                                                        "edge_points", "bisection_steps", "normals"}));
+    settings.criterion = CountCriterion{4};
+    settings.edge_points = Bisection{3};
+    const nlohmann::ordered_json others = to_json(settings);
+    EXPECT_EQ(keys(others), keys(defaults));
+    EXPECT_EQ(others["criterion"], "count");
+    EXPECT_EQ(others["tolerance"], defaults["tolerance"]);
+    EXPECT_EQ(others["count_threshold"], 4);
+    EXPECT_EQ(others["edge_points"], "bisect");
+    EXPECT_EQ(others["bisection_steps"], 3);
 }
 
 TEST(Statistics, ReportTheMedianWarmRunAndTheColdOne) {

@@ -110,6 +110,27 @@ TEST_F(Cli, RefusesBadArguments) {
     expect_refused({"reconstruct", in_, "--particle-radius", "0.5"}, {"-o", "--stats"});
 }
 
+TEST_F(Cli, RefusesParametersOfAChoiceThatIsNotMade) {
+    expect_refused(reconstruct({"--criterion", "count", "--tolerance", "0.2"}),
+                   {"--tolerance", "--criterion curvature", "count"});
+    expect_refused(reconstruct({"--count-threshold", "2"}), {"--count-threshold", "--criterion count", "curvature"});
+    expect_refused(reconstruct({"--edge-points", "interpolate", "--bisection-steps", "3"}),
+                   {"--bisection-steps", "--edge-points bisect", "interpolate"});
+}
+
+TEST_F(Cli, PassesParametersOnWithTheirChoice) {
+    for (const char* threshold : {"0", "1"}) {
+        const auto flags = reconstruct({"--count-threshold", threshold, "--criterion", "count"});
+        if (threshold == std::string_view("0"))
+            expect_refused(flags, {"count threshold is 0"});
+        else
+            EXPECT_EQ(run_meniscus(flags).exit_code, 0);
+    }
+    expect_refused(reconstruct({"--tolerance", "-1"}), {"tolerance is -1"});
+    expect_refused(reconstruct({"--edge-points", "bisect", "--bisection-steps", "8"}), {"bisection steps are 8"});
+    EXPECT_EQ(run_meniscus(reconstruct({"--bisection-steps", "7", "--edge-points", "bisect"})).exit_code, 0);
+}
+
 TEST_F(Cli, RefusesContradictions) {
     expect_refused(reconstruct({"--local", "--server", "localhost:1"}), {"--local", "--server"});
     expect_refused(reconstruct({"--threads", "2", "--server", "localhost:1"}), {"--threads", "--server"});
@@ -204,7 +225,7 @@ TEST_F(Cli, StatisticsHaveEveryFigure) {
         triangles += s.at("triangles_by_level").at(level).get<std::uint64_t>();
     EXPECT_EQ(s.at("triangles"), triangles);
     for (const char* level : {"level1", "level2", "level3"}) EXPECT_TRUE(s.at("base_cells_by_level").contains(level));
-    for (const std::string_view stage : ::meniscus::stage_names)
+    for (const std::string_view stage : names<Stage>)
         EXPECT_GE(s.at("stage_seconds").at(std::string(stage)).get<double>(), 0.0) << stage;
     EXPECT_EQ(s.at("backend"), "cpu");
     EXPECT_EQ(s.at("threads"), 1);

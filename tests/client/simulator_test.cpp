@@ -87,7 +87,7 @@ TEST(Scene, DamBreakTankIsThePapersGrid) {
 TEST(Scene, RefusesNumbersOfParticlesOutOfRange) {
     EXPECT_THROW(make_scene(SceneKind::dam_break, 0), InvalidInput);
     EXPECT_THROW(make_scene(SceneKind::dam_break, 200'000'000), InvalidInput);
-    EXPECT_EQ(scene_by_name("tsunami"), std::nullopt);
+    EXPECT_THROW(by_name<SceneKind>("tsunami", "scene"), InvalidInput);
 }
 
 TEST(Simulation, DamBreakCollapsesAndRunsUpTheOppositeWall) {

@@ -22,7 +22,7 @@ std::vector<compare::Point> world_positions(const Mesh& mesh) {
 /// Of the adaptive surface (a) and the uniform one (b).
 compare::Comparison compare_modes(const test::Particles& particles, double tolerance) {
     Settings settings = test::default_settings();
-    settings.tolerance = tolerance;
+    settings.criterion = CurvatureCriterion{tolerance};
     const Mesh adaptive = test::reconstruct(settings, particles.frame());
     settings.mode = Mode::uniform;
     const Mesh uniform = test::reconstruct(settings, particles.frame());

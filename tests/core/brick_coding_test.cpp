@@ -39,10 +39,9 @@ TEST(BrickCoding, KeepsPositionsConnectivityLevelsAndJoints) {
 }
 
 TEST(BrickCoding, KeepsEveryNumberOfOffsetBits) {
-    for (std::uint32_t steps = 1; steps <= 7; ++steps) {
+    for (std::uint32_t steps = 1; steps <= Bisection::max_steps; ++steps) {
         Settings settings = test::default_settings();
-        settings.edge_points = EdgePoints::bisect;
-        settings.bisection_steps = steps;
+        settings.edge_points = Bisection{steps};
         const Mesh mesh = test::reconstruct(settings, test::splash(61, 8).frame());
         EXPECT_EQ(mesh.offset_bits, steps + 1);
         EXPECT_EQ(mesh_sha256(round_trip(mesh, {})), mesh_sha256(mesh));
@@ -53,10 +52,9 @@ TEST(BrickCoding, KeepsAMeshClosedAndItsLevelsOnEveryCoarserLattice) {
     std::vector<test::NamedParticles> inputs = test::adversarial(0.025F);
     inputs.push_back({"splash", test::splash(61)});
     for (const auto& [name, particles] : inputs)
-        for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
+        for (const EdgePoints& edge_points : {EdgePoints(Interpolation{}), EdgePoints(Bisection{7})}) {
             Settings settings = test::default_settings();
             settings.edge_points = edge_points;
-            settings.bisection_steps = 7;
             const Mesh mesh = test::reconstruct(settings, particles.frame());
             for (std::uint32_t bits = 2; bits <= mesh.offset_bits; ++bits) {
                 SCOPED_TRACE(name + ", " + std::to_string(bits) + " bits");

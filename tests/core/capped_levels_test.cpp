@@ -16,7 +16,7 @@ std::vector<Settings> all_settings() {
     std::vector<Settings> all;
     for (const Mode mode : {Mode::adaptive, Mode::uniform})
         for (const Field field : {Field::color, Field::density})
-            for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
+            for (const EdgePoints& edge_points : choices<EdgePoints>) {
                 Settings settings = test::default_settings();
                 settings.mode = mode;
                 settings.field = field;

@@ -71,9 +71,9 @@ TEST(CudaEmulated, GivesTheCpusMeshForASplash) {
     const test::Particles particles = test::splash(3, 8);
     for (const Field field : {Field::color, Field::density})
         for (const Mode mode : {Mode::adaptive, Mode::uniform})
-            for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
+            for (const EdgePoints& edge_points : choices<EdgePoints>) {
                 SCOPED_TRACE(testing::Message()
-                             << "field " << int(field) << " mode " << int(mode) << " edge points " << int(edge_points));
+                             << name_of(field) << ", " << name_of(mode) << ", " << name_of(edge_points));
                 Settings settings = test::default_settings();
                 settings.field = field;
                 settings.mode = mode;
@@ -100,7 +100,7 @@ TEST(CudaEmulated, GivesTheCpusMeshForOtherSettings) {
             settings.cell_size = cell_size;
             settings.smoothing_length = smoothing_length;
             EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
-            settings.criterion = Criterion::count;
+            settings.criterion = CountCriterion{};
             EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
         }
 }
@@ -122,7 +122,7 @@ TEST(CudaEmulated, GivesTheCpusMeshForParticleLevelsDomainsAndQuantizedPositions
 
     for (std::size_t i = 0; i < particles.count(); ++i) particles.levels.push_back(i % 7 == 0 ? 2 : i % 3 == 0 ? 1 : 0);
     EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
-    settings.criterion = Criterion::count;
+    settings.criterion = CountCriterion{};
     EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
 }
 

@@ -55,10 +55,10 @@ TEST_F(CudaSmall, GivesTheCpusMeshForEveryModeCriterionFieldAndEdgePoint) {
     const test::Particles particles = test::splash(3, 6);
     for (const Field field : {Field::color, Field::density})
         for (const Mode mode : {Mode::adaptive, Mode::uniform})
-            for (const Criterion criterion : {Criterion::curvature, Criterion::count})
-                for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
-                    SCOPED_TRACE(testing::Message() << "field " << int(field) << " mode " << int(mode) << " criterion "
-                                                    << int(criterion) << " edge points " << int(edge_points));
+            for (const Criterion& criterion : choices<Criterion>)
+                for (const EdgePoints& edge_points : choices<EdgePoints>) {
+                    SCOPED_TRACE(testing::Message() << name_of(field) << ", " << name_of(mode) << ", "
+                                                    << name_of(criterion) << ", " << name_of(edge_points));
                     Settings settings = test::default_settings();
                     settings.field = field;
                     settings.mode = mode;
@@ -197,8 +197,8 @@ TEST_F(Cuda, EveryStageOfAWarmFrameIsTimedAndNothingIsAllocated) {
     for (int i = 0; i < 4; ++i) gpu.reconstruct(particles.frame(), mesh);
     EXPECT_EQ(gpu.statistics().allocations, 0U);
     EXPECT_GT(gpu.statistics().device_bytes, 0U);
-    for (std::size_t stage = 0; stage < stage_count; ++stage)
-        EXPECT_GT(gpu.statistics().stage_seconds[stage], 0.0) << stage_names[stage];
+    for (const Stage stage : choices<Stage>)
+        EXPECT_GT(gpu.statistics().stage_seconds[static_cast<std::size_t>(stage)], 0.0) << name_of(stage);
 }
 
 TEST_F(Cuda, ThousandFramesDoNotGrowDeviceMemory) {

@@ -16,7 +16,7 @@ TEST(Domain, CropsTheSurfaceClosedAtItsBorder) {
                                  {{0.2, -1, 0.2}, {0.2001, 1, 0.2001}}};
     for (const Box& box : boxes)
         for (const Mode mode : {Mode::adaptive, Mode::uniform})
-            for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect})
+            for (const EdgePoints& edge_points : choices<EdgePoints>)
                 for (const double cell_size : {0.5, 1.0}) {
                     Settings settings = test::default_settings();
                     settings.domain = box;

@@ -16,7 +16,7 @@ void expect_closed_in_all_settings(const std::string& name, const test::Particle
     for (const double cell_size : cell_sizes)
         for (const Mode mode : {Mode::adaptive, Mode::uniform})
             for (const Field field : {Field::color, Field::density})
-                for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
+                for (const EdgePoints& edge_points : choices<EdgePoints>) {
                     Settings settings = test::default_settings();
                     settings.cell_size = cell_size;
                     settings.mode = mode;
@@ -27,10 +27,8 @@ void expect_closed_in_all_settings(const std::string& name, const test::Particle
                     settings.iso = field == Field::density ? 0.2 : 0.6;
                     const Mesh mesh = test::reconstruct(settings, particles.frame());
                     const test::MeshReport report = test::check(mesh);
-                    SCOPED_TRACE(name + ", cell size " + std::to_string(cell_size) +
-                                 (mode == Mode::uniform ? ", uniform" : ", adaptive") +
-                                 (field == Field::density ? ", density" : ", color") +
-                                 (edge_points == EdgePoints::bisect ? ", bisect" : ""));
+                    SCOPED_TRACE(testing::Message() << name << ", cell size " << cell_size << ", " << name_of(mode)
+                                                    << ", " << name_of(field) << ", " << name_of(edge_points));
                     EXPECT_TRUE(report.closed_manifold()) << report.text();
                     // The paper's criterion takes crowded cells for calm water, so that a lone crowded drop may be
                     // lost.
@@ -75,10 +73,11 @@ TEST(Manifold, HoldsForAdaptiveSph) {
     for (std::size_t i = 0; i < particles.count(); ++i)
         particles.levels.push_back(static_cast<std::uint8_t>(i % 7 == 0 ? 2 : i % 3 == 0 ? 1 : 0));
     for (const double cell_size : {0.5, 1.0})
-        for (const std::uint32_t threshold : {1U, 2U}) {
+        for (const Criterion& criterion :
+             {Criterion(CurvatureCriterion{}), Criterion(CountCriterion{1}), Criterion(CountCriterion{2})}) {
             Settings settings = test::default_settings();
             settings.cell_size = cell_size;
-            settings.count_threshold = threshold;
+            settings.criterion = criterion;
             const Mesh mesh = test::reconstruct(settings, particles.frame());
             const test::MeshReport report = test::check(mesh);
             EXPECT_TRUE(report.closed_manifold()) << report.text();

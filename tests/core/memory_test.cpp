@@ -9,7 +9,7 @@ namespace {
 
 TEST(Memory, AWarmFrameOfTheSameSizeAllocatesNothing) {
     for (const Mode mode : {Mode::adaptive, Mode::uniform})
-        for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
+        for (const EdgePoints& edge_points : choices<EdgePoints>) {
             Settings settings = test::default_settings();
             settings.mode = mode;
             settings.edge_points = edge_points;

@@ -66,7 +66,7 @@ TEST(MeshOrder, BisectionAndInterpolationAgreeWithinAFractionOfACell) {
     Mesh interpolated, bisected;
     Reconstructor a(settings, {Backend::cpu, 1, 0});
     a.reconstruct(test::splash(53).frame(), interpolated);
-    settings.edge_points = EdgePoints::bisect;
+    settings.edge_points = Bisection{};
     Reconstructor b(settings, {Backend::cpu, 1, 0});
     b.reconstruct(test::splash(53).frame(), bisected);
     ASSERT_EQ(interpolated.vertices.size(), bisected.vertices.size());

@@ -24,7 +24,7 @@ bool same(const Mesh& a, const Mesh& b) {
 TEST(Reproducibility, AnyNumberOfThreadsGivesTheSameBytes) {
     const test::Particles particles = test::splash(5);
     for (const Field field : {Field::color, Field::density})
-        for (const EdgePoints edge_points : {EdgePoints::interpolate, EdgePoints::bisect}) {
+        for (const EdgePoints& edge_points : choices<EdgePoints>) {
             Settings settings = test::default_settings();
             settings.field = field;
             settings.edge_points = edge_points;

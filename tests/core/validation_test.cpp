@@ -37,17 +37,11 @@ TEST(Validation, RefusesEverySettingOutOfRangeNamingItsValue) {
         {[](Settings& s) { s.cell_size = 0.015; }, "266.66"},
         {[](Settings& s) { s.iso = 0.0; }, "iso value is 0"},
         {[](Settings& s) { s.iso = 1e-60; }, "iso value is 0"},
-        {[](Settings& s) { s.count_threshold = 0; }, "count threshold is 0"},
-        {[](Settings& s) {
-             s.edge_points = EdgePoints::bisect;
-             s.bisection_steps = 8;
-         },
-         "bisection steps are 8"},
-        {[](Settings& s) {
-             s.edge_points = EdgePoints::bisect;
-             s.bisection_steps = 0;
-         },
-         "bisection steps are 0"},
+        {[](Settings& s) { s.criterion = CurvatureCriterion{0.0}; }, "tolerance is 0"},
+        {[&](Settings& s) { s.criterion = CurvatureCriterion{nan}; }, "tolerance is nan"},
+        {[](Settings& s) { s.criterion = CountCriterion{0}; }, "count threshold is 0"},
+        {[](Settings& s) { s.edge_points = Bisection{8}; }, "bisection steps are 8, must be 1 to 7"},
+        {[](Settings& s) { s.edge_points = Bisection{0}; }, "bisection steps are 0"},
         {[](Settings& s) {
              s.domain = Box{{0, 0, 0}, {1, -1, 1}};
          },

@@ -18,8 +18,8 @@ Seeds settings_seeds() {
     plain.particle_radius = 0.1;
     Settings full = plain;
     full.field = Field::density;
-    full.criterion = Criterion::count;
-    full.edge_points = EdgePoints::bisect;
+    full.criterion = CountCriterion{2};
+    full.edge_points = Bisection{3};
     full.domain = Box{{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}};
     return {conversion::to_wire(plain).SerializeAsString(), conversion::to_wire(full).SerializeAsString()};
 }

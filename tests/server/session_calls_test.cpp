@@ -27,9 +27,8 @@ TEST(Sessions, KeepEverySetting) {
     chosen.iso = 0.5;
     chosen.field = Field::density;
     chosen.mode = Mode::uniform;
-    chosen.count_threshold = 3;
-    chosen.edge_points = EdgePoints::bisect;
-    chosen.bisection_steps = 4;
+    chosen.criterion = CountCriterion{3};
+    chosen.edge_points = Bisection{4};
     chosen.normals = false;
     chosen.domain = Box{.min = {-1.0, -2.0, -3.0}, .max = {4.0, 5.0, 6.0}};
     const std::string id = client::new_session_id();

@@ -27,14 +27,29 @@ std::uint64_t random_run_id() {
 
 v1::UploadPolicy to_wire(UploadPolicy policy) {
     switch (policy) {
+        case UploadPolicy::every_frame:
+            return v1::UPLOAD_POLICY_EVERY_FRAME;
         case UploadPolicy::latest:
             return v1::UPLOAD_POLICY_LATEST;
         case UploadPolicy::every_nth:
             return v1::UPLOAD_POLICY_EVERY_NTH;
-        case UploadPolicy::every_frame:
+    }
+    return v1::UPLOAD_POLICY_UNSPECIFIED;
+}
+
+DropReason from_wire(v1::DropReason reason) {
+    switch (reason) {
+        case v1::DROP_REASON_REPLACED:
+            return DropReason::replaced;
+        case v1::DROP_REASON_NOT_NTH:
+            return DropReason::not_nth;
+        case v1::DROP_REASON_UNSPECIFIED:
+        case v1::DropReason_INT_MIN_SENTINEL_DO_NOT_USE_:
+        case v1::DropReason_INT_MAX_SENTINEL_DO_NOT_USE_:
             break;
     }
-    return v1::UPLOAD_POLICY_EVERY_FRAME;
+    throw ServerError("the server dropped a frame for reason " + std::to_string(reason) +
+                      ", which this version does not know");
 }
 
 v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& options) {
@@ -247,8 +262,7 @@ void Stream::Impl::take(const v1::FrameDropped& dropped) {
     broken_at_.reset();
     const std::lock_guard lock(mutex_);
     if (!settle(dropped.frame_index())) return;
-    const auto reason = dropped.reason() == v1::DROP_REASON_REPLACED ? DropReason::replaced : DropReason::not_nth;
-    dropped_since_.push_back({.index = dropped.frame_index(), .reason = reason});
+    dropped_since_.push_back({.index = dropped.frame_index(), .reason = from_wire(dropped.reason())});
     ++dropped_;
     --outstanding_;
     changed_.notify_all();

@@ -1,6 +1,7 @@
 // The whole public interface of the reconstruction library.
 #pragma once
 
+#include "meniscus/backend_options.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/device_mesh.hpp"
 #include "meniscus/devices.hpp"
@@ -8,6 +9,7 @@
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
 #include "meniscus/mesh_hash.hpp"
+#include "meniscus/names.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/reconstructor.hpp"
 #include "meniscus/settings.hpp"

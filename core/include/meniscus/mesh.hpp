@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 
 #include "meniscus/memory.hpp"
+#include "meniscus/names.hpp"
 
 namespace meniscus {
 
@@ -19,7 +21,20 @@ inline constexpr int brick_cells = brick_base_cells * base_cell_size;
 
 /// The kinds of triangle, in the order in which a mesh holds them (the paper's Figure 8d).
 enum class TriangleLevel : std::uint8_t { level1 = 0, level2 = 1, level3 = 2, crack = 3 };
-inline constexpr std::size_t triangle_level_count = 4;
+constexpr std::string_view name_of(TriangleLevel level) {
+    switch (level) {
+        case TriangleLevel::level1:
+            return "level1";
+        case TriangleLevel::level2:
+            return "level2";
+        case TriangleLevel::level3:
+            return "level3";
+        case TriangleLevel::crack:
+            return "crack";
+    }
+    return {};
+}
+inline constexpr std::size_t triangle_level_count = choices<TriangleLevel>.size();
 
 /// The byte that files and the mesh hash use for a triangle's level: 1, 2, 3, and 0 for crack filling.
 inline constexpr std::uint8_t level_byte(TriangleLevel level) {

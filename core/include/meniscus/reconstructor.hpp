@@ -2,7 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <string_view>
 
+#include "meniscus/backend_options.hpp"
 #include "meniscus/device_mesh.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"

@@ -2,35 +2,82 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
+#include <string_view>
+#include <variant>
 
 namespace meniscus {
 
 /// The scalar function whose iso-surface is the fluid surface. Both are sums over particles of a cubic spline.
 enum class Field : std::uint8_t {
-    density,  ///< m_j W(x - x_j, h), relative to the rest density (the paper's Equation 1)
     color,    ///< (m_j / rho_j) W(x - x_j, h), rho_j from the same kernel
+    density,  ///< m_j W(x - x_j, h), relative to the rest density (the paper's Equation 1)
 };
+constexpr std::string_view name_of(Field field) {
+    switch (field) {
+        case Field::color:
+            return "color";
+        case Field::density:
+            return "density";
+    }
+    return {};
+}
 
 enum class Mode : std::uint8_t {
     adaptive,  ///< three levels of grid
     uniform,   ///< marching cubes at the finest cell: the paper's baseline
 };
+constexpr std::string_view name_of(Mode mode) {
+    switch (mode) {
+        case Mode::adaptive:
+            return "adaptive";
+        case Mode::uniform:
+            return "uniform";
+    }
+    return {};
+}
 
-/// How the level of a base cell is decided.
-enum class Criterion : std::uint8_t {
-    curvature,  ///< by how much the surface bends in the cell
-    count,      ///< by the number of particles in the cell (the paper's Step 2)
+/// A base cell's level by how much the surface bends in the cell.
+struct CurvatureCriterion {
+    static constexpr std::string_view name = "curvature";
+    /// How far the surface may depart from that of the finest cells, in finest cells, > 0: about the 99th percentile of
+    /// the distance between the two.
+    double tolerance = 0.15;
+    bool operator==(const CurvatureCriterion&) const = default;
+};
+
+/// A base cell's level by the number of particles in the cell (the paper's Step 2).
+struct CountCriterion {
+    static constexpr std::string_view name = "count";
+    /// A base cell is of level 3 if it holds 1 to this many particles; for adaptive SPH, if it holds at least this many
+    /// particles of level 0. At least 1.
+    std::uint32_t threshold = 1;
+    bool operator==(const CountCriterion&) const = default;
+};
+
+/// How the level of a base cell is decided, in Mode::adaptive.
+using Criterion = std::variant<CurvatureCriterion, CountCriterion>;
+
+/// The point on an edge that crosses the surface: linearly between the two ends of the finest lattice edge.
+struct Interpolation {
+    static constexpr std::string_view name = "interpolate";
+    std::uint32_t offset_bits() const { return 6; }
+    bool operator==(const Interpolation&) const = default;
+};
+
+/// The same point by the paper's bisection of the field (Step 6).
+struct Bisection {
+    static constexpr std::string_view name = "bisect";
+    static constexpr std::uint32_t max_steps = 7;
+    std::uint32_t steps = 5;  ///< iterations on a level-3 edge (one and two more on levels 2 and 1), 1 to max_steps
+    /// Bisection ends in the middle of an interval of c / 2^steps.
+    std::uint32_t offset_bits() const { return steps + 1; }
+    bool operator==(const Bisection&) const = default;
 };
 
 /// How the point on an edge that crosses the surface is found.
-enum class EdgePoints : std::uint8_t {
-    interpolate,  ///< linearly between the two ends of the finest lattice edge
-    bisect,       ///< by the paper's bisection of the field (Step 6)
-};
+using EdgePoints = std::variant<Interpolation, Bisection>;
 
 /// An axis-aligned box, world units.
 struct Box {
@@ -47,16 +94,8 @@ struct Settings {
     double iso = 0.6;        ///< field value at the surface, > 0
     Field field = Field::color;
     Mode mode = Mode::adaptive;
-    Criterion criterion = Criterion::curvature;
-    /// Criterion::curvature: how far the surface may depart from that of the finest cells, in finest cells, > 0: about
-    /// the 99th percentile of the distance between the two.
-    double tolerance = 0.15;
-    /// Criterion::count: a base cell is of level 3 if it holds 1 to this many particles; for adaptive SPH, if it
-    /// holds at least this many particles of level 0. At least 1.
-    std::uint32_t count_threshold = 1;
-    EdgePoints edge_points = EdgePoints::interpolate;
-    /// EdgePoints::bisect: iterations on a level-3 edge (one and two more on levels 2 and 1), 1 to 7.
-    std::uint32_t bisection_steps = 5;
+    Criterion criterion;     ///< by curvature unless another is chosen
+    EdgePoints edge_points;  ///< interpolated unless bisection is chosen
     /// Whether vertices get normals, from the field's gradient. Without, a frame is done about a fifth sooner.
     bool normals = true;
     /// Crops the surface, closed at the border; rounded outward to whole finest cells. None: no limit.
@@ -73,22 +112,16 @@ inline double world_cell_size(const Settings& s) {
     return s.cell_size * s.particle_radius;
 }
 
-/// Vertices lie on multiples of c / 2^offset_bits, 2 to 8: bisection ends in the middle of an interval of c / 2^steps.
+/// Vertices lie on multiples of c / 2^offset_bits, 2 to 8.
 inline std::uint32_t offset_bits(const Settings& s) {
-    return s.edge_points == EdgePoints::bisect ? s.bisection_steps + 1 : 6;
+    return std::visit([](const auto& edge_points) { return edge_points.offset_bits(); }, s.edge_points);
 }
 
-enum class Backend : std::uint8_t { automatic, cpu, cuda };
-
-/// "auto", "cpu" or "cuda". Throws InvalidInput for other names.
-Backend backend_by_name(const std::string& name);
-
-struct BackendOptions {
-    Backend backend = Backend::automatic;
-    unsigned threads = 0;                 ///< CPU worker threads; 0: one per processor
-    std::size_t memory_limit = 0;         ///< bytes one reconstructor may hold; 0: no limit of its own
-    int device = 0;                       ///< which GPU, see devices.hpp
-    std::size_t device_memory_limit = 0;  ///< bytes one reconstructor may hold on the GPU; 0: no limit of its own
-};
+/// The parameters of one alternative of a choice; their defaults if another is chosen.
+template <class Chosen, class... T>
+Chosen value_or_default(const std::variant<T...>& choice) {
+    const auto* chosen = std::get_if<Chosen>(&choice);
+    return chosen != nullptr ? *chosen : Chosen{};
+}
 
 }  // namespace meniscus

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "meniscus/mesh.hpp"
+#include "meniscus/names.hpp"
 
 namespace meniscus {
 
@@ -22,10 +23,28 @@ enum class Stage : std::uint8_t {
     emit_triangles,
     fill_cracks,
 };
-inline constexpr std::size_t stage_count = 8;
-inline constexpr std::array<std::string_view, stage_count> stage_names{
-    "register_particles", "split_cells",    "adjust_levels",  "sample_field",
-    "count_triangles",    "place_vertices", "emit_triangles", "fill_cracks"};
+constexpr std::string_view name_of(Stage stage) {
+    switch (stage) {
+        case Stage::register_particles:
+            return "register_particles";
+        case Stage::split_cells:
+            return "split_cells";
+        case Stage::adjust_levels:
+            return "adjust_levels";
+        case Stage::sample_field:
+            return "sample_field";
+        case Stage::count_triangles:
+            return "count_triangles";
+        case Stage::place_vertices:
+            return "place_vertices";
+        case Stage::emit_triangles:
+            return "emit_triangles";
+        case Stage::fill_cracks:
+            return "fill_cracks";
+    }
+    return {};
+}
+inline constexpr std::size_t stage_count = choices<Stage>.size();
 
 struct Statistics {
     std::uint64_t particles = 0;

@@ -37,8 +37,8 @@ void find_band(State& s) {
 }
 
 /// Gives every cell of the band the level that the criterion asks for.
-template <class Criterion>
-WantedLevel choose_levels(State& s, const Criterion& level_of) {
+template <class Rule>
+WantedLevel choose_levels(State& s, const Rule& level_of) {
     const BlocksView blocks = s.blocks();
     s.workers.for_ranges(s.block_count(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b)
@@ -50,11 +50,10 @@ WantedLevel choose_levels(State& s, const Criterion& level_of) {
 
 WantedLevel choose_levels(State& s, bool has_particle_levels) {
     const LatticeSettings& settings = s.settings;
-    if (settings.measures_bends) return choose_levels(s, CurvatureCriterion{s.bends.data(), settings.tolerance});
+    if (settings.measures_bends) return choose_levels(s, CurvatureRule{s.bends.data(), settings.tolerance});
     if (settings.counts_particles)
-        return choose_levels(s,
-                             CountCriterion{s.particle_counts.data(), settings.count_threshold, has_particle_levels});
-    return choose_levels(s, UniformCriterion{});
+        return choose_levels(s, CountRule{s.particle_counts.data(), settings.count_threshold, has_particle_levels});
+    return choose_levels(s, UniformRule{});
 }
 
 }  // namespace

@@ -58,9 +58,8 @@ __global__ void __launch_bounds__(block_threads, 4) find_band(const __grid_const
     });
 }
 
-template <class Criterion>
-__global__ void __launch_bounds__(block_threads)
-    choose_levels(const __grid_constant__ State f, const Criterion level_of) {
+template <class Rule>
+__global__ void __launch_bounds__(block_threads) choose_levels(const __grid_constant__ State f, const Rule level_of) {
     const BlocksView blocks = f.blocks();
     GridLoop{}.each(blocks.count, [&](std::uint32_t b) {
         f.wanted_level[b] = static_cast<std::uint8_t>(level_of(blocks, b));
@@ -78,13 +77,13 @@ void split_cells(const State& state, bool has_particle_levels, const Launcher& l
     launch(words, block_warps, find_band, state, settings.measures_bends);
     if (settings.measures_bends) {
         measure_bends(state, launch);
-        launch(blocks, block_threads, choose_levels<CurvatureCriterion>, state,
-               CurvatureCriterion{state.bends, settings.tolerance});
+        launch(blocks, block_threads, choose_levels<CurvatureRule>, state,
+               CurvatureRule{state.bends, settings.tolerance});
     } else if (settings.counts_particles) {
-        launch(blocks, block_threads, choose_levels<CountCriterion>, state,
-               CountCriterion{state.particle_counts, settings.count_threshold, has_particle_levels});
+        launch(blocks, block_threads, choose_levels<CountRule>, state,
+               CountRule{state.particle_counts, settings.count_threshold, has_particle_levels});
     } else {
-        launch(blocks, block_threads, choose_levels<UniformCriterion>, state, UniformCriterion{});
+        launch(blocks, block_threads, choose_levels<UniformRule>, state, UniformRule{});
     }
     collect_level_sets(state, launch);
 }

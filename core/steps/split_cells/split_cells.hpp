@@ -13,11 +13,11 @@
 
 namespace meniscus {
 
-// A criterion is a callable from a block to its level, 1 to 3. It is asked when the band is known and levels are not: a
-// block's level is 0 outside of the band.
+// The rule of a criterion is a callable from a block to its level, 1 to 3. It is asked when the band is known and
+// levels are not: a block's level is 0 outside of the band.
 
-/// The paper's criterion: few particles in a cell are a splash, which needs the finest level.
-struct CountCriterion {
+/// CountCriterion's rule: few particles in a cell are a splash, which needs the finest level.
+struct CountRule {
     const std::uint32_t* counts = nullptr;  ///< particles per block; adaptive SPH: those of level 0
     std::uint32_t threshold = 1;
     bool adaptive_sph = false;
@@ -30,14 +30,14 @@ struct CountCriterion {
 };
 
 /// Marching cubes at the finest cell: the baseline.
-struct UniformCriterion {
+struct UniformRule {
     MENISCUS_HD int operator()(const BlocksView&, std::uint32_t) const { return 3; }
 };
 
-/// A face of edge s that is blended between its corners departs from a surface of principal curvatures k and m by
-/// (|k| + |m|) s^2 / 12 in the mean, which may be at most `tolerance` cells. A cell bends at least half as much as its
-/// face neighbors, so that levels do not fall off faster than the surface calms.
-struct CurvatureCriterion {
+/// CurvatureCriterion's rule. A face of edge s that is blended between its corners departs from a surface of principal
+/// curvatures k and m by (|k| + |m|) s^2 / 12 in the mean, which may be at most `tolerance` cells. A cell bends at
+/// least half as much as its face neighbors, so that levels do not fall off faster than the surface calms.
+struct CurvatureRule {
     const CellBend* cells = nullptr;  ///< per block
     float tolerance = 0.15F;          ///< in cells
 

@@ -41,11 +41,14 @@ Settings GoldenRow::settings() const {
     s.iso = iso;
     s.field = field;
     s.mode = mode;
-    s.criterion = count_threshold > 0 ? Criterion::count : Criterion::curvature;
-    s.tolerance = count_threshold > 0 ? 0.15 : tolerance;
-    s.count_threshold = std::max(count_threshold, 1U);
-    s.edge_points = bisection_steps > 0 ? EdgePoints::bisect : EdgePoints::interpolate;
-    s.bisection_steps = std::max(bisection_steps, 1U);
+    if (count_threshold > 0)
+        s.criterion = CountCriterion{count_threshold};
+    else
+        s.criterion = CurvatureCriterion{tolerance};
+    if (bisection_steps > 0)
+        s.edge_points = Bisection{bisection_steps};
+    else
+        s.edge_points = Interpolation{};
     s.normals = normals;
     s.domain.reset();
     if (cropped) s.domain = Box{{-0.28125, 0.015625, -0.09375}, {0.3125, 0.171875, 0.25}};

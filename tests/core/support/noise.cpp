@@ -93,7 +93,7 @@ Settings noise_settings(const NoiseWorld& world) {
     settings.particle_radius = 1.0;
     settings.iso = 1.0;
     settings.mode = world.uniform ? Mode::uniform : Mode::adaptive;
-    if (world.bisects) settings.edge_points = EdgePoints::bisect;
+    if (world.bisects) settings.edge_points = Bisection{};
     return settings;
 }
 

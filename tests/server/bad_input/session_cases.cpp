@@ -84,10 +84,7 @@ std::vector<BadInputCase> session_cases() {
     const auto cell_size = [](double value) { return settings_with([=](v1::Settings& s) { s.set_cell_size(value); }); };
     const auto iso = [](double value) { return settings_with([=](v1::Settings& s) { s.set_iso(value); }); };
     const auto steps = [](std::uint32_t value) {
-        return settings_with([=](v1::Settings& s) {
-            s.set_edge_points(v1::EDGE_POINTS_BISECT);
-            s.set_bisection_steps(value);
-        });
+        return settings_with([=](v1::Settings& s) { s.mutable_bisection()->set_steps(value); });
     };
     const auto domain = [](double low, double high) {
         return settings_with([=](v1::Settings& s) {
@@ -117,9 +114,9 @@ std::vector<BadInputCase> session_cases() {
         {"AnIsoValueOfZero", invalid, "iso value is 0, must be finite and greater than 0", iso(0.0)},
         {"AnIsoValueThatFloat32DoesNotHold", invalid, "iso value is 0, must be finite and greater than 0", iso(1e-60)},
         {"AToleranceBelowZero", invalid, "tolerance is -0.1, must be finite and greater than 0",
-         settings_with([](v1::Settings& s) { s.set_tolerance(-0.1); })},
+         settings_with([](v1::Settings& s) { s.mutable_curvature()->set_tolerance(-0.1); })},
         {"ACountThresholdOfZero", invalid, "count threshold is 0, must be at least 1",
-         settings_with([](v1::Settings& s) { s.set_count_threshold(0); })},
+         settings_with([](v1::Settings& s) { s.mutable_count()->set_threshold(0); })},
         {"SevenBisectionSteps", ok, "", steps(7)},
         {"EightBisectionSteps", invalid, "bisection steps are 8, must be 1 to 7", steps(8)},
         {"NoBisectionSteps", invalid, "bisection steps are 0, must be 1 to 7", steps(0)},
@@ -133,10 +130,13 @@ std::vector<BadInputCase> session_cases() {
          settings_with([](v1::Settings& s) { s.set_field(static_cast<v1::Field>(7)); })},
         {"AnUnknownMode", invalid, "settings.mode has the value 7, which this version does not know",
          settings_with([](v1::Settings& s) { s.set_mode(static_cast<v1::Mode>(7)); })},
-        {"AnUnknownCriterion", invalid, "settings.criterion has the value 7, which this version does not know",
-         settings_with([](v1::Settings& s) { s.set_criterion(static_cast<v1::Criterion>(7)); })},
-        {"UnknownEdgePoints", invalid, "settings.edge_points has the value -1, which this version does not know",
-         settings_with([](v1::Settings& s) { s.set_edge_points(static_cast<v1::EdgePoints>(-1)); })},
+        {"ASettingOfAnotherVersion", invalid, "settings have the field 7, which this version does not know",
+         settings_with([](v1::Settings& s) { s.GetReflection()->MutableUnknownFields(&s)->AddVarint(7, 1); })},
+        {"AParameterOfACriterionOfAnotherVersion", invalid,
+         "settings have the field 2, which this version does not know", settings_with([](v1::Settings& s) {
+             v1::CountCriterion& count = *s.mutable_count();
+             count.GetReflection()->MutableUnknownFields(&count)->AddVarint(2, 1);
+         })},
         {"ACreatedSessionWithoutId", invalid, "the message's session id is \"\"; it must be a UUID", id("")},
         {"ACreatedSessionThatIsNotTheMetadatas", invalid, "but the message's session id is " + no_session,
          id(no_session)},

@@ -51,7 +51,7 @@ TEST(Metrics, CountWhatWasDone) {
     EXPECT_GT(samples.at("meniscus_frame_latency_seconds_sum"),
               samples.at("meniscus_frame_reconstruction_seconds_sum"));
     double stage_seconds = 0;
-    for (const std::string_view stage : stage_names) {
+    for (const std::string_view stage : names<Stage>) {
         const std::string label = "{stage=\"" + std::string(stage) + "\"}";
         EXPECT_EQ(samples.at("meniscus_frame_stage_seconds_count" + label), 3) << stage;
         stage_seconds += samples.at("meniscus_frame_stage_seconds_sum" + label);

@@ -93,6 +93,17 @@ enum class UploadPolicy {
     latest,       ///< the newest one replaces the one that waits
     every_nth,    ///< of every n pushed the first is reconstructed; of those none is lost
 };
+constexpr std::string_view name_of(UploadPolicy policy) {
+    switch (policy) {
+        case UploadPolicy::every_frame:
+            return "every-frame";
+        case UploadPolicy::latest:
+            return "latest";
+        case UploadPolicy::every_nth:
+            return "every-nth";
+    }
+    return {};
+}
 
 enum class DropReason {
     replaced,  ///< UploadPolicy::latest

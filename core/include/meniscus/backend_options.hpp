@@ -1,0 +1,35 @@
+// Where a reconstruction runs, and what it may take there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace meniscus {
+
+enum class Backend : std::uint8_t {
+    automatic,  ///< a GPU if one can be used, else the CPU
+    cpu,
+    cuda,
+};
+constexpr std::string_view name_of(Backend backend) {
+    switch (backend) {
+        case Backend::automatic:
+            return "auto";
+        case Backend::cpu:
+            return "cpu";
+        case Backend::cuda:
+            return "cuda";
+    }
+    return {};
+}
+
+struct BackendOptions {
+    Backend backend = Backend::automatic;
+    unsigned threads = 0;                 ///< CPU worker threads; 0: one per processor
+    std::size_t memory_limit = 0;         ///< bytes one reconstructor may hold; 0: no limit of its own
+    int device = 0;                       ///< which GPU, see devices.hpp
+    std::size_t device_memory_limit = 0;  ///< bytes one reconstructor may hold on the GPU; 0: no limit of its own
+};
+
+}  // namespace meniscus
