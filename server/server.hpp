@@ -16,7 +16,7 @@
 #include "rpc/services.hpp"
 #include "rpc/standard_services.hpp"
 #include "security/access.hpp"
-#include "sessions/limits.hpp"
+#include "sessions/limits/limits.hpp"
 #include "sessions/session_registry.hpp"
 #include "web/http_server.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "meniscus/reconstructor.hpp"
-#include "sessions/limits.hpp"
+#include "sessions/limits/limits.hpp"
 
 namespace meniscus::server {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "metrics/metrics.hpp"
+#include "sessions/metrics.hpp"
 
 namespace meniscus::server {
 

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "metrics/metrics.hpp"
+#include "sessions/metrics.hpp"
 
 namespace meniscus::server {
 

@@ -5,10 +5,10 @@
 #include <grpcpp/support/byte_buffer.h>
 #include <grpcpp/support/server_callback.h>
 
-#include "metrics/metrics.hpp"
 #include "recording/recording_reads.hpp"
 #include "rpc/active_calls.hpp"
 #include "security/authorizer.hpp"
+#include "sessions/metrics.hpp"
 
 namespace meniscus::server {
 

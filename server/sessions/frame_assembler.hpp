@@ -8,7 +8,7 @@
 
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/input_frame.hpp"
-#include "sessions/limits.hpp"
+#include "sessions/limits/limits.hpp"
 
 namespace meniscus::server {
 

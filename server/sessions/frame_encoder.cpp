@@ -8,7 +8,7 @@
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/begin_message.hpp"
-#include "sessions/limits.hpp"
+#include "sessions/limits/limits.hpp"
 #include "sessions/place_order.hpp"
 
 namespace meniscus::server {

@@ -11,7 +11,7 @@
 #include "meniscus/mesh_download.hpp"
 #include "meniscus/statistics.hpp"
 #include "sessions/encoded_frame.hpp"
-#include "sessions/worker_pool.hpp"
+#include "sessions/handover/worker_pool.hpp"
 
 namespace meniscus::server {
 

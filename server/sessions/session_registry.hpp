@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "meniscus/settings.hpp"
-#include "sessions/channel.hpp"
-#include "sessions/limits.hpp"
-#include "sessions/periodic.hpp"
+#include "sessions/handover/channel.hpp"
+#include "sessions/handover/periodic.hpp"
+#include "sessions/limits/limits.hpp"
 #include "sessions/session.hpp"
 
 namespace meniscus::server {

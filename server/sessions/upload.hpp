@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "sessions/limits/unreported_drops.hpp"
 #include "sessions/output_queue.hpp"
-#include "sessions/unreported_drops.hpp"
 
 namespace meniscus::server {
 

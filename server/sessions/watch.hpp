@@ -12,11 +12,11 @@
 #include <utility>
 #include <variant>
 
-#include "metrics/metrics.hpp"
 #include "sessions/encoded_frame.hpp"
+#include "sessions/limits/token_bucket.hpp"
 #include "sessions/mesh_update.hpp"
+#include "sessions/metrics.hpp"
 #include "sessions/particle_messages.hpp"
-#include "sessions/token_bucket.hpp"
 #include "sessions/watch_wishes.hpp"
 
 namespace meniscus::server {

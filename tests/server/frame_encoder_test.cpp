@@ -7,7 +7,7 @@
 #include "late_meshes.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/v1/surface_service.pb.h"
-#include "sessions/limits.hpp"
+#include "sessions/limits/limits.hpp"
 #include "test_frames.hpp"
 
 namespace meniscus::server {

@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
-#include "sessions/channel.hpp"
+#include "sessions/handover/channel.hpp"
+#include "sessions/handover/slot_pool.hpp"
 #include "sessions/output_queue.hpp"
-#include "sessions/slot_pool.hpp"
 
 namespace meniscus::server {
 namespace {
