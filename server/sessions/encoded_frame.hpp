@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "sessions/frame_statistics.hpp"
+
 namespace meniscus::server {
 
 /// One StreamResponse, which is a WatchResponse byte for byte, in protobuf's wire format.
@@ -45,7 +47,8 @@ struct EncodedFrame {
     std::uint32_t offset_bits = 0;
     SharedMessage begin;              ///< announces the whole mesh
     std::vector<SharedBrick> bricks;  ///< ordered by place (z, y, x)
-    SharedMessage statistics;
+    FrameStatistics statistics;
+    SharedMessage end;  ///< carries the statistics
 
     /// The messages that carry the whole mesh, in their order.
     template <class Visit>
@@ -53,7 +56,7 @@ struct EncodedFrame {
         visit(begin);
         for (const SharedBrick& brick : bricks)
             for (const SharedMessage& message : brick->messages) visit(message);
-        visit(statistics);
+        visit(end);
     }
 };
 

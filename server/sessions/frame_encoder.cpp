@@ -4,12 +4,12 @@
 #include <mutex>
 #include <utility>
 
-#include "conversion/statistics_conversion.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/begin_message.hpp"
 #include "sessions/limits/limits.hpp"
 #include "sessions/place_order.hpp"
+#include "sessions/statistics_message.hpp"
 
 namespace meniscus::server {
 
@@ -67,15 +67,13 @@ SharedBrick find_brick(const EncodedFrame* frame, const std::array<std::int32_t,
     return found != frame->bricks.end() && (*found)->place == place ? *found : nullptr;
 }
 
-v1::StreamResponse statistics_response(const ReconstructedFrame& frame, const MeshDownload& download) {
-    v1::StreamResponse response;
-    v1::FrameStatistics& statistics = *response.mutable_frame_statistics();
-    statistics.set_frame_index(frame.index);
-    statistics.set_simulation_time(frame.simulation_time);
-    conversion::to_wire(frame.statistics, statistics);
-    statistics.set_download_seconds(download.seconds());
-    statistics.set_latency_seconds(seconds_since(frame.received_at));
-    return response;
+FrameStatistics statistics_of(const ReconstructedFrame& frame, const MeshDownload& download) {
+    FrameStatistics statistics{frame.statistics};
+    statistics.frame_index = frame.index;
+    statistics.simulation_time = frame.simulation_time;
+    statistics.download_seconds = download.seconds();
+    statistics.latency_seconds = seconds_since(frame.received_at);
+    return statistics;
 }
 
 }  // namespace
@@ -119,16 +117,22 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
         for (const SharedMessage& message : brick->messages) emit(message);
     });
 
-    v1::StreamResponse end = statistics_response(frame, download);
-    end.mutable_frame_statistics()->set_encode_seconds(seconds_since(start));
-    end.mutable_frame_statistics()->set_encoded_bytes(bytes);
-    encoded->statistics = serialize(end);
-    emit(encoded->statistics);
+    encoded->statistics = statistics_of(frame, download);
+    encoded->statistics.encode_seconds = seconds_since(start);
+    encoded->statistics.encoded_bytes = bytes;
+    encoded->end = serialize(encoded->statistics);
+    emit(encoded->end);
     return encoded;
 }
 
-SharedMessage encode_statistics(const ReconstructedFrame& frame) {
-    return serialize(statistics_response(frame, frame.download));
+FrameStatistics statistics_of(const ReconstructedFrame& frame) {
+    return statistics_of(frame, frame.download);
+}
+
+SharedMessage serialize(const FrameStatistics& statistics) {
+    v1::StreamResponse response;
+    *response.mutable_frame_statistics() = statistics_message(statistics);
+    return serialize(response);
 }
 
 }  // namespace meniscus::server

@@ -60,7 +60,9 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
                                                  const EncodedFrame* before, WorkerPool& workers,
                                                  const MessageSink& sink);
 
-/// The statistics alone, for a simulator that wants no meshes.
-SharedMessage encode_statistics(const ReconstructedFrame& frame);
+/// The statistics of a frame whose simulator wants no meshes, until now.
+FrameStatistics statistics_of(const ReconstructedFrame& frame);
+/// The message that carries them.
+SharedMessage serialize(const FrameStatistics& statistics);
 
 }  // namespace meniscus::server

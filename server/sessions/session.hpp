@@ -37,7 +37,7 @@ struct SessionState {
     std::uint32_t watchers = 0;
     std::uint64_t frames = 0;
     std::optional<std::uint64_t> last_frame_index;
-    std::optional<v1::FrameStatistics> last_frame;  ///< of the frame answered last
+    std::optional<FrameStatistics> last_frame;  ///< of the frame answered last
     std::uint64_t frames_dropped_replaced = 0;
     std::uint64_t frames_dropped_not_nth = 0;
     std::uint64_t frames_skipped = 0;                ///< over all watchers, those that have gone included
@@ -183,7 +183,7 @@ private:
     void perform(EncodeForWatchers& task);
     void perform(AddCapped& task);
     /// A frame was answered with these statistics.
-    void count_answer(const SharedMessage& statistics);
+    void count_answer(const FrameStatistics& statistics);
     std::shared_ptr<const EncodedFrame> encode_newest(const MeshFormat& format, const MessageSink& sink);
     void publish(const MeshFormat& format, const std::shared_ptr<const EncodedFrame>& frame);
     /// Encodes the newest mesh for the watchers whose wishes nobody shared.

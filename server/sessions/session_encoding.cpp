@@ -4,7 +4,6 @@
 
 #include "log.hpp"
 #include "meniscus/error.hpp"
-#include "meniscus/v1/surface_service.pb.h"
 #include "sessions/refusal.hpp"
 #include "sessions/session.hpp"
 #include "sessions/stream_notices.hpp"
@@ -60,9 +59,9 @@ void Session::perform(Encode& task) {
             count_answer(encoded->statistics);
             publish(format, encoded);
         } else {
-            const SharedMessage statistics = encode_statistics(*newest_);
+            const FrameStatistics statistics = statistics_of(*newest_);
             count_answer(statistics);
-            upload.output.push(statistics);
+            upload.output.push(serialize(statistics));
         }
     } catch (const DeviceError&) {
         throw;
@@ -83,7 +82,7 @@ void Session::answer_again(Encode& task) {
             encode_frame(*task.frame, stream_format(upload.options, settings_), nullptr, *shared_.workers,
                          [&](const SharedMessage& message) { upload.output.push(message); });
         else
-            upload.output.push(encode_statistics(*task.frame));
+            upload.output.push(serialize(statistics_of(*task.frame)));
     } catch (const DeviceError&) {
         throw;
     } catch (...) {
@@ -140,12 +139,10 @@ void Session::perform(EncodeForWatchers&) {
     encode_for_watchers();
 }
 
-void Session::count_answer(const SharedMessage& statistics) {
-    v1::StreamResponse response;
-    response.ParseFromString(*statistics);
-    shared_.metrics->frame_finished(response.frame_statistics());
+void Session::count_answer(const FrameStatistics& statistics) {
+    shared_.metrics->frame_finished(statistics);
     const std::lock_guard lock(mutex_);
-    state_.last_frame = std::move(*response.mutable_frame_statistics());
+    state_.last_frame = statistics;
 }
 
 void Session::perform(AddCapped& task) {
