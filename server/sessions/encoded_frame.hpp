@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "meniscus/brick_coding.hpp"
 #include "sessions/frame_statistics.hpp"
 
 namespace meniscus::server {
@@ -29,7 +30,7 @@ struct MeshFormat {
 /// One brick, or its parts in order. The same in every frame in which the brick is the same.
 struct BrickMessages {
     std::array<std::int32_t, 3> place{};  ///< x y z in bricks
-    std::uint64_t content_hash = 0;       ///< of what was encoded
+    ContentHash content_hash{};           ///< of what was encoded
     std::uint32_t triangles = 0;
     std::size_t bytes = 0;
     std::vector<SharedMessage> messages;

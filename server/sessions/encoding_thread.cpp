@@ -20,7 +20,10 @@ MeshFormat stream_format(int normal_bits, const Settings& settings) {
 }  // namespace
 
 EncodingThread::EncodingThread(const SessionContext& context, Watchers& watchers, Ends ends)
-    : context_(context), watchers_(watchers), ends_(std::move(ends)) {
+    : context_(context),
+      watchers_(watchers),
+      ends_(std::move(ends)),
+      scratch_(std::make_shared<MemoryAccount>(context.limits.bytes_per_session)) {
     for (ReconstructedFrame& frame : frames_) free_frames_.put(&frame);
     thread_ = std::thread([this] { run(); });
 }
@@ -102,7 +105,8 @@ void EncodingThread::answer_again(Encode& task) {
     try {
         if (upload.options.receive_meshes)
             encode_frame(*task.frame, stream_format(upload.options.normal_bits, context_.settings), nullptr,
-                         *context_.shared.workers, [&](const SharedMessage& message) { upload.output.push(message); });
+                         *context_.shared.workers, scratch_,
+                         [&](const SharedMessage& message) { upload.output.push(message); });
         else
             upload.output.push(serialize(statistics_of(*task.frame)));
     } catch (const DeviceError&) {
@@ -157,7 +161,7 @@ void EncodingThread::count_answer(const FrameStatistics& statistics) {
 std::shared_ptr<const EncodedFrame> EncodingThread::encode_newest(const MeshFormat& format, const MessageSink& sink) {
     const auto before = before_.find(format);
     return encode_frame(*newest_, format, before != before_.end() ? before->second.get() : nullptr,
-                        *context_.shared.workers, sink);
+                        *context_.shared.workers, scratch_, sink);
 }
 
 void EncodingThread::encode_for_watchers() {

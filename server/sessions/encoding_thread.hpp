@@ -16,6 +16,7 @@
 #include "sessions/frame_encoder.hpp"
 #include "sessions/frame_statistics.hpp"
 #include "sessions/handover/channel.hpp"
+#include "sessions/scratch_pool.hpp"
 #include "sessions/session_context.hpp"
 #include "sessions/upload.hpp"
 #include "sessions/watchers.hpp"
@@ -104,6 +105,7 @@ private:
     Channel<ReconstructedFrame*> free_frames_;
     Channel<Task> tasks_;
     ReconstructedFrame* newest_ = nullptr;
+    ScratchPool scratch_;
     Encodings before_;  ///< of the frame before the newest, whose bricks may serve again
 
     mutable std::mutex mutex_;  ///< for what follows

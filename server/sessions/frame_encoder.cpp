@@ -31,7 +31,7 @@ SharedMessage serialize(const v1::StreamResponse& response) {
     return std::make_shared<const std::string>(response.SerializeAsString());
 }
 
-SharedBrick brick_messages(const EncodedBrick& brick, std::uint64_t content_hash) {
+SharedBrick brick_messages(const EncodedBrick& brick, const ContentHash& content_hash) {
     auto result = std::make_shared<BrickMessages>();
     result->place = brick.coordinate;
     result->content_hash = content_hash;
@@ -79,7 +79,7 @@ FrameStatistics statistics_of(const ReconstructedFrame& frame, const MeshDownloa
 }  // namespace
 
 std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
-                                                 const EncodedFrame* before, WorkerPool& workers,
+                                                 const EncodedFrame* before, WorkerPool& workers, ScratchPool& scratch,
                                                  const MessageSink& sink) {
     const MeshDownload& download = frame.download_at(format.max_level);
     download.start();
@@ -107,8 +107,11 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
     encoded->bricks.resize(mesh.bricks.size());
     workers.for_each(mesh.bricks.size(), [&](std::size_t i) {
         download.bring(i);
-        const BrickContent content = brick_content(mesh, i, coding);
-        const std::uint64_t hash = content.hash();
+        const BrickContent content = [&] {
+            ScratchPool::Loan loan(scratch);
+            return brick_content(mesh, i, coding, *loan);
+        }();
+        const ContentHash hash = content.hash();
         SharedBrick brick = find_brick(before, content.coordinate);
         if (!brick || brick->content_hash != hash) brick = brick_messages(encode_brick(content, coding), hash);
         encoded->bricks[i] = brick;

@@ -12,6 +12,7 @@
 #include "meniscus/statistics.hpp"
 #include "sessions/encoded_frame.hpp"
 #include "sessions/handover/worker_pool.hpp"
+#include "sessions/scratch_pool.hpp"
 
 namespace meniscus::server {
 
@@ -55,9 +56,9 @@ using MessageSink = std::function<void(const SharedMessage&)>;
 
 /// Brings the mesh down, and encodes the bricks in parallel, but those whose content `before` has already: an earlier
 /// frame of the session in the same format, or none. The frame has the mesh of that format. sink may be empty. Throws
-/// DeviceError if the mesh cannot come down.
+/// DeviceError if the mesh cannot come down, LimitExceeded if the account of the scratch memory would pass its limit.
 std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
-                                                 const EncodedFrame* before, WorkerPool& workers,
+                                                 const EncodedFrame* before, WorkerPool& workers, ScratchPool& scratch,
                                                  const MessageSink& sink);
 
 /// The statistics of a frame whose simulator wants no meshes, until now.

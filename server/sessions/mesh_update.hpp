@@ -17,7 +17,7 @@ namespace meniscus::server {
 struct WatcherMesh {
     struct Brick {
         std::array<std::int32_t, 3> place{};
-        std::uint64_t content_hash = 0;
+        ContentHash content_hash{};
     };
     std::uint64_t frame_index = 0;
     std::vector<Brick> bricks;  ///< ordered by place (z, y, x)

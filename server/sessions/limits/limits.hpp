@@ -16,7 +16,7 @@ struct Limits {
     /// Calls at a time that read recordings.
     std::uint32_t recording_readers = 16;
     std::uint64_t particles_per_frame = 0;
-    /// For the reconstruction of one session, and as much again for its frames on their way in.
+    /// For the reconstruction of one session, as much again for its frames on their way in, and for their encoding.
     std::size_t bytes_per_session = 0;
     /// For the reconstruction of one session on its GPU.
     std::size_t device_bytes_per_session = 0;
