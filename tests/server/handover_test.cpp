@@ -70,6 +70,7 @@ TEST(SlotPool, OffersADeclinedSlotToTheNext) {
     EXPECT_EQ(taken, &slot);
 }
 
+// Asserts that neither waiter is called: each would fail the test.
 TEST(SlotPool, ForgetsWhoWaitsWhenClosed) {
     SlotPool<int> pool;
     int slot = 0;
