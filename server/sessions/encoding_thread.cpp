@@ -23,7 +23,7 @@ EncodingThread::EncodingThread(const SessionContext& context, Watchers& watchers
     : context_(context),
       watchers_(watchers),
       ends_(std::move(ends)),
-      scratch_(std::make_shared<MemoryAccount>(context.limits.bytes_per_session)) {
+      scratch_(std::make_shared<MemoryAccount>(context.limits.bytes_per_session, "to encode its mesh")) {
     for (ReconstructedFrame& frame : frames_) free_frames_.put(&frame);
     thread_ = std::thread([this] { run(); });
 }

@@ -67,7 +67,7 @@ inline std::shared_ptr<EncodedFrame> made_frame(std::uint64_t index, const Versi
     frame->begin = serialized(begin);
     v1::StreamResponse end;
     end.mutable_frame_statistics()->set_frame_index(index);
-    frame->statistics = serialized(end);
+    frame->end = serialized(end);
     return frame;
 }
 
