@@ -1,4 +1,4 @@
-// What the service counts, for Prometheus.
+// The service's counters and histograms, for Prometheus.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -23,7 +23,7 @@ public:
     void watcher_lag(double seconds) override;
     void call_ended(std::string_view code) override;
 
-    /// All that was counted so far.
+    /// The values of this moment.
     std::vector<prometheus::MetricFamily> collect() const;
 
 private:

@@ -12,7 +12,7 @@
 
 namespace meniscus::server {
 
-/// The call's reactor, which owns itself until the call is done. reads: none where nothing is recorded.
+/// The call's reactor, which owns itself until the call is done. reads: null where nothing is recorded.
 grpc::ServerWriteReactor<grpc::ByteBuffer>* start_reading(RecordingReads* reads, const Authorizer& authorizer,
                                                           Metrics& metrics, ActiveCalls& calls,
                                                           grpc::CallbackServerContext& context,

@@ -1,4 +1,4 @@
-// A frame as it goes out: immutable messages, shared by all who receive it.
+// A frame as it goes out: immutable messages, shared by all receivers.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace meniscus::server {
 /// One StreamResponse, which is a WatchResponse byte for byte, in protobuf's wire format.
 using SharedMessage = std::shared_ptr<const std::string>;
 
-/// How a mesh is encoded. Who wishes for the same shares one encode.
+/// How a mesh is encoded. Receivers that wish for the same share one encode.
 struct MeshFormat {
     int max_level = 3;      ///< finest level of grid, 1 to 3
     int position_bits = 0;  ///< vertices lie on multiples of c / 2^position_bits; 0: as reconstructed

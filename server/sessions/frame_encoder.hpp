@@ -18,7 +18,7 @@ namespace meniscus::server {
 
 /// A frame after its reconstruction.
 struct ReconstructedFrame {
-    /// The surface with its levels capped; `made` if somebody wished for it.
+    /// The surface with its levels capped; `made` if a watcher wished for it.
     struct CappedMesh {
         bool made = false;
         Mesh mesh;
@@ -38,7 +38,7 @@ struct ReconstructedFrame {
     Statistics statistics;
 
     CappedMesh& capped_at(int max_level) { return capped.at(static_cast<std::size_t>(max_level - 1)); }
-    /// None if it was not made.
+    /// Null if it was not made.
     const Mesh* mesh_at(int max_level) const {
         if (max_level == 3) return &mesh;
         const CappedMesh& cap = capped.at(static_cast<std::size_t>(max_level - 1));

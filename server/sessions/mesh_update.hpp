@@ -29,7 +29,8 @@ struct FrameUpdate {
     WatcherMesh result{};                ///< what the watcher has after the last one, of a mesh
 };
 
-/// Names at most so many vanished bricks, to keep the announcement below 2 MB; beyond that the mesh is sent whole.
+/// The most vanished bricks that an update names, so that its announcement stays below 2 MB; beyond that the mesh is
+/// sent whole.
 inline constexpr std::size_t max_vanished = 65536;
 
 /// base: what the watcher has; none: the mesh is sent whole.

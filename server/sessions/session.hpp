@@ -68,28 +68,28 @@ public:
                                         std::function<void()> drain);
     void request_input(SlotPool<InputFrame>::Waiter waiter) { inputs_.request(std::move(waiter)); }
     void return_input(InputFrame& input) { inputs_.give_back(input); }
-    /// Before a frame is begun. Throws LimitExceeded for one too many in a second.
+    /// Call it before a frame is begun. Throws LimitExceeded for one too many in a second.
     void admit_frame(std::uint64_t index);
     void submit(std::shared_ptr<Upload> upload, InputFrame& input);
-    /// What was submitted before is still answered; then the upload's output ends with the error.
+    /// Frames that were submitted before are still answered; then the upload's output ends with the error.
     void end_upload(std::shared_ptr<Upload> upload, std::exception_ptr error);
     /// Nobody reads any more: its frames that wait are forgotten.
     void cancel_upload(const std::shared_ptr<Upload>& upload);
 
     // Watching.
 
-    /// Gets the newest mesh, or its particles, at once where they are there. Throws LimitExceeded, or Refusal if the
-    /// session ends.
+    /// The watch has the newest mesh, or its particles, at once if they are there. Throws LimitExceeded, or Refusal if
+    /// the session ends.
     std::shared_ptr<Watch> open_watch(const WatchWishes& wishes, std::function<void()> wake);
     void close_watch(const std::shared_ptr<Watch>& watch);
 
-    /// Lets the frame on its way in be the last, then ends the watchers. Streams and watchers are told that they have
-    /// so long. Returns at once.
+    /// Lets the frame on its way in be the last, then ends the watchers. grace: told to streams and watchers. Returns
+    /// at once.
     void drain(std::chrono::duration<double> grace);
-    /// Ends an upload that has been idle for Limits::idle_time. Returns whether the session has been without a stream,
-    /// a watcher or a call for so long.
+    /// Ends an upload that has been idle for Limits::idle_time. Returns whether the session has been without streams,
+    /// watchers and calls for that time.
     bool end_idle(std::chrono::steady_clock::time_point now);
-    /// A call is about this session.
+    /// Call it for each call about this session: it is not idle.
     void touch();
     /// Drops what is in flight, and ends the upload and the watchers. Returns at once.
     void close();

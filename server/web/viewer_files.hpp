@@ -14,7 +14,7 @@ struct ViewerFile {
     std::span<const unsigned char> bytes;
 };
 
-/// A page that explains, where the viewer was not built.
+/// Where the viewer was not built: one page that says so.
 std::span<const ViewerFile> viewer_files();
 
 }  // namespace meniscus::server
