@@ -14,7 +14,7 @@ struct ViewerFile {
     std::span<const unsigned char> bytes;
 };
 
-/// Where the viewer was not built: one page that says so.
+/// A page that explains, where the viewer was not built.
 std::span<const ViewerFile> viewer_files();
 
 }  // namespace meniscus::server
