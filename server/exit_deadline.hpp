@@ -8,7 +8,7 @@
 
 namespace meniscus::server {
 
-/// Made before what may take too long, so that it goes after that.
+/// Construct it before the objects whose destruction may take too long, so that it is destroyed after them.
 class ExitDeadline {
 public:
     ExitDeadline() = default;
@@ -16,7 +16,7 @@ public:
     ExitDeadline(const ExitDeadline&) = delete;
     ExitDeadline& operator=(const ExitDeadline&) = delete;
 
-    /// From now the process has so long; once.
+    /// The process ends after this time, counted from now, unless the object is destroyed before. Call it once.
     void start(std::chrono::milliseconds time);
 
 private:

@@ -6,7 +6,7 @@
 
 namespace meniscus::server {
 
-/// Throws InvalidInput if the address, of this flag, whose port has no TLS, can be reached from other machines.
+/// For a port without TLS. Throws InvalidInput, which names the flag, if other machines can reach the address.
 void require_loopback(std::string_view flag, const std::string& address);
 
 /// Throws InvalidInput if the address is a Unix socket whose path cannot be one, or that another server listens on:

@@ -33,7 +33,7 @@ sigset_t block_signals() {
     return signals;
 }
 
-/// Until then reloads at SIGHUP, and now and then.
+/// Waits for SIGTERM or SIGINT and returns it. Meanwhile reloads certificates and tokens at SIGHUP, and periodically.
 int wait_for_stop(const sigset_t& signals, meniscus::server::Server& server) {
     for (;;) {
         const int signal = sigtimedwait(&signals, nullptr, &reload_period);
@@ -43,7 +43,7 @@ int wait_for_stop(const sigset_t& signals, meniscus::server::Server& server) {
     }
 }
 
-/// Asked for by --check-config.
+/// What --check-config does.
 int check(const meniscus::server::ServerOptions& options) {
     const std::vector<std::string> problems = meniscus::server::problems_of(options);
     for (const std::string& problem : problems) std::fprintf(stderr, "meniscusd: %s\n", problem.c_str());
@@ -51,12 +51,12 @@ int check(const meniscus::server::ServerOptions& options) {
     return problems.empty() ? 0 : 2;
 }
 
-/// A developer's.
+/// Before the server listens, gRPC's messages matter to developers alone.
 void log_grpc_for_debugging(gpr_log_func_args* message) {
     spdlog::debug("gRPC: {}", message->message);
 }
 
-/// Of a server that listens, an operator wants to know which handshakes fail.
+/// Once the server listens, an operator wants to know which handshakes fail.
 void log_grpc(gpr_log_func_args* message) {
     const bool is_error = message->severity == GPR_LOG_SEVERITY_ERROR;
     spdlog::log(is_error ? spdlog::level::warn : spdlog::level::debug, "gRPC: {}", message->message);
@@ -69,7 +69,7 @@ int run(const meniscus::server::CommandLine& command_line) {
     use_log_level(command_line.log_level);
     spdlog::flush_on(spdlog::level::debug);
     gpr_set_log_function(log_grpc_for_debugging);
-    // What protobuf would print of messages that do not parse is their senders' to choose.
+    // protobuf prints parts of messages that do not parse: text that any sender could put into the log.
     google::protobuf::SetLogHandler(nullptr);
 
     meniscus::server::ExitDeadline exit_deadline;

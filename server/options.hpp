@@ -13,17 +13,17 @@ struct CommandLine {
     ServerOptions server;
     LogLevel log_level = LogLevel::info;
     LogFormat log_format = LogFormat::text;
-    bool check_config = false;  ///< only say whether the settings can be used
+    bool check_config = false;  ///< only report whether the settings can be used
 };
 
-/// What main() is to print and to return with.
+/// What main() prints and returns where the server does not start.
 struct EarlyExit {
     std::string text;
     int code = 0;
 };
 
-/// A flag comes before the environment, and that before the file. Asked for help, its version or its settings, or told
-/// something wrong, meniscusd does not start.
+/// A flag counts more than the environment, which counts more than the file. Returns an exit where help, the version or
+/// the settings are asked for, or a setting is wrong.
 std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, CommandLine& command_line);
 
 }  // namespace meniscus::server

@@ -16,7 +16,7 @@
 #include "rpc/services.hpp"
 #include "rpc/standard_services.hpp"
 #include "security/access.hpp"
-#include "sessions/limits.hpp"
+#include "sessions/limits/limits.hpp"
 #include "sessions/session_registry.hpp"
 #include "web/http_server.hpp"
 
@@ -25,22 +25,22 @@ namespace meniscus::server {
 struct ServerOptions {
     std::string listen = "127.0.0.1:50051";  ///< "HOST:PORT", port 0 for a free one, or "unix:PATH"
     TlsFiles tls;                            ///< none: no TLS
-    std::string tokens;                      ///< file of tokens; empty: everyone may do everything
+    std::string tokens;                      ///< file of tokens; empty: every client may do everything
     bool insecure = false;                   ///< whether other machines may connect without TLS
     std::string http;    ///< "HOST:PORT" for viewer, metrics and probes, port 0 for a free one; empty: none
     std::string probes;  ///< "HOST:PORT" for metrics and probes alone, without TLS; empty: none
     std::vector<std::string> web_origins;  ///< pages of other machines that may call over the HTTP port
     StandardServices standard_services;
-    BackendOptions backend;    ///< backend and threads; limits and devices have the rest
+    BackendOptions backend;    ///< backend and threads alone; the rest comes from `limits` and `devices`
     std::vector<int> devices;  ///< the GPUs to use; empty: all that can reconstruct
     Limits limits;
     RecordingOptions recording;
-    /// How long shutdown() waits for clients to take what they are owed.
+    /// How long shutdown() waits for clients to take their answers.
     std::chrono::milliseconds shutdown_grace = std::chrono::seconds(10);
 };
 
-/// What keeps a server from starting with these options, a line each; an address that is in use, or a folder that
-/// cannot be written to, is not noticed.
+/// The reasons why a server cannot start with these options, one line each. Does not notice an address that is in use
+/// or a folder that cannot be written to.
 std::vector<std::string> problems_of(const ServerOptions& options);
 
 class Server {
@@ -51,18 +51,18 @@ public:
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
-    /// As clients should give it, the port being the one chosen.
+    /// In the form that clients use, with the port that was chosen.
     const std::string& address() const noexcept { return address_; }
-    /// Of the HTTP port; empty if there is none.
+    /// The address of the HTTP port; empty if there is none.
     std::string http_address() const { return http_ ? http_->address() : std::string(); }
-    /// Of the port for metrics and probes alone; empty if there is none.
+    /// The address of the port for metrics and probes alone; empty if there is none.
     std::string probes_address() const { return probes_ ? probes_->address() : std::string(); }
     const BackendDescription& backend() const noexcept { return backend_; }
     /// None if nothing is recorded.
     const RecordingWriter* recordings() const noexcept { return recordings_.get(); }
 
-    /// Reads certificates and tokens again, for connections and calls from now on. What is wrong is logged and not
-    /// used.
+    /// Reads certificates and tokens again, for connections and calls from now on. Logs a file that cannot be used, and
+    /// keeps what it had before.
     void reload() { access_.reload(); }
 
     /// Takes no new frames, answers those in flight, ends the watchers. Calls that are left after the grace period are
@@ -81,7 +81,7 @@ private:
     const std::shared_ptr<PrometheusMetrics> metrics_;
     const std::unique_ptr<RecordingWriter> recordings_;  ///< none: nothing is recorded
     SessionRegistry registry_;
-    const std::unique_ptr<RecordingReads> recording_reads_;  ///< likewise
+    const std::unique_ptr<RecordingReads> recording_reads_;  ///< none: nothing is recorded
     ActiveCalls calls_;
     ServerServiceImpl server_service_;
     SessionServiceImpl session_service_;

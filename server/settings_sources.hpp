@@ -26,8 +26,8 @@ std::vector<Setting> environment_settings(const char* const* environment);
 /// Throws InvalidInput if the file cannot be read or a line is no setting.
 std::vector<Setting> file_settings(const std::string& path);
 
-/// Gives them to the options that have no value yet, so that the first source to be applied wins. Returns a line for
-/// each one that is unknown or whose value is wrong.
+/// Sets the options that have no value yet, so that the first source to be applied wins. Returns a line for each
+/// setting that is unknown or whose value is wrong.
 std::vector<std::string> apply_settings(const std::vector<Setting>& settings, CLI::App& app);
 
 /// The values in effect, as a file that gives them again.

@@ -1,4 +1,6 @@
 // Finds the triangle of a surface that is nearest to a point.
+//
+// By hand, since distances are to be exact in double precision: Embree's trees and point queries are of floats.
 #pragma once
 
 #include <array>

@@ -1,4 +1,7 @@
 // The PLY container: a header that describes rows of numbers, then the rows. Used for particles and for meshes.
+//
+// By hand: Debian has no small library for it, and files of others are checked here against their own size before
+// memory is taken for what they claim.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,6 @@
 // Particles as legacy VTK, which every tool for particles reads.
+//
+// By hand: the format is a header of a few lines before big-endian numbers, and VTK's own library takes hundreds of MB.
 #pragma once
 
 #include <filesystem>

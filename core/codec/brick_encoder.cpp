@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "codec/content_hash.hpp"
+#include "codec/brick_index.hpp"
 #include "codec/round_position.hpp"
 #include "codec/triangle_levels.hpp"
 #include "meniscus/brick_coding.hpp"
@@ -14,36 +14,6 @@
 
 namespace meniscus {
 namespace {
-
-/// The brick's triangles over vertices of its own, numbered as they are met.
-struct BrickIndex {
-    std::vector<std::uint32_t> vertices;  ///< into the mesh
-    std::vector<Triangle> triangles;      ///< into `vertices`
-};
-
-BrickIndex index_brick(const Mesh& mesh, const MeshBrick& brick) {
-    // From a mesh's vertex to the brick's: an entry holds only if the brick's vertex points back, so that what earlier
-    // bricks have left behind need not be cleared. One table per thread, as large as the largest mesh.
-    thread_local std::vector<std::uint32_t> local_of;
-    if (local_of.size() < mesh.vertices.size()) local_of.resize(mesh.vertices.size());
-    BrickIndex index;
-    index.vertices.reserve(brick.triangle_count());
-    index.triangles.reserve(brick.triangle_count());
-    for (const TriangleRange& range : brick.ranges)
-        for (std::uint32_t t = 0; t < range.count; ++t) {
-            Triangle local;
-            for (std::size_t i = 0; i < 3; ++i) {
-                const std::uint32_t v = mesh.triangles[range.first + t][i];
-                if (local_of[v] >= index.vertices.size() || index.vertices[local_of[v]] != v) {
-                    local_of[v] = static_cast<std::uint32_t>(index.vertices.size());
-                    index.vertices.push_back(v);
-                }
-                local[i] = local_of[v];
-            }
-            index.triangles.push_back(local);
-        }
-    return index;
-}
 
 std::vector<LocalPosition> local_positions(const Mesh& mesh, const MeshBrick& brick,
                                            const std::vector<std::uint32_t>& vertices, std::uint32_t bits) {
@@ -98,22 +68,14 @@ std::uint32_t encoded_offset_bits(const Mesh& mesh, const CodingOptions& options
     return static_cast<std::uint32_t>(options.position_bits);
 }
 
-std::uint64_t BrickContent::hash() const {
-    ContentHash hash;
-    hash.add(std::span(positions));
-    hash.add(std::span(normals));
-    hash.add(std::span(triangles));
-    hash.add(std::span(cell_levels));
-    return hash.value();
-}
-
-BrickContent brick_content(const Mesh& mesh, std::size_t brick_number, const CodingOptions& options) {
+BrickContent brick_content(const Mesh& mesh, std::size_t brick_number, const CodingOptions& options,
+                           BrickScratch& scratch) {
     if (options.normal_bits != 0 && (options.normal_bits < 2 || options.normal_bits > 16))
         throw InvalidInput("normal bits are " + std::to_string(options.normal_bits) +
                            ", must be 2 to 16, or 0 for no normals");
     const std::uint32_t bits = encoded_offset_bits(mesh, options);
     const MeshBrick& brick = mesh.bricks.at(brick_number);
-    BrickIndex index = index_brick(mesh, brick);
+    BrickIndex index = index_brick(mesh, brick, scratch.slots);
 
     BrickContent content;
     content.coordinate = brick.coordinate;
@@ -125,6 +87,11 @@ BrickContent brick_content(const Mesh& mesh, std::size_t brick_number, const Cod
         for (const std::uint32_t v : index.vertices) content.normals.push_back(mesh.normals[v]);
     }
     return content;
+}
+
+BrickContent brick_content(const Mesh& mesh, std::size_t brick, const CodingOptions& options) {
+    BrickScratch scratch;
+    return brick_content(mesh, brick, options, scratch);
 }
 
 EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& options) {

@@ -1,4 +1,4 @@
-// What does not change while the server runs: its limits and what it is.
+// Gauges that do not change while the server runs: its limits, version and backend.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "meniscus/reconstructor.hpp"
-#include "sessions/limits.hpp"
+#include "sessions/limits/limits.hpp"
 
 namespace meniscus::server {
 

@@ -1,4 +1,4 @@
-// What the kernel knows of this process, under the names that Prometheus' own client libraries give it.
+// The kernel's figures of this process, under the names that Prometheus' own client libraries use.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// Nothing where the kernel does not tell.
+/// Figures that the kernel does not give are left out.
 std::vector<prometheus::MetricFamily> process_metrics();
 
 }  // namespace meniscus::server

@@ -8,7 +8,6 @@
 #include <array>
 #include <string>
 
-#include "conversion/statistics_conversion.hpp"
 #include "meniscus/statistics.hpp"
 
 namespace meniscus::server {
@@ -88,17 +87,16 @@ void PrometheusMetrics::frame_dropped(Drop reason) {
     instruments_->drops[static_cast<std::size_t>(reason)]->Increment();
 }
 
-void PrometheusMetrics::frame_finished(const v1::FrameStatistics& statistics) {
+void PrometheusMetrics::frame_finished(const FrameStatistics& statistics) {
     instruments_->frames.Increment();
-    instruments_->particles.Increment(number(statistics.particles()));
-    instruments_->triangles.Increment(number(statistics.triangles()));
-    instruments_->mesh_bytes.Increment(number(statistics.encoded_bytes()));
-    const Statistics reconstruction = conversion::from_wire(statistics);
-    for (std::size_t i = 0; i < stage_count; ++i) instruments_->stages[i]->Observe(reconstruction.stage_seconds[i]);
-    instruments_->reconstruction.Observe(reconstruction.total_seconds);
-    if (statistics.download_seconds() != 0.0) instruments_->download.Observe(statistics.download_seconds());
-    if (statistics.encoded_bytes() != 0) instruments_->encode.Observe(statistics.encode_seconds());
-    instruments_->latency.Observe(statistics.latency_seconds());
+    instruments_->particles.Increment(number(statistics.particles));
+    instruments_->triangles.Increment(number(statistics.triangles));
+    instruments_->mesh_bytes.Increment(number(statistics.encoded_bytes));
+    for (std::size_t i = 0; i < stage_count; ++i) instruments_->stages[i]->Observe(statistics.stage_seconds[i]);
+    instruments_->reconstruction.Observe(statistics.total_seconds);
+    if (statistics.download_seconds != 0.0) instruments_->download.Observe(statistics.download_seconds);
+    if (statistics.encoded_bytes != 0) instruments_->encode.Observe(statistics.encode_seconds);
+    instruments_->latency.Observe(statistics.latency_seconds);
 }
 
 void PrometheusMetrics::message_sent(Receiver to, std::uint64_t bytes) {

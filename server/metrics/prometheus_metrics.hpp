@@ -1,4 +1,4 @@
-// What the service counts, for Prometheus.
+// The service's counters and histograms, for Prometheus.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "metrics/metrics.hpp"
+#include "sessions/metrics.hpp"
 
 namespace meniscus::server {
 
@@ -17,13 +17,13 @@ public:
 
     void frame_received(std::uint64_t bytes) override;
     void frame_dropped(Drop reason) override;
-    void frame_finished(const v1::FrameStatistics& statistics) override;
+    void frame_finished(const FrameStatistics& statistics) override;
     void message_sent(Receiver to, std::uint64_t bytes) override;
     void frame_skipped() override;
     void watcher_lag(double seconds) override;
     void call_ended(std::string_view code) override;
 
-    /// All that was counted so far.
+    /// The values of this moment.
     std::vector<prometheus::MetricFamily> collect() const;
 
 private:

@@ -1,4 +1,4 @@
-// What the recordings have come to.
+// Counters of the recordings.
 #pragma once
 
 #include <prometheus/metric_family.h>

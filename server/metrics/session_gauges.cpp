@@ -16,8 +16,8 @@ std::vector<prometheus::MetricFamily> session_gauges(SessionRegistry& registry) 
         uploads += state.uploading ? 1 : 0;
         watchers += state.watchers;
         if (!state.last_frame) continue;
-        host_bytes += static_cast<double>(state.last_frame->peak_bytes());
-        device_bytes += static_cast<double>(state.last_frame->device_bytes());
+        host_bytes += static_cast<double>(state.last_frame->peak_bytes);
+        device_bytes += static_cast<double>(state.last_frame->device_bytes);
     }
     return {
         gauge("meniscus_sessions", "Sessions open.", sessions),

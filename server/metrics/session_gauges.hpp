@@ -9,7 +9,7 @@
 
 namespace meniscus::server {
 
-/// Of this moment.
+/// The values of this moment.
 std::vector<prometheus::MetricFamily> session_gauges(SessionRegistry& registry);
 
 }  // namespace meniscus::server

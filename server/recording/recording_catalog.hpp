@@ -1,4 +1,4 @@
-// The recordings in a folder, found by looking: whoever asks names a session and a number, never a file.
+// The recordings in a folder, found by listing it: a request names a session and a number, never a file.
 #pragma once
 
 #include <compare>

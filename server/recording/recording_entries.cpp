@@ -7,7 +7,7 @@
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/v1/recording.pb.h"
 #include "meniscus/v1/surface_service.pb.h"
-#include "sessions/limits.hpp"
+#include "sessions/limits/limits.hpp"
 
 namespace meniscus::server {
 

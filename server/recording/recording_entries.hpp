@@ -18,7 +18,8 @@ struct RecordingBytes {
     std::uint64_t size() const { return entry.size() + messages.size(); }
 };
 
-/// The beginning of a file. Times are microseconds since 1970-01-01 UTC. owner: who made the session, if that is known.
+/// The beginning of a file. Times are microseconds since 1970-01-01 UTC. owner: the creator of the session; may be
+/// empty.
 std::string recording_begin(const std::string& session_id, const Settings& settings, std::int64_t started_at,
                             const std::string& owner = {});
 RecordingBytes recorded_particles(const InputFrame& frame, std::int64_t arrived_at);

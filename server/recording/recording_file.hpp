@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// Blocks; of one thread. The operator's alone: folders have mode 0700, files 0600.
+/// Blocks; for one thread. Readable for the operator alone: folders have mode 0700, files 0600.
 class RecordingFile {
 public:
     /// Creates directory/SESSION/NNNNNN.recording with the next number that is free. session_id: a UUID, as the edge

@@ -15,7 +15,7 @@ namespace meniscus::server {
 
 class RecordingReads {
 public:
-    /// readers: that may read at a time; 0: no limit.
+    /// readers: the number that may read at a time; 0: no limit.
     RecordingReads(std::filesystem::path directory, std::uint32_t readers);
 
     /// Held by a reader for as long as it reads.

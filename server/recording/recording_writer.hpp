@@ -20,9 +20,9 @@
 namespace meniscus::server {
 
 struct RecordingCounters {
-    std::uint64_t frames = 0;           ///< whose particles were written
+    std::uint64_t frames = 0;           ///< with their particles written
     std::uint64_t bytes = 0;            ///< written
-    std::uint64_t frames_left_out = 0;  ///< the disk was too slow
+    std::uint64_t frames_left_out = 0;  ///< because the disk was too slow
     std::uint64_t stopped = 0;          ///< recordings that a failure or the limit has ended
 };
 

@@ -15,12 +15,12 @@
 namespace meniscus::server {
 
 /// Particles are copied, at the speed of memory (a thousandth of what their reconstruction takes): their buffer goes
-/// back to the stream at once. Meshes are shared. A frame that finds no room in the queue is left out, and said so
-/// once.
+/// back to the stream at once. Meshes are shared. A frame that finds no room in the queue is left out; the log
+/// says so once.
 class SessionRecording final : public SessionObserver {
 public:
-    /// The writer outlives this object. session_id: a UUID, as the edge has verified. owner: who made the session, if
-    /// that is known.
+    /// The writer outlives this object. session_id: a UUID, as the edge has verified. owner: the creator of the
+    /// session; may be empty.
     SessionRecording(RecordingWriter& writer, std::string session_id, const Settings& settings, std::string owner = {});
 
     void reconstructed(const InputFrame& frame) noexcept override;

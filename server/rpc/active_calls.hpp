@@ -28,7 +28,7 @@ public:
         ActiveCalls& calls_;
     };
 
-    /// False if there are some at the deadline.
+    /// Returns false if calls still run at the deadline.
     bool wait_until_none(std::chrono::system_clock::time_point deadline) {
         std::unique_lock lock(mutex_);
         return none_.wait_until(lock, deadline, [&] { return count_ == 0; });

@@ -5,11 +5,11 @@
 
 #include <memory>
 
-#include "metrics/metrics.hpp"
+#include "sessions/metrics.hpp"
 
 namespace meniscus::server {
 
-/// Sees every call of every service, whoever ends it.
+/// Sees every call of every service, whether the server or the client ends it.
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call_counter(
     std::shared_ptr<Metrics> metrics);
 

@@ -1,4 +1,4 @@
-// Who makes a gRPC call.
+// The caller of a gRPC call.
 #pragma once
 
 #include <grpcpp/server_context.h>

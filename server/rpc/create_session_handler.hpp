@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// Throws what the call is to be refused with.
+/// Throws the error that the call is answered with.
 v1::CreateSessionResponse create_session(SessionRegistry& registry, const Caller& caller,
                                          const v1::CreateSessionRequest& request);
 

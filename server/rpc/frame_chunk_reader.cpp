@@ -1,7 +1,5 @@
 #include "rpc/frame_chunk_reader.hpp"
 
-#include <google/protobuf/wire_format_lite.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -13,9 +11,10 @@ namespace meniscus::server {
 
 namespace {
 
-/// Of a field with a length; one byte for a low field number.
+/// The tag of a field with a length, which takes one byte where the field's number is below 16.
 constexpr std::byte length_delimited_tag(int field) {
-    return static_cast<std::byte>((field << 3) | google::protobuf::internal::WireFormatLite::WIRETYPE_LENGTH_DELIMITED);
+    constexpr int length_delimited = 2;  // wire type
+    return static_cast<std::byte>((field << 3) | length_delimited);
 }
 
 constexpr std::byte chunk_tag = length_delimited_tag(v1::StreamRequest::kFrameChunkFieldNumber);

@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// Those that the caller may see. Blocks on the disk.
+/// The recordings that the caller may see. Blocks on the disk.
 v1::ListRecordingsResponse list_recordings(RecordingCatalog& catalog, const Caller& caller);
 
 }  // namespace meniscus::server

@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// Throws what the call is to be refused with.
+/// Throws the error that the call is answered with.
 v1::ListSessionsResponse list_sessions(SessionRegistry& registry, const Caller& caller,
                                        const v1::ListSessionsRequest& request);
 

@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// Of a StreamOpen or a WatchRequest. Throws InvalidInput for a value out of range.
+/// message: a StreamOpen or a WatchRequest. Throws InvalidInput for a value out of range.
 template <class Message>
 int normal_bits_of(const Message& message) {
     constexpr int default_bits = 8;

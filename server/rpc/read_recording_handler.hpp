@@ -5,14 +5,14 @@
 #include <grpcpp/support/byte_buffer.h>
 #include <grpcpp/support/server_callback.h>
 
-#include "metrics/metrics.hpp"
 #include "recording/recording_reads.hpp"
 #include "rpc/active_calls.hpp"
 #include "security/authorizer.hpp"
+#include "sessions/metrics.hpp"
 
 namespace meniscus::server {
 
-/// The call's reactor, which owns itself until the call is done. reads: none where nothing is recorded.
+/// The call's reactor, which owns itself until the call is done. reads: null where nothing is recorded.
 grpc::ServerWriteReactor<grpc::ByteBuffer>* start_reading(RecordingReads* reads, const Authorizer& authorizer,
                                                           Metrics& metrics, ActiveCalls& calls,
                                                           grpc::CallbackServerContext& context,

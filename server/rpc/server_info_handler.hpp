@@ -3,7 +3,7 @@
 
 #include "meniscus/reconstructor.hpp"
 #include "meniscus/v1/server_service.pb.h"
-#include "sessions/limits.hpp"
+#include "sessions/limits/limits.hpp"
 
 namespace meniscus::server {
 

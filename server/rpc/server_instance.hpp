@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// Adds `x-server-instance`, as the contract has it, to every call: a name that is drawn here.
+/// Adds the metadata `x-server-instance` of the contract to every call: a random name, drawn by this function.
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_instance_marker();
 
 }  // namespace meniscus::server

@@ -49,7 +49,7 @@ private:
     const Authorizer& authorizer_;
 };
 
-/// Raw, so that one encoded message is shared by all who receive it.
+/// Raw, so that all receivers share one encoded message.
 using RawSurfaceService =
     v1::SurfaceService::WithRawCallbackMethod_Stream<v1::SurfaceService::WithRawCallbackMethod_Watch<
         v1::SurfaceService::WithRawCallbackMethod_WatchParticles<v1::SurfaceService::Service>>>;
@@ -77,7 +77,7 @@ using RawRecordingService = v1::RecordingService::WithCallbackMethod_ListRecordi
 
 class RecordingServiceImpl final : public RawRecordingService {
 public:
-    /// reads: none where nothing is recorded.
+    /// reads: null where nothing is recorded.
     RecordingServiceImpl(RecordingReads* reads, const Authorizer& authorizer, Metrics& metrics, ActiveCalls& calls)
         : reads_(reads), authorizer_(authorizer), metrics_(metrics), calls_(calls) {}
 

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <boost/uuid/string_generator.hpp>
+#include <boost/uuid/uuid_io.hpp>
 #include <iterator>
+#include <stdexcept>
 
 #include "meniscus/error.hpp"
 
@@ -22,14 +25,12 @@ void require_session_id(std::string_view name, std::string_view id) {
 }  // namespace
 
 bool is_session_id(std::string_view text) {
-    constexpr std::string_view form = "xxxxxxxx-xxxx-xxxx-xxxx-xxxxxxxxxxxx";
-    if (text.size() != form.size()) return false;
-    for (std::size_t i = 0; i < form.size(); ++i) {
-        const char c = text[i];
-        const bool hexadecimal = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-        if (form[i] == '-' ? c != '-' : !hexadecimal) return false;
+    try {
+        // The generator takes other forms, too: only the canonical one comes back as it was.
+        return to_string(boost::uuids::string_generator()(text.begin(), text.end())) == text;
+    } catch (const std::runtime_error&) {
+        return false;
     }
-    return true;
 }
 
 std::string metadata_session_id(const grpc::ServerContextBase& context) {

@@ -1,6 +1,7 @@
 #include "rpc/session_message.hpp"
 
 #include "conversion/settings_conversion.hpp"
+#include "sessions/statistics_message.hpp"
 
 namespace meniscus::server {
 
@@ -16,7 +17,7 @@ v1::Session session_message(const Session& session) {
     if (state.last_frame_index) message.set_last_frame_index(*state.last_frame_index);
     message.set_frames_dropped(state.frames_dropped_replaced + state.frames_dropped_not_nth);
     message.set_frames_skipped(state.frames_skipped);
-    if (state.last_frame) *message.mutable_last_frame() = *state.last_frame;
+    if (state.last_frame) *message.mutable_last_frame() = statistics_message(*state.last_frame);
     return message;
 }
 

@@ -7,13 +7,13 @@
 namespace meniscus::server {
 
 struct StandardServices {
-    bool reflection = false;  ///< clients may ask for the contract
-    bool channelz = false;    ///< clients may ask for connections and their traffic
+    bool reflection = false;  ///< clients may read the contract
+    bool channelz = false;    ///< clients may read the server's connections and their traffic
 };
 
-/// Before a builder is made: gRPC makes its services known to all builders that follow, once.
+/// Call it before a builder is constructed: gRPC adds its services to all builders that follow. Later calls do nothing.
 void load_standard_services();
-/// Gives the server those that are chosen, and health.
+/// Adds health, and the services that are chosen.
 void add_standard_services(grpc::ServerBuilder& builder, const StandardServices& services);
 
 /// The health of every service and of the server as a whole.

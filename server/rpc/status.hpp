@@ -7,7 +7,8 @@
 
 namespace meniscus::server {
 
-/// None: OK. A GPU that failed is INTERNAL, and so is what is not a refusal: a defect, which is logged.
+/// OK for no error; INTERNAL for a GPU that failed, and for any exception that is not a refusal: that is a defect, and
+/// is logged.
 grpc::Status to_status(const std::exception_ptr& error);
 
 }  // namespace meniscus::server

@@ -7,8 +7,8 @@
 
 namespace meniscus::server {
 
-/// Equal formats for wishes that come to the same in a session of these settings. Throws InvalidInput for a wish out of
-/// range.
+/// Wishes that amount to the same mesh in a session of these settings become equal formats. Throws InvalidInput for a
+/// wish out of range.
 WatchWishes watch_wishes_of(const v1::WatchRequest& request, const Settings& settings);
 WatchWishes watch_wishes_of(const v1::WatchParticlesRequest& request, const Settings& settings);
 

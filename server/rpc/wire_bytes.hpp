@@ -13,7 +13,7 @@ namespace meniscus::server {
 /// Refers to the message's memory, which it keeps alive: no copy per receiver.
 grpc::ByteBuffer to_bytes(const SharedMessage& message);
 
-/// Throws InvalidInput for bytes that are not a message of this type; `name` is that type's.
+/// name: of the message's type. Throws InvalidInput for bytes that are not such a message.
 void parse(grpc::ByteBuffer& bytes, google::protobuf::MessageLite& message, std::string_view name);
 
 }  // namespace meniscus::server

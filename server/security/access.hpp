@@ -16,7 +16,7 @@ namespace meniscus::server {
 
 class Access {
 public:
-    /// tokens: a file; empty: everyone may do everything. Throws InvalidInput if a file cannot be used.
+    /// tokens: a file; empty: every client may do everything. Throws InvalidInput if a file cannot be used.
     Access(const TlsFiles& tls, const std::string& tokens);
 
     const Authorizer& authorizer() const noexcept { return authorizer_; }
@@ -25,8 +25,8 @@ public:
     /// For the HTTP port; none without TLS.
     std::shared_ptr<const TlsContext> http_tls() const { return http_tls_; }
 
-    /// Takes over what has changed in the files. Where one cannot be used, that is logged, and what was there before
-    /// stays. One thread at a time.
+    /// Takes over what has changed in the files. Logs a file that cannot be used, and keeps what it had before. One
+    /// thread at a time.
     void reload();
 
 private:
@@ -39,7 +39,7 @@ private:
     Tokens tokens_;
     Authorizer authorizer_;
     std::shared_ptr<TlsCredentials> tls_;   ///< none without TLS
-    std::shared_ptr<TlsContext> http_tls_;  ///< likewise
+    std::shared_ptr<TlsContext> http_tls_;  ///< none without TLS
     std::string problems_;                  ///< logged already
 };
 

@@ -1,4 +1,4 @@
-// Decides who may do what. The only place that does.
+// Decides which caller may do what. Nothing else does.
 #pragma once
 
 #include <memory>
@@ -28,7 +28,7 @@ enum class Action {
 /// uploader does everything with sessions of its own, and sees no others. An admin does everything. Thread-safe.
 class Authorizer {
 public:
-    /// For calls from now on. Before the first time everyone may do everything.
+    /// For calls from now on. Before the first call of it every client may do everything.
     void replace(Tokens tokens);
 
     /// authorization: the values of the call's header of that name. Throws Refusal: unauthenticated without one token

@@ -1,4 +1,4 @@
-// The server's certificate, its key, and whose clients it trusts: PEM files.
+// The server's certificate, its key, and the authority whose clients it trusts: PEM files.
 #pragma once
 
 #include <string>

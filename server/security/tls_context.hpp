@@ -13,7 +13,7 @@ class TlsContext {
 public:
     explicit TlsContext(const Certificates& certificates);
 
-    /// For connections from now on. Throws InvalidInput, and changes nothing, for what OpenSSL does not take.
+    /// For connections from now on. Throws InvalidInput, and changes nothing, for certificates that OpenSSL refuses.
     void replace(const Certificates& certificates);
     /// For one connection.
     std::shared_ptr<boost::asio::ssl::context> current() const;

@@ -17,7 +17,7 @@ namespace meniscus::server {
 /// connection.) Must outlive the server.
 class TlsCredentials final : public grpc::ServerCredentials {
 public:
-    /// Whether clients need a certificate is decided here: by the certificates that come first.
+    /// These certificates decide, for good, whether clients need one.
     explicit TlsCredentials(Certificates certificates);
 
     /// For connections from now on.

@@ -1,4 +1,4 @@
-// Who may call: a file of tokens, each with a name and a role.
+// A file of tokens, each with the name and the role of a caller.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ constexpr std::string_view name_of(Role role) {
     return {};
 }
 
-/// Who makes a call. By default one who was not asked: may do everything, has no name.
+/// The caller of a call. By default, where no token is asked for: may do everything, has no name.
 struct Caller {
     std::string name;
     Role role = Role::admin;
@@ -32,7 +32,7 @@ struct Caller {
 using TokenDigest = std::array<unsigned char, 32>;
 
 TokenDigest digest_of(std::string_view token);
-/// In a time that does not depend on where they differ.
+/// Takes a time that does not depend on where they differ.
 bool equal(const TokenDigest& a, const TokenDigest& b);
 
 class Tokens {
@@ -41,7 +41,7 @@ public:
     /// never a token.
     static Tokens load(const std::string& path);
 
-    /// In a time that does not depend on the token, but on how many there are.
+    /// Takes a time that depends on the number of tokens, not on which one it is.
     std::optional<Caller> find(std::string_view token) const;
 
     std::size_t size() const noexcept { return entries_.size(); }

@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// Without the counts of what follows.
+/// Without the number of bricks and triangles that follow.
 inline v1::StreamResponse begin_response(const EncodedFrame& frame) {
     v1::StreamResponse response;
     v1::MeshBegin& begin = *response.mutable_mesh_begin();

@@ -1,4 +1,4 @@
-// A frame as it goes out: immutable messages, shared by all who receive it.
+// A frame as it goes out: immutable messages, shared by all receivers.
 #pragma once
 
 #include <array>
@@ -10,12 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "meniscus/brick_coding.hpp"
+#include "sessions/frame_statistics.hpp"
+
 namespace meniscus::server {
 
 /// One StreamResponse, which is a WatchResponse byte for byte, in protobuf's wire format.
 using SharedMessage = std::shared_ptr<const std::string>;
 
-/// How a mesh is encoded. Who wishes for the same shares one encode.
+/// How a mesh is encoded. Receivers that wish for the same share one encode.
 struct MeshFormat {
     int max_level = 3;      ///< finest level of grid, 1 to 3
     int position_bits = 0;  ///< vertices lie on multiples of c / 2^position_bits; 0: as reconstructed
@@ -27,7 +30,7 @@ struct MeshFormat {
 /// One brick, or its parts in order. The same in every frame in which the brick is the same.
 struct BrickMessages {
     std::array<std::int32_t, 3> place{};  ///< x y z in bricks
-    std::uint64_t content_hash = 0;       ///< of what was encoded
+    ContentHash content_hash{};           ///< of what was encoded
     std::uint32_t triangles = 0;
     std::size_t bytes = 0;
     std::vector<SharedMessage> messages;
@@ -45,7 +48,8 @@ struct EncodedFrame {
     std::uint32_t offset_bits = 0;
     SharedMessage begin;              ///< announces the whole mesh
     std::vector<SharedBrick> bricks;  ///< ordered by place (z, y, x)
-    SharedMessage statistics;
+    FrameStatistics statistics;
+    SharedMessage end;  ///< carries the statistics
 
     /// The messages that carry the whole mesh, in their order.
     template <class Visit>
@@ -53,7 +57,7 @@ struct EncodedFrame {
         visit(begin);
         for (const SharedBrick& brick : bricks)
             for (const SharedMessage& message : brick->messages) visit(message);
-        visit(statistics);
+        visit(end);
     }
 };
 

@@ -8,7 +8,7 @@
 
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/input_frame.hpp"
-#include "sessions/limits.hpp"
+#include "sessions/limits/limits.hpp"
 
 namespace meniscus::server {
 
@@ -20,7 +20,7 @@ public:
 
     void begin(const v1::FrameBegin& message, InputFrame& frame);
     void append(const v1::FrameChunk& message, InputFrame& frame);
-    /// For a chunk of this many bytes: where they belong.
+    /// The place for a chunk of this many bytes.
     std::span<std::byte> append(std::size_t bytes, InputFrame& frame);
     void end(InputFrame& frame);
     /// No further message follows.

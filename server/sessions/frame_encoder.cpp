@@ -4,12 +4,12 @@
 #include <mutex>
 #include <utility>
 
-#include "conversion/statistics_conversion.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/begin_message.hpp"
-#include "sessions/limits.hpp"
+#include "sessions/limits/limits.hpp"
 #include "sessions/place_order.hpp"
+#include "sessions/statistics_message.hpp"
 
 namespace meniscus::server {
 
@@ -31,7 +31,7 @@ SharedMessage serialize(const v1::StreamResponse& response) {
     return std::make_shared<const std::string>(response.SerializeAsString());
 }
 
-SharedBrick brick_messages(const EncodedBrick& brick, std::uint64_t content_hash) {
+SharedBrick brick_messages(const EncodedBrick& brick, const ContentHash& content_hash) {
     auto result = std::make_shared<BrickMessages>();
     result->place = brick.coordinate;
     result->content_hash = content_hash;
@@ -67,21 +67,19 @@ SharedBrick find_brick(const EncodedFrame* frame, const std::array<std::int32_t,
     return found != frame->bricks.end() && (*found)->place == place ? *found : nullptr;
 }
 
-v1::StreamResponse statistics_response(const ReconstructedFrame& frame, const MeshDownload& download) {
-    v1::StreamResponse response;
-    v1::FrameStatistics& statistics = *response.mutable_frame_statistics();
-    statistics.set_frame_index(frame.index);
-    statistics.set_simulation_time(frame.simulation_time);
-    conversion::to_wire(frame.statistics, statistics);
-    statistics.set_download_seconds(download.seconds());
-    statistics.set_latency_seconds(seconds_since(frame.received_at));
-    return response;
+FrameStatistics statistics_of(const ReconstructedFrame& frame, const MeshDownload& download) {
+    FrameStatistics statistics{frame.statistics};
+    statistics.frame_index = frame.index;
+    statistics.simulation_time = frame.simulation_time;
+    statistics.download_seconds = download.seconds();
+    statistics.latency_seconds = seconds_since(frame.received_at);
+    return statistics;
 }
 
 }  // namespace
 
 std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
-                                                 const EncodedFrame* before, WorkerPool& workers,
+                                                 const EncodedFrame* before, WorkerPool& workers, ScratchPool& scratch,
                                                  const MessageSink& sink) {
     const MeshDownload& download = frame.download_at(format.max_level);
     download.start();
@@ -109,8 +107,11 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
     encoded->bricks.resize(mesh.bricks.size());
     workers.for_each(mesh.bricks.size(), [&](std::size_t i) {
         download.bring(i);
-        const BrickContent content = brick_content(mesh, i, coding);
-        const std::uint64_t hash = content.hash();
+        const BrickContent content = [&] {
+            ScratchPool::Loan loan(scratch);
+            return brick_content(mesh, i, coding, *loan);
+        }();
+        const ContentHash hash = content.hash();
         SharedBrick brick = find_brick(before, content.coordinate);
         if (!brick || brick->content_hash != hash) brick = brick_messages(encode_brick(content, coding), hash);
         encoded->bricks[i] = brick;
@@ -119,16 +120,22 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
         for (const SharedMessage& message : brick->messages) emit(message);
     });
 
-    v1::StreamResponse end = statistics_response(frame, download);
-    end.mutable_frame_statistics()->set_encode_seconds(seconds_since(start));
-    end.mutable_frame_statistics()->set_encoded_bytes(bytes);
-    encoded->statistics = serialize(end);
-    emit(encoded->statistics);
+    encoded->statistics = statistics_of(frame, download);
+    encoded->statistics.encode_seconds = seconds_since(start);
+    encoded->statistics.encoded_bytes = bytes;
+    encoded->end = serialize(encoded->statistics);
+    emit(encoded->end);
     return encoded;
 }
 
-SharedMessage encode_statistics(const ReconstructedFrame& frame) {
-    return serialize(statistics_response(frame, frame.download));
+FrameStatistics statistics_of(const ReconstructedFrame& frame) {
+    return statistics_of(frame, frame.download);
+}
+
+SharedMessage serialize(const FrameStatistics& statistics) {
+    v1::StreamResponse response;
+    *response.mutable_frame_statistics() = statistics_message(statistics);
+    return serialize(response);
 }
 
 }  // namespace meniscus::server

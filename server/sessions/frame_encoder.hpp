@@ -11,13 +11,14 @@
 #include "meniscus/mesh_download.hpp"
 #include "meniscus/statistics.hpp"
 #include "sessions/encoded_frame.hpp"
-#include "sessions/worker_pool.hpp"
+#include "sessions/handover/worker_pool.hpp"
+#include "sessions/scratch_pool.hpp"
 
 namespace meniscus::server {
 
 /// A frame after its reconstruction.
 struct ReconstructedFrame {
-    /// The surface with its levels capped; `made` if somebody wished for it.
+    /// The surface with its levels capped; `made` if a watcher wished for it.
     struct CappedMesh {
         bool made = false;
         Mesh mesh;
@@ -37,7 +38,7 @@ struct ReconstructedFrame {
     Statistics statistics;
 
     CappedMesh& capped_at(int max_level) { return capped.at(static_cast<std::size_t>(max_level - 1)); }
-    /// None if it was not made.
+    /// Null if it was not made.
     const Mesh* mesh_at(int max_level) const {
         if (max_level == 3) return &mesh;
         const CappedMesh& cap = capped.at(static_cast<std::size_t>(max_level - 1));
@@ -55,12 +56,14 @@ using MessageSink = std::function<void(const SharedMessage&)>;
 
 /// Brings the mesh down, and encodes the bricks in parallel, but those whose content `before` has already: an earlier
 /// frame of the session in the same format, or none. The frame has the mesh of that format. sink may be empty. Throws
-/// DeviceError if the mesh cannot come down.
+/// DeviceError if the mesh cannot come down, LimitExceeded if the account of the scratch memory would pass its limit.
 std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
-                                                 const EncodedFrame* before, WorkerPool& workers,
+                                                 const EncodedFrame* before, WorkerPool& workers, ScratchPool& scratch,
                                                  const MessageSink& sink);
 
-/// The statistics alone, for a simulator that wants no meshes.
-SharedMessage encode_statistics(const ReconstructedFrame& frame);
+/// The statistics of a frame whose simulator wants no meshes, until now.
+FrameStatistics statistics_of(const ReconstructedFrame& frame);
+/// The message that carries them.
+SharedMessage serialize(const FrameStatistics& statistics);
 
 }  // namespace meniscus::server

@@ -21,13 +21,13 @@ struct Received {
     std::shared_ptr<Upload> upload = nullptr;
     InputFrame* input = nullptr;               ///< the frame; none: a note
     std::optional<DroppedFrame> dropped = {};  ///< a note of a dropped frame
-    int max_level = 0;                         ///< or, if not 0, of a watcher who has come and wishes for this cap
-    bool particles = false;                    ///< or of one who has come and wishes for particles
+    int max_level = 0;                         ///< or, if not 0, of a new watcher that wishes for this level cap
+    bool particles = false;                    ///< or of a new watcher that wishes for particles
     std::exception_ptr error = nullptr;        ///< or that the upload ends, with this
 };
 
-/// A frame can still be replaced or withdrawn until it is taken; therefore whoever takes frames is first told of one,
-/// makes ready, and then takes what is there. One thread takes.
+/// A frame can be replaced or withdrawn until it is taken. Therefore the one thread that takes frames first waits for
+/// one, makes ready, and then takes what is there by then.
 class FrameQueue {
 public:
     enum class Next { frame, note, closed };
@@ -39,12 +39,12 @@ public:
     /// Forgets the frames and the dropped ones of the upload. Returns the frames.
     std::vector<InputFrame*> withdraw(const Upload& upload);
 
-    /// Waits until there is something.
+    /// Waits for a frame or a note, and returns which one is first.
     Next wait();
-    /// The first in the queue if it is of this kind, which it need not be any more.
+    /// Takes the first in the queue if it is of this kind, which it need not be any more.
     std::optional<Received> take(Next kind);
 
-    /// Forgets what has not been taken.
+    /// Drops what has not been taken.
     void close();
 
 private:

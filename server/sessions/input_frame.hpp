@@ -10,7 +10,7 @@
 
 #include "meniscus/memory.hpp"
 #include "meniscus/particle_frame.hpp"
-#include "sessions/bytes_in_flight.hpp"
+#include "sessions/limits/bytes_in_flight.hpp"
 
 namespace meniscus::server {
 

@@ -17,7 +17,7 @@ namespace meniscus::server {
 struct WatcherMesh {
     struct Brick {
         std::array<std::int32_t, 3> place{};
-        std::uint64_t content_hash = 0;
+        ContentHash content_hash{};
     };
     std::uint64_t frame_index = 0;
     std::vector<Brick> bricks;  ///< ordered by place (z, y, x)
@@ -29,7 +29,8 @@ struct FrameUpdate {
     WatcherMesh result{};                ///< what the watcher has after the last one, of a mesh
 };
 
-/// Names at most so many vanished bricks, to keep the announcement below 2 MB; beyond that the mesh is sent whole.
+/// The most vanished bricks that an update names, so that its announcement stays below 2 MB; beyond that the mesh is
+/// sent whole.
 inline constexpr std::size_t max_vanished = 65536;
 
 /// base: what the watcher has; none: the mesh is sent whole.

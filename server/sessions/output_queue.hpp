@@ -13,13 +13,13 @@
 
 namespace meniscus::server {
 
-/// Bounded to one frame and a few messages: whoever produces waits for room before it begins a frame.
+/// Bounded to one frame and a few messages: the producer waits for room before it begins a frame.
 class OutputQueue {
 public:
     /// Frames begin only while no more than this many messages wait.
     static constexpr std::size_t room_for_a_frame = 8;
 
-    struct Nothing {};  ///< for now: `wake` will be called
+    struct Nothing {};  ///< yet: `wake` will be called
     struct End {
         std::exception_ptr error;  ///< none: all went well
     };
@@ -30,11 +30,11 @@ public:
 
     // The producer's side.
     void push(SharedMessage message);
-    /// Nothing follows; the first call counts.
+    /// No messages follow. Later calls do nothing.
     void finish(std::exception_ptr error);
-    /// finish(), and what still waits is dropped.
+    /// The same, and drops the messages that wait.
     void abort(std::exception_ptr error);
-    /// Waits until a frame may begin. False if nobody will read it.
+    /// Waits until a frame may begin. Returns false if nobody will read it.
     bool wait_for_room();
 
     // The consumer's side, one thread at a time.

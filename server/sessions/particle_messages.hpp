@@ -11,7 +11,7 @@
 
 namespace meniscus::server {
 
-/// Immutable, shared by all who receive it.
+/// Immutable, shared by all receivers.
 struct ParticleMessages {
     std::chrono::steady_clock::time_point received_at;  ///< the last byte of the particles
     std::vector<SharedMessage> messages;  ///< WatchParticlesResponses in protobuf's wire format, in their order

@@ -12,7 +12,7 @@
 namespace meniscus::server {
 
 struct Reconstructed {
-    /// Statistics alone are those of a mesh that is complete.
+    /// Without a download, the mesh is complete.
     Reconstructed(Statistics s, MeshDownload d = {}) : statistics(std::move(s)), download(std::move(d)) {}
 
     Statistics statistics;

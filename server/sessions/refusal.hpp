@@ -1,4 +1,4 @@
-// Refusals that are neither bad input nor a limit: what is asked for does not fit the state of the server.
+// Refusals that are neither bad input nor a limit: the request does not fit the state of the server.
 #pragma once
 
 #include <stdexcept>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "log.hpp"
 #include "meniscus/error.hpp"
 #include "sessions/refusal.hpp"
 #include "sessions/stream_notices.hpp"
@@ -13,24 +14,17 @@ namespace meniscus::server {
 
 Session::Session(SessionIdentity identity, const Settings& settings, const Limits& limits,
                  ReconstructFunctions functions, SharedResources shared, std::shared_ptr<SessionObserver> observer)
-    : identity_(std::move(identity)),
-      settings_(settings),
-      limits_(limits),
-      functions_(std::move(functions)),
-      shared_(std::move(shared)),
-      observer_(std::move(observer)),
-      inputs_([&] {
-          const auto account = std::make_shared<MemoryAccount>(limits.bytes_per_session);
-          const auto& in_flight = shared_.bytes_in_flight;
-          return std::array<InputFrame, 3>{InputFrame(account, in_flight), InputFrame(account, in_flight),
-                                           InputFrame(account, in_flight)};
-      }()),
-      frame_rate_(limits.frames_per_second) {
-    for (std::size_t i = 0; i + 1 < inputs_.size(); ++i) free_inputs_.give(inputs_[i]);
-    for (ReconstructedFrame& frame : frames_) free_frames_.put(&frame);
-    reconstructing_ = std::thread([this] { reconstruct_frames(); });
-    encoding_ = std::thread([this] { encode_frames(); });
-}
+    : context_{.identity = std::move(identity),
+               .settings = settings,
+               .limits = limits,
+               .shared = std::move(shared),
+               .observer = std::move(observer)},
+      inputs_(std::make_shared<MemoryAccount>(limits.bytes_per_session), context_.shared.bytes_in_flight),
+      frame_rate_(limits.frames_per_second),
+      encoding_(context_, watchers_,
+                {.upload = [this](const auto& upload, auto error) { finish_upload(upload, std::move(error)); },
+                 .session = [this](auto error) { end(std::move(error)); }}),
+      reconstructing_(context_, std::move(functions), received_, inputs_, watchers_, encoding_) {}
 
 Session::~Session() {
     close();
@@ -38,15 +32,20 @@ Session::~Session() {
 }
 
 SessionState Session::state() const {
+    SessionState state;
+    state.last_frame = encoding_.last_frame();
+    // After it, so that the frame answered last is among those that are counted.
+    const ReconstructingThread::Progress reconstructed = reconstructing_.progress();
+    state.frames = reconstructed.frames;
+    state.last_frame_index = reconstructed.last_frame_index;
+    const Watchers::Progress watchers = watchers_.progress();
+    state.watchers = watchers.watchers;
+    state.frames_skipped = watchers.frames_skipped;
+    state.watcher_lag = watchers.lag;
     const std::lock_guard lock(mutex_);
-    SessionState state = state_;
     state.uploading = upload_ != nullptr;
-    state.watchers = static_cast<std::uint32_t>(watches_.size());
-    for (const auto& watch : watches_) {
-        const Watch::Progress progress = watch->progress();
-        state.frames_skipped += progress.frames_skipped;
-        state.watcher_lag = std::max<std::chrono::duration<double>>(state.watcher_lag, progress.lag);
-    }
+    state.frames_dropped_replaced = dropped_replaced_;
+    state.frames_dropped_not_nth = dropped_not_nth_;
     return state;
 }
 
@@ -55,7 +54,6 @@ std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::
     auto upload = std::make_shared<Upload>(options, std::move(wake), std::move(drain));
     std::shared_ptr<Upload> before;
     std::vector<InputFrame*> withdrawn;
-    bool give_third_input = false;
     {
         const std::lock_guard lock(mutex_);
         if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
@@ -64,19 +62,19 @@ std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::
         if (upload_ && upload->run != run_)
             throw Refusal(Refusal::Kind::failed_precondition,
                           fmt::format("another stream uploads to session {}", id()));
-        before = std::exchange(upload_, upload);
+        before = upload_;
+        set_upload(upload);
         run_ = upload->run;
         unanswered_.push_back(upload);
-        if (options.policy == UploadPolicy::latest) give_third_input = !std::exchange(third_input_in_use_, true);
         if (before) withdrawn = received_.withdraw(*before);
     }
-    for (InputFrame* input : withdrawn) return_input(*input);
+    for (InputFrame* input : withdrawn) inputs_.give_back(*input);
     if (before) {
         before->output.abort(std::make_exception_ptr(
             Refusal(Refusal::Kind::failed_precondition,
                     fmt::format("another stream has resumed run {:016x} of session {}", before->run->id, id()))));
     }
-    if (give_third_input) free_inputs_.give(inputs_.back());
+    inputs_.lend_third();
     return upload;
 }
 
@@ -85,20 +83,9 @@ std::shared_ptr<Run> Session::run_of(const UploadOptions& options) const {
     return std::make_shared<Run>(Run{.id = options.run_id});
 }
 
-void Session::request_input(SlotPool<InputFrame>::Waiter waiter) {
-    free_inputs_.request(std::move(waiter));
-}
-
-void Session::return_input(InputFrame& input) {
-    input.land();
-    if (&input == &inputs_.back()) {
-        const std::lock_guard lock(mutex_);
-        if (!upload_ || upload_->options.policy != UploadPolicy::latest) {
-            third_input_in_use_ = false;
-            return;
-        }
-    }
-    free_inputs_.give(input);
+void Session::set_upload(std::shared_ptr<Upload> upload) {
+    upload_ = std::move(upload);
+    inputs_.allow_third(upload_ && upload_->options.policy == UploadPolicy::latest);
 }
 
 void Session::admit_frame(std::uint64_t index) {
@@ -107,7 +94,7 @@ void Session::admit_frame(std::uint64_t index) {
         throw LimitExceeded(
             fmt::format("frame {}: more than {} frames in a second; the server takes at most {} frames per "
                         "second of a session",
-                        index, limits_.frames_per_second, limits_.frames_per_second));
+                        index, limits().frames_per_second, limits().frames_per_second));
 }
 
 void Session::submit(std::shared_ptr<Upload> upload, InputFrame& input) {
@@ -120,26 +107,26 @@ void Session::submit(std::shared_ptr<Upload> upload, InputFrame& input) {
         else
             unused.push_back(&input);
     }
-    for (InputFrame* each : unused) return_input(*each);
+    for (InputFrame* each : unused) inputs_.give_back(*each);
 }
 
 std::vector<InputFrame*> Session::enqueue(std::shared_ptr<Upload> upload, InputFrame& input) {
     const UploadOptions& options = upload->options;
     const std::uint64_t position = upload->submitted++;
     ++upload->owed;
-    shared_.metrics->frame_received(input.bytes.size());
+    context_.shared.metrics->frame_received(input.bytes.size());
     if (options.policy == UploadPolicy::every_nth && position % options.nth != 0) {
         upload->unreported_drops.add();
-        ++state_.frames_dropped_not_nth;
-        shared_.metrics->frame_dropped(Metrics::Drop::not_nth);
+        ++dropped_not_nth_;
+        context_.shared.metrics->frame_dropped(Metrics::Drop::not_nth);
         received_.put({.upload = std::move(upload),
                        .dropped = DroppedFrame{.index = input.index, .reason = DropReason::not_nth}});
         return {&input};
     }
     std::vector<InputFrame*> replaced;
     if (options.policy == UploadPolicy::latest) replaced = received_.replace(*upload);
-    state_.frames_dropped_replaced += replaced.size();
-    for (std::size_t i = 0; i < replaced.size(); ++i) shared_.metrics->frame_dropped(Metrics::Drop::replaced);
+    dropped_replaced_ += replaced.size();
+    for (std::size_t i = 0; i < replaced.size(); ++i) context_.shared.metrics->frame_dropped(Metrics::Drop::replaced);
     received_.put({.upload = std::move(upload), .input = &input});
     return replaced;
 }
@@ -147,50 +134,68 @@ std::vector<InputFrame*> Session::enqueue(std::shared_ptr<Upload> upload, InputF
 void Session::end_upload(std::shared_ptr<Upload> upload, std::exception_ptr error) {
     {
         const std::lock_guard lock(mutex_);
-        if (upload_ == upload) upload_.reset();
+        if (upload_ == upload) set_upload(nullptr);
     }
     received_.put({.upload = std::move(upload), .error = std::move(error)});
 }
 
 void Session::cancel_upload(const std::shared_ptr<Upload>& upload) {
     upload->output.close();
-    for (InputFrame* input : received_.withdraw(*upload)) return_input(*input);
+    for (InputFrame* input : received_.withdraw(*upload)) inputs_.give_back(*input);
     end_upload(upload, nullptr);
 }
 
 std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::function<void()> wake) {
-    auto watch = std::make_shared<Watch>(wishes, std::move(wake), shared_.metrics);
+    auto watch = std::make_shared<Watch>(wishes, std::move(wake), context_.shared.metrics);
     const std::lock_guard lock(mutex_);
     if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
     if (draining_) throw shutting_down();
-    if (limits_.watchers_per_session != 0 && watches_.size() >= limits_.watchers_per_session)
+    const std::size_t watchers = watchers_.count();
+    if (limits().watchers_per_session != 0 && watchers >= limits().watchers_per_session)
         throw LimitExceeded(fmt::format("session {} has {} watchers; the server takes at most {} per session", id(),
-                                        watches_.size(), limits_.watchers_per_session));
-    watches_.push_back(watch);
+                                        watchers, limits().watchers_per_session));
+    if (watchers_.add(watch)) return watch;
     if (wishes.max_particles) {
-        if (const auto found = particles_.find(*wishes.max_particles); found != particles_.end())
-            watch->put(found->second);
-        else
-            received_.put({.particles = true});
+        received_.put({.particles = true});
         return watch;
     }
-    if (const auto found = published_.find(wishes.format); found != published_.end()) {
-        watch->put(found->second);
-        return watch;
-    }
-    tasks_.put(EncodeForWatchers{});
+    encoding_.put(EncodingThread::EncodeForWatchers{});
     if (wishes.format.max_level < 3) received_.put({.max_level = wishes.format.max_level});
     return watch;
 }
 
 void Session::close_watch(const std::shared_ptr<Watch>& watch) {
     const std::lock_guard lock(mutex_);
-    if (std::erase(watches_, watch) != 0) state_.frames_skipped += watch->progress().frames_skipped;
+    watchers_.remove(watch);
     last_used_ = std::chrono::steady_clock::now();
-    const auto& wish = watch->wishes().max_particles;
-    if (wish &&
-        std::ranges::none_of(watches_, [&](const auto& other) { return other->wishes().max_particles == wish; }))
-        particles_.erase(*wish);
+}
+
+void Session::finish_upload(const std::shared_ptr<Upload>& upload, std::exception_ptr error) {
+    std::vector<std::shared_ptr<Watch>> done;
+    bool moves = false;
+    {
+        const std::lock_guard lock(mutex_);
+        if (upload_ == upload) set_upload(nullptr);
+        std::erase(unanswered_, upload);
+        last_used_ = std::chrono::steady_clock::now();
+        if (draining_ && !upload_) done = watchers_.list();
+        // Another run may have come since, and is here still or waits for answers.
+        moves = upload && upload->moves && !upload_ &&
+                std::ranges::all_of(unanswered_, [&](const auto& other) { return other->run == upload->run; });
+    }
+    if (moves) {
+        log_info({.session = id()}, "its simulator goes on with another server");
+        end(std::make_exception_ptr(moved()));
+    }
+    // Only now: the stream that learns of the end may open the next one.
+    if (upload) upload->output.finish(std::move(error));
+    for (const auto& watch : done) watch->finish(std::make_exception_ptr(shutting_down()));
+}
+
+void Session::end(std::exception_ptr error) {
+    const Attached attached = detach();
+    for (const auto& upload : attached.uploads) upload->output.finish(error);
+    for (const auto& watch : attached.watches) watch->finish(error);
 }
 
 void Session::drain(std::chrono::duration<double> grace) {
@@ -202,7 +207,7 @@ void Session::drain(std::chrono::duration<double> grace) {
         draining_ = true;
         upload = upload_;
         uploads = unanswered_;
-        watches = watches_;
+        watches = watchers_.list();
     }
     for (const auto& each : uploads) each->output.push(draining_message(grace));
     for (const auto& watch : watches) watch->announce_end(grace);
@@ -217,15 +222,15 @@ bool Session::end_idle(std::chrono::steady_clock::time_point now) {
     std::shared_ptr<Upload> idle;
     {
         const std::lock_guard lock(mutex_);
-        if (!upload_) return unanswered_.empty() && watches_.empty() && now - last_used_ >= limits_.idle_time;
-        if (upload_->owed == 0 && now - upload_->last_activity.load() >= limits_.idle_time)
-            idle = std::exchange(upload_, nullptr);
+        if (!upload_) return unanswered_.empty() && watchers_.count() == 0 && now - last_used_ >= limits().idle_time;
+        if (upload_->owed == 0 && now - upload_->last_activity.load() >= limits().idle_time) idle = upload_;
+        if (idle) set_upload(nullptr);
     }
     if (idle)
         idle->output.finish(std::make_exception_ptr(LimitExceeded(
             fmt::format("nothing has arrived for {:.3g} s; the server keeps an idle stream for {:.3g} s: open another "
                         "when there are frames",
-                        Seconds(now - idle->last_activity.load()).count(), Seconds(limits_.idle_time).count()))));
+                        Seconds(now - idle->last_activity.load()).count(), Seconds(limits().idle_time).count()))));
     return false;
 }
 
@@ -247,14 +252,13 @@ Session::Attached Session::detach() {
     {
         const std::lock_guard lock(mutex_);
         if (std::exchange(closed_, true)) return attached;
-        upload_.reset();
+        set_upload(nullptr);
         attached.uploads.swap(unanswered_);
-        attached.watches = watches_;
+        attached.watches = watchers_.list();
     }
-    free_inputs_.close();
+    inputs_.close();
     received_.close();
-    free_frames_.close();
-    tasks_.close();
+    encoding_.close();
     return attached;
 }
 
@@ -264,8 +268,8 @@ bool Session::ended() const {
 }
 
 void Session::join() {
-    if (reconstructing_.joinable()) reconstructing_.join();
-    if (encoding_.joinable()) encoding_.join();
+    reconstructing_.join();
+    encoding_.join();
 }
 
 }  // namespace meniscus::server

@@ -1,4 +1,4 @@
-// Who wants to know what a session does: its recording.
+// What a session reports of its frames, to its recording.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace meniscus::server {
 /// Called by the session's threads, which wait meanwhile: implementations return soon, and throw nothing.
 class SessionObserver {
 public:
-    /// Of the normals of the meshes that encoded() gets.
+    /// Of the normals in the meshes that encoded() is called with.
     static constexpr int normal_bits = 8;
 
     virtual ~SessionObserver() = default;

@@ -13,9 +13,9 @@
 
 #include "meniscus/backend_options.hpp"
 #include "meniscus/settings.hpp"
-#include "sessions/channel.hpp"
-#include "sessions/limits.hpp"
-#include "sessions/periodic.hpp"
+#include "sessions/handover/channel.hpp"
+#include "sessions/handover/periodic.hpp"
+#include "sessions/limits/limits.hpp"
 #include "sessions/session.hpp"
 
 namespace meniscus::server {
@@ -24,7 +24,7 @@ namespace meniscus::server {
 using Observe = std::function<std::shared_ptr<SessionObserver>(const std::string& id, const Settings& settings,
                                                                const std::string& owner)>;
 
-/// What a new session reconstructs with.
+/// Makes the functions that a new session reconstructs with.
 using MakeReconstruct = std::function<ReconstructFunctions(const Settings& settings, const BackendOptions& backend)>;
 
 /// Those of a Reconstructor.
@@ -41,8 +41,8 @@ public:
     SessionRegistry(const SessionRegistry&) = delete;
     SessionRegistry& operator=(const SessionRegistry&) = delete;
 
-    /// Joins the session that exists with equal settings. Throws InvalidInput (settings), LimitExceeded, Refusal,
-    /// DeviceError. owner: of the session if it is new.
+    /// Returns the session that exists with equal settings, or a new one. owner: of a new one. Throws InvalidInput (of
+    /// settings), LimitExceeded, Refusal, DeviceError.
     std::shared_ptr<Session> create(const std::string& id, const Settings& settings, const std::string& owner = {});
     /// Throws Refusal if there is none.
     std::shared_ptr<Session> find(const std::string& id);
@@ -52,16 +52,16 @@ public:
     /// also where another one has its id by now.
     void remove(const std::shared_ptr<Session>& session);
 
-    /// No new sessions and uploads; those that run end after the frame on its way in. Returns at once.
-    /// grace: what is left then is ended regardless.
+    /// No new sessions and uploads; those that run end after the frame on its way in. Returns at once. grace: after it,
+    /// the server ends the calls that are left.
     void drain(std::chrono::duration<double> grace);
     /// Ends the streams, and forgets the sessions, that have been idle for Limits::idle_time.
     void end_idle(std::chrono::steady_clock::time_point now);
 
     const Limits& limits() const noexcept { return limits_; }
-    /// Of the frames of all sessions.
+    /// Bytes of the frames of all sessions.
     std::size_t bytes_in_flight() const noexcept { return bytes_in_flight_->bytes(); }
-    /// That all devices together have spent on frames since the start.
+    /// The time that all devices together have spent on frames since the start.
     std::chrono::duration<double> busy_time();
     Metrics& metrics() const noexcept { return *metrics_; }
 

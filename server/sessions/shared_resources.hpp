@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "metrics/metrics.hpp"
-#include "sessions/bytes_in_flight.hpp"
-#include "sessions/turns.hpp"
-#include "sessions/worker_pool.hpp"
+#include "sessions/handover/turns.hpp"
+#include "sessions/handover/worker_pool.hpp"
+#include "sessions/limits/bytes_in_flight.hpp"
+#include "sessions/metrics.hpp"
 
 namespace meniscus::server {
 

@@ -1,4 +1,4 @@
-// Messages to a simulator that are no frames.
+// Messages that carry no frame.
 #pragma once
 
 #include <chrono>
@@ -8,9 +8,9 @@
 
 namespace meniscus::server {
 
-/// The frame will not be answered.
+/// Tells a simulator that the frame will not be answered.
 SharedMessage frame_dropped_message(const DroppedFrame& frame);
-/// The server goes down, and ends the call after this time whatever is left. To watchers too.
+/// Tells a simulator or a watcher that the server goes down, and ends the call after this time whatever is left.
 SharedMessage draining_message(std::chrono::duration<double> grace);
 
 }  // namespace meniscus::server

@@ -1,4 +1,4 @@
-// One uploading stream, as its session sees it.
+// One uploading stream in its session.
 #pragma once
 
 #include <atomic>
@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "sessions/limits/unreported_drops.hpp"
 #include "sessions/output_queue.hpp"
-#include "sessions/unreported_drops.hpp"
 
 namespace meniscus::server {
 
@@ -18,29 +18,28 @@ namespace meniscus::server {
 enum class UploadPolicy {
     every_frame,  ///< the simulator is slowed down
     latest,       ///< the newest one replaces those that wait
-    every_nth,    ///< of every n the first is reconstructed; of those none is lost
+    every_nth,    ///< the first of every n is reconstructed; none of those is lost
 };
 
 struct UploadOptions {
     bool receive_meshes = false;
     int normal_bits = 0;
     UploadPolicy policy = UploadPolicy::every_frame;
-    std::uint32_t nth = 1;     ///< at least 1; of UploadPolicy::every_nth
+    std::uint32_t nth = 1;     ///< at least 1; for UploadPolicy::every_nth
     std::uint64_t run_id = 0;  ///< 0: a run of its own
 };
 
 /// Frames that belong together, over one stream or over several, each of which resumed the run.
 struct Run {
     std::uint64_t id = 0;
-    std::optional<std::uint64_t> last_shown = {};     ///< index of a frame; of the reconstructing thread
-    std::optional<std::uint64_t> last_finished = {};  ///< the same, of the encoding thread
+    std::optional<std::uint64_t> last_shown = {};     ///< index of a frame; used by the reconstructing thread alone
+    std::optional<std::uint64_t> last_finished = {};  ///< index of a frame; used by the encoding thread alone
 };
 
 struct Upload {
     using Clock = std::chrono::steady_clock;
 
-    /// wake: as OutputQueue has it. stop_receiving: called when the session is to take no further frame than the one on
-    /// its way in.
+    /// wake: see OutputQueue. stop_receiving: called when the frame on its way in is to be the last.
     Upload(const UploadOptions& wishes, std::function<void()> wake, std::function<void()> stop_receiving)
         : options(wishes), output(std::move(wake)), drain(std::move(stop_receiving)) {}
 
@@ -53,7 +52,8 @@ struct Upload {
     UnreportedDrops unreported_drops;
     std::atomic<std::uint64_t> owed{0};  ///< frames submitted and not yet answered
     std::atomic<Clock::time_point> last_activity{Clock::now()};
-    std::atomic<bool> moves{false};  ///< its simulator goes on with another server: the session ends behind it
+    std::atomic<bool> moves{
+        false};  ///< its simulator goes on with another server: the session ends after its last frame
 };
 
 }  // namespace meniscus::server

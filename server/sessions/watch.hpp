@@ -1,4 +1,4 @@
-// One watcher, as its session sees it: one slot for the newest frame, and the rest of the one that is being sent.
+// One watcher in its session: a slot for the newest frame, and the rest of the frame that is being sent.
 #pragma once
 
 #include <chrono>
@@ -12,11 +12,11 @@
 #include <utility>
 #include <variant>
 
-#include "metrics/metrics.hpp"
 #include "sessions/encoded_frame.hpp"
+#include "sessions/limits/token_bucket.hpp"
 #include "sessions/mesh_update.hpp"
+#include "sessions/metrics.hpp"
 #include "sessions/particle_messages.hpp"
-#include "sessions/token_bucket.hpp"
 #include "sessions/watch_wishes.hpp"
 
 namespace meniscus::server {
@@ -30,13 +30,13 @@ class Watch {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// A write that has taken so long means that the watcher has stopped reading. The rest of its frame is then given
-    /// up for the next one that is put, so that who does not read keeps no old encode alive.
+    /// A write that takes longer means that the watcher has stopped reading. The rest of its frame is then given up for
+    /// the next one that is put, so that a stalled watcher keeps no old encode alive.
     static constexpr Clock::duration stalled_after = std::chrono::seconds(2);
 
-    struct Nothing {};  ///< for now: `wake` will be called
+    struct Nothing {};  ///< yet: `wake` will be called
     struct Later {
-        Clock::time_point at;  ///< by the rate that was wished for; `wake` is called if there is reason to come earlier
+        Clock::time_point at;  ///< as the watcher's rate allows; `wake` is called if there is reason to come earlier
     };
     struct End {
         std::exception_ptr error;  ///< none: all went well
@@ -45,7 +45,7 @@ public:
 
     struct Progress {
         std::uint64_t frames_skipped = 0;  ///< replaced before they were taken, or given up
-        Clock::duration lag{};             ///< how long the watcher has owed itself a frame; 0: it has the newest
+        Clock::duration lag{};             ///< since the oldest frame that it has not taken whole; 0: it has the newest
     };
 
     /// wake: called once, by a producing thread, after take() has found nothing and there is something again.
@@ -56,17 +56,17 @@ public:
 
     // The session's side.
 
-    /// As wished for. Replaces a frame that has not been taken.
+    /// frame: in the form that the watcher wishes for. Replaces a frame that has not been taken.
     void put(WatchedFrame frame, Clock::time_point now = Clock::now());
-    /// Tells the watcher, between two messages, that the server goes down in so long.
+    /// Tells the watcher, between two messages, that the server goes down after this time.
     void announce_end(std::chrono::duration<double> grace);
-    /// Nothing follows the frames that are here now, which go out without waiting for the rate; the first call counts.
+    /// No frames follow those that are here now, which go out without waiting for the rate. Later calls do nothing.
     void finish(std::exception_ptr error);
     Progress progress(Clock::time_point now = Clock::now()) const;
 
     // The writer's side, one thread at a time.
 
-    /// The next message, the one before having been written.
+    /// The next message. The one before has been written.
     Next take(Clock::time_point now = Clock::now());
 
 private:
@@ -84,7 +84,7 @@ private:
     FrameUpdate update_;                  ///< what is left of the frame that is being sent
     std::optional<WatcherMesh> sent_;     ///< the last mesh that went out whole
     std::optional<TokenBucket> bucket_;
-    Clock::time_point received_at_;  ///< that frame's particles
+    Clock::time_point received_at_;  ///< the particles of the frame that is being sent
     bool ending_ = false;            ///< its last message is being written
     std::optional<Clock::time_point> writing_since_;
     std::optional<Clock::time_point> behind_since_;

@@ -1,4 +1,4 @@
-// What a watcher wishes to be sent, as validated.
+// The form in which a watcher wishes for frames, validated.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct WatchWishes {
     MeshFormat format;
     std::optional<Box> region{};         ///< world units: only bricks that touch it
     std::uint64_t bytes_per_second = 0;  ///< in the mean; 0: no limit
-    /// The frames' particles in place of their meshes: of a frame with more than so many, only every k-th; 0: all.
+    /// Set: the frames' particles in place of their meshes; of a frame with more than this number, every k-th; 0: all.
     std::optional<std::uint64_t> max_particles{};
     std::optional<std::array<double, 3>>
         viewpoint{};  ///< world units: nearest bricks first; else those with the most triangles

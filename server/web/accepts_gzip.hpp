@@ -1,4 +1,4 @@
-// What a client says that it can decompress.
+// Whether an HTTP client can decompress gzip.
 #pragma once
 
 #include <string_view>

@@ -26,7 +26,7 @@ class BridgedCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc:
 public:
     /// One of these answers start() and each read(): a message, or the end, which comes once.
     struct Receiver {
-        std::function<void()> admitted;  ///< by the handler; once, or never
+        std::function<void()> admitted;  ///< the handler has admitted the call; at most once
         std::function<void(const grpc::ByteBuffer& message)> message;
         std::function<void(const grpc::Status& status)> end;
     };
@@ -41,8 +41,8 @@ public:
     BridgedCall(std::shared_ptr<boost::asio::io_context> context, Receiver receiver);
 
     void start(const std::shared_ptr<grpc::Channel>& channel, Request request);
-    /// Only once the one before was answered: a client that does not take its messages holds the handler up, as in
-    /// native gRPC.
+    /// Call it only once the read before was answered: a client that does not take its messages holds the handler up,
+    /// as in native gRPC.
     void read();
     /// The end follows, as canceled.
     void cancel();

@@ -19,7 +19,7 @@ struct GrpcWeb {
     bool serves(std::string_view target) const;
 };
 
-/// Whether it is a method of ours at all, served here or not.
+/// Whether it is a method of these services, served to browsers or not.
 bool is_method(std::string_view target);
 
 /// Whether the answer is a stream.

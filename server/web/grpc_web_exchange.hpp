@@ -30,7 +30,7 @@ using GrpcWebRequest = boost::beast::http::request<boost::beast::http::string_bo
 /// Whether a request is one of gRPC-Web, by its content type.
 bool is_grpc_web(const boost::beast::http::fields& request);
 
-/// What the request asks of the handler, into `call`; otherwise the status to answer with.
+/// Puts what the request asks of the handler into `call`. Returns the status to answer with unless that is OK.
 grpc::Status bridged_request(const GrpcWebRequest& request, BridgedCall::Request& call);
 
 class GrpcWebExchange : public std::enable_shared_from_this<GrpcWebExchange> {
@@ -40,8 +40,8 @@ public:
         bool keep_alive = false;  ///< whether another request may follow
     };
 
-    /// patience: for one message to be taken. The stream stays in use until `ended` is called, which is the last that
-    /// happens.
+    /// patience: how long the client may take for one message. The stream stays in use until `ended` is called; nothing
+    /// happens after that.
     GrpcWebExchange(HttpStream& stream, std::shared_ptr<boost::asio::io_context> context,
                     std::chrono::milliseconds patience, std::function<void(Ending)> ended);
 
@@ -54,7 +54,8 @@ private:
     using Handler = void (GrpcWebExchange::*)();
 
     Header header_for(const GrpcWebRequest& request) const;
-    /// Once the handler has admitted the call, or ended it: whoever sees the header misses nothing from then on.
+    /// Called once the handler has admitted the call, or ended it: a client that has the header misses nothing after
+    /// it.
     void write_header();
     void header_written();
     void await_message();

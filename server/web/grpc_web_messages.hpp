@@ -14,11 +14,11 @@ namespace meniscus::server {
 
 using GrpcWebHeader = std::array<unsigned char, 5>;
 
-/// Of a message of so many bytes.
+/// bytes: the size of the message.
 GrpcWebHeader grpc_web_header(std::size_t bytes);
 
-/// The one message of a request's body, into `message`. Otherwise the status to answer with: INVALID_ARGUMENT, or
-/// UNIMPLEMENTED for a compressed message.
+/// Puts the one message of a request's body into `message`. Returns the status to answer with unless that is OK:
+/// INVALID_ARGUMENT, or UNIMPLEMENTED for a compressed message.
 grpc::Status grpc_web_request(std::string_view body, grpc::ByteBuffer& message);
 
 /// The time that a client gives its call, as gRPC writes it: "100m" is 100 ms. Throws InvalidInput for anything else.

@@ -49,7 +49,7 @@ public:
     HttpConnection& operator=(const HttpConnection&) = delete;
 
     void start();
-    /// Ends with the answer that is under way, or at once if there is none.
+    /// Ends after the answer that is under way, or at once if there is none.
     void leave();
     /// Ends what is under way; gone() follows.
     void close();
@@ -62,20 +62,20 @@ private:
     using Response = boost::beast::http::response<boost::beast::http::span_body<const char>>;
 
     void shake_hands();
-    /// To who speaks HTTP where TLS is spoken.
+    /// Answers a client that speaks HTTP on a port of TLS.
     void name_tls();
     void read();
     void receive(boost::beast::error_code error);
     void answer();
-    /// Of a gRPC-Web call: its body, then what it asks for.
+    /// Reads the body of a gRPC-Web call, then answers it.
     void receive_call();
-    /// Why the call cannot be made, whatever it asks for; OK otherwise.
+    /// The reason why no call can be made at this path; OK if it can.
     grpc::Status call_refusal(std::string_view path);
     void answer_call(boost::beast::error_code error);
     void call_ended(GrpcWebExchange::Ending ending);
-    /// Refuses what cannot be followed by another request on this connection.
+    /// Refuses a request after which no other can follow on this connection.
     void refuse(unsigned status, std::string sentence);
-    /// Likewise, in the words of gRPC.
+    /// Refuses a gRPC-Web call in the same way, with a status of gRPC.
     void refuse_call(const grpc::Status& status);
     void write(Page page, bool keep_alive);
     void written(boost::beast::error_code error);

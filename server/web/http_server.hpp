@@ -30,9 +30,10 @@ public:
     HttpServer(const HttpServer&) = delete;
     HttpServer& operator=(const HttpServer&) = delete;
 
-    /// As clients should give it, the port being the one chosen.
+    /// In the form that clients use, with the port that was chosen.
     const std::string& address() const noexcept { return address_; }
-    /// Takes no new connections, and returns when the answers under way have been taken, or at the deadline. Once.
+    /// Takes no new connections, and returns when clients have taken the answers under way, or at the deadline. Call it
+    /// once.
     void finish(std::chrono::system_clock::time_point deadline);
 
 private:
@@ -49,7 +50,7 @@ private:
     const std::shared_ptr<const TlsContext> tls_;
     std::list<HttpConnection*> connections_;  ///< the one that has been silent longest first
     bool finishing_ = false;
-    std::promise<void> none_;  ///< of the connections is left
+    std::promise<void> none_;  ///< kept once no connection is left
     /// After them: its handlers own the connections. Shared with calls, whose gRPC threads may be the last to leave it.
     std::shared_ptr<boost::asio::io_context> context_ = std::make_shared<boost::asio::io_context>(1);
     boost::asio::ip::tcp::acceptor acceptor_{*context_};

@@ -1,4 +1,4 @@
-// The pages by which a server is watched: /metrics, /healthz, /readyz.
+// The pages for monitoring: /metrics, /healthz, /readyz.
 #pragma once
 
 #include <prometheus/metric_family.h>

@@ -1,4 +1,4 @@
-// What an HTTP request is answered with.
+// The answer to an HTTP request.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ struct Page {
     unsigned status = 200;
     std::string content_type = "text/plain; charset=utf-8";
     std::string body{};
-    std::string_view lasting_body{};  ///< in place of `body`: what outlives the router
+    std::string_view lasting_body{};  ///< in place of `body`: borrowed, outlives the router
     std::string cache_control = "no-store";
-    std::vector<std::pair<std::string, std::string>> headers{};  ///< more of them
+    std::vector<std::pair<std::string, std::string>> headers{};  ///< beside those that every answer has
 };
 
 }  // namespace meniscus::server

@@ -1,4 +1,4 @@
-// HTTP paths to what answers them.
+// Finds the handler of an HTTP path.
 #pragma once
 
 #include <functional>
@@ -22,9 +22,9 @@ public:
     using Handler = std::function<Page()>;
     using BrowserHandler = std::function<Page(const PageRequest& request)>;
 
-    /// path: as "/healthz". For machines, by whatever name they know this one.
+    /// path: as "/healthz". Answers requests to any host name: for machines, which may know this one by another.
     void add(std::string path, Handler handler);
-    /// Only for requests to a name that the server is known by.
+    /// Answers requests to a host name that the server is known by, and no others.
     void add_for_browsers(std::string path, BrowserHandler handler);
     bool is_for_browsers(std::string_view target) const;
     /// target: as in the request line; what follows a question mark is ignored. A path without a handler is answered

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <grpcpp/create_channel.h>
+
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "load/report.hpp"
+#include "meniscus/v1/server_service.grpc.pb.h"
 #include "process.hpp"
 
 namespace meniscus::load {
@@ -23,6 +26,24 @@ LoadOptions small(const std::string& server) {
     options.seconds = 0.6;
     options.warm_up = 0.2;
     return options;
+}
+
+/// Waits until the only session of a run has reached the frame.
+void wait_for_frame(std::uint64_t index, Process& server, const std::string& address) {
+    const client::Client client(address);
+    auto watcher = client.watch(server.created_session());
+    while (const auto frame = watcher.next())
+        if (frame->index >= index) return;
+    ADD_FAILURE() << "the run ended before frame " << index;
+}
+
+/// Calls a server that stands still: the call ends at its deadline.
+void wait_in_vain(const std::string& address, std::chrono::milliseconds time) {
+    const auto stub = v1::ServerService::NewStub(grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + time);
+    v1::GetServerInfoResponse response;
+    EXPECT_EQ(stub->GetServerInfo(&context, {}, &response).error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
 }
 
 TEST(Load, CountsWhatAllOfItsClientsSee) {
@@ -53,9 +74,9 @@ TEST(Load, MeasuresFromWhenAFrameWasDueAlsoOnAServerThatStalls) {
     options.seconds = 0.8;
     // The server stands still for 0.4 s: frames due in that time waited for it, whenever they were sent.
     std::thread stalling([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(400));
+        wait_for_frame(10, process, options.server.address);
         process.signal(SIGSTOP);
-        std::this_thread::sleep_for(std::chrono::milliseconds(400));
+        wait_in_vain(options.server.address, std::chrono::milliseconds(400));
         process.signal(SIGCONT);
     });
     const LoadResult result = run_load(options);
@@ -92,7 +113,7 @@ TEST(Load, ReportsAServerThatGoesAwayAndEnds) {
     LoadOptions options = small(process.address());
     options.seconds = 5.0;
     std::thread killing([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(700));
+        wait_for_frame(25, process, options.server.address);
         process.signal(SIGKILL);
     });
     const LoadResult result = run_load(options);

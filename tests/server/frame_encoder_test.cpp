@@ -7,7 +7,7 @@
 #include "late_meshes.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/v1/surface_service.pb.h"
-#include "sessions/limits.hpp"
+#include "sessions/limits/limits.hpp"
 #include "test_frames.hpp"
 
 namespace meniscus::server {
@@ -32,12 +32,13 @@ v1::WatchResponse parsed(const SharedMessage& message) {
 
 TEST(FrameEncoder, SendsBeginThenBricksThenStatistics) {
     WorkerPool workers(3);
+    ScratchPool scratch;
     const FrameOf frame(test::wave(12, 0.0));
     std::vector<SharedMessage> sent;
-    const auto encoded =
-        encode_frame(frame, {.normal_bits = 8}, nullptr, workers, [&](const SharedMessage& m) { sent.push_back(m); });
+    const auto encoded = encode_frame(frame, {.normal_bits = 8}, nullptr, workers, scratch,
+                                      [&](const SharedMessage& m) { sent.push_back(m); });
     EXPECT_EQ(encoded->begin, sent.front());
-    EXPECT_EQ(encoded->statistics, sent.back());
+    EXPECT_EQ(encoded->end, sent.back());
     ASSERT_EQ(sent.size(), frame.mesh.bricks.size() + 2);
     EXPECT_EQ(parsed(sent.front()).mesh_begin().frame_index(), 5U);
     EXPECT_EQ(parsed(sent.front()).mesh_begin().brick_count(), frame.mesh.bricks.size());
@@ -64,7 +65,8 @@ TEST(FrameEncoder, KeepsThePartsOfABrickTogetherAndWithinTheChunkSize) {
     }
     const FrameOf frame(particles);
     WorkerPool workers(2);
-    const auto encoded = encode_frame(frame, {.normal_bits = 16}, nullptr, workers, nullptr);
+    ScratchPool scratch;
+    const auto encoded = encode_frame(frame, {.normal_bits = 16}, nullptr, workers, scratch, nullptr);
     for (const SharedBrick& brick : encoded->bricks) {
         std::uint32_t part = 0;
         for (const SharedMessage& message : brick->messages) {
@@ -83,9 +85,11 @@ TEST(FrameEncoder, TellsTheDownloadsTimeOfTheMeshThatItSendsAlone) {
     Reconstructor(test::settings(), {.threads = 1}).reconstruct(test::wave(3, 0.0).view(), capped.mesh);
     capped.made = true;
     WorkerPool workers(1);
+    ScratchPool scratch;
     const auto seconds = [&](int max_level) {
-        const auto encoded = encode_frame(frame, {.max_level = max_level, .normal_bits = 8}, nullptr, workers, nullptr);
-        return parsed(encoded->statistics).frame_statistics().download_seconds();
+        const auto encoded =
+            encode_frame(frame, {.max_level = max_level, .normal_bits = 8}, nullptr, workers, scratch, nullptr);
+        return parsed(encoded->end).frame_statistics().download_seconds();
     };
     EXPECT_EQ(seconds(3), 0.25);
     EXPECT_EQ(seconds(2), 0.0);
@@ -93,7 +97,8 @@ TEST(FrameEncoder, TellsTheDownloadsTimeOfTheMeshThatItSendsAlone) {
 
 TEST(FrameEncoder, SendsAnEmptyMesh) {
     WorkerPool workers(1);
-    const auto encoded = encode_frame(FrameOf({}), {.normal_bits = 8}, nullptr, workers, nullptr);
+    ScratchPool scratch;
+    const auto encoded = encode_frame(FrameOf({}), {.normal_bits = 8}, nullptr, workers, scratch, nullptr);
     EXPECT_TRUE(encoded->bricks.empty());
     EXPECT_EQ(parsed(encoded->begin).mesh_begin().brick_count(), 0U);
     EXPECT_GT(parsed(encoded->begin).mesh_begin().cell_size(), 0.0);
@@ -101,15 +106,17 @@ TEST(FrameEncoder, SendsAnEmptyMesh) {
 
 TEST(FrameEncoder, EncodesOnlyTheBricksThatHaveChanged) {
     WorkerPool workers(2);
+    ScratchPool scratch;
     // Two bodies of water, far apart; one of them moves.
     const auto particles = [](double phase) {
         test::Particles both = test::wave(10, phase);
         for (const float p : test::wave(10, 0.0).positions) both.positions.push_back(p + 20.0F);
         return both;
     };
-    const auto before = encode_frame(FrameOf(particles(0.0)), {.normal_bits = 8}, nullptr, workers, nullptr);
-    const auto after = encode_frame(FrameOf(particles(0.5)), {.normal_bits = 8}, before.get(), workers, nullptr);
-    const auto anew = encode_frame(FrameOf(particles(0.5)), {.normal_bits = 8}, nullptr, workers, nullptr);
+    const auto before = encode_frame(FrameOf(particles(0.0)), {.normal_bits = 8}, nullptr, workers, scratch, nullptr);
+    const auto after =
+        encode_frame(FrameOf(particles(0.5)), {.normal_bits = 8}, before.get(), workers, scratch, nullptr);
+    const auto anew = encode_frame(FrameOf(particles(0.5)), {.normal_bits = 8}, nullptr, workers, scratch, nullptr);
     ASSERT_EQ(after->bricks.size(), anew->bricks.size());
     std::size_t reused = 0;
     std::size_t far = 0;
@@ -126,6 +133,37 @@ TEST(FrameEncoder, EncodesOnlyTheBricksThatHaveChanged) {
     }
     EXPECT_GT(far, 0U);
     EXPECT_LT(reused, after->bricks.size());
+}
+
+TEST(FrameEncoder, ChargesItsTablesForAsLongAsTheirOwnerKeepsThem) {
+    const auto account = std::make_shared<MemoryAccount>();
+    WorkerPool workers(2);
+    const FrameOf frame(test::wave(12, 0.0));
+    {
+        ScratchPool scratch(account);
+        encode_frame(frame, {.normal_bits = 8}, nullptr, workers, scratch, nullptr);
+        EXPECT_GT(account->bytes(), 0U);
+        const std::size_t bytes = account->bytes();
+        encode_frame(frame, {.normal_bits = 8}, nullptr, workers, scratch, nullptr);
+        EXPECT_LE(account->bytes(), 2 * bytes);  // at most one table for each thread
+    }
+    EXPECT_EQ(account->bytes(), 0U);
+}
+
+TEST(FrameEncoder, NeedsTablesAsLargeAsABrickHoweverLargeTheMesh) {
+    const auto peak = [](const test::Particles& particles) {
+        const auto account = std::make_shared<MemoryAccount>();
+        WorkerPool workers(1);
+        ScratchPool scratch(account);
+        encode_frame(FrameOf(particles), {.normal_bits = 8}, nullptr, workers, scratch, nullptr);
+        return account->peak_bytes();
+    };
+    const test::Particles one = test::wave(10, 0.0);
+    test::Particles many = one;
+    for (const float distance : {20.0F, 40.0F, 60.0F, 80.0F})
+        for (const float p : one.positions) many.positions.push_back(p + distance);
+    // Other bodies lie otherwise in their bricks.
+    EXPECT_LE(peak(many), 2 * peak(one));
 }
 
 }  // namespace

@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
-#include "sessions/channel.hpp"
+#include "sessions/handover/channel.hpp"
+#include "sessions/handover/slot_pool.hpp"
 #include "sessions/output_queue.hpp"
-#include "sessions/slot_pool.hpp"
 
 namespace meniscus::server {
 namespace {
@@ -70,6 +70,7 @@ TEST(SlotPool, OffersADeclinedSlotToTheNext) {
     EXPECT_EQ(taken, &slot);
 }
 
+// Asserts that neither waiter is called: each would fail the test.
 TEST(SlotPool, ForgetsWhoWaitsWhenClosed) {
     SlotPool<int> pool;
     int slot = 0;

@@ -31,7 +31,7 @@ inline SharedBrick made_brick(const std::array<std::int32_t, 3>& place, std::uin
                               std::size_t padding = 0) {
     auto brick = std::make_shared<BrickMessages>();
     brick->place = place;
-    brick->content_hash = version;
+    brick->content_hash = {0, version};
     brick->triangles = version;
     for (std::uint32_t part = 0; part < 1 + version % 3; ++part) {
         v1::StreamResponse response;
@@ -67,7 +67,7 @@ inline std::shared_ptr<EncodedFrame> made_frame(std::uint64_t index, const Versi
     frame->begin = serialized(begin);
     v1::StreamResponse end;
     end.mutable_frame_statistics()->set_frame_index(index);
-    frame->statistics = serialized(end);
+    frame->end = serialized(end);
     return frame;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,17 @@ public:
     std::string address() { return after("listening on "); }
     /// Likewise; after address().
     std::string http_address() { return after("metrics and probes at http://"); }
+    /// The id in the line that says that a session was created; after address().
+    std::string created_session() {
+        constexpr std::string_view before = "session ";
+        while (const auto next = line()) {
+            const std::size_t found = next->find(before);
+            const std::size_t end = next->find(": created on ");
+            if (found == std::string::npos || end == std::string::npos) continue;
+            return next->substr(found + before.size(), end - found - before.size());
+        }
+        throw std::runtime_error("meniscusd has created no session");
+    }
     void signal(int number) const { ::kill(pid_, number); }
     /// Of the process, which ends.
     int exit_code() {

@@ -61,8 +61,9 @@ std::string mesh_bytes(std::uint64_t index, const Particles& particles) {
     reconstructor.reconstruct(particles.view(), frame.mesh);
     frame.statistics = reconstructor.statistics();
     WorkerPool workers(1);
-    return bytes_of(
-        recorded_mesh(*encode_frame(frame, {.position_bits = 6, .normal_bits = 8}, nullptr, workers, nullptr)));
+    ScratchPool scratch;
+    return bytes_of(recorded_mesh(
+        *encode_frame(frame, {.position_bits = 6, .normal_bits = 8}, nullptr, workers, scratch, nullptr)));
 }
 
 std::string beginning() {

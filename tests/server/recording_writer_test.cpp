@@ -52,7 +52,7 @@ InputFrame frame(std::uint64_t index, std::size_t particles = 4) {
 std::shared_ptr<const EncodedFrame> mesh(std::uint64_t index) {
     auto encoded = std::make_shared<EncodedFrame>();
     encoded->index = index;
-    encoded->begin = encoded->statistics = std::make_shared<const std::string>("mesh");
+    encoded->begin = encoded->end = std::make_shared<const std::string>("mesh");
     return encoded;
 }
 

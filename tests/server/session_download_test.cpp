@@ -99,7 +99,7 @@ TEST_F(SessionDownload, ItsTimeIsToldApartFromTheReconstructions) {
     simulator.send(0, first);
     simulator.end();
     EXPECT_EQ(simulator.receive_all(), (std::vector<std::uint64_t>{0}));
-    EXPECT_EQ(session->state().last_frame->download_seconds(), 0.25);
+    EXPECT_EQ(session->state().last_frame->download_seconds, 0.25);
 }
 
 TEST_F(SessionDownload, AMeshThatNobodyWantsStaysWhereItIsUntilAWatcherComes) {

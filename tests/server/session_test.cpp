@@ -111,6 +111,16 @@ TEST_F(SessionPipeline, AnswersEveryFrameInOrder) {
     EXPECT_EQ(session.state().last_frame_index, 9U);
 }
 
+TEST(SessionMemory, ThatEncodingTakesCountsAgainstTheLimit) {
+    Session session({.id = id}, test::settings(), {.bytes_per_session = 3000},
+                    {.reconstruct = reconstruct_on_the_cpu()}, {.workers = std::make_shared<WorkerPool>(2)});
+    Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});
+    simulator.send(0, test::wave(6, 0.0));  // 2592 bytes
+    EXPECT_TRUE(simulator.receive_all().empty());
+    EXPECT_THROW(std::rethrow_exception(simulator.error), LimitExceeded);
+    simulator.end();
+}
+
 TEST_F(SessionPipeline, LendsNoThirdInputSlot) {
     int lent = 0;
     for (int i = 0; i < 3; ++i)
@@ -247,6 +257,7 @@ TEST_F(SessionPipeline, EndsUploadAndWatchersWhenClosed) {
     EXPECT_THROW(session.open_watch(normals(8), [] {}), Refusal);
 }
 
+// Asserts by not hanging: join() returns.
 TEST_F(SessionPipeline, ClosesWhileNobodyReads) {
     Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});
     // The pipeline takes a few frames, then its steps wait for each other, and the next request for a slot for ever.

@@ -150,6 +150,7 @@ TEST(Shutdown, DoesNotWaitForAFrameThatNeverEndsBeyondTheGracePeriod) {
     EXPECT_FALSE(stream.finish().ok());
 }
 
+// Asserts by not hanging: every call returns, and so does the server's destructor.
 TEST(Shutdown, IsDoneOnceHoweverOftenItIsAskedFor) {
     RunningServer running;
     running.server.shutdown();

@@ -1,4 +1,4 @@
-#include "sessions/turns.hpp"
+#include "sessions/handover/turns.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sessions/worker_pool.hpp"
+#include "sessions/handover/worker_pool.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,6 +25,7 @@ TEST(WorkerPool, WorksWithItsCallerAlone) {
     EXPECT_EQ(threads, std::vector<std::thread::id>(10, std::this_thread::get_id()));
 }
 
+// Asserts by not hanging: each of the three waits for the other two.
 TEST(WorkerPool, RunsIndicesAtTheSameTime) {
     WorkerPool pool(3);
     std::latch together(3);

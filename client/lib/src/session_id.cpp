@@ -1,4 +1,5 @@
-#include <random>
+#include <boost/uuid/random_generator.hpp>
+#include <boost/uuid/uuid_io.hpp>
 #include <string>
 
 #include "meniscus/client/client.hpp"
@@ -6,17 +7,7 @@
 namespace meniscus::client {
 
 std::string new_session_id() {
-    constexpr const char* digits = "0123456789abcdef";
-    std::random_device random;
-    // 4 is the version; y, the variant, is one of 8 to b.
-    std::string id = "xxxxxxxx-xxxx-4xxx-yxxx-xxxxxxxxxxxx";
-    for (char& c : id) {
-        if (c == 'x')
-            c = digits[random() & 0xFU];
-        else if (c == 'y')
-            c = digits[8U | (random() & 0x3U)];
-    }
-    return id;
+    return to_string(boost::uuids::random_generator()());
 }
 
 }  // namespace meniscus::client

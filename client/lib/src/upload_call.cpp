@@ -1,7 +1,6 @@
 #include "upload_call.hpp"
 
 #include <google/protobuf/io/coded_stream.h>
-#include <google/protobuf/wire_format_lite.h>
 
 #include <algorithm>
 #include <array>
@@ -14,13 +13,14 @@ namespace meniscus::client {
 
 namespace {
 
-using google::protobuf::internal::WireFormatLite;
 using google::protobuf::io::CodedOutputStream;
 
 /// The largest that the server takes.
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
-/// gRPC's generated code has no stub that sends bytes as they are; this is what its stubs consist of.
+/// gRPC's generated code has no stub that sends bytes as they are, and its generic stub is asynchronous: this is what
+/// its stubs consist of, from a namespace whose names another version of gRPC may change (here: 1.51). The compiler
+/// would tell, and the tests of streams.
 std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, v1::StreamResponse>> start(Connection& connection,
                                                                                       grpc::ClientContext& context) {
     const grpc::internal::RpcMethod method("/meniscus.v1.SurfaceService/Stream",
@@ -31,11 +31,13 @@ std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, v1::StreamResponse>> 
 }
 
 std::uint8_t* write_length(int field, std::size_t length, std::uint8_t* at) {
-    at = WireFormatLite::WriteTagToArray(field, WireFormatLite::WIRETYPE_LENGTH_DELIMITED, at);
+    constexpr std::uint32_t length_delimited = 2;  // wire type
+    at = CodedOutputStream::WriteTagToArray(static_cast<std::uint32_t>(field) << 3U | length_delimited, at);
     return CodedOutputStream::WriteVarint32ToArray(static_cast<std::uint32_t>(length), at);
 }
 
-/// A StreamRequest with a FrameChunk whose data is not copied but referred to, and kept alive.
+/// A StreamRequest with a FrameChunk whose data is not copied but referred to, and kept alive. By hand, since protobuf
+/// copies what it serializes: at a frame's size that is the largest cost of sending it.
 grpc::ByteBuffer chunk_message(const std::shared_ptr<Bytes>& bytes, std::size_t first, std::size_t size) {
     std::array<std::uint8_t, 12> data_head{};
     const auto data_head_size = static_cast<std::size_t>(

@@ -10,9 +10,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "meniscus/memory.hpp"
 #include "meniscus/mesh.hpp"
 
 namespace meniscus {
@@ -27,6 +30,8 @@ struct CodingOptions {
 /// The lattice that vertices lie on once they are encoded. Throws InvalidInput for position_bits out of range.
 std::uint32_t encoded_offset_bits(const Mesh& mesh, const CodingOptions& options);
 
+using ContentHash = std::array<std::uint64_t, 2>;
+
 /// What is encoded of one brick: its triangles, over vertices of its own that are numbered as the triangles meet them.
 struct BrickContent {
     std::array<std::int32_t, 3> coordinate{};             ///< x y z in bricks
@@ -35,8 +40,9 @@ struct BrickContent {
     std::vector<Triangle> triangles;
     std::vector<std::byte> cell_levels;  ///< as EncodedBrick has them
 
-    /// Tells whether the brick at one place has changed from frame to frame: equal for equal content.
-    std::uint64_t hash() const;
+    /// Equal for equal content; different content has the same hash with a chance of about 2^-128. Not proof against
+    /// forgery, and not for files: another version may hash otherwise.
+    ContentHash hash() const;
 };
 
 struct EncodedBrick {
@@ -48,12 +54,24 @@ struct EncodedBrick {
     std::vector<std::byte> draco;
 };
 
-/// brick: index into mesh.bricks. Thread-safe for one mesh and different bricks. Throws InvalidInput for options out of
-/// range.
+/// Memory that brick_content() works in, kept from brick to brick: at most 24 bytes for each triangle of the largest.
+/// For one call at a time.
+struct BrickScratch {
+    /// account: is charged; none: uncounted.
+    explicit BrickScratch(std::shared_ptr<MemoryAccount> account = nullptr)
+        : slots(AccountAllocator<std::uint32_t>(std::move(account))) {}
+
+    Array<std::uint32_t> slots;  ///< of a hash table from the mesh's vertices to the brick's
+};
+
+/// brick: index into mesh.bricks. Thread-safe. Throws InvalidInput for options out of range, LimitExceeded if the
+/// account of the scratch memory would pass its limit.
+BrickContent brick_content(const Mesh& mesh, std::size_t brick, const CodingOptions& options, BrickScratch& scratch);
+/// The same, with scratch memory of its own.
 BrickContent brick_content(const Mesh& mesh, std::size_t brick, const CodingOptions& options = {});
 /// options: those that the content was made with.
 EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& options);
-/// Both steps.
+/// The content of a brick, encoded.
 EncodedBrick encode_brick(const Mesh& mesh, std::size_t brick, const CodingOptions& options = {});
 
 /// A brick's own mesh: its vertices are welded by position.

@@ -94,7 +94,7 @@ TEST_F(ViewerPages, AnswerHeadWithTheHeaderAlone) {
 }
 
 TEST(AcceptsGzip, WhereItIsNamedWithAWeight) {
-    for (const char* yes : {"gzip", "br, gzip", "gzip;q=0.001", " gzip ; q=1", "deflate,gzip"})
+    for (const char* yes : {"gzip", "br, gzip", "gzip;q=0.001", " gzip ; q=1", "deflate,gzip", "GZIP"})
         EXPECT_TRUE(accepts_gzip(yes)) << yes;
     for (const char* no : {"", "br", "gzip;q=0", "gzip; q=0.000", "xgzip", "identity, br", ",,;"})
         EXPECT_FALSE(accepts_gzip(no)) << no;

@@ -1,4 +1,4 @@
-#include "sessions/frame_rate.hpp"
+#include "sessions/limits/frame_rate.hpp"
 
 #include <algorithm>
 

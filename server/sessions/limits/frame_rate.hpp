@@ -1,4 +1,4 @@
-// How many frames a session may begin in a second.
+// The limit of frames that a session may begin in a second.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ public:
     /// limit: frames per second, 0 for none.
     explicit FrameRate(std::uint32_t limit) : limit_(limit), tokens_(limit) {}
 
-    /// Whether one more frame may begin at this time, and takes note of it.
+    /// Returns whether one more frame may begin at this time; if so, counts it.
     bool take(Clock::time_point now);
 
 private:

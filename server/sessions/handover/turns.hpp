@@ -1,4 +1,4 @@
-// Whose frame is reconstructed next, on a device that sessions share.
+// The order in which sessions reconstruct on a device that they share.
 #pragma once
 
 #include <chrono>
@@ -10,8 +10,8 @@
 
 namespace meniscus::server {
 
-/// One turn at a time, first come, first served. A session asks for one turn per frame, so that those who have frames
-/// go round.
+/// One turn at a time, first come, first served. A session asks for one turn per frame, so that sessions with frames
+/// alternate.
 class Turns {
 public:
     /// Ends when it is destroyed.
@@ -30,11 +30,11 @@ public:
         Turns* turns_;
     };
 
-    /// Waits until all who asked before have had theirs.
+    /// Waits until all turns that were asked for before have ended.
     Turn wait();
-    /// How many wait now.
+    /// The number of threads that wait.
     std::uint64_t waiting();
-    /// Of all turns so far, with what the one that goes on has taken.
+    /// The time of all turns so far, the present one included.
     std::chrono::duration<double> taken();
 
 private:
@@ -46,8 +46,8 @@ private:
     std::condition_variable ended_;
     std::uint64_t asked_ = 0;
     std::uint64_t current_ = 0;
-    std::optional<Clock::time_point> began_;  ///< the turn that goes on; none: nobody's
-    Clock::duration taken_{};                 ///< by those that ended
+    std::optional<Clock::time_point> began_;  ///< the present turn; none: there is none
+    Clock::duration taken_{};                 ///< by the turns that have ended
 };
 
 }  // namespace meniscus::server

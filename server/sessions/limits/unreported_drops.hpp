@@ -1,4 +1,4 @@
-// Frames that were dropped and whose simulator has not been told yet.
+// The number of dropped frames that were not yet reported to their simulator.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,8 @@
 
 namespace meniscus::server {
 
-/// Dropped frames hold no slot that would slow their simulator down: this does, if it does not read what it is told.
+/// Dropped frames hold no slot that would slow down their simulator. This number does, if the simulator does not read
+/// the reports.
 /// Thread-safe.
 class UnreportedDrops {
 public:
@@ -28,7 +29,7 @@ public:
         if (waiting) waiting();
     }
 
-    /// Calls it once fewer than `limit` are unreported: at once, or from report(). One call may wait at a time.
+    /// Calls the function once fewer than `limit` are unreported: at once, or from report(). One may wait at a time.
     void when_below_limit(std::function<void()> call) {
         {
             const std::lock_guard lock(mutex_);

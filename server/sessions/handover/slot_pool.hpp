@@ -1,4 +1,4 @@
-// A few reusable objects, lent one at a time to whoever asked first.
+// A few reusable objects, lent in the order of the requests.
 #pragma once
 
 #include <deque>
@@ -8,8 +8,8 @@
 
 namespace meniscus::server {
 
-/// Nobody blocks here: who asks is called when a slot is free, at once or by the thread that gives one back. That is
-/// how a stream is slowed down without holding a gRPC thread.
+/// Nobody blocks here: a request leaves a function that is called when a slot is free, at once or by the thread that
+/// gives one back. That is how a stream is slowed down without holding a gRPC thread.
 template <class T>
 class SlotPool {
 public:
@@ -39,7 +39,7 @@ public:
         return std::erase(free_, &slot) != 0;
     }
 
-    /// Forgets who waits, and whoever asks from now on.
+    /// Drops the requests that wait, and those that come from now on.
     void close() {
         std::deque<Waiter> forgotten;  // destroyed outside of the lock
         const std::lock_guard lock(mutex_);

@@ -1,4 +1,4 @@
-#include "sessions/worker_pool.hpp"
+#include "sessions/handover/worker_pool.hpp"
 
 namespace meniscus::server {
 

@@ -1,4 +1,7 @@
 // Hands values from one thread to another, in order.
+//
+// Not oneTBB's concurrent_bounded_queue: the thread sanitizer reports false races in Debian's build of it, and closing
+// it ends a wait with an exception.
 #pragma once
 
 #include <condition_variable>

@@ -7,28 +7,28 @@
 
 namespace meniscus::server {
 
-/// Of one chunk of particle data, and of one part of a brick.
+/// The most bytes of one chunk of particle data, and of one part of a brick.
 inline constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
 struct Limits {
     std::uint32_t sessions = 16;
     std::uint32_t watchers_per_session = 64;
-    /// Calls at a time that read recordings.
+    /// Calls that read recordings at the same time.
     std::uint32_t recording_readers = 16;
     std::uint64_t particles_per_frame = 0;
-    /// For the reconstruction of one session, and as much again for its frames on their way in.
+    /// For the reconstruction of one session, as much again for its frames on their way in, and for their encoding.
     std::size_t bytes_per_session = 0;
     /// For the reconstruction of one session on its GPU.
     std::size_t device_bytes_per_session = 0;
-    /// Of all sessions' frames, each from its beginning until it has been reconstructed.
+    /// Bytes of all sessions' frames, each from its beginning until it has been reconstructed.
     std::size_t bytes_in_flight = 0;
-    /// Begun in any second by the streams of one session.
+    /// Frames that the streams of one session may begin in any second.
     std::uint32_t frames_per_second = 0;
     /// Chunk messages of one frame, empty ones included.
     std::uint32_t chunks_per_frame = 65536;
-    /// After which a stream ends that brings nothing and is owed nothing, and a session that nobody uses.
+    /// A stream without frames and without outstanding answers ends after it, and so does a session that nobody uses.
     std::chrono::milliseconds idle_time{0};
-    /// Of one message as it arrives; at least a full chunk and what is around it.
+    /// Of one message as it arrives; at least that of a full chunk.
     std::size_t message_bytes = std::size_t{4} << 20;
 };
 

@@ -1,10 +1,10 @@
-// What the service counts, as those see it who report.
+// What the service reports to its metrics.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 
-#include "meniscus/v1/mesh.pb.h"
+#include "sessions/frame_statistics.hpp"
 
 namespace meniscus::server {
 
@@ -19,11 +19,11 @@ public:
     Metrics(const Metrics&) = delete;
     Metrics& operator=(const Metrics&) = delete;
 
-    /// A frame is there to its last byte.
+    /// The last byte of a frame has come in.
     virtual void frame_received(std::uint64_t /*bytes*/) {}
     virtual void frame_dropped(Drop /*reason*/) {}
     /// Reconstructed, and encoded for the simulator if it wants meshes.
-    virtual void frame_finished(const v1::FrameStatistics& /*statistics*/) {}
+    virtual void frame_finished(const FrameStatistics& /*statistics*/) {}
     /// Bytes of one message. Takes no lock.
     virtual void message_sent(Receiver /*to*/, std::uint64_t /*bytes*/) {}
     /// A watcher had not taken the frame before a newer one replaced it.

@@ -14,7 +14,7 @@ public:
     /// limit: bytes, 0 for none.
     explicit BytesInFlight(std::size_t limit = 0) : limit_(limit) {}
 
-    /// False, without adding them, if there would be more than the limit.
+    /// Returns false, and adds nothing, if there would be more than the limit.
     bool add(std::size_t bytes) noexcept {
         std::size_t before = bytes_.load(std::memory_order_relaxed);
         do {
@@ -32,7 +32,7 @@ private:
     std::atomic<std::size_t> bytes_{0};
 };
 
-/// One frame's part of them, until it is released.
+/// The part of one frame in them, until it is released.
 class ShareInFlight {
 public:
     explicit ShareInFlight(std::shared_ptr<BytesInFlight> all) : all_(std::move(all)) {}
@@ -42,7 +42,7 @@ public:
     ShareInFlight& operator=(const ShareInFlight&) = delete;
     ShareInFlight& operator=(ShareInFlight&&) = delete;
 
-    /// In place of what it had. False, with nothing left, where that is too much.
+    /// Replaces what it had. Returns false, and has nothing, if that is too much.
     bool take(std::size_t bytes) noexcept {
         release();
         if (!all_->add(bytes)) return false;

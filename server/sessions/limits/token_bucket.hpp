@@ -7,8 +7,9 @@
 
 namespace meniscus::server {
 
-/// Bytes come in at the rate, up to what comes in one second. Whoever finds any may spend more than there are, so that
-/// whole frames go out whatever their size; the next then waits until the debt is paid. Times must not decrease.
+/// The bucket fills at the rate, up to one second's bytes. A frame may go when it is not in debt, and may take more
+/// than it holds, so that whole frames go out whatever their size; the next one then waits until the debt is paid.
+/// Times must not decrease.
 class TokenBucket {
 public:
     using Clock = std::chrono::steady_clock;

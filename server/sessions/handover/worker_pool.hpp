@@ -1,4 +1,7 @@
 // The threads that encode bricks, shared by all sessions.
+//
+// Not oneTBB's task_arena, which core uses: the thread sanitizer reports about 30 races in Debian's build of it, and a
+// caller that waits there may be given another session's work.
 #pragma once
 
 #include <condition_variable>

@@ -1,0 +1,34 @@
+// Brick contents are told apart by 128 bits of xxHash: two that met would leave a stale brick with every watcher.
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <span>
+#include <type_traits>
+
+#include "meniscus/brick_coding.hpp"
+
+namespace meniscus {
+namespace {
+
+template <class T>
+void add(XXH3_state_t& state, const std::vector<T>& values) {
+    static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, Normal>);
+    const std::uint64_t count = values.size();
+    XXH3_128bits_update(&state, &count, sizeof count);
+    XXH3_128bits_update(&state, values.data(), std::span(values).size_bytes());
+}
+
+}  // namespace
+
+ContentHash BrickContent::hash() const {
+    XXH3_state_t state;
+    XXH3_128bits_reset(&state);
+    add(state, positions);
+    add(state, normals);
+    add(state, triangles);
+    add(state, cell_levels);
+    const XXH128_hash_t hash = XXH3_128bits_digest(&state);
+    return {hash.high64, hash.low64};
+}
+
+}  // namespace meniscus

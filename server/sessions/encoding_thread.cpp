@@ -1,0 +1,196 @@
+#include "sessions/encoding_thread.hpp"
+
+#include <utility>
+
+#include "log.hpp"
+#include "meniscus/error.hpp"
+#include "sessions/stream_notices.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+/// A watcher that wishes for the same shares the stream's encode.
+MeshFormat stream_format(int normal_bits, const Settings& settings) {
+    return {.max_level = 3,
+            .position_bits = static_cast<int>(offset_bits(settings)),
+            .normal_bits = settings.normals ? normal_bits : 0};
+}
+
+}  // namespace
+
+EncodingThread::EncodingThread(const SessionContext& context, Watchers& watchers, Ends ends)
+    : context_(context),
+      watchers_(watchers),
+      ends_(std::move(ends)),
+      scratch_(std::make_shared<MemoryAccount>(context.limits.bytes_per_session, "to encode its mesh")) {
+    for (ReconstructedFrame& frame : frames_) free_frames_.put(&frame);
+    thread_ = std::thread([this] { run(); });
+}
+
+EncodingThread::~EncodingThread() {
+    close();
+    join();
+}
+
+ReconstructedFrame* EncodingThread::wait_for_free_frame() {
+    return free_frames_.take().value_or(nullptr);
+}
+
+std::optional<FrameStatistics> EncodingThread::last_frame() const {
+    const std::lock_guard lock(mutex_);
+    return last_frame_;
+}
+
+void EncodingThread::close() {
+    free_frames_.close();
+    tasks_.close();
+}
+
+void EncodingThread::join() {
+    if (thread_.joinable()) thread_.join();
+}
+
+void EncodingThread::run() {
+    while (auto task = tasks_.take()) {
+        try {
+            std::visit([this](auto& t) { perform(t); }, *task);
+        } catch (const DeviceError& error) {
+            log_error({.session = context_.identity.id}, "the session ends: {}", error.what());
+            ends_.session(std::current_exception());
+        }
+    }
+}
+
+void EncodingThread::give_back(ReconstructedFrame& frame) {
+    frame.download = {};  // of a mesh that nobody may have wanted
+    free_frames_.put(&frame);
+}
+
+void EncodingThread::perform(Encode& task) {
+    Upload& upload = *task.upload;
+    // Also when nobody reads any more: the frame was received, and watchers get it.
+    upload.output.wait_for_room();
+    auto& last_finished = upload.run->last_finished;
+    if (last_finished && task.frame->index <= *last_finished) return answer_again(task);
+    last_finished = task.frame->index;
+    if (newest_ != nullptr) give_back(*newest_);
+    newest_ = task.frame;
+    before_ = watchers_.replace_meshes();
+    try {
+        if (upload.options.receive_meshes) {
+            const MeshFormat format = stream_format(upload.options.normal_bits, context_.settings);
+            const auto encoded =
+                encode_newest(format, [&](const SharedMessage& message) { upload.output.push(message); });
+            count_answer(encoded->statistics);
+            watchers_.publish(format, encoded);
+        } else {
+            const FrameStatistics statistics = statistics_of(*newest_);
+            count_answer(statistics);
+            upload.output.push(serialize(statistics));
+        }
+    } catch (const DeviceError&) {
+        throw;
+    } catch (...) {
+        ends_.upload(task.upload, std::current_exception());
+    }
+    answered(upload);
+    encode_for_watchers();
+    if (context_.observer) encode_for_observer();
+    before_.clear();
+}
+
+void EncodingThread::answer_again(Encode& task) {
+    Upload& upload = *task.upload;
+    try {
+        if (upload.options.receive_meshes)
+            encode_frame(*task.frame, stream_format(upload.options.normal_bits, context_.settings), nullptr,
+                         *context_.shared.workers, scratch_,
+                         [&](const SharedMessage& message) { upload.output.push(message); });
+        else
+            upload.output.push(serialize(statistics_of(*task.frame)));
+    } catch (const DeviceError&) {
+        throw;
+    } catch (...) {
+        ends_.upload(task.upload, std::current_exception());
+    }
+    answered(upload);
+    give_back(*task.frame);
+}
+
+void EncodingThread::perform(ReportDrop& task) {
+    Upload& upload = *task.upload;
+    upload.output.wait_for_room();
+    upload.output.push(frame_dropped_message(task.dropped));
+    upload.unreported_drops.report();
+    answered(upload);
+}
+
+void EncodingThread::perform(EndUpload& task) {
+    ends_.upload(task.upload, task.error);
+}
+
+void EncodingThread::perform(EndSession& task) {
+    ends_.session(task.error);
+}
+
+void EncodingThread::perform(EncodeForWatchers&) {
+    encode_for_watchers();
+}
+
+void EncodingThread::perform(AddCapped& task) {
+    // A newer frame has it already: the watcher was there when that was reconstructed.
+    if (newest_ == nullptr || newest_->number != task.frame_number) return;
+    auto& capped = newest_->capped_at(task.max_level);
+    if (!capped.made) capped.mesh = std::move(task.mesh);
+    capped.made = true;
+    encode_for_watchers();
+}
+
+void EncodingThread::answered(Upload& upload) {
+    upload.last_activity = Upload::Clock::now();
+    --upload.owed;
+}
+
+void EncodingThread::count_answer(const FrameStatistics& statistics) {
+    context_.shared.metrics->frame_finished(statistics);
+    const std::lock_guard lock(mutex_);
+    last_frame_ = statistics;
+}
+
+std::shared_ptr<const EncodedFrame> EncodingThread::encode_newest(const MeshFormat& format, const MessageSink& sink) {
+    const auto before = before_.find(format);
+    return encode_frame(*newest_, format, before != before_.end() ? before->second.get() : nullptr,
+                        *context_.shared.workers, scratch_, sink);
+}
+
+void EncodingThread::encode_for_watchers() {
+    if (newest_ == nullptr) return;
+    const auto is_there = [&](int max_level) { return newest_->mesh_at(max_level) != nullptr; };
+    try {
+        while (const auto format = watchers_.unpublished_format(is_there))
+            watchers_.publish(*format, encode_newest(*format, nullptr));
+    } catch (const DeviceError&) {
+        throw;
+    } catch (const std::exception& error) {
+        log_error({.session = context_.identity.id, .frame = newest_->index},
+                  "not encoded for its watchers, who keep the frame before: {}", error.what());
+    }
+}
+
+void EncodingThread::encode_for_observer() {
+    const MeshFormat format = stream_format(SessionObserver::normal_bits, context_.settings);
+    std::shared_ptr<const EncodedFrame> frame = watchers_.published(format);
+    try {
+        if (!frame) watchers_.publish(format, frame = encode_newest(format, nullptr));
+    } catch (const DeviceError&) {
+        throw;
+    } catch (const std::exception& error) {
+        log_error({.session = context_.identity.id, .frame = newest_->index}, "not encoded for its recording: {}",
+                  error.what());
+        return;
+    }
+    context_.observer->encoded(std::move(frame));
+}
+
+}  // namespace meniscus::server

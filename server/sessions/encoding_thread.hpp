@@ -1,0 +1,117 @@
+// A session's second thread: meshes become messages, for the stream and for the watchers, each format once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <variant>
+
+#include "meniscus/mesh.hpp"
+#include "sessions/dropped_frame.hpp"
+#include "sessions/frame_encoder.hpp"
+#include "sessions/frame_statistics.hpp"
+#include "sessions/handover/channel.hpp"
+#include "sessions/scratch_pool.hpp"
+#include "sessions/session_context.hpp"
+#include "sessions/upload.hpp"
+#include "sessions/watchers.hpp"
+
+namespace meniscus::server {
+
+/// Owns the two meshes that frames are reconstructed into: while one is encoded, the next frame takes the other.
+class EncodingThread {
+public:
+    struct Encode {
+        std::shared_ptr<Upload> upload;
+        ReconstructedFrame* frame = nullptr;  ///< of wait_for_free_frame()
+    };
+    struct ReportDrop {
+        std::shared_ptr<Upload> upload;
+        DroppedFrame dropped;
+    };
+    struct EndUpload {
+        std::shared_ptr<Upload> upload;  ///< none: the session only looks whether it drains
+        std::exception_ptr error;
+    };
+    struct EndSession {
+        std::exception_ptr error;
+    };
+    struct EncodeForWatchers {};
+    /// The mesh of a level cap that was wished for after its frame had been reconstructed.
+    struct AddCapped {
+        std::uint64_t frame_number = 0;
+        int max_level = 0;
+        Mesh mesh;
+    };
+    using Task = std::variant<Encode, ReportDrop, EndUpload, EndSession, EncodeForWatchers, AddCapped>;
+
+    /// The thread calls these of its session, in the order of the tasks.
+    struct Ends {
+        /// All frames of the upload have been answered.
+        std::function<void(const std::shared_ptr<Upload>&, std::exception_ptr)> upload;
+        std::function<void(std::exception_ptr)> session;
+    };
+
+    /// What is passed by reference outlives the thread.
+    EncodingThread(const SessionContext& context, Watchers& watchers, Ends ends);
+    ~EncodingThread();
+    EncodingThread(const EncodingThread&) = delete;
+    EncodingThread& operator=(const EncodingThread&) = delete;
+
+    // Thread-safe.
+
+    /// Waits for a mesh to reconstruct into; none once the thread is closed.
+    ReconstructedFrame* wait_for_free_frame();
+    /// Dropped once the thread is closed.
+    void put(Task task) { tasks_.put(std::move(task)); }
+    /// Of the frame answered last.
+    std::optional<FrameStatistics> last_frame() const;
+    /// Drops the tasks that wait. Returns at once.
+    void close();
+    /// Once it is closed. Not from the thread itself.
+    void join();
+
+private:
+    void run();
+    void perform(Encode& task);
+    void perform(ReportDrop& task);
+    void perform(EndUpload& task);
+    void perform(EndSession& task);
+    void perform(EncodeForWatchers& task);
+    void perform(AddCapped& task);
+
+    /// Answers a frame of a resumed run that was finished before: for the simulator alone.
+    void answer_again(Encode& task);
+    /// One answer less is owed.
+    void answered(Upload& upload);
+    void count_answer(const FrameStatistics& statistics);
+    void give_back(ReconstructedFrame& frame);
+
+    std::shared_ptr<const EncodedFrame> encode_newest(const MeshFormat& format, const MessageSink& sink);
+    /// Encodes the newest mesh in the formats that watchers wish for and nobody has published.
+    void encode_for_watchers();
+    void encode_for_observer();
+
+    const SessionContext& context_;
+    Watchers& watchers_;
+    const Ends ends_;
+
+    std::array<ReconstructedFrame, 2> frames_;
+    Channel<ReconstructedFrame*> free_frames_;
+    Channel<Task> tasks_;
+    ReconstructedFrame* newest_ = nullptr;
+    ScratchPool scratch_;
+    Encodings before_;  ///< of the frame before the newest, whose bricks may serve again
+
+    mutable std::mutex mutex_;  ///< for what follows
+    std::optional<FrameStatistics> last_frame_;
+
+    std::thread thread_;  ///< last: it uses the others
+};
+
+}  // namespace meniscus::server

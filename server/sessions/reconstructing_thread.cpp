@@ -1,0 +1,139 @@
+#include "sessions/reconstructing_thread.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "log.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::server {
+
+ReconstructingThread::ReconstructingThread(const SessionContext& context, ReconstructFunctions functions,
+                                           FrameQueue& received, InputSlots& inputs, Watchers& watchers,
+                                           EncodingThread& encoding)
+    : context_(context),
+      functions_(std::move(functions)),
+      received_(received),
+      inputs_(inputs),
+      watchers_(watchers),
+      encoding_(encoding),
+      particles_(context.identity.id, context.settings.particle_radius, inputs, watchers, context.observer),
+      thread_([this] { run(); }) {}
+
+ReconstructingThread::Progress ReconstructingThread::progress() const {
+    const std::lock_guard lock(mutex_);
+    return progress_;
+}
+
+void ReconstructingThread::join() {
+    if (thread_.joinable()) thread_.join();
+}
+
+void ReconstructingThread::run() {
+    for (;;) {
+        const FrameQueue::Next next = received_.wait();
+        if (next == FrameQueue::Next::closed) return;
+        if (next == FrameQueue::Next::note) {
+            if (auto note = received_.take(next)) pass_on(std::move(*note));
+            continue;
+        }
+        if (next_mesh_ == nullptr) next_mesh_ = encoding_.wait_for_free_frame();
+        if (next_mesh_ == nullptr) return;
+        const Turns::Turn turn = context_.shared.turns->wait();
+        // Only now, so that until its turn a frame can be replaced by a newer one.
+        if (auto frame = received_.take(next); frame && !reconstruct_next(std::move(*frame))) return;
+    }
+}
+
+void ReconstructingThread::pass_on(Received note) {
+    if (note.max_level != 0)
+        cap_levels_again(note.max_level);
+    else if (note.particles)
+        particles_.show_again();
+    else if (note.dropped)
+        encoding_.put(EncodingThread::ReportDrop{.upload = std::move(note.upload), .dropped = *note.dropped});
+    else
+        encoding_.put(EncodingThread::EndUpload{.upload = std::move(note.upload), .error = std::move(note.error)});
+}
+
+bool ReconstructingThread::reconstruct_next(Received received) {
+    InputFrame& input = *received.input;
+    if (received.upload == failed_) {
+        inputs_.give_back(input);
+        return true;
+    }
+    try {
+        reconstruct(received, *next_mesh_);
+    } catch (const DeviceError& error) {
+        log_error({.session = context_.identity.id, .frame = input.index}, "the session ends: {}", error.what());
+        encoding_.put(EncodingThread::EndSession{std::current_exception()});
+        return false;
+    } catch (...) {
+        failed_ = received.upload;
+        inputs_.give_back(input);
+        encoding_.put(EncodingThread::EndUpload{.upload = failed_, .error = std::current_exception()});
+        return true;
+    }
+    particles_.show(input, *received.upload->run);
+    inputs_.give_back(input);
+    encoding_.put(
+        EncodingThread::Encode{.upload = std::move(received.upload), .frame = std::exchange(next_mesh_, nullptr)});
+    return true;
+}
+
+void ReconstructingThread::reconstruct(const Received& received, ReconstructedFrame& frame) {
+    const InputFrame& input = *received.input;
+    try {
+        Reconstructed reconstructed = functions_.reconstruct(input.view(), frame.mesh);
+        frame.statistics = std::move(reconstructed.statistics);
+        frame.download = std::move(reconstructed.download);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(fmt::format("frame {}: {}", input.index, error.what()));
+    } catch (const LimitExceeded& error) {
+        throw LimitExceeded(fmt::format("frame {}: {}", input.index, error.what()));
+    }
+    frame.index = input.index;
+    frame.run_id = received.upload->run->id;
+    frame.simulation_time = input.simulation_time;
+    frame.received_at = input.received_at;
+    frame.number = progress_.frames + 1;
+    cap_levels(frame);
+    const std::lock_guard lock(mutex_);
+    progress_ = {.frames = frame.number, .last_frame_index = input.index};
+}
+
+void ReconstructingThread::cap_levels(ReconstructedFrame& frame) {
+    for (const int max_level : {1, 2}) {
+        auto& capped = frame.capped_at(max_level);
+        capped.made = watchers_.wish_for_level(max_level) && emit_capped(max_level, capped.mesh);
+        if (!capped.made) capped.mesh = {};  // nobody's memory
+    }
+}
+
+void ReconstructingThread::cap_levels_again(int max_level) {
+    if (progress_.frames == 0) return;
+    const Turns::Turn turn = context_.shared.turns->wait();
+    EncodingThread::AddCapped task{.frame_number = progress_.frames, .max_level = max_level, .mesh = {}};
+    try {
+        if (emit_capped(max_level, task.mesh)) encoding_.put(std::move(task));
+    } catch (const DeviceError& error) {
+        log_error({.session = context_.identity.id}, "the session ends: {}", error.what());
+        encoding_.put(EncodingThread::EndSession{std::current_exception()});
+    }
+}
+
+bool ReconstructingThread::emit_capped(int max_level, Mesh& mesh) {
+    try {
+        functions_.emit_capped(max_level, mesh);
+        return true;
+    } catch (const DeviceError&) {
+        throw;
+    } catch (const std::exception& error) {
+        log_error({.session = context_.identity.id},
+                  "no mesh of levels up to {} for its watchers, who keep the one before: {}", max_level, error.what());
+        return false;
+    }
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,66 @@
+// A session's first thread: frames, in their order and turn, become meshes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "sessions/encoding_thread.hpp"
+#include "sessions/frame_queue.hpp"
+#include "sessions/input_slots.hpp"
+#include "sessions/reconstruct_functions.hpp"
+#include "sessions/session_context.hpp"
+#include "sessions/shown_particles.hpp"
+#include "sessions/watchers.hpp"
+
+namespace meniscus::server {
+
+/// Takes from `received` until that is closed. Passes meshes, and the notes among the frames, to the encoding thread.
+class ReconstructingThread {
+public:
+    struct Progress {
+        std::uint64_t frames = 0;
+        std::optional<std::uint64_t> last_frame_index;
+    };
+
+    /// All that is passed by reference outlives the thread.
+    ReconstructingThread(const SessionContext& context, ReconstructFunctions functions, FrameQueue& received,
+                         InputSlots& inputs, Watchers& watchers, EncodingThread& encoding);
+
+    /// Thread-safe.
+    Progress progress() const;
+    /// Once `received` and the encoding thread are closed.
+    void join();
+
+private:
+    void run();
+    void pass_on(Received note);
+    /// Returns whether the session goes on.
+    bool reconstruct_next(Received received);
+    void reconstruct(const Received& received, ReconstructedFrame& frame);
+    /// Adds the meshes of coarser levels that watchers wish for now.
+    void cap_levels(ReconstructedFrame& frame);
+    /// Makes such a mesh of the last frame, for a watcher that has come since.
+    void cap_levels_again(int max_level);
+    bool emit_capped(int max_level, Mesh& mesh);
+
+    const SessionContext& context_;
+    const ReconstructFunctions functions_;
+    FrameQueue& received_;
+    InputSlots& inputs_;
+    Watchers& watchers_;
+    EncodingThread& encoding_;
+
+    ShownParticles particles_;
+    ReconstructedFrame* next_mesh_ = nullptr;  ///< taken before it is needed
+    std::shared_ptr<Upload> failed_;           ///< its frames that follow are dropped
+
+    mutable std::mutex mutex_;  ///< for what follows
+    Progress progress_;         ///< written by the thread alone
+
+    std::thread thread_;  ///< last: it uses the others
+};
+
+}  // namespace meniscus::server

@@ -1,0 +1,46 @@
+#include "sessions/shown_particles.hpp"
+
+#include <exception>
+#include <utility>
+
+#include "log.hpp"
+#include "sessions/particle_messages.hpp"
+
+namespace meniscus::server {
+
+ShownParticles::ShownParticles(std::string session, double particle_radius, InputSlots& inputs, Watchers& watchers,
+                               std::shared_ptr<SessionObserver> observer)
+    : session_(std::move(session)),
+      particle_radius_(particle_radius),
+      inputs_(inputs),
+      watchers_(watchers),
+      observer_(std::move(observer)) {}
+
+void ShownParticles::show(InputFrame& input, Run& run) {
+    if (run.last_shown && input.index <= *run.last_shown) return;
+    run.last_shown = input.index;
+    if (observer_) observer_->reconstructed(input);
+    input.shown_in_run = run.id;
+    newest_ = &input;
+    watchers_.forget_particles();
+    encode(input);
+}
+
+void ShownParticles::show_again() {
+    if (newest_ == nullptr || !inputs_.take_back(*newest_)) return;
+    if (newest_->shown_in_run) encode(*newest_);
+    inputs_.give_back(*newest_);
+}
+
+void ShownParticles::encode(const InputFrame& input) {
+    try {
+        while (const auto max_particles = watchers_.unpublished_particles())
+            watchers_.publish(*max_particles, std::make_shared<const ParticleMessages>(encode_particles(
+                                                  input, *input.shown_in_run, particle_radius_, *max_particles)));
+    } catch (const std::exception& error) {
+        log_error({.session = session_, .frame = input.index},
+                  "no particles for its watchers, who keep those before: {}", error.what());
+    }
+}
+
+}  // namespace meniscus::server

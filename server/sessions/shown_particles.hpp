@@ -1,0 +1,37 @@
+// The particles of a session's frames, on their way to the observer and to those who watch particles.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sessions/input_slots.hpp"
+#include "sessions/session_observer.hpp"
+#include "sessions/upload.hpp"
+#include "sessions/watchers.hpp"
+
+namespace meniscus::server {
+
+/// Of the reconstructing thread. Particles are encoded once for each limit that watchers wish for.
+class ShownParticles {
+public:
+    /// session: its id, for the log. particle_radius: of level 0, world units. observer: may be none.
+    ShownParticles(std::string session, double particle_radius, InputSlots& inputs, Watchers& watchers,
+                   std::shared_ptr<SessionObserver> observer);
+
+    /// The frame was reconstructed. Does nothing if the run has shown the frame already, before it was resumed.
+    void show(InputFrame& input, Run& run);
+    /// Shows the newest frame to a watcher that has come since, unless another frame is on its way into its slot.
+    void show_again();
+
+private:
+    void encode(const InputFrame& input);
+
+    const std::string session_;
+    const double particle_radius_;
+    InputSlots& inputs_;
+    Watchers& watchers_;
+    const std::shared_ptr<SessionObserver> observer_;
+    InputFrame* newest_ = nullptr;  ///< the frame that was shown last
+};
+
+}  // namespace meniscus::server
