@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "cli/local_surfaces.hpp"
-#include "cli/policy_options.hpp"
+#include "cli/options/policy_options.hpp"
 #include "cli/server_surfaces.hpp"
 #include "formats/brick_file.hpp"
 #include "meniscus/error.hpp"

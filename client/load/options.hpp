@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/server_flags.hpp"
-#include "cli/settings_options.hpp"
+#include "cli/options/server_flags.hpp"
+#include "cli/options/settings_options.hpp"
 #include "meniscus/client/client.hpp"
 
 namespace meniscus::load {

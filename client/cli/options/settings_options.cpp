@@ -1,4 +1,4 @@
-#include "cli/settings_options.hpp"
+#include "cli/options/settings_options.hpp"
 
 #include <CLI/CLI.hpp>
 

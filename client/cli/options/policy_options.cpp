@@ -1,4 +1,4 @@
-#include "cli/policy_options.hpp"
+#include "cli/options/policy_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <limits>
