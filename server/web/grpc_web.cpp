@@ -1,5 +1,7 @@
 #include "web/grpc_web.hpp"
 
+#include <google/protobuf/descriptor.pb.h>
+
 #include <map>
 #include <string>
 
