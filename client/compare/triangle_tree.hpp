@@ -1,5 +1,4 @@
-// Finds the triangle of a surface that is nearest to a point. Not Embree, whose point queries compute in float32: the
-// distances that are compared with limits here are exact in double.
+// Finds the triangle of a surface that is nearest to a point.
 #pragma once
 
 #include <array>

@@ -1,5 +1,4 @@
-// The PLY container: a header that describes rows of numbers, then the rows. Used for particles and for
-// meshes. Hand-written: Debian has no small library that reads it, and the files are untrusted.
+// The PLY container: a header that describes rows of numbers, then the rows. Used for particles and for meshes.
 #pragma once
 
 #include <bit>
