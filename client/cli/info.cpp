@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "cli/commands.hpp"
-#include "cli/server_flags.hpp"
+#include "cli/options/server_flags.hpp"
 #include "cli/surfaces.hpp"
 #include "meniscus/reconstructor.hpp"
 

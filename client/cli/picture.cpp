@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "cli/named_option.hpp"
+#include "cli/options/named_option.hpp"
 
 namespace meniscus::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/options/server_flags.hpp"
 #include "cli/recording_files.hpp"
-#include "cli/server_flags.hpp"
 #include "cli/settings_json.hpp"
 #include "meniscus/error.hpp"
 

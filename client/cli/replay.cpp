@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/options/server_flags.hpp"
 #include "cli/recording_files.hpp"
 #include "cli/replay_pace.hpp"
-#include "cli/server_flags.hpp"
 
 namespace meniscus::cli {
 namespace {

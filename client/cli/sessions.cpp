@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
-#include "cli/server_flags.hpp"
+#include "cli/options/server_flags.hpp"
 #include "cli/session_table.hpp"
 
 namespace meniscus::cli {

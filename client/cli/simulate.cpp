@@ -7,9 +7,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/mesh_output.hpp"
-#include "cli/named_option.hpp"
+#include "cli/options/named_option.hpp"
+#include "cli/options/settings_options.hpp"
 #include "cli/quantized_positions.hpp"
-#include "cli/settings_options.hpp"
 #include "cli/statistics_json.hpp"
 #include "cli/surfaces.hpp"
 #include "formats/atomic_file.hpp"

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "cli/local_surfaces.hpp"
-#include "cli/named_option.hpp"
-#include "cli/policy_options.hpp"
+#include "cli/options/named_option.hpp"
+#include "cli/options/policy_options.hpp"
 #include "cli/server_surfaces.hpp"
 #include "formats/brick_file.hpp"
 #include "meniscus/error.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/server_flags.hpp"
+#include "cli/options/server_flags.hpp"
 #include "meniscus/backend_options.hpp"
 #include "meniscus/client/client.hpp"
 

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "cli/commands.hpp"
-#include "cli/server_flags.hpp"
+#include "cli/options/server_flags.hpp"
 #include "cli/session_table.hpp"
 #include "cli/terminal.hpp"
 

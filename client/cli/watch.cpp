@@ -5,8 +5,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/mesh_output.hpp"
-#include "cli/named_option.hpp"
-#include "cli/server_flags.hpp"
+#include "cli/options/named_option.hpp"
+#include "cli/options/server_flags.hpp"
 #include "cli/watch_wishes.hpp"
 #include "formats/atomic_file.hpp"
 #include "meniscus/error.hpp"

@@ -1,4 +1,4 @@
-// Two surfaces side by side: distance, parts that only one has, size, closedness.
+// Compares two surfaces: distance, components that only one has, size, closedness.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct Part {
     Point center{};         ///< mean of its samples, world units
     double distance = 0.0;  ///< of its nearest sample from the other surface, world units
 
-    /// Whether the other surface, of cells with this edge in world units, has nothing for it.
+    /// Whether the other surface misses this part. cell_size: edge of its cells, world units.
     bool missing(double cell_size) const { return distance > missing_distance * cell_size; }
 };
 
@@ -48,7 +48,7 @@ struct Comparison {
     double triangle_ratio() const;
 };
 
-/// samples: about how many on each surface. The same figures on every run.
+/// samples: approximate number on each surface. The result is the same on every run.
 Comparison compare_surfaces(SurfaceView a, SurfaceView b, std::size_t samples);
 
 }  // namespace meniscus::compare

@@ -1,4 +1,4 @@
-// The connected parts of a surface.
+// The connected components of a surface.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace meniscus::compare {
 
-/// Triangles that share a vertex, by its index, are connected.
+/// Triangles that share a vertex index are connected.
 struct Components {
     std::vector<std::uint32_t> starts;     ///< component k is triangles[starts[k]] ... triangles[starts[k + 1] - 1]
     std::vector<std::uint32_t> triangles;  ///< the surface's triangles by component, ascending within each

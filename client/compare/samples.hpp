@@ -9,7 +9,7 @@
 
 namespace meniscus::compare {
 
-/// Every component gets at least that many samples, however small it is.
+/// The least number of samples of a component, however small it is.
 inline constexpr std::size_t fewest_samples_per_component = 16;
 
 struct Samples {
@@ -20,8 +20,8 @@ struct Samples {
     double area() const;  ///< of the whole surface, world units squared
 };
 
-/// About `count` points, by area, the same on every run: one in each of equal shares of a component's area. Small
-/// components may make them more.
+/// About `count` points, the same on every run: one in each of equal shares of a component's area. Small components
+/// may add to their number.
 Samples sample(SurfaceView surface, const Components& components, std::size_t count);
 
 }  // namespace meniscus::compare

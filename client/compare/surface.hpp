@@ -1,4 +1,4 @@
-// A triangle mesh as this library looks at it: borrowed, whoever made it.
+// A borrowed triangle mesh, the input of this library.
 #pragma once
 
 #include <array>
@@ -21,11 +21,11 @@ struct SurfaceView {
     }
 };
 
-/// Beyond that, squares of areas are no finite numbers.
+/// Beyond this limit, squares of areas overflow.
 inline constexpr double largest_coordinate = 1e60;
 
 /// Throws InvalidInput, in one line that begins with `name`, unless the surface has area and coordinates of at most
-/// `largest_coordinate` in size: what the other functions of this library take for granted.
+/// `largest_coordinate` in size, as the other functions of this library require.
 void validate(SurfaceView surface, const std::string& name);
 
 }  // namespace meniscus::compare

@@ -1,4 +1,4 @@
-// How far one surface is from another.
+// The distance from one surface to another.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace meniscus::compare {
 
-/// Over the samples of a surface, weighted by area; world units.
+/// Distances of the samples of a surface, weighted by area; world units.
 struct DistanceSummary {
     double rms = 0.0;
     double percentile_99 = 0.0;

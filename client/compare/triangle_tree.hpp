@@ -14,12 +14,12 @@ namespace meniscus::compare {
 /// Triangles in Morton order under a tree of boxes with a fixed number of children: no node holds a pointer.
 class TriangleTree {
 public:
-    /// Copies the triangles; there is at least one.
+    /// Copies the triangles, of which there must be at least one.
     explicit TriangleTree(SurfaceView surface);
 
-    /// Square of the distance from `point` to the surface: exact, not to some sample of it. hint: any number on the
-    /// first call, what the last call left on the next ones; fast where consecutive points are close together, and
-    /// without influence on the result.
+    /// Square of the exact distance from `point` to the surface. hint: any number on the first call, then the value
+    /// that the last call left. It makes calls fast where consecutive points are close together, and does not change
+    /// the result.
     double squared_distance(const Point& point, std::uint32_t& hint) const;
 
 private:

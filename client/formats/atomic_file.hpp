@@ -1,4 +1,4 @@
-// Output files appear whole or not at all.
+// Output files that appear whole or not at all.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace meniscus::formats {
 
-/// Writes to a temporary file beside `path`, which commit() renames to `path`; without it nothing remains.
+/// Writes to a temporary file beside `path`. commit() renames it to `path`; without commit() nothing remains.
 class AtomicFile {
 public:
     /// Throws InvalidInput, naming the path and the reason, if it cannot be created there.
@@ -18,7 +18,7 @@ public:
 
     void write(std::string_view bytes) { out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); }
     std::ostream& stream() { return out_; }
-    /// Throws std::runtime_error if not all could be written (a full disk).
+    /// Throws std::runtime_error if the write fails, on a full disk for example.
     void commit();
 
 private:
@@ -27,7 +27,7 @@ private:
     std::ofstream out_;
 };
 
-/// All at once.
+/// Opens, writes and commits.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Creates the directory and its parents where they are missing. Throws InvalidInput if that fails.

@@ -12,8 +12,8 @@
 #include "conversion/statistics_conversion.hpp"
 #include "formats/atomic_file.hpp"
 #include "formats/byte_cursor.hpp"
-#include "frame_receiver.hpp"
 #include "meniscus/v1/surface_service.pb.h"
+#include "receiving/frame_receiver.hpp"
 
 namespace meniscus::formats {
 namespace {

@@ -11,7 +11,7 @@ namespace meniscus::formats {
 /// The file's bytes. Throws InvalidInput if it does not exist, is not a regular file or cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
-/// Walks through bytes that nobody vouches for. What is not there is refused with a line that names the file.
+/// Reads untrusted bytes. Errors name the file.
 class ByteCursor {
 public:
     /// name: the file, for messages. bytes: borrowed.
@@ -21,7 +21,7 @@ public:
     std::size_t remaining() const { return bytes_.size() - position_; }
     std::string_view rest() const { return bytes_.substr(position_); }
 
-    /// Up to and without the next line end (LF or CR LF). Throws InvalidInput at the end of the file.
+    /// The bytes before the next line end (LF or CR LF). Throws InvalidInput at the end of the file.
     std::string_view line();
     /// The next word, white space before it skipped. Throws InvalidInput if there is none.
     std::string_view word();
@@ -30,8 +30,8 @@ public:
     /// The next `size` bytes. Throws InvalidInput if fewer remain.
     std::string_view take(std::size_t size);
 
-    /// Throws InvalidInput unless `count` elements of at least `bytes_each` bytes can still follow: called before
-    /// memory is allocated by a count that a file announces. `what` names them.
+    /// Throws InvalidInput unless `count` elements of at least `bytes_each` bytes can still follow. To be called before
+    /// memory is allocated for a count that a file announces. `what` names the elements.
     void expect(std::size_t count, std::size_t bytes_each, std::string_view what) const;
 
     /// The next word as a number. Throws InvalidInput for anything else; NaN and infinity are numbers.
@@ -48,7 +48,7 @@ private:
     std::size_t position_ = 0;
 };
 
-/// `text` as one printable line of at most 40 characters, in quotes: for messages about bytes that may be anything.
+/// `text` as one printable line of at most 40 characters, in quotes, for messages about arbitrary bytes.
 std::string quote(std::string_view text);
 
 /// Throws InvalidInput, naming `what`, unless the whole of `text` is a number.

@@ -1,4 +1,4 @@
-// A file's format is told by its name.
+// The extension of a file name, which decides about the format.
 #pragma once
 
 #include <algorithm>

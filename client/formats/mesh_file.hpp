@@ -1,4 +1,4 @@
-// Meshes to files and back.
+// Mesh files: PLY, OBJ and bricks.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh);
 /// 2^-23 of the value.
 bool needs_double(const Mesh& mesh);
 
-/// A triangle mesh as any program may have written it.
+/// A triangle mesh from a file of any program.
 struct TriangleMesh {
     std::vector<std::array<double, 3>> positions;
     std::vector<Normal> normals;       ///< empty, or one per position
@@ -35,7 +35,7 @@ TriangleMesh to_triangles(const Mesh& mesh);
 /// the file.
 TriangleMesh read_mesh(const std::filesystem::path& path);
 
-/// The readers behind it. name: the file, for messages.
+/// The readers behind read_mesh(). name: the file, for messages.
 TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes);
 TriangleMesh read_obj(const std::string& name, std::string_view bytes);
 

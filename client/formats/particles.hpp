@@ -1,4 +1,4 @@
-// Particles as files hold them.
+// Particle files.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct Particles {
 
 /// Reads particles by the file's extension: .vtk (legacy VTK), .ply, or .xyz, .bin, .raw (float32 triples,
 /// little-endian). Throws InvalidInput, in one line that names the file, for any other extension and for a file that is
-/// not what it says.
+/// not of the format that its extension names.
 Particles read_particles(const std::filesystem::path& path);
 
 /// The readers behind it. name: the file, for messages.

@@ -20,7 +20,7 @@ namespace meniscus::formats {
 
 struct PlyProperty {
     std::string name;
-    ScalarType type = ScalarType::float32;      ///< of the value, or of a list's items
+    ScalarType type = ScalarType::float32;      ///< type of the value, or of a list's items
     std::optional<ScalarType> list_count_type;  ///< set for a list
 };
 
@@ -29,9 +29,9 @@ struct PlyElement {
     std::size_t count = 0;
     std::vector<PlyProperty> properties;
 
-    /// Index of the scalar property of that name; none if there is no such.
+    /// Index of the scalar property of that name, if there is one.
     std::optional<std::size_t> scalar(std::string_view property) const;
-    /// Index of the list property of that name.
+    /// Index of the list property of that name, if there is one.
     std::optional<std::size_t> list(std::string_view property) const;
 };
 
@@ -50,9 +50,10 @@ public:
     const std::vector<PlyElement>& elements() const { return elements_; }
     ByteCursor& in() { return in_; }
 
-    /// Throws InvalidInput unless `element.count` rows can still follow: to be called before memory is allocated by it.
+    /// Throws InvalidInput unless `element.count` rows can still follow. To be called before memory is allocated for
+    /// them.
     void expect_rows(const PlyElement& element) const;
-    /// Hands the rows of the next element to `row`. Elements are read in the order of the header.
+    /// Calls `row` with each row of the next element. Elements are read in the order of the header.
     void read_rows(const PlyElement& element, const std::function<void(std::size_t index, const PlyRow&)>& row);
     /// Throws InvalidInput if anything but white space follows the last element.
     void expect_end();

@@ -1,4 +1,4 @@
-// The particle frames that every simulator sends, over and over.
+// The particle frames that every simulator sends, over and over again.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace meniscus::load {
 
-/// Made or read before the clock starts; shared by all simulators.
+/// Generated or read before the clock starts; shared by all simulators.
 class Frames {
 public:
-    /// Moving water: sixteen frames, after which its wave has come round.
+    /// Moving water: sixteen frames, one period of its wave.
     static Frames moving_water(std::size_t particles, double particle_radius);
-    /// As any file of particles that `meniscus` reads. Throws InvalidInput.
+    /// Reads any particle file that `meniscus` reads. Throws InvalidInput.
     static Frames read(const std::vector<std::string>& paths);
 
-    /// Borrowed.
+    /// The positions are borrowed from this object.
     ParticleFrame at(std::uint64_t frame) const;
 
 private:

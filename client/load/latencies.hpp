@@ -1,4 +1,4 @@
-// Latencies, every one of them kept: percentiles are exact.
+// Latencies. Each one is kept, so that percentiles are exact.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@ public:
     void add(const Latencies& more) { seconds_.insert(seconds_.end(), more.seconds_.begin(), more.seconds_.end()); }
 
     std::size_t count() const { return seconds_.size(); }
-    /// Seconds; 0 if there are none, as below.
+    /// Seconds, as all results here; 0 without latencies.
     double mean() const;
-    /// The smallest that at least this share (0 to 1) of all do not exceed; 1 gives the largest.
+    /// The smallest latency that at least this share (0 to 1) of all latencies does not exceed; 1 gives the largest.
     double percentile(double share) const;
 
 private:

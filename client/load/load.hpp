@@ -1,4 +1,4 @@
-// A whole run.
+// A whole run of the load generator.
 #pragma once
 
 #include "load/options.hpp"

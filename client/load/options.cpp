@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/policy_options.hpp"
+#include "cli/options/policy_options.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::load {

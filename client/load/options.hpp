@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/server_flags.hpp"
-#include "cli/settings_options.hpp"
+#include "cli/options/server_flags.hpp"
+#include "cli/options/settings_options.hpp"
 #include "meniscus/client/client.hpp"
 
 namespace meniscus::load {
@@ -17,28 +17,28 @@ struct LoadOptions {
     cli::ServerFlags server;
     unsigned simulators = 1;  ///< each with a session of its own
 
-    // Watchers, of each simulator.
-    unsigned watchers = 1;  ///< that read as fast as they can
-    unsigned slow = 0;      ///< that take slow_seconds over each frame
+    // Numbers of watchers of each simulator.
+    unsigned watchers = 1;  ///< read as fast as they can
+    unsigned slow = 0;      ///< take slow_seconds over each frame
     double slow_seconds = 0.5;
-    unsigned stalled = 0;    ///< that stop reading
-    unsigned vanishing = 0;  ///< that break their connection after vanish_after frames, and come again
+    unsigned stalled = 0;    ///< stop reading
+    unsigned vanishing = 0;  ///< break their connection after vanish_after frames, and come again
     std::uint64_t vanish_after = 10;
 
     double rate = 10.0;     ///< frames per second of each simulator
-    double seconds = 10.0;  ///< how long they send
-    double warm_up = 1.0;   ///< seconds at the beginning that are not measured
+    double seconds = 10.0;  ///< duration of sending
+    double warm_up = 1.0;   ///< seconds at the beginning whose latencies do not count
     client::StreamOptions stream;
 
     std::size_t particles = 16000;   ///< of a frame of moving water
-    std::vector<std::string> files;  ///< sent in place of moving water, one after the other and over again
+    std::vector<std::string> files;  ///< particle files in place of moving water, one after the other and over again
     double particle_radius = 0.025;  ///< world units
     cli::SettingsOptions settings;
 
-    std::string json;  ///< a file for the figures; "-" for standard output; empty for none
+    std::string json;  ///< file for the results; "-" for standard output; empty for none
 };
 
-/// How the program ends before it has begun.
+/// The end of a program that does no work: after --help, --version or a wrong flag.
 struct EarlyExit {
     std::string text;
     int code = 0;

@@ -1,4 +1,4 @@
-// What the clients of a run have seen.
+// Counts and latencies, as the clients of a run measured them.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,20 @@
 
 namespace meniscus::load {
 
-/// Failures by gRPC status, such as "UNAVAILABLE"; "CLIENT" for what the client library found wrong itself.
+/// Failures by gRPC status, such as "UNAVAILABLE"; "CLIENT" for errors that the client library itself found.
 using Errors = std::map<std::string, std::uint64_t>;
 
-/// Counts what was thrown.
+/// Counts an exception.
 void count_error(Errors& errors, const std::exception_ptr& error);
 
-/// Of the simulators. Latencies are of the frames after the warm-up alone, everything else is of the whole run.
+/// Results of the simulators. Latencies are those of frames after the warm-up, all else is of the whole run.
 struct UploadOutcome {
-    Latencies answer;      ///< from when a frame was due until its whole answer was there
-    Latencies send_delay;  ///< from when a frame was due until its sending began
+    Latencies answer;      ///< from the time at which a frame was due to the end of its answer
+    Latencies send_delay;  ///< from the time at which a frame was due to the begin of its upload
     std::uint64_t sent = 0;
     std::uint64_t answered = 0;
     std::uint64_t dropped = 0;   ///< by the upload policy, as the server reported
-    std::uint64_t not_sent = 0;  ///< due, but the run was over or the stream had failed
+    std::uint64_t not_sent = 0;  ///< due, but the run had ended or the stream had failed
     std::uint64_t particles = 0;
     std::uint64_t upload_bytes = 0;
     std::uint64_t mesh_bytes = 0;
@@ -32,16 +32,16 @@ struct UploadOutcome {
     Errors errors;
 
     void add(const UploadOutcome& more);
-    /// Sent, and neither answered nor dropped.
+    /// Frames that were sent, and neither answered nor dropped.
     std::uint64_t lost() const { return sent - answered - dropped; }
 };
 
-/// Of watchers of one kind.
+/// Results of the watchers of one kind.
 struct WatchOutcome {
-    Latencies latency;  ///< from when a frame was due until the watcher had it
+    Latencies latency;  ///< from the time at which a frame was due to its arrival
     std::uint64_t frames = 0;
-    std::uint64_t skipped = 0;   ///< frames that went by between two that came
-    std::uint64_t vanished = 0;  ///< times that a watcher broke its connection
+    std::uint64_t skipped = 0;   ///< frames missing between two that arrived
+    std::uint64_t vanished = 0;  ///< connections that watchers broke
     std::uint64_t mesh_bytes = 0;
     Errors errors;
 

@@ -1,4 +1,4 @@
-// What a run has found: for programs as JSON, for people as a table.
+// The results of a run, as JSON for programs and as a table for people.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// When each frame should be sent, whatever became of those before it.
+// The time at which each frame is due, whatever became of the frames before it.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ struct Schedule {
     Clock::time_point start;
     double frames_per_second = 0.0;
     std::uint64_t frames = 0;
-    std::uint64_t warm_up_frames = 0;  ///< the first ones, which are sent and not measured
+    std::uint64_t warm_up_frames = 0;  ///< the first frames, which are sent but not measured
 
     Clock::time_point due(std::uint64_t frame) const {
         const std::chrono::duration<double> since_start(static_cast<double>(frame) / frames_per_second);

@@ -1,4 +1,4 @@
-// One simulator: sends its frames when they are due, whether or not those before have been answered.
+// One simulator: sends each frame when it is due, even if earlier frames have not been answered.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace meniscus::load {
 
 /// Returns when every frame has been answered or the stream has failed. Frames that could not be sent by the end of
-/// the schedule are not sent any more: their number tells that the server was too slow.
+/// the schedule are counted as not sent: the server was too slow for them.
 UploadOutcome simulate(client::Client& client, const std::string& session, const client::StreamOptions& options,
                        const Frames& frames, const Schedule& schedule);
 

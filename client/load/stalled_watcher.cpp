@@ -1,6 +1,6 @@
 #include "load/stalled_watcher.hpp"
 
-#include "connection.hpp"
+#include "connection/connection.hpp"
 
 namespace meniscus::load {
 

@@ -1,4 +1,4 @@
-// A watcher that stops reading: it asks for a session's meshes and takes none.
+// A watcher that stops reading: it opens a call for a session's meshes and reads none.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace meniscus::load {
 
 class StalledWatcher {
 public:
-    /// Returns when the server has accepted it. Throws ServerError.
+    /// Returns when the server has accepted the call. Throws ServerError.
     StalledWatcher(const std::string& server, const client::ConnectionOptions& connection, const std::string& session);
     ~StalledWatcher();
     StalledWatcher(const StalledWatcher&) = delete;

@@ -33,8 +33,8 @@ paths.forEach((path, i) => {
 });
 writeFileSync(
   output,
-  `#include "web/viewer_files.hpp"\n\nnamespace meniscus::server {\n\nnamespace {\n\n${arrays}\nconstexpr ViewerFile files[] = {\n${table}};\n\n}  // namespace\n\n` +
-    'std::span<const ViewerFile> viewer_files() {\n    return files;\n}\n\n}  // namespace meniscus::server\n',
+  `#include "viewer_files.hpp"\n\nnamespace meniscus::viewer {\n\nnamespace {\n\n${arrays}\nconstexpr File all[] = {\n${table}};\n\n}  // namespace\n\n` +
+    'std::span<const File> files() {\n    return all;\n}\n\n}  // namespace meniscus::viewer\n',
 );
 const kilobytes = (bytes) => `${(bytes / 1000).toFixed(0)} kB`;
 console.log(`viewer: ${kilobytes(scriptBytes)} of script compressed, decoder ${kilobytes(decoderBytes)} apart`);

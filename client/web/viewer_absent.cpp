@@ -1,9 +1,9 @@
-// In place of the viewer, where it was not built.
+// The page that stands for the viewer in a build without it.
 #include <array>
 
-#include "web/viewer_files.hpp"
+#include "viewer_files.hpp"
 
-namespace meniscus::server {
+namespace meniscus::viewer {
 
 namespace {
 
@@ -14,12 +14,12 @@ constexpr unsigned char page[] =
     "<code>-DMENISCUS_WEB=ON</code>, and build.</p>"
     "<p>Metrics are at <a href=\"/metrics\">/metrics</a>.</p></body></html>\n";
 
-constexpr std::array<ViewerFile, 1> files{{{"/", "text/html; charset=utf-8", false, false, {page, sizeof page - 1}}}};
+constexpr std::array<File, 1> all{{{"/", "text/html; charset=utf-8", false, false, {page, sizeof page - 1}}}};
 
 }  // namespace
 
-std::span<const ViewerFile> viewer_files() {
-    return files;
+std::span<const File> files() {
+    return all;
 }
 
-}  // namespace meniscus::server
+}  // namespace meniscus::viewer

@@ -1,4 +1,4 @@
-// What browsers may call: the read-only methods, from allowed pages.
+// The calls that browsers may make: those without side effects, from allowed pages.
 #pragma once
 
 #include <grpcpp/channel.h>
@@ -19,10 +19,10 @@ struct GrpcWeb {
     bool serves(std::string_view target) const;
 };
 
-/// Whether it is a method of these services, served to browsers or not.
+/// Whether the target is a method of the contract, served to browsers or not.
 bool is_method(std::string_view target);
 
-/// Whether the answer is a stream.
+/// Whether the target is served to browsers and its answer is a stream.
 bool is_stream(std::string_view target);
 
 }  // namespace meniscus::server

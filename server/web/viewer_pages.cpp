@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "viewer_files.hpp"
 #include "web/accepts_gzip.hpp"
-#include "web/viewer_files.hpp"
 
 namespace meniscus::server {
 
@@ -53,7 +53,7 @@ std::string entity_tag(std::span<const unsigned char> bytes) {
 
 class ViewerPage {
 public:
-    explicit ViewerPage(const ViewerFile& file) : file_(file), tag_(entity_tag(file.bytes)) {}
+    explicit ViewerPage(const viewer::File& file) : file_(file), tag_(entity_tag(file.bytes)) {}
 
     Page answer(const PageRequest& request) {
         Page page{.content_type = std::string(file_.content_type),
@@ -77,7 +77,7 @@ public:
     }
 
 private:
-    const ViewerFile file_;
+    const viewer::File file_;
     const std::string tag_;
     std::string plain_;  ///< for the few that do not take gzip; empty until one asks
 };
@@ -85,7 +85,7 @@ private:
 }  // namespace
 
 void add_viewer_pages(Router& router) {
-    for (const ViewerFile& file : viewer_files())
+    for (const viewer::File& file : viewer::files())
         router.add_for_browsers(
             std::string(file.path),
             [page = std::make_shared<ViewerPage>(file)](const PageRequest& request) { return page->answer(request); });

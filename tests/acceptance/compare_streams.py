@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Compares two runs of one sequence: compare_streams.py LOCAL_DIR REMOTE_DIR LOCAL.json REMOTE.json
 
-Leaves with 0 only if every frame has the same mesh_sha256 and every vertex normal of the remote PLY is within two degrees of the
-local one at the same place."""
+The exit code is 0 only if every frame has the same mesh_sha256 and every vertex normal of the remote PLY is within two
+degrees of the local one at the same place."""
+
 import json
 import pathlib
 import sys

@@ -60,7 +60,9 @@ def check_goals(bench):
 
 
 def check_service(bench, meniscusd, folder):
-    """Serving frames takes at least the processor time of reconstructing and encoding them; a server that is not there is named."""
+    """Serving frames takes at least the processor time of reconstructing and encoding them.
+
+    The error names a server that is not there."""
     tiny = ["--particles", "16000", "--frames", "3", "--repeats", "1", "--out", folder]
     subprocess.run([bench, "service", "--meniscusd", meniscusd, *tiny], check=True)
     (row,) = read_rows(folder, "service")

@@ -1,9 +1,8 @@
-"""What gpu-check concludes from what its programs answer: gpu_check_test.py GPU-CHECK.
+"""The conclusions that gpu-check draws from the answers of its programs: gpu_check_test.py GPU-CHECK.
 
-The programs are stand-ins that answer as FAKE_* variables say, so that this runs without a GPU."""
+The programs are stand-ins whose answers FAKE_* variables set, so that no GPU is needed."""
 
 import json
-import os
 import shutil
 import subprocess
 import sys
@@ -53,7 +52,9 @@ passed=${FAKE_PASSED:-7}
 echo "[==========] Running $passed tests from 2 test suites."
 echo "[  PASSED  ] $passed tests."
 [ -z "${FAKE_SKIPPED:-}" ] || printf '[  SKIPPED ] %s tests, listed below:\n[  SKIPPED ] Cuda.Some\n' "$FAKE_SKIPPED"
-[ -z "${FAKE_FAILED:-}" ] || { printf '[  FAILED  ] %s tests, listed below:\n[  FAILED  ] Cuda.Some\n' "$FAKE_FAILED"; exit 1; }
+[ -n "${FAKE_FAILED:-}" ] || exit 0
+printf '[  FAILED  ] %s tests, listed below:\n[  FAILED  ] Cuda.Some\n' "$FAKE_FAILED"
+exit 1
 """
 
 MENISCUS_BENCH = r"""
@@ -71,7 +72,11 @@ echo "{\"commit\": \"$MENISCUS_COMMIT\", \"rows\": [1, 2]}" >"$out/$name.json"
 
 NVIDIA_SMI = r"""
 [ -z "${FAKE_NO_GPU:-}" ] || { echo 'No devices were found'; exit 6; }
-if [ "$1" = -L ]; then echo 'GPU 0: Some GPU'; else echo 'Some "GPU", 580.1, 81559 MiB, 700.00 W, 345 MHz, 2619 MHz, 1980 MHz, 2619 MHz'; fi
+if [ "$1" = -L ]; then
+  echo 'GPU 0: Some GPU'
+else
+  echo 'Some "GPU", 580.1, 81559 MiB, 700.00 W, 345 MHz, 2619 MHz, 1980 MHz, 2619 MHz'
+fi
 """
 
 COMPUTE_SANITIZER = r"""

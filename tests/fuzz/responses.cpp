@@ -1,6 +1,6 @@
-#include "frame_receiver.hpp"
 #include "meniscus/v1/surface_service.pb.h"
-#include "particle_receiver.hpp"
+#include "receiving/frame_receiver.hpp"
+#include "receiving/particle_receiver.hpp"
 #include "support.hpp"
 
 namespace meniscus::fuzz {

@@ -1,5 +1,5 @@
 // A server that lies is found out.
-#include "frame_receiver.hpp"
+#include "receiving/frame_receiver.hpp"
 
 #include <gtest/gtest.h>
 

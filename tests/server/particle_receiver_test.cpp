@@ -1,5 +1,5 @@
 // What the client library makes of a server's particles: messages as they should be, and as they never should.
-#include "particle_receiver.hpp"
+#include "receiving/particle_receiver.hpp"
 
 #include <gtest/gtest.h>
 

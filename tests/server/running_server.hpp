@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "connection.hpp"
+#include "connection/connection.hpp"
 #include "meniscus/client/client.hpp"
 #include "server.hpp"
 #include "test_frames.hpp"

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "frame_receiver.hpp"
 #include "made_frames.hpp"
+#include "receiving/frame_receiver.hpp"
 #include "sessions/watch.hpp"
 
 namespace meniscus::server::test {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "connection.hpp"
+#include "connection/connection.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "error_mapping.hpp"
-#include "frame_statistics.hpp"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "particle_watcher_impl.hpp"
+#include "receiving/frame_statistics.hpp"
 #include "recording_reader_impl.hpp"
 #include "stream_impl.hpp"
 #include "watcher_impl.hpp"

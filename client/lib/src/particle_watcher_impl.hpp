@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "connection.hpp"
+#include "connection/connection.hpp"
 #include "meniscus/client/client.hpp"
-#include "particle_receiver.hpp"
+#include "receiving/particle_receiver.hpp"
 #include "watch_call.hpp"
 
 namespace meniscus::client {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "connection.hpp"
-#include "frame_receiver.hpp"
+#include "connection/connection.hpp"
 #include "meniscus/client/client.hpp"
+#include "receiving/frame_receiver.hpp"
 
 namespace meniscus::client {
 

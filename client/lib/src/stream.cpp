@@ -3,8 +3,8 @@
 
 #include "call_end.hpp"
 #include "error_mapping.hpp"
-#include "frame_receiver.hpp"
 #include "meniscus/error.hpp"
+#include "receiving/frame_receiver.hpp"
 #include "stream_impl.hpp"
 
 namespace meniscus::client {

@@ -16,7 +16,7 @@
 
 #include "backoff.hpp"
 #include "byte_pool.hpp"
-#include "connection.hpp"
+#include "connection/connection.hpp"
 #include "meniscus/client/client.hpp"
 #include "pushed_frame.hpp"
 #include "upload_call.hpp"

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "connection.hpp"
+#include "connection/connection.hpp"
 #include "pushed_frame.hpp"
 
 namespace meniscus::client {

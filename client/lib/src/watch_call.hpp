@@ -15,7 +15,7 @@
 
 #include "backoff.hpp"
 #include "call_end.hpp"
-#include "connection.hpp"
+#include "connection/connection.hpp"
 #include "error_mapping.hpp"
 
 namespace meniscus::client {

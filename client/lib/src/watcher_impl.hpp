@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "connection.hpp"
-#include "frame_receiver.hpp"
+#include "connection/connection.hpp"
 #include "meniscus/client/client.hpp"
+#include "receiving/frame_receiver.hpp"
 #include "watch_call.hpp"
 
 namespace meniscus::client {

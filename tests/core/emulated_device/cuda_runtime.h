@@ -20,7 +20,8 @@ struct float4 {
     float x, y, z, w;
 };
 struct dim3 {
-    unsigned x = 1, y = 1, z = 1;
+    dim3(unsigned count = 1) : x(count) {}
+    unsigned x, y = 1, z = 1;
 };
 using cudaStream_t = struct EmulatedStream*;
 

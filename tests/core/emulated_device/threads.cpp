@@ -81,9 +81,9 @@ void prepare(Fiber& fiber) {
     fiber.done = false;
     fiber.waits_for = nullptr;
     // Six registers and the address to return to; the stack is aligned as after a call.
-    auto** top = reinterpret_cast<void**>(reinterpret_cast<std::uintptr_t>(fiber.stack.get() + stack_bytes) &
-                                          ~std::uintptr_t{15}) -
-                 8;
+    auto* end = fiber.stack.get() + stack_bytes;
+    end -= reinterpret_cast<std::uintptr_t>(end) % 16;
+    auto** top = reinterpret_cast<void**>(end) - 8;
     std::fill(top, top + 6, nullptr);
     top[6] = reinterpret_cast<void*>(&run_thread);
     top[7] = nullptr;

@@ -1,4 +1,6 @@
-"""The shipped Prometheus and Grafana files against a real server and a real Prometheus: monitoring_test.py DEPLOY MENISCUSD MENISCUS."""
+"""The shipped Prometheus and Grafana files against a real server and a real Prometheus.
+
+Usage: monitoring_test.py DEPLOY MENISCUSD MENISCUS"""
 
 import json
 import re

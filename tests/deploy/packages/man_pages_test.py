@@ -1,4 +1,6 @@
-"""What the man pages say of flags, against what the programs say: man_pages_test.py PAGES MENISCUSD MENISCUS MENISCUS-LOAD."""
+"""The flags in the man pages against those in the programs' help.
+
+Usage: man_pages_test.py PAGES MENISCUSD MENISCUS MENISCUS-LOAD"""
 
 import re
 import shutil

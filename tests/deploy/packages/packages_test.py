@@ -1,4 +1,6 @@
-"""The packages that CPack makes of a build: packages_test.py BUILD CMAKE VERSION. Without root; nothing is installed."""
+"""The packages that CPack makes of a build. Needs no root; installs nothing.
+
+Usage: packages_test.py BUILD CMAKE VERSION"""
 
 import re
 import subprocess

@@ -1,9 +1,11 @@
 // Browsers' calls: the same answers as native gRPC gives, and what a browser would never send.
+#include <grpcpp/create_channel.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <set>
 #include <thread>
 
 #include "meniscus/error.hpp"
@@ -15,6 +17,7 @@
 #include "running_server.hpp"
 #include "test_certificates.hpp"
 #include "test_folder.hpp"
+#include "web/grpc_web.hpp"
 #include "web/origins.hpp"
 #include "web/web_call.hpp"
 
@@ -261,6 +264,28 @@ TEST_F(GrpcWebCalls, AreReadOnly) {
         EXPECT_EQ(call.status, static_cast<int>(grpc::StatusCode::UNIMPLEMENTED)) << method;
     }
     EXPECT_EQ(running.client.session(id).id, id);
+}
+
+TEST(GrpcWeb, ServesExactlyTheMethodsWithoutSideEffects) {
+    const GrpcWeb web{.channel = grpc::CreateChannel("unix:none", grpc::InsecureChannelCredentials()), .origins = {}};
+    std::set<std::string> served;
+    std::set<std::string> streams;
+    for (const auto* message : {v1::ListRecordingsRequest::descriptor(), v1::GetServerInfoRequest::descriptor(),
+                                v1::GetSessionRequest::descriptor(), v1::WatchRequest::descriptor()}) {
+        const auto* service = message->file()->service(0);
+        for (int i = 0; i < service->method_count(); ++i) {
+            const std::string target = "/" + service->full_name() + "/" + service->method(i)->name();
+            EXPECT_TRUE(is_method(target)) << target;
+            if (web.serves(target)) served.insert(target);
+            if (is_stream(target)) streams.insert(target);
+        }
+    }
+    const std::string watch_particles = "/meniscus.v1.SurfaceService/WatchParticles";
+    const std::string list = "/meniscus.v1.SessionService/ListSessions";
+    EXPECT_EQ(served,
+              (std::set<std::string>{list_recordings, read_recording, info, get, list, watch, watch_particles}));
+    EXPECT_EQ(streams, (std::set<std::string>{read_recording, watch, watch_particles}));
+    EXPECT_FALSE(GrpcWeb{}.serves(info)) << "without a channel";
 }
 
 TEST_F(GrpcWebCalls, EndAtTheirDeadline) {

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "observation/http_client.hpp"
+#include "viewer_files.hpp"
 #include "web/accepts_gzip.hpp"
 #include "web/http_server.hpp"
-#include "web/viewer_files.hpp"
 #include "web/viewer_pages.hpp"
 
 namespace meniscus::server::test {
@@ -48,7 +48,7 @@ TEST_F(ViewerPages, ThePageAllowsNothingButItsOwnFiles) {
 }
 
 TEST_F(ViewerPages, HaveTheirTypesAndAreKeptAsLongAsTheirNamesTell) {
-    for (const ViewerFile& file : viewer_files()) {
+    for (const viewer::File& file : viewer::files()) {
         const HttpAnswer answer = ask(std::string(file.path));
         EXPECT_EQ(answer.status, 200) << file.path;
         EXPECT_EQ(field(answer, "Content-Type"), file.content_type);
@@ -59,7 +59,7 @@ TEST_F(ViewerPages, HaveTheirTypesAndAreKeptAsLongAsTheirNamesTell) {
 }
 
 TEST_F(ViewerPages, AreCompressedForThoseWhoTakeThat) {
-    for (const ViewerFile& file : viewer_files()) {
+    for (const viewer::File& file : viewer::files()) {
         const std::string path(file.path);
         const HttpAnswer small = ask(path, "Accept-Encoding: br, gzip;q=0.8\r\n");
         EXPECT_EQ(field(small, "Content-Encoding"), file.compressed ? "gzip" : "");

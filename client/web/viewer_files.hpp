@@ -1,12 +1,12 @@
-// The browser's viewer, as it was built into the program.
+// The viewer's files, embedded in the program that serves them.
 #pragma once
 
 #include <span>
 #include <string_view>
 
-namespace meniscus::server {
+namespace meniscus::viewer {
 
-struct ViewerFile {
+struct File {
     std::string_view path;  ///< as "/" or "/assets/index-1a2b3c.js"
     std::string_view content_type;
     bool hashed = false;      ///< whether the path changes with the content
@@ -14,7 +14,7 @@ struct ViewerFile {
     std::span<const unsigned char> bytes;
 };
 
-/// A page that explains, where the viewer was not built.
-std::span<const ViewerFile> viewer_files();
+/// Where the viewer was not built: one page that says so.
+std::span<const File> files();
 
-}  // namespace meniscus::server
+}  // namespace meniscus::viewer

@@ -1,9 +1,9 @@
-#include "cli/policy_options.hpp"
+#include "cli/options/policy_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <limits>
 
-#include "cli/named_option.hpp"
+#include "cli/options/named_option.hpp"
 
 namespace meniscus::cli {
 

@@ -1,4 +1,4 @@
-#include "cli/server_flags.hpp"
+#include "cli/options/server_flags.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>

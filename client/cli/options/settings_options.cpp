@@ -1,8 +1,8 @@
-#include "cli/settings_options.hpp"
+#include "cli/options/settings_options.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include "cli/named_option.hpp"
+#include "cli/options/named_option.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {

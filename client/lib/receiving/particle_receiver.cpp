@@ -1,4 +1,4 @@
-#include "particle_receiver.hpp"
+#include "receiving/particle_receiver.hpp"
 
 #include <algorithm>
 #include <cmath>

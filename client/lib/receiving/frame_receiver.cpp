@@ -1,11 +1,11 @@
-#include "frame_receiver.hpp"
+#include "receiving/frame_receiver.hpp"
 
 #include <cmath>
 #include <cstring>
 #include <string>
 #include <utility>
 
-#include "frame_statistics.hpp"
+#include "receiving/frame_statistics.hpp"
 
 namespace meniscus::client {
 

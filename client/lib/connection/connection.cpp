@@ -1,4 +1,4 @@
-#include "connection.hpp"
+#include "connection/connection.hpp"
 
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
