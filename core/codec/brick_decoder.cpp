@@ -29,8 +29,7 @@ void require_plausible(const EncodedBrick& brick) {
     if (brick.triangles > most || brick.vertices > most)
         refuse(brick, "announces " + std::to_string(brick.triangles) + " triangles and " +
                           std::to_string(brick.vertices) + " vertices, a brick has at most " + std::to_string(most));
-    // The smoothest surface takes an eighth of a byte per triangle at the speed that is in use
-    // (core/README.md#the-decoder-64-triangles-a-byte).
+    // The smoothest surface takes an eighth of a byte per triangle at the speed that is in use.
     constexpr std::size_t most_per_byte = 64;
     if (brick.triangles / most_per_byte > brick.draco.size())
         refuse(brick, "announces " + std::to_string(brick.triangles) + " triangles in " +
