@@ -1,4 +1,4 @@
-// The SPH kernel: the cubic spline of compact support h, in the form without a branch,
+// The SPH kernel: Monaghan's cubic spline (1992) of compact support h, in the form without a branch,
 // W(q) / W0 = max(1 - q, 0)^3 - 4 max(1/2 - q, 0)^3, q = distance / h, W0 = 16 / (pi h^3).
 #pragma once
 

@@ -44,6 +44,7 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     const double l = s.smoothing_length;
     weight = static_cast<float>(16.0 / (std::numbers::pi * l * l * l));
     iso = static_cast<float>(s.iso);
+    // Measured: core/README.md#the-band-085, core/README.md#drops-025-and-017.
     if (s.field == Field::color) deep_inside = static_cast<float>(s.iso * (0.85 / 0.6));
     // A lone particle's blob in the color field: W(q) = iso W(0). At iso 0.6 that is q = 0.28; a quarter support is
     // enough there.

@@ -1,4 +1,5 @@
 // The one rule from which the cube and the crack tables follow: how the edge points of a square face are joined.
+// (core/README.md#one-face-rule-two-tables)
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// The marching-cubes table and the crack patterns, both generated at compile time from the face rule.
+// The marching-cubes table (Lorensen and Cline 1987) and the crack patterns (the paper's Section 4), both generated at
+// compile time from the face rule. Why patterns have nine signs: core/README.md#why-nine-signs
 #pragma once
 
 #include <array>

@@ -47,7 +47,8 @@ void ParticleField::values(const Int3& base_cell, PointList& points, float* valu
 
 void ParticleField::cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values,
                                    unsigned worker) {
-    // A block with few points would fill registers badly, and its own list of particles would cost more than it saves.
+    // A block with few points would fill registers badly, and its own list of particles would cost more than it saves
+    // (core/README.md#sampling-clusters-16-and-48).
     constexpr int few = 2 * Lanes::count;
     // With so many, the grid's regularity saves more than the points left out.
     constexpr int most = 48;

@@ -1,6 +1,6 @@
 // Step 3: levels of face neighbors differ by at most one, and no lattice edge has fine and coarse cells in turn around
 // it. Both bodies name the cells of a word that go up one level, by one state of all levels, so that the result does
-// not depend on an order.
+// not depend on an order. (The paper's Step 3, Algorithm 1; why that suffices: core/README.md#closed-always)
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Step 5: the marching-cubes case of every subcell that the surface passes.
+// Step 5: the marching-cubes case of every subcell that the surface passes. (The paper's Step 5, Algorithm 2;
+// core/README.md#step-5-count-triangles)
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Step 7: the triangles of a base cell, from the marching-cubes table.
+// Step 7: the triangles of a base cell, from the marching-cubes table. (The paper's Step 7, Algorithm 2;
+// core/README.md#step-7-emit-triangles)
 #pragma once
 
 #include <cstdint>

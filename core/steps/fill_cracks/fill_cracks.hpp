@@ -1,4 +1,5 @@
-// Algorithm 3: the gaps on faces between cells of different levels, closed with predefined patterns.
+// Algorithm 3: the gaps on faces between cells of different levels, closed with predefined patterns. (The paper's
+// Section 4; core/README.md#why-nine-signs)
 #pragma once
 
 #include <cstdint>

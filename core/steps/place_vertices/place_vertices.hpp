@@ -1,7 +1,8 @@
 // Step 6: which finest lattice edges carry a vertex, its number, and its place on the edge.
 //
 // An edge point's identity is a finest lattice edge: from a coarse edge, go to the half whose ends differ in sign until
-// the edge is c long. Cells of different levels thereby name the same vertex.
+// the edge is c long. Cells of different levels thereby name the same vertex. (The paper's Step 6, Algorithm 2;
+// core/README.md#step-6-place-vertices)
 #pragma once
 
 #include <cstdint>

@@ -10,8 +10,8 @@
 
 namespace meniscus {
 
-/// How many particles may share a support cell, in the mean over the particles. Water has 8; summing the field takes so
-/// much longer that a frame in the wrong unit, or with all its particles in one place, would take hours.
+/// How many particles may share a support cell, in the mean over the particles. Water has 8; the sums of a frame in the
+/// wrong unit, or with all its particles in one place, would take hours (core/README.md#crowds-1024-and-16384).
 inline constexpr double most_crowded = 1024.0;
 
 /// In the same mean, for frames of any size. crowd: the sum of the squares of the cells' numbers of particles.

@@ -1,4 +1,5 @@
-// Step 1: which base cells the particles reach.
+// Step 1: which base cells the particles reach. (The paper's Step 1, Algorithm 1;
+// core/README.md#step-1-register-particles)
 #pragma once
 
 #include <cstddef>
@@ -22,6 +23,8 @@ struct ReachedBricks {
     }
 };
 
+/// 32 units more than the support, as mark_reached() widens it along x
+/// (core/README.md#margins-of-registration-16-32-1).
 MENISCUS_HD inline ReachedBricks reached_bricks(std::uint64_t cell_key, std::int64_t cell_units, float support) {
     constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
     const std::int64_t reach = static_cast<std::int64_t>(support) + 32;
@@ -41,8 +44,9 @@ struct BrickMarks {
 };
 
 /// Marks the base cells of a brick whose closed box lies within a particle's support. Position and support in units,
-/// relative to the brick's corner; rounded outward by some units. marks: word(w) reads a word of Brick::occupied,
-/// add(w, cells) adds to it.
+/// relative to the brick's corner; rounded outward by 16 units, more than float32 can be off
+/// (core/README.md#margins-of-registration-16-32-1). marks: word(w) reads a word of Brick::occupied, add(w, cells) adds
+/// to it.
 template <class Marks>
 MENISCUS_HD inline void mark_reached(const Marks& marks, float x, float y, float z, float support) {
     constexpr float edge = units_per_base_cell;

@@ -1,4 +1,5 @@
-// Step 4: which points of a block need a field value, and which cells the samples draw into the surface band.
+// Step 4: which points of a block need a field value, and which cells the samples draw into the surface band. (The
+// paper's Step 4, Algorithm 2; core/README.md#step-4-sample-field)
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,8 @@ MENISCUS_HD inline BlockMask corner_points(const LevelsAround& around) {
     return wanted;
 }
 
-/// The unsampled middles of coarse edges that cross the surface (design: an edge point lies on a finest lattice edge).
+/// The unsampled middles of coarse edges that cross the surface: an edge point lies on a finest lattice edge
+/// (core/README.md#step-6-place-vertices).
 MENISCUS_HD inline BlockMask edge_middles(const BlocksView& blocks, std::uint32_t block, const LevelsAround& around) {
     BlockMask wanted = 0;
     for (int axis = 0; axis < 3; ++axis) {

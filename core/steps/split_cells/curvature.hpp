@@ -1,4 +1,5 @@
-// How strongly the surface bends inside a base cell, told before anything finer than base vertices is sampled.
+// How strongly the surface bends inside a base cell, found before anything finer than base vertices is sampled. Not in
+// the paper; the curvature of level sets follows Goldman 2005 (core/README.md#the-criterion).
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,7 @@ MENISCUS_HD inline F clamped(F v, F low, F high) {
     return F(0.0F) - max(F(0.0F) - max(v, low), F(0.0F) - high);
 }
 
-/// Length of a squared gradient to divide by, never zero.
+/// A squared gradient to divide by, never zero (core/README.md#divisors-1e-30-1e-15-164).
 template <class F>
 MENISCUS_HD inline F divisor(F x, F y, F z) {
     return max(fma(x, x, fma(y, y, z * z)), F(1e-30F));
@@ -35,8 +36,8 @@ MENISCUS_HD inline F divisor(F x, F y, F z) {
 
 }  // namespace curvature_detail
 
-/// A point of the surface by the trilinear model of the cell's corners: some Newton steps along the gradient from the
-/// middle. Coordinates of 0 to 1.
+/// A point of the surface by the trilinear model of the cell's corners: three Newton steps along the gradient from the
+/// middle (a fourth changes nothing: core/README.md#newton-steps-three-and-two). Coordinates of 0 to 1.
 template <class F>
 MENISCUS_HD inline Point3<F> trilinear_root(const CellCorners<F>& corners) {
     Point3<F> p{F(0.5F), F(0.5F), F(0.5F)};

@@ -1,4 +1,5 @@
-// Step 2: the level that every base cell asks for, and the band of cells that the surface may pass.
+// Step 2: the level that every base cell asks for, and the band of cells that the surface may pass. (The paper's Step
+// 2, Algorithm 1; core/README.md#the-criterion)
 #pragma once
 
 #include <cstdint>
@@ -36,7 +37,8 @@ struct UniformRule {
 
 /// CurvatureCriterion's rule. A face of edge s that is blended between its corners departs from a surface of principal
 /// curvatures k and m by (|k| + |m|) s^2 / 12 in the mean, which may be at most `tolerance` cells. A cell bends at
-/// least half as much as its face neighbors, so that levels do not fall off faster than the surface calms.
+/// least half as much as its face neighbors, so that levels do not fall off faster than the surface calms (half:
+/// core/README.md#neighbors-05-and-05).
 struct CurvatureRule {
     const CellBend* cells = nullptr;  ///< per block
     float tolerance = 0.15F;          ///< in cells
@@ -56,7 +58,7 @@ struct CurvatureRule {
 };
 
 /// Drops that no corner shows: a cell whose corners are all outside, but with a particle so near that its own blob may
-/// reach in.
+/// reach in (core/README.md#drops-025-and-017).
 struct BlobRule {
     float closest = 0.75F;  ///< see CellReach
     int level = 2;          ///< 3 where the finest cells are large against the support
@@ -70,7 +72,8 @@ MENISCUS_HD inline bool is_mixed(int inside_corners) {
     return inside_corners != 0 && inside_corners != 8;
 }
 
-/// A surface this near outside of a cell bends for the cell's neighbors, whose own search may meet a calmer part of it.
+/// A surface this near outside of a cell bends for the cell's neighbors, whose own search may meet a calmer part of it
+/// (measured: core/README.md#neighbors-05-and-05). Units.
 inline constexpr float surface_margin = 0.5F * units_per_cell;
 
 /// What the search for a cell's surface and its particles (BlobRule) say of it.
@@ -84,11 +87,11 @@ MENISCUS_HD inline CellBend cell_bend(const SurfaceSearch<float>& search, int in
 struct BandTest {
     float iso = 0.0F;
     /// Corner values above this mean that nothing of the surface is inside the cell; found by experiment for the color
-    /// field (0.85 at the threshold 0.6), infinite for the others.
+    /// field (core/README.md#the-band-085), infinite for the others.
     float deep_inside = 0.0F;
 
     MENISCUS_HD bool is_deep(float value) const { return value > deep_inside; }
-    /// bound: no field value in the cell is above this.
+    /// bound: no field value in the cell is above this, rounding aside (core/README.md#the-bound-09999).
     MENISCUS_HD bool may_reach(float bound) const { return bound > iso * 0.9999F; }
 };
 

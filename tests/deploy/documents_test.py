@@ -1,0 +1,79 @@
+"""Links of the documents, and what the documents promise of themselves: documents_test.py REPOSITORY."""
+
+import re
+import sys
+import unittest
+from pathlib import Path
+
+REPOSITORY = Path(sys.argv.pop()).resolve()
+GENERATED = {".build", ".git", "node_modules", "out"}
+
+
+def files_named(pattern, folder=REPOSITORY):
+    """Files of the repository: nothing generated."""
+    for path in sorted(folder.iterdir()):
+        if path.is_dir() and not path.is_symlink() and path.name not in GENERATED:
+            yield from files_named(pattern, path)
+        elif path.is_file() and path.match(pattern):
+            yield path
+
+
+def prose_of(page):
+    """Its text without fenced code, in which brackets are no links."""
+    return re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.MULTILINE | re.DOTALL)
+
+
+def anchors_of(page):
+    """The anchors that GitHub gives the headings of a page."""
+    anchors = set()
+    for heading in re.findall(r"^#{1,6} +(.*?) *$", prose_of(page), re.MULTILINE):
+        text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)
+        anchor = re.sub(r"[^\w\- ]", "", text.lower()).replace(" ", "-")
+        names = (anchor if number == 0 else f"{anchor}-{number}" for number in range(len(anchors) + 1))
+        anchors.add(next(name for name in names if name not in anchors))
+    return anchors
+
+
+def name(path):
+    return str(path.relative_to(REPOSITORY))
+
+
+class Documents(unittest.TestCase):
+    def assert_leads_somewhere(self, origin, target):
+        """target: as a link of the file `origin` has it."""
+        path, _, anchor = target.partition("#")
+        page = (origin.parent / path).resolve() if path else origin
+        self.assertTrue(page.is_relative_to(REPOSITORY), f"{name(origin)} links out of the repository: {target}")
+        self.assertTrue(page.exists(), f"{name(origin)} links to {target}, which is not there")
+        if anchor:
+            self.assertIn(anchor, anchors_of(page), f"{name(origin)} links to {target}: no such heading")
+
+    def test_every_relative_link_leads_to_a_file_and_to_a_heading_of_it(self):
+        links = 0
+        for page in files_named("*.md"):
+            prose = re.sub(r"`[^`\n]*`", "", prose_of(page))
+            for target in re.findall(r"\]\(([^()\s]+)\)", prose):
+                if not re.match(r"[a-z]+:", target):
+                    self.assert_leads_somewhere(page, target)
+                    links += 1
+        self.assertGreater(links, 100)
+
+    def test_every_heading_that_a_comment_cites_exists(self):
+        for pattern in ("*.hpp", "*.cpp", "*.cu", "*.proto"):
+            for source in files_named(pattern):
+                for page, anchor in re.findall(r"([\w./]+README\.md)#([\w-]+)", source.read_text()):
+                    cited = REPOSITORY / page
+                    self.assertTrue(cited.is_file(), f"{name(source)} cites {page}, which is not there")
+                    self.assertIn(anchor, anchors_of(cited), f"{name(source)} cites {page}#{anchor}: no such heading")
+
+    def test_the_front_page_is_short(self):
+        self.assertLessEqual(len((REPOSITORY / "README.md").read_text().splitlines()), 150)
+
+    def test_every_room_has_a_page_that_the_front_page_links(self):
+        front = (REPOSITORY / "README.md").read_text()
+        for room in ("core", "proto", "server", "client", "client/web", "deploy", "tests"):
+            self.assertIn(f"({room}/README.md)", front)
+
+
+if __name__ == "__main__":
+    unittest.main()
