@@ -98,7 +98,8 @@ void order_by_level_and_brick(State& s, Mesh& mesh) {
 std::array<std::uint64_t, 3> count_band_cells(State& s) {
     std::array<std::uint64_t, 4> of_at_least{};
     for (std::size_t level = 1; level <= 3; ++level)
-        for (const std::uint64_t cells : s.at_least[level]) of_at_least[level] += static_cast<std::uint64_t>(popcount(cells));
+        for (const std::uint64_t cells : s.at_least[level])
+            of_at_least[level] += static_cast<std::uint64_t>(popcount(cells));
     return {of_at_least[1] - of_at_least[2], of_at_least[2] - of_at_least[3], of_at_least[3]};
 }
 
