@@ -54,7 +54,8 @@ class Documents(unittest.TestCase):
             prose = re.sub(r"`[^`\n]*`", "", prose_of(page))
             for target in re.findall(r"\]\(([^()\s]+)\)", prose):
                 if not re.match(r"[a-z]+:", target):
-                    self.assert_leads_somewhere(page, target)
+                    with self.subTest(target):
+                        self.assert_leads_somewhere(page, target)
                     links += 1
         self.assertGreater(links, 100)
 
