@@ -30,7 +30,7 @@ LoadOptions small(const std::string& server) {
 
 /// Waits until the only session of a run has reached the frame.
 void wait_for_frame(std::uint64_t index, Process& server, const std::string& address) {
-    const client::Client client(address);
+    client::Client client(address);
     auto watcher = client.watch(server.created_session());
     while (const auto frame = watcher.next())
         if (frame->index >= index) return;

@@ -30,7 +30,7 @@ struct ParticleFrame {
     Box quantization_box;                      ///< used with `quantized` only
     std::span<const std::uint8_t> levels;      ///< empty (uniform SPH), or one per particle, 0 (finest) to 3
     /// Orders particles that lie at one place; the surface does not depend on it.
-    std::span<const ParticleArray> arrays;
+    std::span<const ParticleArray> arrays{};
 
     bool is_quantized() const { return !quantized.empty(); }
     std::size_t count() const { return (is_quantized() ? quantized.size() : positions.size()) / 3; }

@@ -1,7 +1,7 @@
 // Streams that are refused as they are opened: ids, wishes, sessions that are not there or not free.
 #include <utility>
 
-#include "bad_input/case.hpp"
+#include "rpc/bad_input/case.hpp"
 
 namespace meniscus::server::test {
 

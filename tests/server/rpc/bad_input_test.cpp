@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "bad_input/case.hpp"
 #include "meniscus/error.hpp"
+#include "rpc/bad_input/case.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::server::test {

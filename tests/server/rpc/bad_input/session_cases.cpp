@@ -2,8 +2,8 @@
 #include <limits>
 #include <utility>
 
-#include "bad_input/case.hpp"
 #include "conversion/settings_conversion.hpp"
+#include "rpc/bad_input/case.hpp"
 
 namespace meniscus::server::test {
 

@@ -1,4 +1,4 @@
-#include "bad_input/case.hpp"
+#include "rpc/bad_input/case.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Messages that come at the wrong time, and bytes that are no message.
 #include <utility>
 
-#include "bad_input/case.hpp"
+#include "rpc/bad_input/case.hpp"
 
 namespace meniscus::server::test {
 

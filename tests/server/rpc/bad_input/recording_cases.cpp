@@ -1,7 +1,7 @@
 // Recordings that cannot be read.
 #include <utility>
 
-#include "bad_input/case.hpp"
+#include "rpc/bad_input/case.hpp"
 
 namespace meniscus::server::test {
 

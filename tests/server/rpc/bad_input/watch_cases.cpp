@@ -2,7 +2,7 @@
 #include <limits>
 #include <utility>
 
-#include "bad_input/case.hpp"
+#include "rpc/bad_input/case.hpp"
 
 namespace meniscus::server::test {
 

@@ -1,7 +1,7 @@
 // Lies about counts and bytes, indices that do not rise, times that are none.
 #include <limits>
 
-#include "bad_input/case.hpp"
+#include "rpc/bad_input/case.hpp"
 
 namespace meniscus::server::test {
 
