@@ -1,3 +1,4 @@
+// Accounts of memory, and aligned allocation.
 #include "meniscus/memory.hpp"
 
 #include <sys/mman.h>

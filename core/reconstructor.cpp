@@ -1,3 +1,4 @@
+// Validation, accounts and statistics around a backend.
 #include "meniscus/reconstructor.hpp"
 
 #include <chrono>

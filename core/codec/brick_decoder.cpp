@@ -1,3 +1,4 @@
+// Bytes from anywhere become a brick, or a refusal.
 #include <draco/compression/decode.h>
 
 #include <algorithm>
@@ -21,10 +22,10 @@ constexpr std::size_t cells_per_brick = std::size_t{brick_base_cells} * brick_ba
                        ", " + std::to_string(brick.coordinate[2]) + "): " + what);
 }
 
-/// Draco allocates what its bytes claim before it finds that they do not hold it: their claims are compared first, with
-/// what was announced and with what so many bytes can say.
+/// Draco allocates by the counts that its bytes claim, before it finds that the bytes do not hold them. The counts are
+/// compared first, with those announced and with the most that this number of bytes can hold.
 void require_plausible(const EncodedBrick& brick) {
-    // A brick's lattice has room for at most so many triangles and vertices.
+    // A brick's lattice has no room for more triangles and vertices.
     constexpr std::uint32_t most = 16U * brick_cells * brick_cells * brick_cells;
     if (brick.triangles > most || brick.vertices > most)
         refuse(brick, "announces " + std::to_string(brick.triangles) + " triangles and " +

@@ -1,3 +1,4 @@
+// A brick of a mesh as a Draco mesh of its own.
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>
 

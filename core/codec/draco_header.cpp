@@ -1,3 +1,4 @@
+// Draco's header, read before Draco allocates by it.
 #include "codec/draco_header.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Crack triangles lie in planes of the base cells, the others inside one base cell.
 #include "codec/triangle_levels.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Vertices of neighboring bricks meet by their integer coordinates.
 #include <algorithm>
 #include <numeric>
 #include <string>

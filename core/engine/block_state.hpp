@@ -14,10 +14,10 @@ namespace meniscus {
 /// What is known of the surface in a cell of the band before it is sampled; zeros outside of the band.
 struct CellBend {
     float curvature;  ///< both principal curvatures, absolute, added; times c
-    int least_level;  ///< for what curvature does not tell: a surface that no corner shows
+    int least_level;  ///< for a surface that no corner shows, which curvature does not see
 };
 
-/// What a cell's particles alone say of it.
+/// Bounds of the field in a cell, by its particles alone.
 struct CellReach {
     float bound;    ///< no field value in the cell is above this
     float closest;  ///< largest 1 - distance/h of a particle from the cell

@@ -1,3 +1,4 @@
+// Constants of the criterion and of the band are explained in core/README.md#constants.
 #include "field/lattice_settings.hpp"
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// Sets of blocks, told by those of their points that are sampled. Where no block is stored, all is outside.
+/// Sets of blocks by the signs of their sampled points. Where no block is stored, all points are outside.
 struct SignSets {
     CellSetView any_inside;
     CellSetView all_inside;

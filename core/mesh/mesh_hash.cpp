@@ -1,3 +1,4 @@
+// SHA-256 over sorted, rotated triangles.
 #include "meniscus/mesh_hash.hpp"
 
 #include <openssl/evp.h>

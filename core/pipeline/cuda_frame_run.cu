@@ -22,7 +22,7 @@
 
 #include <algorithm>
 
-#include "engine/numbering.hpp"
+#include "engine/index_limit.hpp"
 #include "pipeline/cuda_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/stage_clock.hpp"
@@ -135,19 +135,19 @@ bool FrameRun::make_room(const Needed& needed, std::uint64_t payload_bytes) {
 }
 
 void FrameRun::make_more_room() {
-    require_room_for_numbers();
+    require_indexable_counts();
     if (!make_room(counts().needed, 0))
         throw DeviceError("reconstruction", "the counts contradict each other", device_);
     sets_.with_room([&] { sets_.fit(state_); });
 }
 
-void FrameRun::require_room_for_numbers() const {
-    require_numbers(needed(Resource::reached_bricks), "the particles reach", "bricks, repetitions counted");
-    require_numbers(needed(Resource::bricks), "the particles reach", "bricks", too_many(Resource::bricks));
-    require_numbers(needed(Resource::blocks), "the frame reaches", "base cells");
-    require_numbers(needed(Resource::samples), "the surface needs", "field samples");
-    require_numbers(needed(Resource::triangles), "the surface has", "triangles");
-    require_numbers(needed(Resource::vertices), "the surface has", "vertices");
+void FrameRun::require_indexable_counts() const {
+    require_indexable(needed(Resource::reached_bricks), "the particles reach", "bricks, repetitions counted");
+    require_indexable(needed(Resource::bricks), "the particles reach", "bricks", too_many(Resource::bricks));
+    require_indexable(needed(Resource::blocks), "the frame reaches", "base cells");
+    require_indexable(needed(Resource::samples), "the surface needs", "field samples");
+    require_indexable(needed(Resource::triangles), "the surface has", "triangles");
+    require_indexable(needed(Resource::vertices), "the surface has", "vertices");
 }
 
 }  // namespace meniscus::cuda

@@ -53,7 +53,7 @@ private:
         std::uint64_t mesh_version = 0;  ///< of the mesh arrays that it was captured for
     };
 
-    /// Puts the kernels of a frame whose particles are on their way on the stream. captured: into a graph.
+    /// Puts a frame's kernels on the stream, behind the upload. captured: into a graph.
     void enqueue(bool captured);
     void fetch_counts();
     /// The graph for the current set of mesh arrays; dropped if those have moved.
@@ -65,7 +65,7 @@ private:
     /// After a run that has found too little. Where that was room for the mesh alone, all that the mesh is made of
     /// stays.
     void make_more_room();
-    void require_room_for_numbers() const;
+    void require_indexable_counts() const;
 
     int device_;
     MeshSets& sets_;

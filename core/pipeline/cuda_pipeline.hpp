@@ -31,7 +31,7 @@ protected:
     Slivers slivers_ = Slivers::raised;
 };
 
-/// What a frame brings beside positions: kernels are chosen by it.
+/// The parts of a frame beside positions, by which kernels are chosen.
 struct FrameParts {
     bool levels = false;
     bool payload = false;

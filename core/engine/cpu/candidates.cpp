@@ -1,3 +1,4 @@
+// Lists of particles near a box, culled eight at a time.
 #include "engine/cpu/candidates.hpp"
 
 #include <algorithm>

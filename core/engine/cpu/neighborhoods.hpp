@@ -9,7 +9,7 @@
 
 namespace meniscus::cpu {
 
-/// Each worker has lists of its own: what it is given is valid until it asks again.
+/// Each worker has lists of its own, valid until it asks again.
 class Neighborhoods {
 public:
     Neighborhoods(const std::shared_ptr<MemoryAccount>& account, unsigned workers, ParticleSets& sets);

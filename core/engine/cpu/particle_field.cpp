@@ -21,7 +21,7 @@ UnitBox box_of(BlockMask points) {
     return box;
 }
 
-/// Adds points of a block that lies so many blocks from the list's.
+/// Adds points of a block to a list. block: its place in blocks from the block that the list is relative to.
 void list_block_points(BlockMask points, const Int3& block, PointList& list) {
     const float x = static_cast<float>(block.x) * base_edge, y = static_cast<float>(block.y) * base_edge,
                 z = static_cast<float>(block.z) * base_edge;
@@ -50,7 +50,7 @@ void ParticleField::cluster_values(const Int3& lowest_base_cell, const ClusterPo
     // A block with few points would fill registers badly, and its own list of particles would cost more than it saves
     // (core/README.md#sampling-clusters-16-and-48).
     constexpr int few = 2 * Lanes::count;
-    // With so many, the grid's regularity saves more than the points left out.
+    // Above this number of points, the regular grid of all 64 costs less than a list of these.
     constexpr int most = 48;
     PointList pool;
     for (int i = 0; i < 8; ++i) {

@@ -12,7 +12,8 @@
 
 namespace meniscus::cuda {
 
-/// What a frame may need more of than there is room for. How much is known on the device alone, in this order.
+/// The kinds of elements that a frame may need more of than there is room for. Their numbers become known on the device
+/// alone, in this order.
 enum class Resource : std::uint8_t { particle_bricks, reached_bricks, bricks, blocks, samples, vertices, triangles };
 inline constexpr std::size_t resource_count = 7;
 
@@ -47,7 +48,7 @@ struct Capacities {
     }
 
 private:
-    /// What a frame will need that has not come so far as to tell: every time it finds too little room costs a run.
+    /// A guess at the need of elements that a stopped frame has not counted yet: every discovery costs a run.
     static std::uint64_t expected(Resource r, std::uint64_t particles,
                                   const unsigned long long (&needed)[resource_count]) {
         if (r == Resource::reached_bricks) return particles / 8;  // most frames fewer; 20 bytes each

@@ -1,3 +1,4 @@
+// The GPUs that can be used, and the reason where one cannot.
 #include "engine/cuda/device.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// A build without CUDA has no GPU.
 #include "engine/cuda/device.hpp"
 #include "meniscus/error.hpp"
 #include "pipeline/backend.hpp"

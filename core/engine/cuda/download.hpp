@@ -30,7 +30,7 @@ public:
     void finish() {
         for (std::size_t i = 0; i < pieces_.size(); ++i) empty(i);
     }
-    /// After a failure: what is on its way goes nowhere.
+    /// After a failure: copies under way are not delivered.
     void forget() {
         for (Piece& piece : pieces_) piece.bytes = 0;
     }

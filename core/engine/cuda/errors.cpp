@@ -1,3 +1,4 @@
+// CUDA's error codes as exceptions.
 #include "engine/cuda/errors.hpp"
 
 #include <string>

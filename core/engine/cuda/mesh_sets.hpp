@@ -1,4 +1,5 @@
-// The two sets of mesh arrays of a reconstruction: which one the next mesh goes into, and who still reads the other.
+// The two sets of mesh arrays of a reconstruction: which one the next mesh goes into, and whether a download still
+// reads the other.
 #pragma once
 
 #include <array>

@@ -28,7 +28,7 @@ public:
 
     void start() override { bring_first(0); }
     void bring(std::size_t brick) override {
-        // Whose brick is there does not wait for who copies others.
+        // A brick that has arrived is served without the lock.
         if (arrived_ <= brick) bring_first(brick + 1);
     }
     void finish() override { bring_first(std::numeric_limits<std::size_t>::max()); }
@@ -48,13 +48,14 @@ private:
     /// Enough for a copy to be worth its launch, and few enough for the first brick to be there soon.
     static constexpr std::size_t fetch_bytes = std::size_t{256} << 10;
 
-    /// The vertices, and the triangles of so many bricks or of all; others who ask take their turns between the steps.
+    /// Brings the vertices, and the triangles of this number of bricks, at most all. Other threads take their turns
+    /// between the steps.
     void bring_first(std::size_t bricks) {
         while (!step(bricks)) {
         }
     }
 
-    /// Returns whether that was the last.
+    /// Returns whether nothing is left to bring.
     bool step(std::size_t bricks) {
         const std::lock_guard lock(storage_->copying);
         if (error_) std::rethrow_exception(error_);

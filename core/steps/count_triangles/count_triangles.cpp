@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/cpu/words.hpp"
-#include "engine/numbering.hpp"
+#include "engine/index_limit.hpp"
 #include "steps/cpu_steps.hpp"
 #include "steps/fill_cracks/fill_cracks.hpp"
 
@@ -64,7 +64,7 @@ void order_by_level_and_brick(State& s, Mesh& mesh) {
             triangles[level] = static_cast<std::uint32_t>(total);
             total += own;
         }
-        require_numbers(total, "the surface has", "triangles");
+        require_indexable(total, "the surface has", "triangles");
         mesh.levels[level].count = static_cast<std::uint32_t>(total) - mesh.levels[level].first;
     }
     s.workers.for_ranges(bricks, 4, [&](std::size_t begin, std::size_t end, unsigned) {

@@ -9,7 +9,7 @@
 #include "engine/cpu/block_points.hpp"
 #include "engine/cpu/clusters.hpp"
 #include "engine/cpu/words.hpp"
-#include "engine/numbering.hpp"
+#include "engine/index_limit.hpp"
 #include "field/lanes.hpp"
 #include "steps/cpu_steps.hpp"
 
@@ -183,7 +183,7 @@ void number_vertices(State& s, Mesh& mesh) {
             });
         });
     });
-    require_numbers(count, "the surface has", "vertices");
+    require_indexable(count, "the surface has", "vertices");
     resize_for_overwrite(mesh.vertices, count);
     resize_for_overwrite(mesh.normals, s.settings.has_normals ? count : 0);
 }

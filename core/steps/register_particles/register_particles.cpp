@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/cpu/words.hpp"
-#include "engine/numbering.hpp"
+#include "engine/index_limit.hpp"
 #include "particles/payload.hpp"
 #include "particles/positions.hpp"
 #include "steps/cpu_steps.hpp"
@@ -32,7 +32,7 @@ void for_each_of_level(ParticleSets& sets, const ParticleFrame& frame, unsigned 
     });
 }
 
-/// Where only positions matter, particles of the same key are the same: keys are all there is to sort.
+/// Sorts keys alone: where only positions matter, particles of the same key are interchangeable.
 void sort_keys(ParticleSets& sets, ParticleSet& set, const ParticleFrame& frame, unsigned level) {
     const PositionsView positions = positions_view(frame, sets.settings.units_per_length);
     for_each_of_level(
@@ -42,8 +42,8 @@ void sort_keys(ParticleSets& sets, ParticleSet& set, const ParticleFrame& frame,
     set.sources.clear();
 }
 
-/// Keys with the particles' indices, those of the same key in the order of their payload: the order is the same in
-/// whatever order the frame has them.
+/// Sorts keys with the particles' indices, equal keys by their payload: the result does not depend on the order of the
+/// frame.
 void sort_identified_keys(ParticleSets& sets, ParticleSet& set, const ParticleFrame& frame, unsigned level) {
     const PositionsView positions = positions_view(frame, sets.settings.units_per_length);
     for_each_of_level(
@@ -213,7 +213,7 @@ void number_members(BrickGrid& grid, Workers& workers) {
     for (Brick& b : grid.bricks) {
         b.first = static_cast<std::uint32_t>(total);
         total += b.count();
-        require_numbers(total, "the frame reaches", "base cells");
+        require_indexable(total, "the frame reaches", "base cells");
     }
     grid.members = static_cast<std::uint32_t>(total);
     resize_for_overwrite(grid.neighbors, grid.bricks.size());

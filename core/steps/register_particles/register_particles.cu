@@ -25,8 +25,7 @@ __global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant
     });
 }
 
-/// Particles of the same key in the order of their payload: one thread sorts them. After stop_if_crowded: then they are
-/// not many.
+/// Sorts each run of equal keys by payload, one thread a run. Runs after stop_if_crowded, which bounds their length.
 __global__ void __launch_bounds__(block_threads) order_by_payload(const __grid_constant__ State f) {
     const std::uint32_t n = f.particle_count();
     GridLoop{}.each(n, [&](std::uint32_t i) {

@@ -6,7 +6,7 @@
 #include <atomic>
 
 #include "engine/cpu/clusters.hpp"
-#include "engine/numbering.hpp"
+#include "engine/index_limit.hpp"
 #include "field/lanes.hpp"
 #include "steps/adjust_levels/raise_levels.hpp"
 #include "steps/cpu_steps.hpp"
@@ -135,7 +135,7 @@ void sample_wanted_points(State& s, FieldSource& field, Wanted wanted) {
     // frame.
     const std::uint64_t added = counts_to_starts(s.brick_counts);
     const std::size_t used = s.samples.size();
-    require_numbers(used + added, "the surface needs", "field samples");
+    require_indexable(used + added, "the surface needs", "field samples");
     if (added == 0) return;
     if (s.samples.capacity() < used + added) s.samples.reserve(used + added + (used + added) / 4);
     s.samples.resize(used + added);

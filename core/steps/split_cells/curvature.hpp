@@ -110,7 +110,7 @@ MENISCUS_HD inline F total_curvature(const FieldJet<F>& j, float iso) {
     return curvature(half + spread) + curvature(half - spread);
 }
 
-/// What a search for the surface in a cell found.
+/// The result of search_surface().
 template <class F>
 struct SurfaceSearch {
     F curvature;  ///< see total_curvature

@@ -76,7 +76,7 @@ MENISCUS_HD inline bool is_mixed(int inside_corners) {
 /// (measured: core/README.md#neighbors-05-and-05). Units.
 inline constexpr float surface_margin = 0.5F * units_per_cell;
 
-/// What the search for a cell's surface and its particles (BlobRule) say of it.
+/// Combines the search for a cell's surface with the level that its particles ask for (BlobRule).
 MENISCUS_HD inline CellBend cell_bend(const SurfaceSearch<float>& search, int inside_corners, int blob_level) {
     const bool agree = !is_mixed(inside_corners);
     const bool hidden = agree && search.inside >= 0.0F;
