@@ -30,6 +30,21 @@ double lone_particle_reach(double share) {
     return low;
 }
 
+// One for each alternative: another does not compile without.
+void use(LatticeSettings& settings, const CurvatureCriterion& criterion) {
+    settings.measures_bends = true;
+    settings.tolerance = static_cast<float>(criterion.tolerance);
+}
+void use(LatticeSettings& settings, const CountCriterion& criterion) {
+    settings.counts_particles = true;
+    settings.count_threshold = criterion.threshold;
+}
+void use(LatticeSettings&, const Interpolation&) {}
+void use(LatticeSettings& settings, const Bisection& bisection) {
+    settings.bisects = true;
+    settings.bisection_steps = bisection.steps;
+}
+
 }  // namespace
 
 LatticeSettings::LatticeSettings(const Settings& s) {
@@ -54,18 +69,8 @@ LatticeSettings::LatticeSettings(const Settings& s) {
             static_cast<float>(1.0 - std::min(0.25 * lone_particle_reach(s.iso) / lone_particle_reach(0.6), 1.0));
     if (s.cell_size > 0.17 * 2.0 * s.smoothing_length) blob_level = 3;
     is_adaptive = s.mode == Mode::adaptive;
-    if (const auto* curvature = std::get_if<CurvatureCriterion>(&s.criterion); curvature != nullptr && is_adaptive) {
-        measures_bends = true;
-        tolerance = static_cast<float>(curvature->tolerance);
-    }
-    if (const auto* count = std::get_if<CountCriterion>(&s.criterion); count != nullptr && is_adaptive) {
-        counts_particles = true;
-        count_threshold = count->threshold;
-    }
-    if (const auto* bisection = std::get_if<Bisection>(&s.edge_points)) {
-        bisects = true;
-        bisection_steps = bisection->steps;
-    }
+    if (is_adaptive) std::visit([this](const auto& criterion) { use(*this, criterion); }, s.criterion);
+    std::visit([this](const auto& edge_points) { use(*this, edge_points); }, s.edge_points);
     offset_bits = meniscus::offset_bits(s);
     has_normals = s.normals;
     if (s.domain) {

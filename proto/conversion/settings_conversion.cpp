@@ -81,10 +81,10 @@ void to_wire(const CountCriterion& criterion, v1::Settings& wire) {
     wire.mutable_count()->set_threshold(criterion.threshold);
 }
 void to_wire(const Interpolation&, v1::Settings& wire) {
-    wire.mutable_interpolation();
+    wire.mutable_interpolate();
 }
 void to_wire(const Bisection& bisection, v1::Settings& wire) {
-    wire.mutable_bisection()->set_steps(bisection.steps);
+    wire.mutable_bisect()->set_steps(bisection.steps);
 }
 
 Criterion criterion_from_wire(const v1::Settings& wire) {
@@ -107,11 +107,11 @@ Criterion criterion_from_wire(const v1::Settings& wire) {
 
 EdgePoints edge_points_from_wire(const v1::Settings& wire) {
     switch (wire.edge_points_case()) {
-        case v1::Settings::kInterpolation:
+        case v1::Settings::kInterpolate:
             return Interpolation{};
-        case v1::Settings::kBisection: {
+        case v1::Settings::kBisect: {
             Bisection bisection;
-            if (wire.bisection().has_steps()) bisection.steps = wire.bisection().steps();
+            if (wire.bisect().has_steps()) bisection.steps = wire.bisect().steps();
             return bisection;
         }
         case v1::Settings::EDGE_POINTS_NOT_SET:

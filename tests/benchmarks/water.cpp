@@ -1,12 +1,11 @@
 #include "water.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <random>
-
-#include "meniscus/error.hpp"
 
 namespace meniscus::benchmarks {
 namespace {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "meniscus/error.hpp"
+#include "meniscus/names.hpp"
 #include "simulator/adaptive_levels.hpp"
 #include "simulator/kernel.hpp"
 #include "simulator/simulation.hpp"
@@ -87,7 +88,7 @@ TEST(Scene, DamBreakTankIsThePapersGrid) {
 TEST(Scene, RefusesNumbersOfParticlesOutOfRange) {
     EXPECT_THROW(make_scene(SceneKind::dam_break, 0), InvalidInput);
     EXPECT_THROW(make_scene(SceneKind::dam_break, 200'000'000), InvalidInput);
-    EXPECT_THROW(by_name<SceneKind>("tsunami", "scene"), InvalidInput);
+    EXPECT_THROW(::meniscus::by_name<SceneKind>("tsunami", "scene"), InvalidInput);
 }
 
 TEST(Simulation, DamBreakCollapsesAndRunsUpTheOppositeWall) {

@@ -1,10 +1,10 @@
 // Bricks of a mesh to Draco and back, without loss of position, connectivity or level.
 //
 // Every brick is a Draco mesh of its own: positions are brick-local uint16 coordinates of the refined lattice
-// (0 ... brick_cells * 2^offset_bits; rounded to a coarser one if that is asked for), normals are octahedral. A
-// triangle's level needs no attribute: a crack triangle lies in a face plane of the base-cell grid, which no other
-// triangle does; the others lie inside one base cell, and `cell_levels` gives the level of every base cell that holds
-// triangles.
+// (0 ... brick_cells * 2^offset_bits; rounded to a coarser lattice if CodingOptions::position_bits says so), normals
+// are octahedral. A triangle's level needs no attribute: a crack triangle lies in a face plane of the base-cell grid,
+// which no other triangle does; the others lie inside one base cell, and `cell_levels` gives the level of every base
+// cell that holds triangles.
 #pragma once
 
 #include <array>
@@ -21,10 +21,10 @@
 namespace meniscus {
 
 struct CodingOptions {
-    int normal_bits = 8;  ///< 2 to 16 per octahedral component; 0: no normals. A mesh without normals is sent without
-    int position_bits =
-        0;  ///< vertices are rounded to multiples of c / 2^position_bits, 2 to the mesh's offset_bits; 0: not at all
-    int speed = 10;  ///< Draco's speed, 0 (smallest) to 10 (fastest)
+    int normal_bits = 8;    ///< 2 to 16 per octahedral component; 0: no normals. A mesh without normals has none
+    int position_bits = 0;  ///< vertices are rounded to multiples of c / 2^position_bits, 2 to the mesh's offset_bits;
+                            ///< 0: they are not rounded
+    int speed = 10;         ///< Draco's speed, 0 (smallest) to 10 (fastest)
 };
 
 /// The lattice that vertices lie on once they are encoded. Throws InvalidInput for position_bits out of range.
@@ -32,13 +32,14 @@ std::uint32_t encoded_offset_bits(const Mesh& mesh, const CodingOptions& options
 
 using ContentHash = std::array<std::uint64_t, 2>;
 
-/// What is encoded of one brick: its triangles, over vertices of its own that are numbered as the triangles meet them.
+/// The part of a mesh that is encoded as one brick: its triangles, over vertices of its own, which are numbered in the
+/// order in which the triangles use them.
 struct BrickContent {
     std::array<std::int32_t, 3> coordinate{};             ///< x y z in bricks
     std::vector<std::array<std::uint16_t, 3>> positions;  ///< brick-local, in steps of c / 2^encoded_offset_bits
     std::vector<Normal> normals;                          ///< one per vertex; empty if none are sent
     std::vector<Triangle> triangles;
-    std::vector<std::byte> cell_levels;  ///< as EncodedBrick has them
+    std::vector<std::byte> cell_levels;  ///< see EncodedBrick
 
     /// Equal for equal content; different content has the same hash with a chance of about 2^-128. Not proof against
     /// forgery, and not for files: another version may hash otherwise.
@@ -69,7 +70,7 @@ struct BrickScratch {
 BrickContent brick_content(const Mesh& mesh, std::size_t brick, const CodingOptions& options, BrickScratch& scratch);
 /// The same, with scratch memory of its own.
 BrickContent brick_content(const Mesh& mesh, std::size_t brick, const CodingOptions& options = {});
-/// options: those that the content was made with.
+/// Encodes a content. options: those that the content was made with.
 EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& options);
 /// The content of a brick, encoded.
 EncodedBrick encode_brick(const Mesh& mesh, std::size_t brick, const CodingOptions& options = {});

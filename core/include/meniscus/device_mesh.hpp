@@ -8,9 +8,9 @@
 
 namespace meniscus {
 
-/// The members are those of Mesh, in device memory that the reconstructor owns. Complete when it is handed out, on
-/// every stream; valid until the reconstructor's next call or end. Whoever still reads it on another stream by then
-/// must make `stream` wait for that (cudaStreamWaitEvent).
+/// The members are those of Mesh, in device memory that the reconstructor owns. The mesh is complete on every stream
+/// when the caller gets it, and valid until the reconstructor's next call or end. A caller that still reads it on
+/// another stream by then must make `stream` wait for that stream (cudaStreamWaitEvent).
 struct DeviceMesh {
     const LatticePosition* vertices = nullptr;  ///< device pointer
     const Normal* normals = nullptr;            ///< device pointer, one per vertex; null if Settings::normals is false

@@ -19,8 +19,8 @@ struct Device {
     std::size_t total_bytes = 0;
 };
 
-/// The devices that can reconstruct and answer now, of those named (all if none is); none without a driver or in a
-/// build without CUDA.
+/// The devices that can reconstruct and answer now. among: indices of the devices to ask, all if empty. Without a
+/// driver, and in a build without CUDA, there are none.
 std::vector<Device> devices(std::span<const int> among = {});
 
 }  // namespace meniscus::cuda

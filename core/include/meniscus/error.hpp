@@ -1,4 +1,4 @@
-// The two ways in which a request can be refused, and a GPU that fails. Everything else that is thrown is a defect.
+// The two ways in which a request can be refused, and a GPU that fails. Any other exception is a defect.
 #pragma once
 
 #include <stdexcept>
@@ -18,8 +18,8 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// A call to CUDA failed. What was computed on that device is lost; a reconstructor that met this may be destroyed, and
-/// its next frame tries the device afresh.
+/// A call to CUDA failed. Results on that device are lost. The reconstructor that threw this may be destroyed; it may
+/// also be used on: its next frame tries the device afresh.
 class DeviceError : public std::runtime_error {
 public:
     DeviceError(const std::string& call, const std::string& reason, int device)

@@ -12,11 +12,11 @@
 
 namespace meniscus {
 
-/// Counts the bytes and the allocations of the arrays charged to it; refuses what would pass its limit.
+/// Counts the bytes and the allocations of the arrays charged to it, and refuses an array that would pass its limit.
 /// Thread-safe.
 class MemoryAccount {
 public:
-    /// limit: bytes, 0 for none. place: where, in words, for the refusal.
+    /// limit: bytes, 0 for none. place: where the memory is, in words, for the message of a refusal.
     explicit MemoryAccount(std::size_t limit = 0, const char* place = "in memory") : limit_(limit), place_(place) {}
 
     /// Throws LimitExceeded, without charging, if the account would pass its limit.
@@ -36,11 +36,12 @@ private:
     std::atomic<std::uint64_t> allocations_{0};
 };
 
-/// Memory aligned to a cache line; null if there is none.
+/// Memory aligned to a cache line; null if no memory is left.
 void* allocate_aligned(std::size_t bytes) noexcept;
 void free_aligned(void* memory) noexcept;
 
-/// Allocator that charges an account (none: uncounted) and leaves trivial elements uninitialized on resize.
+/// Allocator that charges an account and leaves trivial elements uninitialized on resize. Without an account, memory is
+/// not counted.
 template <class T>
 class AccountAllocator {
 public:
@@ -84,7 +85,7 @@ private:
     std::shared_ptr<MemoryAccount> account_;
 };
 
-/// The array of this project: a std::vector that is counted and not cleared on resize.
+/// The library's array: a std::vector whose memory is counted, and whose new elements are not set on resize.
 template <class T>
 using Array = std::vector<T, AccountAllocator<T>>;
 

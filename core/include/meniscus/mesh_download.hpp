@@ -7,28 +7,29 @@
 
 namespace meniscus {
 
-/// Fills the Mesh that Reconstructor::reconstruct_for_download() was given. That mesh must stay where it is, untouched,
-/// until this is finished or destroyed; destroying it leaves a mesh that is not complete, and gives the GPU's memory
+/// Fills the Mesh that was passed to Reconstructor::reconstruct_for_download(). That mesh must neither move nor change
+/// until the download is finished or destroyed. Destroying it leaves an incomplete mesh, and gives the GPU's memory
 /// back to later frames.
 ///
-/// What is asked for comes down in the caller's thread; several threads may ask. All but seconds() throw DeviceError if
-/// the GPU fails, then and ever after. The reconstructor may end first, or refuse a frame: what is not there yet comes
-/// down then.
+/// start(), bring() and finish() copy in the caller's thread; several threads may call them. They throw DeviceError if
+/// the GPU fails, and again at every later call. If the reconstructor ends or refuses a frame first, the rest of the
+/// mesh is copied then.
 class MeshDownload {
 public:
-    /// What a backend does for it. Thread-safe.
+    /// The backend's side of a download. Thread-safe. After each call the mesh holds what MeshDownload's function of
+    /// that name promises.
     class Source {
     public:
         virtual ~Source() = default;
         virtual void start() = 0;
         virtual void bring(std::size_t brick) = 0;
         virtual void finish() = 0;
-        /// The mesh may go: nothing is written to it any more.
+        /// From here on nothing is written to the mesh, which may be destroyed.
         virtual void abandon() noexcept = 0;
         virtual double seconds() const = 0;
     };
 
-    /// Of a mesh that is complete already, as the CPU's are.
+    /// The download of a mesh that is complete already, as every mesh of the CPU is.
     MeshDownload() = default;
     explicit MeshDownload(std::shared_ptr<Source> source) : source_(std::move(source)) {}
     ~MeshDownload() {
@@ -42,19 +43,20 @@ public:
     MeshDownload(const MeshDownload&) = delete;
     MeshDownload& operator=(const MeshDownload&) = delete;
 
-    /// Vertices, normals and bricks are there; triangles have their number.
+    /// After start(), the mesh has its vertices, normals and bricks. Its array of triangles has the final size, but no
+    /// content yet.
     void start() const {
         if (source_) source_->start();
     }
-    /// And so are the triangles of Mesh::bricks[brick].
+    /// After start() and bring(i), the mesh also has the triangles of Mesh::bricks[i].
     void bring(std::size_t brick) const {
         if (source_) source_->bring(brick);
     }
-    /// The mesh is complete.
+    /// After finish(), the mesh is complete.
     void finish() const {
         if (source_) source_->finish();
     }
-    /// Wall time that the copying has taken so far.
+    /// Wall time of the copies so far.
     double seconds() const { return source_ ? source_->seconds() : 0.0; }
 
 private:

@@ -16,7 +16,7 @@ inline constexpr unsigned max_particle_level = 3;
 /// Most arrays that a frame can bring beside positions and levels.
 inline constexpr std::size_t max_particle_arrays = 16;
 
-/// What every particle carries beside its position and level; borrowed.
+/// A value that every particle carries beside its position and level, such as a velocity; borrowed.
 struct ParticleArray {
     std::string_view name;            ///< for messages
     std::span<const std::byte> data;  ///< element_bytes for each particle, one particle after the other
@@ -29,7 +29,7 @@ struct ParticleFrame {
     std::span<const std::uint16_t> quantized;  ///< x y z per particle: min + q (max - min) / 65535 of quantization_box
     Box quantization_box;                      ///< used with `quantized` only
     std::span<const std::uint8_t> levels;      ///< empty (uniform SPH), or one per particle, 0 (finest) to 3
-    /// Orders particles that lie at one place; the surface does not depend on it.
+    /// Their bytes order particles that lie at one place; the surface does not depend on them.
     std::span<const ParticleArray> arrays{};
 
     bool is_quantized() const { return !quantized.empty(); }

@@ -30,22 +30,23 @@ public:
     /// LimitExceeded (memory); the mesh is then empty and the reconstructor remains usable. On a GPU also DeviceError.
     void reconstruct(const ParticleFrame& frame, Mesh& mesh);
 
-    /// The same, but returns once the mesh is finished where it was made; on a GPU it comes down as the caller, or
-    /// another thread, asks for it, while this one goes on to the next frame. Two meshes may be on their way: a third
-    /// frame, or one for which the device's memory limit leaves no second mesh, first brings the earlier one down.
+    /// As reconstruct(), but returns once the mesh is finished in the memory in which it was made. From a GPU the
+    /// download then copies it, in the caller's thread or another, while the next frame is reconstructed. Two meshes
+    /// may wait on the GPU: a third frame, or one for which the device's memory limit leaves no room for a second mesh,
+    /// first downloads the earlier one.
     [[nodiscard]] MeshDownload reconstruct_for_download(const ParticleFrame& frame, Mesh& mesh);
 
-    /// The same, but the mesh stays on the GPU. Throws InvalidInput on the CPU backend.
+    /// As reconstruct(), but the mesh stays on the GPU. Throws InvalidInput on the CPU backend.
     DeviceMesh reconstruct_on_device(const ParticleFrame& frame);
 
-    /// Emits the last frame's surface once more with no cell finer than max_level (1 to 3): coarser, with fewer
-    /// triangles, and closed as ever. Cheap, since nothing is sampled: only the steps from count_triangles on run.
-    /// Leaves the statistics as they are. Throws InvalidInput for another max_level, or if the last call did not end
-    /// with a surface; else as reconstruct() does. The last frame's own mesh may still be on its way, to another Mesh;
-    /// then this first brings an earlier mesh that is still on its way down.
+    /// Emits the last frame's surface once more with no cell finer than max_level (1 to 3). The result is coarser, has
+    /// fewer triangles, and is closed as well. The call is cheap: nothing is sampled, and only the steps from
+    /// count_triangles on run. The statistics do not change. Throws InvalidInput for another max_level, and if the last
+    /// call did not end with a surface; else as reconstruct() does. The last frame's own mesh may still be downloaded
+    /// to another Mesh; an earlier mesh that waits on the GPU is then downloaded first.
     void emit_capped(int max_level, Mesh& mesh);
 
-    /// Of the last frame.
+    /// The statistics of the last frame.
     const Statistics& statistics() const;
     const Settings& settings() const;
 
@@ -58,14 +59,15 @@ private:
 /// the lattice can address, or a level is above 3; names the particle, the value and the limit.
 void validate(const ParticleFrame& frame, const Settings& settings);
 
-/// "cpu" or "cuda" for what `automatic` picks here, and in one line why.
+/// The backend that a choice comes to on this machine.
 struct BackendDescription {
     Backend backend = Backend::cpu;
     std::string name;    ///< "cpu" or "cuda"
-    std::string device;  ///< processor or GPU, in words
-    std::string reason;  ///< why this one
+    std::string device;  ///< name of the processor or GPU
+    std::string reason;  ///< why this backend, in one line
 };
-/// device: the GPU asked for.
+/// choice: Backend::automatic takes the GPU if it can be used. device: index of that GPU. Throws InvalidInput for
+/// Backend::cuda without a GPU that can be used, and on a processor that cannot run the CPU backend.
 BackendDescription describe_backend(Backend choice, int device = 0);
 
 /// This library's version, "major.minor.patch".

@@ -1,4 +1,4 @@
-// What a user chooses about a reconstruction.
+// The settings of a reconstruction.
 #pragma once
 
 #include <array>

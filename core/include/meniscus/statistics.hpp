@@ -1,4 +1,4 @@
-// What one reconstruction did and what it cost.
+// Figures of one reconstruction: counts, times, memory.
 #pragma once
 
 #include <array>
@@ -55,8 +55,8 @@ struct Statistics {
     std::uint64_t field_evaluations = 0;                 ///< points at which the field was summed
     std::array<double, stage_count> stage_seconds{};     ///< indexed by Stage
     double total_seconds = 0.0;                          ///< of the call that reconstructed
-    double download_seconds = 0.0;   ///< the mesh's way from the GPU: part of total_seconds after reconstruct(), beside
-                                     ///< it after reconstruct_for_download()
+    double download_seconds = 0.0;   ///< copies from the GPU: part of total_seconds after reconstruct(), not after
+                                     ///< reconstruct_for_download()
     std::uint64_t peak_bytes = 0;    ///< the reconstructor's arrays and the mesh
     std::uint64_t allocations = 0;   ///< made for this frame; 0 once warm
     std::uint64_t device_bytes = 0;  ///< held on the GPU; CUDA's own not counted

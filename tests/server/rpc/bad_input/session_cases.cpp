@@ -84,7 +84,7 @@ std::vector<BadInputCase> session_cases() {
     const auto cell_size = [](double value) { return settings_with([=](v1::Settings& s) { s.set_cell_size(value); }); };
     const auto iso = [](double value) { return settings_with([=](v1::Settings& s) { s.set_iso(value); }); };
     const auto steps = [](std::uint32_t value) {
-        return settings_with([=](v1::Settings& s) { s.mutable_bisection()->set_steps(value); });
+        return settings_with([=](v1::Settings& s) { s.mutable_bisect()->set_steps(value); });
     };
     const auto domain = [](double low, double high) {
         return settings_with([=](v1::Settings& s) {
