@@ -5,13 +5,13 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include "conversion/loopback.hpp"
+#include "address/loopback.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::server {
 
 void require_loopback(std::string_view flag, const std::string& address) {
-    if (conversion::is_loopback(address)) return;
+    if (address::is_loopback(address)) return;
     throw InvalidInput(
         fmt::format("{} {} can be reached from other machines, without TLS: give a loopback address, or --insecure "
                     "if this is meant (--tls-cert and --tls-key give --listen TLS)",

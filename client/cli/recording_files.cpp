@@ -5,7 +5,7 @@
 #include <iostream>
 #include <system_error>
 
-#include "conversion/recording_format.hpp"
+#include "files/recording_format.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {
@@ -17,7 +17,7 @@ std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& fo
     auto i = std::filesystem::recursive_directory_iterator(folder, error);
     for (; !error && i != std::filesystem::recursive_directory_iterator(); i.increment(error)) {
         if (i.depth() > 0) i.disable_recursion_pending();
-        if (i->path().extension() == conversion::recording_extension) paths.push_back(i->path());
+        if (i->path().extension() == files::recording_extension) paths.push_back(i->path());
     }
     if (error) throw InvalidInput(folder.string() + ": cannot be read: " + error.message());
     std::sort(paths.begin(), paths.end());

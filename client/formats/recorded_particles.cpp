@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-#include "conversion/delimited_messages.hpp"
-#include "conversion/recording_format.hpp"
 #include "conversion/settings_conversion.hpp"
+#include "files/delimited_messages.hpp"
+#include "files/recording_format.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 class Reader {
 public:
-    Reader(const conversion::RandomAccessFile& file, const RecordedFrame& frame)
+    Reader(const files::RandomAccessFile& file, const RecordedFrame& frame)
         : file_(file),
           frame_(frame),
           messages_(file, frame.particles.first, frame.particles.first + frame.particles.size) {}
@@ -35,7 +35,7 @@ public:
 
 private:
     const v1::StreamRequest& next(v1::StreamRequest::MessageCase kind, const char* name) {
-        const auto bytes = messages_.next(conversion::max_recorded_message_bytes);
+        const auto bytes = messages_.next(files::max_recorded_message_bytes);
         if (!bytes || !request_.ParseFromString(*bytes) || request_.message_case() != kind)
             fail(std::string("no ") + name + " where one is due");
         return request_;
@@ -93,16 +93,16 @@ private:
                    ": " + what);
     }
 
-    const conversion::RandomAccessFile& file_;
+    const files::RandomAccessFile& file_;
     const RecordedFrame& frame_;
-    conversion::DelimitedMessages messages_;
+    files::DelimitedMessages messages_;
     v1::StreamRequest request_;
     std::span<const std::byte> chunk_;  ///< what is left of the one in request_
 };
 
 }  // namespace
 
-RecordedParticles read_recorded_particles(const conversion::RandomAccessFile& file, const RecordedFrame& frame) {
+RecordedParticles read_recorded_particles(const files::RandomAccessFile& file, const RecordedFrame& frame) {
     return Reader(file, frame).read();
 }
 

@@ -1,12 +1,12 @@
 // A recorded frame's messages to its particles.
 #pragma once
 
-#include "conversion/random_access_file.hpp"
+#include "files/random_access_file.hpp"
 #include "formats/recording.hpp"
 
 namespace meniscus::formats {
 
 /// Throws InvalidInput, in one line that names file and frame, unless the messages are exactly that frame.
-RecordedParticles read_recorded_particles(const conversion::RandomAccessFile& file, const RecordedFrame& frame);
+RecordedParticles read_recorded_particles(const files::RandomAccessFile& file, const RecordedFrame& frame);
 
 }  // namespace meniscus::formats

@@ -92,8 +92,8 @@ private:
     }
 
     Recording& recording_;
-    const conversion::RandomAccessFile& file_;
-    conversion::RecordingScan entries_;
+    const files::RandomAccessFile& file_;
+    files::RecordingScan entries_;
 };
 
 Recording::Recording(const std::filesystem::path& path) : file_(path) {

@@ -1,4 +1,4 @@
-// Recordings of sessions, as meniscusd --record keeps them; conversion/recording_format.hpp describes the files.
+// Recordings of sessions, as meniscusd --record keeps them; files/recording_format.hpp describes the files.
 #pragma once
 
 #include <chrono>
@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "conversion/random_access_file.hpp"
-#include "conversion/recording_scan.hpp"
+#include "files/random_access_file.hpp"
+#include "files/recording_scan.hpp"
 #include "meniscus/client/client.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 
 namespace meniscus::formats {
 
-using conversion::ByteRange;
+using files::ByteRange;
 
 /// A frame as the recording announces it. Times are those of the server's wall clock.
 struct RecordedFrame {
@@ -69,7 +69,7 @@ public:
 private:
     class Scan;
 
-    conversion::RandomAccessFile file_;
+    files::RandomAccessFile file_;
     std::string session_id_;
     Settings settings_;
     std::chrono::system_clock::time_point started_at_;

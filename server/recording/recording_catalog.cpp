@@ -6,7 +6,7 @@
 #include <optional>
 #include <system_error>
 
-#include "conversion/recording_format.hpp"
+#include "files/recording_format.hpp"
 #include "meniscus/error.hpp"
 #include "sessions/refusal.hpp"
 
@@ -19,7 +19,7 @@ std::optional<std::uint32_t> number_of(const std::filesystem::path& path) {
     const std::string stem = path.stem().string();
     std::uint32_t number = 0;
     std::from_chars(stem.data(), stem.data() + stem.size(), number);
-    if (number == 0 || path.filename() != fmt::format("{:06}{}", number, conversion::recording_extension))
+    if (number == 0 || path.filename() != fmt::format("{:06}{}", number, files::recording_extension))
         return std::nullopt;
     return number;
 }
@@ -63,10 +63,10 @@ RecordingCatalog::Opened RecordingCatalog::open(const RecordingName& name) {
                               name.session_id));
 }
 
-std::shared_ptr<const conversion::RandomAccessFile> RecordingCatalog::refresh(const RecordingName& name) {
+std::shared_ptr<const files::RandomAccessFile> RecordingCatalog::refresh(const RecordingName& name) {
     const auto entry = entries_.find(name);
     try {
-        auto file = std::make_shared<const conversion::RandomAccessFile>(entry->second.path);
+        auto file = std::make_shared<const files::RandomAccessFile>(entry->second.path);
         entry->second.index.update(*file);
         if (entry->second.index.begin().session_id() == name.session_id) return file;
     } catch (const InvalidInput&) {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "conversion/random_access_file.hpp"
+#include "files/random_access_file.hpp"
 #include "recording/recording_index.hpp"
 
 namespace meniscus::server {
@@ -34,7 +34,7 @@ public:
     const std::map<RecordingName, Entry>& list();
 
     struct Opened {
-        std::shared_ptr<const conversion::RandomAccessFile> file;
+        std::shared_ptr<const files::RandomAccessFile> file;
         const RecordingIndex& index;  ///< as the file is now; until the next call
     };
     /// Throws Refusal, not_found, if there is no such recording.
@@ -44,7 +44,7 @@ private:
     void look_into(const std::filesystem::path& session_folder);
     /// Opens the file and brings the entry up to date; forgets the entry and returns none if it is no recording any
     /// more.
-    std::shared_ptr<const conversion::RandomAccessFile> refresh(const RecordingName& name);
+    std::shared_ptr<const files::RandomAccessFile> refresh(const RecordingName& name);
 
     const std::filesystem::path directory_;
     std::map<RecordingName, Entry> entries_;

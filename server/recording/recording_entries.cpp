@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <string_view>
 
-#include "conversion/recording_format.hpp"
 #include "conversion/settings_conversion.hpp"
+#include "files/recording_format.hpp"
 #include "meniscus/v1/recording.pb.h"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/limits/limits.hpp"
@@ -14,7 +14,7 @@ namespace meniscus::server {
 namespace {
 
 /// So that no name makes the entry one that readers refuse.
-constexpr std::size_t max_owner_bytes = conversion::max_recording_entry_bytes / 2;
+constexpr std::size_t max_owner_bytes = files::max_recording_entry_bytes / 2;
 
 void append_varint(std::string& out, std::uint64_t value) {
     for (; value >= 0x80; value >>= 7U) out += static_cast<char>((value & 0x7fU) | 0x80U);
@@ -61,12 +61,12 @@ std::string recording_begin(const std::string& session_id, const Settings& setti
                             const std::string& owner) {
     v1::RecordingEntry entry;
     v1::RecordingBegin& begin = *entry.mutable_begin();
-    begin.set_version(conversion::recording_version);
+    begin.set_version(files::recording_version);
     begin.set_session_id(session_id);
     *begin.mutable_settings() = conversion::to_wire(settings);
     begin.set_started_at(started_at);
     if (owner.size() <= max_owner_bytes) begin.set_owner(owner);
-    std::string out(conversion::recording_magic);
+    std::string out(files::recording_magic);
     append_delimited(out, entry);
     return out;
 }

@@ -1,4 +1,4 @@
-// Frames to the bytes that recordings hold; conversion/recording_format.hpp describes them.
+// Frames to the bytes that recordings hold; files/recording_format.hpp describes them.
 #pragma once
 
 #include <cstdint>

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "conversion/recording_format.hpp"
-#include "conversion/writing_mark.hpp"
+#include "files/recording_format.hpp"
+#include "files/writing_mark.hpp"
 
 namespace meniscus::server {
 
@@ -26,11 +26,11 @@ RecordingFile::RecordingFile(const std::filesystem::path& directory, const std::
     const std::filesystem::path folder = directory / session_id;
     if (::mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) fail(folder, errno);
     for (unsigned number = 1; descriptor_ < 0; ++number) {
-        path_ = folder / fmt::format("{:06}{}", number, conversion::recording_extension);
+        path_ = folder / fmt::format("{:06}{}", number, files::recording_extension);
         descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
         if (descriptor_ < 0 && errno != EEXIST) fail(path_, errno);
     }
-    conversion::mark_as_being_written(descriptor_);
+    files::mark_as_being_written(descriptor_);
 }
 
 RecordingFile::~RecordingFile() {

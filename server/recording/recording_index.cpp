@@ -5,8 +5,8 @@
 
 namespace meniscus::server {
 
-void RecordingIndex::update(const conversion::RandomAccessFile& file) {
-    conversion::RecordingScan scan(file);
+void RecordingIndex::update(const files::RandomAccessFile& file) {
+    files::RecordingScan scan(file);
     if (file.size() < position_ || scan.begin().SerializeAsString() != begin_.SerializeAsString()) {
         *this = {};
         begin_ = scan.begin();
@@ -28,7 +28,7 @@ void RecordingIndex::update(const conversion::RandomAccessFile& file) {
     }
 }
 
-void RecordingIndex::take(const conversion::RecordingScan& scan, const conversion::RecordingScan::Item& item) {
+void RecordingIndex::take(const files::RecordingScan& scan, const files::RecordingScan::Item& item) {
     if (!item.entry.has_mesh()) return;
     const std::uint64_t index = item.entry.mesh().frame_index();
     if (!meshes_.empty() && index <= meshes_.back().frame_index)

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "conversion/random_access_file.hpp"
-#include "conversion/recording_scan.hpp"
+#include "files/random_access_file.hpp"
+#include "files/recording_scan.hpp"
 
 namespace meniscus::server {
 
 /// 24 bytes for each frame; what is recorded of one takes a kilobyte or more on the disk.
 struct MeshPlace {
     std::uint64_t frame_index = 0;
-    conversion::ByteRange messages;
+    files::ByteRange messages;
 };
 
 class RecordingIndex {
@@ -21,7 +21,7 @@ public:
     /// Takes in what the file holds beyond what is known of it: entries alone, never a frame. A file that has taken the
     /// place of the one before is read anew. Damage ends the index there, and is logged. Throws InvalidInput if the
     /// file is no recording.
-    void update(const conversion::RandomAccessFile& file);
+    void update(const files::RandomAccessFile& file);
 
     const v1::RecordingBegin& begin() const noexcept { return begin_; }
     /// By rising frame index.
@@ -31,7 +31,7 @@ public:
     bool damaged() const noexcept { return damaged_; }
 
 private:
-    void take(const conversion::RecordingScan& scan, const conversion::RecordingScan::Item& item);
+    void take(const files::RecordingScan& scan, const files::RecordingScan::Item& item);
 
     v1::RecordingBegin begin_;
     std::vector<MeshPlace> meshes_;

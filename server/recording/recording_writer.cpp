@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "conversion/recording_format.hpp"
+#include "files/recording_format.hpp"
 #include "log.hpp"
 #include "meniscus/error.hpp"
 
@@ -30,7 +30,7 @@ std::uint64_t bytes_of_recordings(const std::filesystem::path& directory) {
     std::error_code error;
     for (auto i = std::filesystem::recursive_directory_iterator(directory, options, error);
          i != std::filesystem::recursive_directory_iterator(); i.increment(error)) {
-        if (i->path().extension() != conversion::recording_extension) continue;
+        if (i->path().extension() != files::recording_extension) continue;
         const std::uintmax_t size = i->file_size(error);
         if (!error) bytes += size;
     }

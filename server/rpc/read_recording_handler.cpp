@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "conversion/delimited_messages.hpp"
-#include "conversion/recording_format.hpp"
+#include "files/delimited_messages.hpp"
+#include "files/recording_format.hpp"
 #include "log.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/recording_service.pb.h"
@@ -48,10 +48,10 @@ public:
             if (messages_ && messages_->at_end()) messages_.reset();
             if (!messages_) {
                 if (at_ == meshes_.size()) return nullptr;
-                const conversion::ByteRange range = meshes_[at_++].messages;
+                const files::ByteRange range = meshes_[at_++].messages;
                 messages_.emplace(*file_, range.first, range.first + range.size);
             }
-            if (auto message = messages_->next(conversion::max_recorded_message_bytes))
+            if (auto message = messages_->next(files::max_recorded_message_bytes))
                 return std::make_shared<const std::string>(std::move(*message));
             file_->fail("a message is cut");
         } catch (const InvalidInput& error) {
@@ -63,11 +63,11 @@ public:
     }
 
 private:
-    const std::shared_ptr<const conversion::RandomAccessFile> file_;
+    const std::shared_ptr<const files::RandomAccessFile> file_;
     const std::string name_;
     std::vector<MeshPlace> meshes_;
-    std::size_t at_ = 0;                                     ///< the next of meshes_
-    std::optional<conversion::DelimitedMessages> messages_;  ///< of the one before
+    std::size_t at_ = 0;                                ///< the next of meshes_
+    std::optional<files::DelimitedMessages> messages_;  ///< of the one before
 };
 
 /// Holds one message at a time: the next one is read when gRPC has taken the one before. At any moment either a job of

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <utility>
 
-#include "conversion/loopback.hpp"
+#include "address/loopback.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::client {
@@ -75,7 +75,7 @@ std::string connection_failure(v1::ServerService::Stub& server) {
 std::string checked_token(const std::string& address, const ConnectionOptions& options) {
     for (const char c : options.token)
         if (c <= ' ' || c > '~') throw InvalidInput("the token has a character that is not a visible ASCII one");
-    if (!options.token.empty() && options.ca_file.empty() && !options.insecure && !conversion::is_loopback(address))
+    if (!options.token.empty() && options.ca_file.empty() && !options.insecure && !address::is_loopback(address))
         throw InvalidInput("the token would travel to " + address +
                            " without TLS: give the server's CA, or say that this is meant (--tls-ca, --insecure)");
     return options.token;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "conversion/recording_format.hpp"
+#include "files/recording_format.hpp"
 #include "formats/recording.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/recording.pb.h"
@@ -190,7 +190,7 @@ TEST_F(RecordingFormat, RefusesWhatIsOutOfOrderOrOutOfRange) {
     v1::RecordingEntry unknown;
     v1::RecordingEntry newer;
     newer.mutable_begin()->set_version(2);
-    const std::string magic(conversion::recording_magic);
+    const std::string magic(files::recording_magic);
     const std::string huge_length("\xff\xff\xff\xff\x7f", 5);
     const std::string endless_length(10, '\xff');
     const std::vector<std::pair<std::string, std::string>> cases{

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "conversion/recording_format.hpp"
+#include "files/recording_format.hpp"
 #include "meniscus/error.hpp"
 #include "recording/session_recording.hpp"
 #include "recording/write_queue.hpp"

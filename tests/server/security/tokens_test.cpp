@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "conversion/loopback.hpp"
+#include "address/loopback.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "running_server.hpp"
@@ -300,11 +300,11 @@ TEST(TokenDigests, AreEqualInAllBytesOrNotAtAll) {
 
 TEST(Loopback, IsWhatNoOtherMachineReaches) {
     for (const char* address : {"localhost:1", "127.0.0.1:50051", "127.9.8.7:0", "[::1]:1", "unix:/run/meniscus"})
-        EXPECT_TRUE(conversion::is_loopback(address)) << address;
+        EXPECT_TRUE(address::is_loopback(address)) << address;
     for (const char* address :
          {"0.0.0.0:1", "[::]:1", "128.0.0.1:1", "10.0.0.1:1", "example.org:1", "127.0.0.1.example.org:1",
           "localhost.example.org:1", "127.1:1", ":1", "", "ipv4:127.0.0.1:1", "dns:///localhost:1"})
-        EXPECT_FALSE(conversion::is_loopback(address)) << address;
+        EXPECT_FALSE(address::is_loopback(address)) << address;
 }
 
 TEST(Server, RefusesOtherMachinesWithoutTlsUnlessThatIsMeant) {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "conversion/random_access_file.hpp"
+#include "files/random_access_file.hpp"
 
-namespace meniscus::conversion {
+namespace meniscus::files {
 
 class DelimitedMessages {
 public:
@@ -30,4 +30,4 @@ private:
     std::uint64_t end_;
 };
 
-}  // namespace meniscus::conversion
+}  // namespace meniscus::files

@@ -17,7 +17,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace meniscus::conversion {
+namespace meniscus::files {
 
 inline constexpr std::string_view recording_magic = "Meniscus recording\n";
 inline constexpr std::string_view recording_extension = ".recording";
@@ -27,4 +27,4 @@ inline constexpr std::size_t max_recording_entry_bytes = 4096;
 /// One of the messages that follow: a chunk or a part of a brick of 1 MiB, and room for what is beside it.
 inline constexpr std::size_t max_recorded_message_bytes = std::size_t{2} << 20;
 
-}  // namespace meniscus::conversion
+}  // namespace meniscus::files

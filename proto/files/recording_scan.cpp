@@ -1,8 +1,8 @@
-#include "conversion/recording_scan.hpp"
+#include "files/recording_scan.hpp"
 
-#include "conversion/recording_format.hpp"
+#include "files/recording_format.hpp"
 
-namespace meniscus::conversion {
+namespace meniscus::files {
 
 RecordingScan::RecordingScan(const RandomAccessFile& file)
     : file_(file), messages_(file, recording_magic.size(), file.size()) {
@@ -51,4 +51,4 @@ void RecordingScan::fail(const std::string& what) const {
     file_.fail("at byte " + std::to_string(entry_at_) + ": " + what);
 }
 
-}  // namespace meniscus::conversion
+}  // namespace meniscus::files

@@ -2,11 +2,11 @@
 // ends.
 #pragma once
 
-namespace meniscus::conversion {
+namespace meniscus::files {
 
 /// Of a file open for writing, for as long as the descriptor is open. A file system without locks keeps no mark.
 void mark_as_being_written(int descriptor) noexcept;
 /// Of a file open for reading. Takes no lock itself.
 bool is_being_written(int descriptor) noexcept;
 
-}  // namespace meniscus::conversion
+}  // namespace meniscus::files

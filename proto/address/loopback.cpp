@@ -1,10 +1,10 @@
-#include "conversion/loopback.hpp"
+#include "address/loopback.hpp"
 
 #include <arpa/inet.h>
 
 #include <string>
 
-namespace meniscus::conversion {
+namespace meniscus::address {
 
 bool is_loopback(std::string_view address) {
     if (address.starts_with("unix:")) return true;
@@ -14,4 +14,4 @@ bool is_loopback(std::string_view address) {
     return ::inet_pton(AF_INET, host.c_str(), &ip) == 1 && (ntohl(ip.s_addr) >> 24U) == 127;
 }
 
-}  // namespace meniscus::conversion
+}  // namespace meniscus::address

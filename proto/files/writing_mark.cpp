@@ -1,9 +1,9 @@
-#include "conversion/writing_mark.hpp"
+#include "files/writing_mark.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace meniscus::conversion {
+namespace meniscus::files {
 
 namespace {
 
@@ -27,4 +27,4 @@ bool is_being_written(int descriptor) noexcept {
     return ::fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
 }
 
-}  // namespace meniscus::conversion
+}  // namespace meniscus::files

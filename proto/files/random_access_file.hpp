@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace meniscus::conversion {
+namespace meniscus::files {
 
 class RandomAccessFile {
 public:
@@ -33,4 +33,4 @@ private:
     std::uint64_t size_ = 0;
 };
 
-}  // namespace meniscus::conversion
+}  // namespace meniscus::files

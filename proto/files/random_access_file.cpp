@@ -1,4 +1,4 @@
-#include "conversion/random_access_file.hpp"
+#include "files/random_access_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -8,10 +8,10 @@
 #include <system_error>
 #include <utility>
 
-#include "conversion/writing_mark.hpp"
+#include "files/writing_mark.hpp"
 #include "meniscus/error.hpp"
 
-namespace meniscus::conversion {
+namespace meniscus::files {
 
 RandomAccessFile::RandomAccessFile(std::filesystem::path path) : path_(std::move(path)) {
     // Without O_NONBLOCK a named pipe would wait for its writer.
@@ -62,4 +62,4 @@ void RandomAccessFile::fail(const std::string& message) const {
     throw InvalidInput(path_.string() + ": " + message);
 }
 
-}  // namespace meniscus::conversion
+}  // namespace meniscus::files

@@ -1,8 +1,8 @@
-#include "conversion/delimited_messages.hpp"
+#include "files/delimited_messages.hpp"
 
 #include <algorithm>
 
-namespace meniscus::conversion {
+namespace meniscus::files {
 
 std::optional<std::string> DelimitedMessages::next(std::size_t limit) {
     constexpr std::uint64_t longest_varint = 5;  // of lengths up to 2^35: the limits are far below
@@ -26,4 +26,4 @@ std::optional<std::string> DelimitedMessages::next(std::size_t limit) {
     return file_->read(first, static_cast<std::size_t>(size));
 }
 
-}  // namespace meniscus::conversion
+}  // namespace meniscus::files

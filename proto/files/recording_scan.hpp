@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "conversion/delimited_messages.hpp"
-#include "conversion/random_access_file.hpp"
+#include "files/delimited_messages.hpp"
+#include "files/random_access_file.hpp"
 #include "meniscus/v1/recording.pb.h"
 
-namespace meniscus::conversion {
+namespace meniscus::files {
 
 /// Where a frame's messages are in the file.
 struct ByteRange {
@@ -48,4 +48,4 @@ private:
     v1::RecordingBegin begin_;
 };
 
-}  // namespace meniscus::conversion
+}  // namespace meniscus::files
