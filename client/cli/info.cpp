@@ -31,12 +31,23 @@ void print_backend(const std::string& version, const std::string& name, const st
               << "device                 " << device << '\n';
 }
 
+std::string codec_names(const std::vector<std::uint32_t>& numbers) {
+    std::string text;
+    for (const std::uint32_t number : numbers) {
+        const auto codec = codec_by_number(number);
+        if (!text.empty()) text += ", ";
+        text += codec ? std::string(name_of(*codec)) : "number " + std::to_string(number);
+    }
+    return text;
+}
+
 void print_server(const ServerFlags& server) {
     client::Client client = server.connect();
     const client::ServerInfo info = client.server_info();
     print_backend(info.version, info.backend, info.backend_reason, info.device);
     std::cout << "health                 " << (client.serving() ? "serving" : "shutting down") << '\n'
               << "threads                " << info.threads << '\n'
+              << "codecs                 " << codec_names(info.codecs) << '\n'
               << "sessions               " << limit(info.max_sessions) << '\n'
               << "watchers per session   " << limit(info.max_watchers_per_session) << '\n'
               << "particles per frame    " << limit(info.max_particles_per_frame) << '\n'

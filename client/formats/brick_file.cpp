@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "conversion/codec_conversion.hpp"
 #include "conversion/statistics_conversion.hpp"
 #include "formats/atomic_file.hpp"
 #include "formats/byte_cursor.hpp"
@@ -51,7 +52,8 @@ v1::StreamResponse part_message(const EncodedBrick& brick, std::size_t part, std
     out.set_triangle_count(brick.triangles);
     if (part == 0) out.set_cell_levels(to_string(brick.cell_levels, 0, brick.cell_levels.size()));
     const std::size_t first = part * part_bytes;
-    out.set_draco(to_string(brick.draco, first, std::min(part_bytes, brick.draco.size() - first)));
+    out.set_codec(conversion::to_wire(brick.codec));
+    out.set_data(to_string(brick.data, first, std::min(part_bytes, brick.data.size() - first)));
     out.set_part_index(static_cast<std::uint32_t>(part));
     out.set_part_count(static_cast<std::uint32_t>(parts));
     return message;
@@ -78,7 +80,7 @@ void write_bricks(const std::filesystem::path& path, const client::ReceivedFrame
     };
     write(begin_message(frame));
     for (const auto& brick : frame.bricks) {
-        const std::size_t parts = std::max<std::size_t>(1, (brick->draco.size() + part_bytes - 1) / part_bytes);
+        const std::size_t parts = std::max<std::size_t>(1, (brick->data.size() + part_bytes - 1) / part_bytes);
         for (std::size_t part = 0; part < parts; ++part) write(part_message(*brick, part, parts));
     }
     write(statistics_message(frame));
@@ -119,7 +121,7 @@ client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistic
     static_cast<Statistics&>(frame.statistics) = statistics;
     for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
         const auto brick = std::make_shared<const EncodedBrick>(encode_brick(mesh, i, options));
-        frame.statistics.encoded_bytes += brick->draco.size() + brick->cell_levels.size();
+        frame.statistics.encoded_bytes += brick->data.size() + brick->cell_levels.size();
         frame.bricks.push_back(brick);
     }
     frame.statistics.encode_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

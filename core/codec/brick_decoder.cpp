@@ -25,18 +25,17 @@ constexpr std::size_t cells_per_brick = std::size_t{brick_base_cells} * brick_ba
 /// Draco allocates by the counts that its bytes claim, before it finds that the bytes do not hold them. The counts are
 /// compared first, with those announced and with the most that this number of bytes can hold.
 void require_plausible(const EncodedBrick& brick) {
-    // A brick's lattice has no room for more triangles and vertices.
-    constexpr std::uint32_t most = 16U * brick_cells * brick_cells * brick_cells;
-    if (brick.triangles > most || brick.vertices > most)
+    if (brick.triangles > max_brick_triangles || brick.vertices > max_brick_triangles)
         refuse(brick, "announces " + std::to_string(brick.triangles) + " triangles and " +
-                          std::to_string(brick.vertices) + " vertices, a brick has at most " + std::to_string(most));
+                          std::to_string(brick.vertices) + " vertices, a brick has at most " +
+                          std::to_string(max_brick_triangles) + " of each");
     // The smoothest surface takes an eighth of a byte per triangle at the speed that is in use.
     constexpr std::size_t most_per_byte = 64;
-    if (brick.triangles / most_per_byte > brick.draco.size())
+    if (brick.triangles / most_per_byte > brick.data.size())
         refuse(brick, "announces " + std::to_string(brick.triangles) + " triangles in " +
-                          std::to_string(brick.draco.size()) + " bytes, more than " + std::to_string(most_per_byte) +
+                          std::to_string(brick.data.size()) + " bytes, more than " + std::to_string(most_per_byte) +
                           " per byte");
-    const auto header = read_draco_header(brick.draco);
+    const auto header = read_draco_header(brick.data);
     if (!header) refuse(brick, "its bytes are not a Draco mesh as bricks have them");
     if (header->faces != brick.triangles)
         refuse(brick, "has " + std::to_string(header->faces) + " triangles, announced were " +
@@ -52,7 +51,7 @@ void require_plausible(const EncodedBrick& brick) {
 std::unique_ptr<draco::Mesh> decode_draco(const EncodedBrick& brick) {
     require_plausible(brick);
     draco::DecoderBuffer buffer;
-    buffer.Init(reinterpret_cast<const char*>(brick.draco.data()), brick.draco.size());
+    buffer.Init(reinterpret_cast<const char*>(brick.data.data()), brick.data.size());
     draco::Decoder decoder;
     auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
     if (!mesh.ok()) refuse(brick, "its bytes are not a Draco mesh (" + mesh.status().error_msg_string() + ")");
@@ -114,11 +113,10 @@ LatticePosition brick_origin(const EncodedBrick& brick, std::uint32_t offset_bit
     return origin;
 }
 
-}  // namespace
-
-DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits) {
-    if (offset_bits < 1 || offset_bits > 9)
-        throw InvalidInput("the mesh has " + std::to_string(offset_bits) + " offset bits, must have 1 to 9");
+DecodedBrick decode_draco_brick(const EncodedBrick& brick, std::uint32_t offset_bits) {
+    if (offset_bits < min_offset_bits || offset_bits > max_offset_bits)
+        throw InvalidInput("the mesh has " + std::to_string(offset_bits) + " offset bits, must have " +
+                           std::to_string(min_offset_bits) + " to " + std::to_string(max_offset_bits));
     const LatticePosition origin = brick_origin(brick, offset_bits);
     const auto mesh = decode_draco(brick);
     const Weld weld = weld_points(brick, *mesh);
@@ -158,6 +156,17 @@ DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits) 
     for (const auto& cell : cells)
         decoded.levels.push_back(cell ? static_cast<TriangleLevel>(levels[*cell] - 1) : TriangleLevel::crack);
     return decoded;
+}
+
+}  // namespace
+
+DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits) {
+    switch (brick.codec) {
+        case Codec::draco:
+            return decode_draco_brick(brick, offset_bits);
+    }
+    refuse(brick, "has the codec " + std::to_string(static_cast<std::uint32_t>(brick.codec)) +
+                      ", which this version does not know; it knows " + known_codecs());
 }
 
 }  // namespace meniscus

@@ -59,13 +59,51 @@ int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco:
     return id;
 }
 
+std::vector<std::byte> encode_draco(const BrickContent& content, const CodingOptions& options) {
+    if (options.speed < 0 || options.speed > 10)
+        throw InvalidInput("coding speed is " + std::to_string(options.speed) + ", must be 0 to 10");
+    draco::Mesh draco_mesh;
+    draco_mesh.set_num_points(static_cast<std::uint32_t>(content.positions.size()));
+    draco_mesh.SetNumFaces(content.triangles.size());
+    for (std::uint32_t t = 0; t < content.triangles.size(); ++t) {
+        const Triangle& triangle = content.triangles[t];
+        draco_mesh.SetFace(draco::FaceIndex(t), {{draco::PointIndex(triangle[0]), draco::PointIndex(triangle[1]),
+                                                  draco::PointIndex(triangle[2])}});
+    }
+    add_attribute(draco_mesh, draco::GeometryAttribute::POSITION, draco::DT_UINT16, content.positions);
+    draco::ExpertEncoder encoder(draco_mesh);
+    encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
+    encoder.SetSpeedOptions(options.speed, options.speed);
+    if (!content.normals.empty()) {
+        const int normals =
+            add_attribute(draco_mesh, draco::GeometryAttribute::NORMAL, draco::DT_FLOAT32, content.normals);
+        encoder.SetAttributeQuantization(normals, options.normal_bits);
+    }
+    draco::EncoderBuffer buffer;
+    const draco::Status status = encoder.EncodeToBuffer(&buffer);
+    if (!status.ok()) throw std::runtime_error("Draco could not encode a brick: " + status.error_msg_string());
+    const auto* bytes = reinterpret_cast<const std::byte*>(buffer.data());
+    return {bytes, bytes + buffer.size()};
+}
+
+std::vector<std::byte> encode(const BrickContent& content, const CodingOptions& options) {
+    switch (options.codec) {
+        case Codec::draco:
+            return encode_draco(content, options);
+    }
+    throw InvalidInput("codec is " + std::to_string(static_cast<std::uint32_t>(options.codec)) +
+                       ", which this version does not know; it knows " + known_codecs());
+}
+
 }  // namespace
 
 std::uint32_t encoded_offset_bits(const Mesh& mesh, const CodingOptions& options) {
     if (options.position_bits == 0) return mesh.offset_bits;
-    if (options.position_bits < 2 || static_cast<std::uint32_t>(options.position_bits) > mesh.offset_bits)
-        throw InvalidInput("position bits are " + std::to_string(options.position_bits) + ", must be 2 to " +
-                           std::to_string(mesh.offset_bits) + ", or 0 for all");
+    if (options.position_bits < static_cast<int>(min_offset_bits) ||
+        static_cast<std::uint32_t>(options.position_bits) > mesh.offset_bits)
+        throw InvalidInput("position bits are " + std::to_string(options.position_bits) + ", must be " +
+                           std::to_string(min_offset_bits) + " to " + std::to_string(mesh.offset_bits) +
+                           ", or 0 for all");
     return static_cast<std::uint32_t>(options.position_bits);
 }
 
@@ -96,36 +134,13 @@ BrickContent brick_content(const Mesh& mesh, std::size_t brick, const CodingOpti
 }
 
 EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& options) {
-    if (options.speed < 0 || options.speed > 10)
-        throw InvalidInput("coding speed is " + std::to_string(options.speed) + ", must be 0 to 10");
     EncodedBrick encoded;
     encoded.coordinate = content.coordinate;
     encoded.vertices = static_cast<std::uint32_t>(content.positions.size());
     encoded.triangles = static_cast<std::uint32_t>(content.triangles.size());
     encoded.cell_levels = content.cell_levels;
-
-    draco::Mesh draco_mesh;
-    draco_mesh.set_num_points(encoded.vertices);
-    draco_mesh.SetNumFaces(encoded.triangles);
-    for (std::uint32_t t = 0; t < encoded.triangles; ++t) {
-        const Triangle& triangle = content.triangles[t];
-        draco_mesh.SetFace(draco::FaceIndex(t), {{draco::PointIndex(triangle[0]), draco::PointIndex(triangle[1]),
-                                                  draco::PointIndex(triangle[2])}});
-    }
-    add_attribute(draco_mesh, draco::GeometryAttribute::POSITION, draco::DT_UINT16, content.positions);
-    draco::ExpertEncoder encoder(draco_mesh);
-    encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-    encoder.SetSpeedOptions(options.speed, options.speed);
-    if (!content.normals.empty()) {
-        const int normals =
-            add_attribute(draco_mesh, draco::GeometryAttribute::NORMAL, draco::DT_FLOAT32, content.normals);
-        encoder.SetAttributeQuantization(normals, options.normal_bits);
-    }
-    draco::EncoderBuffer buffer;
-    const draco::Status status = encoder.EncodeToBuffer(&buffer);
-    if (!status.ok()) throw std::runtime_error("Draco could not encode a brick: " + status.error_msg_string());
-    const auto* bytes = reinterpret_cast<const std::byte*>(buffer.data());
-    encoded.draco.assign(bytes, bytes + buffer.size());
+    encoded.codec = options.codec;
+    encoded.data = encode(content, options);
     return encoded;
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "conversion/codec_conversion.hpp"
 #include "files/delimited_messages.hpp"
 #include "files/recording_format.hpp"
 #include "log.hpp"
@@ -87,6 +88,7 @@ public:
             grpc::ByteBuffer bytes(request);
             parse(bytes, request_, "ReadRecordingRequest");
             require_same_session(session_id, request_.session_id());
+            conversion::chosen_codec(request_.codecs());  // recorded meshes have the only one that there is
             place_ = reads_->admit();
             go_on([this, caller, &context](RecordingCatalog& catalog) {
                 open(catalog, caller);

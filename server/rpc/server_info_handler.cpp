@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "conversion/codec_conversion.hpp"
+
 namespace meniscus::server {
 
 v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, unsigned threads, const Limits& limits) {
@@ -11,6 +13,7 @@ v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, uns
     response.set_device(backend.device);
     response.set_backend_reason(backend.reason);
     response.set_threads(threads);
+    conversion::add_known_codecs(*response.mutable_codecs());
     v1::Limits& wire = *response.mutable_limits();
     wire.set_sessions(limits.sessions);
     wire.set_watchers_per_session(limits.watchers_per_session);

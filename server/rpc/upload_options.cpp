@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "conversion/codec_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "rpc/normal_bits.hpp"
 
@@ -32,6 +33,7 @@ UploadPolicy policy_of(const v1::StreamOpen& message) {
 UploadOptions upload_options(const v1::StreamOpen& message) {
     return {.receive_meshes = message.receive_meshes(),
             .normal_bits = normal_bits_of(message),
+            .codec = conversion::chosen_codec(message.codecs()),
             .policy = policy_of(message),
             .nth = message.nth(),
             .run_id = message.run_id()};

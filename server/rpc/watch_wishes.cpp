@@ -4,8 +4,10 @@
 
 #include <cmath>
 
+#include "conversion/codec_conversion.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/mesh.hpp"
 #include "rpc/normal_bits.hpp"
 
 namespace meniscus::server {
@@ -16,9 +18,9 @@ int position_bits_of(const v1::WatchRequest& request, const Settings& settings) 
     const std::uint32_t finest = offset_bits(settings);
     if (!request.has_position_bits()) return static_cast<int>(finest);
     const std::uint32_t bits = request.position_bits();
-    if (bits < 2 || bits > finest)
-        throw InvalidInput(
-            fmt::format("position_bits is {}; it must be 2 to {}, the session's, or not set", bits, finest));
+    if (bits < min_offset_bits || bits > finest)
+        throw InvalidInput(fmt::format("position_bits is {}; it must be {} to {}, the session's, or not set", bits,
+                                       min_offset_bits, finest));
     return static_cast<int>(bits);
 }
 
@@ -55,7 +57,8 @@ WatchWishes watch_wishes_of(const v1::WatchRequest& request, const Settings& set
     WatchWishes wishes;
     wishes.format = {.max_level = max_level_of(request),
                      .position_bits = position_bits_of(request, settings),
-                     .normal_bits = normal_bits_of(request)};
+                     .normal_bits = normal_bits_of(request),
+                     .codec = conversion::chosen_codec(request.codecs())};
     if (!settings.normals) wishes.format.normal_bits = 0;
     if (request.has_region()) wishes.region = region_of(request.region());
     wishes.bytes_per_second = request.bytes_per_second();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "meniscus/brick_coding.hpp"
+#include "meniscus/codec.hpp"
 #include "sessions/frame_statistics.hpp"
 
 namespace meniscus::server {
@@ -18,11 +19,12 @@ namespace meniscus::server {
 /// One StreamResponse, which is a WatchResponse byte for byte, in protobuf's wire format.
 using SharedMessage = std::shared_ptr<const std::string>;
 
-/// How a mesh is encoded. Receivers that wish for the same share one encode.
+/// How a mesh is encoded. Receivers with equal formats share one encode.
 struct MeshFormat {
     int max_level = 3;      ///< finest level of grid, 1 to 3
     int position_bits = 0;  ///< vertices lie on multiples of c / 2^position_bits; 0: as reconstructed
     int normal_bits = 0;    ///< per octahedral component; 0: no normals
+    Codec codec = Codec::draco;
     auto operator<=>(const MeshFormat&) const =
         default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
 };

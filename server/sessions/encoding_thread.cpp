@@ -11,10 +11,11 @@ namespace meniscus::server {
 namespace {
 
 /// A watcher that wishes for the same shares the stream's encode.
-MeshFormat stream_format(int normal_bits, const Settings& settings) {
+MeshFormat stream_format(int normal_bits, Codec codec, const Settings& settings) {
     return {.max_level = 3,
             .position_bits = static_cast<int>(offset_bits(settings)),
-            .normal_bits = settings.normals ? normal_bits : 0};
+            .normal_bits = settings.normals ? normal_bits : 0,
+            .codec = codec};
 }
 
 }  // namespace
@@ -79,7 +80,8 @@ void EncodingThread::perform(Encode& task) {
     before_ = watchers_.replace_meshes();
     try {
         if (upload.options.receive_meshes) {
-            const MeshFormat format = stream_format(upload.options.normal_bits, context_.settings);
+            const MeshFormat format =
+                stream_format(upload.options.normal_bits, upload.options.codec, context_.settings);
             const auto encoded =
                 encode_newest(format, [&](const SharedMessage& message) { upload.output.push(message); });
             count_answer(encoded->statistics);
@@ -104,7 +106,8 @@ void EncodingThread::answer_again(Encode& task) {
     Upload& upload = *task.upload;
     try {
         if (upload.options.receive_meshes)
-            encode_frame(*task.frame, stream_format(upload.options.normal_bits, context_.settings), nullptr,
+            encode_frame(*task.frame,
+                         stream_format(upload.options.normal_bits, upload.options.codec, context_.settings), nullptr,
                          *context_.shared.workers, scratch_,
                          [&](const SharedMessage& message) { upload.output.push(message); });
         else
@@ -179,7 +182,7 @@ void EncodingThread::encode_for_watchers() {
 }
 
 void EncodingThread::encode_for_observer() {
-    const MeshFormat format = stream_format(SessionObserver::normal_bits, context_.settings);
+    const MeshFormat format = stream_format(SessionObserver::normal_bits, Codec::draco, context_.settings);
     std::shared_ptr<const EncodedFrame> frame = watchers_.published(format);
     try {
         if (!frame) watchers_.publish(format, frame = encode_newest(format, nullptr));

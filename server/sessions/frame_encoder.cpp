@@ -4,6 +4,7 @@
 #include <mutex>
 #include <utility>
 
+#include "conversion/codec_conversion.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/begin_message.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// One serialization serves both RPCs.
+// One serialization serves both RPCs, as the contract says of WatchResponse.
 static_assert(int{v1::StreamResponse::kMeshBeginFieldNumber} == int{v1::WatchResponse::kMeshBeginFieldNumber});
 static_assert(int{v1::StreamResponse::kMeshBrickFieldNumber} == int{v1::WatchResponse::kMeshBrickFieldNumber});
 static_assert(int{v1::StreamResponse::kFrameStatisticsFieldNumber} ==
@@ -36,8 +37,8 @@ SharedBrick brick_messages(const EncodedBrick& brick, const ContentHash& content
     result->place = brick.coordinate;
     result->content_hash = content_hash;
     result->triangles = brick.triangles;
-    const auto* draco = reinterpret_cast<const char*>(brick.draco.data());
-    const std::size_t part_count = std::max<std::size_t>(1, (brick.draco.size() + chunk_bytes - 1) / chunk_bytes);
+    const auto* data = reinterpret_cast<const char*>(brick.data.data());
+    const std::size_t part_count = std::max<std::size_t>(1, (brick.data.size() + chunk_bytes - 1) / chunk_bytes);
     result->messages.reserve(part_count);
     for (std::size_t part = 0; part < part_count; ++part) {
         v1::StreamResponse response;
@@ -50,7 +51,8 @@ SharedBrick brick_messages(const EncodedBrick& brick, const ContentHash& content
         if (part == 0)
             wire.set_cell_levels(reinterpret_cast<const char*>(brick.cell_levels.data()), brick.cell_levels.size());
         const std::size_t first = part * chunk_bytes;
-        wire.set_draco(draco + first, std::min(chunk_bytes, brick.draco.size() - first));
+        wire.set_codec(conversion::to_wire(brick.codec));
+        wire.set_data(data + first, std::min(chunk_bytes, brick.data.size() - first));
         wire.set_part_index(static_cast<std::uint32_t>(part));
         wire.set_part_count(static_cast<std::uint32_t>(part_count));
         result->messages.push_back(serialize(response));
@@ -85,7 +87,8 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
     download.start();
     const auto start = Clock::now();
     const Mesh& mesh = *frame.mesh_at(format.max_level);
-    const CodingOptions coding{.normal_bits = format.normal_bits, .position_bits = format.position_bits};
+    const CodingOptions coding{
+        .normal_bits = format.normal_bits, .position_bits = format.position_bits, .codec = format.codec};
     auto encoded = std::make_shared<EncodedFrame>();
     encoded->index = frame.index;
     encoded->run_id = frame.run_id;

@@ -24,6 +24,7 @@ enum class UploadPolicy {
 struct UploadOptions {
     bool receive_meshes = false;
     int normal_bits = 0;
+    Codec codec = Codec::draco;
     UploadPolicy policy = UploadPolicy::every_frame;
     std::uint32_t nth = 1;     ///< at least 1; for UploadPolicy::every_nth
     std::uint64_t run_id = 0;  ///< 0: a run of its own

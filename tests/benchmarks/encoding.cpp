@@ -39,7 +39,7 @@ EncodedSize encode_bricks(const Mesh& mesh, const CodingOptions& options) {
     EncodedSize size;
     for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
         const EncodedBrick brick = encode_brick(mesh, i, options);
-        size.draco += brick.draco.size();
+        size.draco += brick.data.size();
         size.levels += brick.cell_levels.size();
     }
     return size;

@@ -109,7 +109,7 @@ TEST(BrickFile, IsReadBackInParts) {
     ASSERT_EQ(back.bricks.size(), 2U);
     EXPECT_EQ(back.bricks[1]->coordinate, frame.bricks[1]->coordinate);
     EXPECT_EQ(back.bricks[1]->cell_levels, frame.bricks[1]->cell_levels);
-    EXPECT_EQ(back.bricks[1]->draco, frame.bricks[1]->draco);
+    EXPECT_EQ(back.bricks[1]->data, frame.bricks[1]->data);
     EXPECT_EQ(back.statistics.triangles, 7U);
     EXPECT_EQ(back.statistics.stage_seconds[7], 0.5);
     EXPECT_EQ(back.statistics.backend, "cpu");

@@ -157,16 +157,16 @@ TEST(BrickCoding, RefusesADamagedBrickOrDecodesSomeMesh) {
             ++refused;
         }
     };
-    for (std::size_t size = 0; size < whole.draco.size(); size += 1 + size / 16) {
+    for (std::size_t size = 0; size < whole.data.size(); size += 1 + size / 16) {
         EncodedBrick cut = whole;
-        cut.draco.resize(size);
+        cut.data.resize(size);
         attempt(cut);
     }
     std::mt19937 random(5);
-    std::uniform_int_distribution<std::size_t> place(0, whole.draco.size() - 1);
+    std::uniform_int_distribution<std::size_t> place(0, whole.data.size() - 1);
     for (int i = 0; i < 2000; ++i) {
         EncodedBrick flipped = whole;
-        for (int k = 0; k <= i % 3; ++k) flipped.draco[place(random)] ^= static_cast<std::byte>(1U << (random() % 8));
+        for (int k = 0; k <= i % 3; ++k) flipped.data[place(random)] ^= static_cast<std::byte>(1U << (random() % 8));
         attempt(flipped);
     }
     EXPECT_GT(refused, 20);
@@ -180,25 +180,27 @@ TEST(BrickCoding, RefusesADamagedBrickOrDecodesSomeMesh) {
     lying.coordinate = {2'000'000'000, 0, 0};
     EXPECT_THROW(decode_brick(lying, mesh.offset_bits), InvalidInput);
     EXPECT_THROW(decode_brick(whole, 40), InvalidInput);
+    EXPECT_THROW(decode_brick(whole, min_offset_bits - 1), InvalidInput);
+    EXPECT_THROW(decode_brick(whole, max_offset_bits + 1), InvalidInput);
 }
 
 /// The Draco bytes of a brick, with other counts in their header.
 EncodedBrick with_counts(EncodedBrick brick, std::uint32_t vertices, std::uint32_t faces, std::uint32_t symbols) {
     constexpr std::size_t counts_at = 12;
-    std::vector<std::byte> draco(brick.draco.begin(), brick.draco.begin() + counts_at);
+    std::vector<std::byte> draco(brick.data.begin(), brick.data.begin() + counts_at);
     std::size_t rest = counts_at;
     const auto replace = [&](std::uint32_t value) {
-        while (std::to_integer<unsigned>(brick.draco.at(rest++)) >= 0x80U) {
+        while (std::to_integer<unsigned>(brick.data.at(rest++)) >= 0x80U) {
         }
         for (; value >= 0x80U; value >>= 7) draco.push_back(static_cast<std::byte>((value & 0x7FU) | 0x80U));
         draco.push_back(static_cast<std::byte>(value));
     };
     replace(vertices);
     replace(faces);
-    draco.push_back(brick.draco.at(rest++));
+    draco.push_back(brick.data.at(rest++));
     replace(symbols);
-    draco.insert(draco.end(), brick.draco.begin() + static_cast<std::ptrdiff_t>(rest), brick.draco.end());
-    brick.draco = draco;
+    draco.insert(draco.end(), brick.data.begin() + static_cast<std::ptrdiff_t>(rest), brick.data.end());
+    brick.data = draco;
     return brick;
 }
 
@@ -225,6 +227,27 @@ TEST(BrickCoding, RefusesCountsBeforeDracoAllocatesByThem) {
     EncodedBrick announced = with_counts(whole, 2'000'000, 4'000'000, 4'000'000);
     announced.triangles = 4'000'000;
     EXPECT_NE(refusal(announced).find("more than 64 per byte"), std::string::npos);
+}
+
+TEST(BrickCoding, RefusesACodecThatItDoesNotKnowWithItsNumber) {
+    const Mesh mesh = test::reconstruct(test::default_settings(), test::splash(63, 6).frame());
+    EncodedBrick brick = encode_brick(mesh, 0);
+    EXPECT_EQ(brick.codec, Codec::draco);
+    brick.codec = static_cast<Codec>(7);
+    const auto refusal = [](const auto& attempt) -> std::string {
+        try {
+            attempt();
+        } catch (const InvalidInput& error) {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_NE(refusal([&] {
+                  decode_brick(brick, mesh.offset_bits);
+              }).find("has the codec 7, which this version does not know; it knows 1 (Draco)"),
+              std::string::npos);
+    EXPECT_NE(refusal([&] { encode_brick(mesh, 0, {.codec = static_cast<Codec>(7)}); }).find("codec is 7"),
+              std::string::npos);
 }
 
 TEST(BrickCoding, RefusesABrickThatOccursTwice) {

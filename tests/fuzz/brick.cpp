@@ -25,7 +25,7 @@ void brick(Bytes bytes) {
     encoded.vertices = front.number(4);
     encoded.triangles = front.number(4);
     encoded.cell_levels = to_vector(front.piece(front.number(4)));
-    encoded.draco = to_vector(front.rest());
+    encoded.data = to_vector(front.rest());
     may_refuse([&] {
         const DecodedBrick decoded = decode_brick(encoded, offset_bits);
         require(decoded.vertices.size() == encoded.vertices, "as many vertices as announced");
@@ -46,7 +46,7 @@ Seeds brick_seeds() {
             seeds.push_back(number_bytes(mesh.offset_bits, 1) + number_bytes(encoded.vertices, 4) +
                             number_bytes(encoded.triangles, 4) +
                             number_bytes(static_cast<std::uint32_t>(encoded.cell_levels.size()), 4) +
-                            to_string(encoded.cell_levels) + to_string(encoded.draco));
+                            to_string(encoded.cell_levels) + to_string(encoded.data));
         }
     return seeds;
 }

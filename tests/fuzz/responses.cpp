@@ -38,7 +38,7 @@ std::vector<Response> whole_frame() {
     begin.set_triangle_count(mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
         const EncodedBrick encoded = encode_brick(mesh, i);
-        const std::string draco(reinterpret_cast<const char*>(encoded.draco.data()), encoded.draco.size());
+        const std::string data(reinterpret_cast<const char*>(encoded.data.data()), encoded.data.size());
         const std::size_t parts = i == 0 ? 2 : 1;
         for (std::size_t part = 0; part < parts; ++part) {
             v1::MeshBrick& brick = *responses.emplace_back().mutable_mesh_brick();
@@ -48,8 +48,9 @@ std::vector<Response> whole_frame() {
             brick.set_vertex_count(encoded.vertices);
             brick.set_triangle_count(encoded.triangles);
             if (part == 0) brick.set_cell_levels(encoded.cell_levels.data(), encoded.cell_levels.size());
-            const std::size_t cut = part * draco.size() / parts;
-            brick.set_draco(draco.substr(cut, (part + 1) * draco.size() / parts - cut));
+            const std::size_t cut = part * data.size() / parts;
+            brick.set_codec(v1::CODEC_DRACO);
+            brick.set_data(data.substr(cut, (part + 1) * data.size() / parts - cut));
             brick.set_part_index(static_cast<std::uint32_t>(part));
             brick.set_part_count(static_cast<std::uint32_t>(parts));
         }

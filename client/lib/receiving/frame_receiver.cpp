@@ -11,9 +11,6 @@ namespace meniscus::client {
 
 namespace {
 
-constexpr std::uint32_t min_offset_bits = 2;
-constexpr std::uint32_t max_offset_bits = 9;
-
 void append(std::vector<std::byte>& bytes, const std::string& more) {
     const std::size_t size = bytes.size();
     bytes.resize(size + more.size());
@@ -26,6 +23,12 @@ std::string place_name(const Message& place) {
     std::string name = "(";
     name += std::to_string(place.x()) + ", " + std::to_string(place.y()) + ", " + std::to_string(place.z()) + ")";
     return name;
+}
+
+Codec codec_of(const v1::MeshBrick& message, const std::string& name) {
+    if (const auto codec = codec_by_number(static_cast<std::uint32_t>(message.codec()))) return *codec;
+    throw ServerError(name + " has the codec " + std::to_string(static_cast<int>(message.codec())) +
+                      ", which this version does not know; it knows " + known_codecs());
 }
 
 std::string frame_name(std::uint64_t index) {
@@ -47,7 +50,8 @@ void FrameReceiver::begin(const v1::MeshBegin& message) {
         throw ServerError(name + " has bricks of " + std::to_string(message.brick_cells()) +
                           " cells; this version knows " + std::to_string(brick_cells));
     if (message.offset_bits() < min_offset_bits || message.offset_bits() > max_offset_bits)
-        throw ServerError(name + " has offset_bits " + std::to_string(message.offset_bits()) + "; allowed are 2 to 9");
+        throw ServerError(name + " has offset_bits " + std::to_string(message.offset_bits()) + "; allowed are " +
+                          std::to_string(min_offset_bits) + " to " + std::to_string(max_offset_bits));
     if (!std::isfinite(message.cell_size()) || message.cell_size() <= 0.0)
         throw ServerError(name + " has cell_size " + std::to_string(message.cell_size()));
     Frame frame;
@@ -96,22 +100,24 @@ void FrameReceiver::add(const v1::MeshBrick& message) {
         if (frame.bricks.size() == frame.brick_count)
             throw ServerError(name + " is one more than the " + std::to_string(frame.brick_count) +
                               " that were announced");
+        const Codec codec = codec_of(message, name);
         if (frame.vanished.contains(place)) throw ServerError(name + " was said to have vanished");
         auto brick = std::make_shared<EncodedBrick>();
         if (!frame.bricks.emplace(place, brick).second) throw ServerError(name + " came twice");
         brick->coordinate = {message.x(), message.y(), message.z()};
+        brick->codec = codec;
         brick->vertices = message.vertex_count();
         brick->triangles = message.triangle_count();
         append(brick->cell_levels, message.cell_levels());
         frame.brick = std::move(brick);
         frame.part_count = frame.missing_parts = message.part_count();
     } else if (frame.brick->coordinate != std::array{message.x(), message.y(), message.z()} ||
-               message.part_count() != frame.part_count ||
+               codec_of(message, name) != frame.brick->codec || message.part_count() != frame.part_count ||
                message.part_index() != frame.part_count - frame.missing_parts) {
         throw ServerError(name + ", part " + std::to_string(message.part_index()) + ", came in place of part " +
                           std::to_string(frame.part_count - frame.missing_parts) + " of the brick before");
     }
-    append(frame.brick->draco, message.draco());
+    append(frame.brick->data, message.data());
     --frame.missing_parts;
 }
 

@@ -96,6 +96,7 @@ ServerInfo Client::server_info() {
     info.max_chunks_per_frame = response.limits().chunks_per_frame();
     info.max_idle_seconds = response.limits().idle_seconds();
     info.max_message_bytes = response.limits().message_bytes();
+    info.codecs.assign(response.codecs().begin(), response.codecs().end());
     return info;
 }
 

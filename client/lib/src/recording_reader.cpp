@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "conversion/codec_conversion.hpp"
 #include "error_mapping.hpp"
 #include "recording_reader_impl.hpp"
 
@@ -13,6 +14,7 @@ RecordingReader::Impl::Impl(std::shared_ptr<Connection> connection, const std::s
     request.set_number(number);
     request.set_position(options.position);
     request.set_count(options.count);
+    conversion::add_known_codecs(*request.mutable_codecs());
     connection_->add_metadata(context_, session_id);
     reader_ = connection_->recordings->ReadRecording(&context_, request);
 }

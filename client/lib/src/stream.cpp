@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "call_end.hpp"
+#include "conversion/codec_conversion.hpp"
 #include "error_mapping.hpp"
 #include "meniscus/error.hpp"
 #include "receiving/frame_receiver.hpp"
@@ -60,6 +61,7 @@ v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& 
     open.set_policy(to_wire(options.policy));
     open.set_nth(options.nth);
     open.set_run_id(random_run_id());
+    conversion::add_known_codecs(*open.mutable_codecs());
     return open;
 }
 

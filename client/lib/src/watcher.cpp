@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "brick_changes.hpp"
+#include "conversion/codec_conversion.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "watcher_impl.hpp"
 
@@ -16,6 +17,7 @@ v1::WatchRequest request_of(const std::string& session_id, const WatchOptions& o
     request.set_max_level(static_cast<std::uint32_t>(options.max_level));
     if (options.region) *request.mutable_region() = conversion::to_wire(*options.region);
     request.set_bytes_per_second(options.bytes_per_second);
+    conversion::add_known_codecs(*request.mutable_codecs());
     if (options.viewpoint) {
         request.mutable_viewpoint()->set_x((*options.viewpoint)[0]);
         request.mutable_viewpoint()->set_y((*options.viewpoint)[1]);

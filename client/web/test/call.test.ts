@@ -1,5 +1,6 @@
 import { create, toBinary } from '@bufbuild/protobuf';
 import { describe, expect, it } from 'vitest';
+import { Codec } from '../src/gen/meniscus/v1/mesh_pb';
 import { WatchRequestSchema, WatchResponseSchema } from '../src/gen/meniscus/v1/surface_service_pb';
 import { Server } from '../src/rpc/server';
 import { Code, RpcError } from '../src/rpc/status';
@@ -60,7 +61,10 @@ describe('a call', () => {
       'x-session-id': 'an-id',
       authorization: 'Bearer secret',
     });
-    const request = toBinary(WatchRequestSchema, create(WatchRequestSchema, { sessionId: 'an-id', normalBits: 0 }));
+    const request = toBinary(
+      WatchRequestSchema,
+      create(WatchRequestSchema, { sessionId: 'an-id', normalBits: 0, codecs: [Codec.DRACO] }),
+    );
     expect(seen!.init.body).toEqual(message(0, request));
   });
 

@@ -98,13 +98,14 @@ describe('decodeBrick', () => {
   it.each([
     ['announced were 2', { triangleCount: 2 }],
     ['a brick has at most', { triangleCount: 2 ** 31 }],
-    ['not a Draco mesh', { draco: new Uint8Array([1, 2, 3]) }],
-    ['more than 64 per byte', { draco: new Uint8Array(0) }],
+    ['does not know its codec, 7', { codec: 7 }],
+    ['not a Draco mesh', { data: new Uint8Array([1, 2, 3]) }],
+    ['more than 64 per byte', { data: new Uint8Array(0) }],
     ['more than 64 per byte', { triangleCount: 2 ** 20 }],
     [
       'do not fit 1 triangles',
       {
-        draco: Uint8Array.from([
+        data: Uint8Array.from([
           0x44, 0x52, 0x41, 0x43, 0x4f, 2, 2, 1, 1, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 0xf, 1, 0, 1, 0,
         ]),
       },
@@ -132,12 +133,12 @@ describe('decodeBrick', () => {
 
   it('survives every cut and every changed byte of a brick', async () => {
     const brick = await tetrahedron([0, 0, 0], 1);
-    for (let i = 0; i < brick.draco.length; ++i) {
-      const changed = brick.draco.slice();
+    for (let i = 0; i < brick.data.length; ++i) {
+      const changed = brick.data.slice();
       changed[i]! ^= 0x5a;
-      for (const bytes of [changed, brick.draco.slice(0, i)])
+      for (const bytes of [changed, brick.data.slice(0, i)])
         try {
-          expect(pointCount(decodeBrick(draco, { ...brick, draco: bytes }, offsetBits))).toBeGreaterThan(0);
+          expect(pointCount(decodeBrick(draco, { ...brick, data: bytes }, offsetBits))).toBeGreaterThan(0);
         } catch (error) {
           expect(String(error)).toContain('brick (0, 0, 0)');
         }

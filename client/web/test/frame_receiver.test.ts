@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { Frame } from '../src/bricks/frame';
 import { FrameReceiver } from '../src/bricks/frame_receiver';
+import type { Codec } from '../src/gen/meniscus/v1/mesh_pb';
 import type { WatchResponse } from '../src/gen/meniscus/v1/surface_service_pb';
 import { begin, brick, frame, statistics, type FrameOptions } from './support/messages';
 
@@ -59,7 +60,7 @@ describe('FrameReceiver', () => {
       index: 1,
       bricks: [{ place: [0, 0, 0], parts: [[1, 2], [3], [4]] }],
     });
-    expect([...complete.bricks.get('0,0,0')!.draco]).toEqual([1, 2, 3, 4]);
+    expect([...complete.bricks.get('0,0,0')!.data]).toEqual([1, 2, 3, 4]);
   });
 
   const refusals: [string, WatchResponse[]][] = [
@@ -71,6 +72,12 @@ describe('FrameReceiver', () => {
     ['came twice', [begin(two), brick([0, 0, 0]), brick([0, 0, 0])]],
     ['begins with part 1', [begin(two), brick([0, 0, 0], 1, [1], 1, 2)]],
     ['in place of part 1', [begin(two), brick([0, 0, 0], 1, [1], 0, 2), brick([1, 0, 0], 1, [1], 1, 2)]],
+    [
+      'has the codec 7, which this viewer does not know; it knows 1',
+      [begin(two), brick([0, 0, 0], 1, [1], 0, 1, 7 as Codec)],
+    ],
+    ['has the codec 0', [begin(two), brick([0, 0, 0], 1, [1], 0, 1, 0)]],
+    ['in place of part 1', [begin(two), brick([0, 0, 0], 1, [1], 0, 2), brick([0, 0, 0], 1, [1], 1, 2, 7 as Codec)]],
     ['announced were 9', frame({ ...two, triangles: 9 })],
     ['difference to frame 4', frame({ index: 5, base: 4 })],
     ['vanished without having been', [...frame(two), begin({ index: 2, base: 1, vanished: [[9, 9, 9]] })]],
@@ -88,7 +95,9 @@ describe('FrameReceiver', () => {
       if (message.message.case === 'meshBegin') change(message.message.value);
       return message;
     };
-    expect(() => take(new FrameReceiver(), [changed((b) => (b.offsetBits = 10))])).toThrow('offset_bits 10');
+    expect(() => take(new FrameReceiver(), [changed((b) => (b.offsetBits = 9))])).toThrow(
+      'offset_bits 9; allowed are 2 to 8',
+    );
     expect(() => take(new FrameReceiver(), [changed((b) => (b.brickCells = 32))])).toThrow('bricks of 32 cells');
     expect(() => take(new FrameReceiver(), [changed((b) => (b.cellSize = NaN))])).toThrow('cell_size NaN');
   });
@@ -112,7 +121,7 @@ describe('FrameReceiver', () => {
         triangles: next.size,
       });
       mesh = next;
-      const bricks = new Map([...received.bricks].map(([key, { draco }]) => [key, draco[0]]));
+      const bricks = new Map([...received.bricks].map(([key, { data }]) => [key, data[0]]));
       expect(bricks).toEqual(new Map([...next].map(([key, version]) => [key, version & 0xff])));
     }
   });

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { EncodedBrick, Frame } from '../src/bricks/frame';
+import { Codec } from '../src/gen/meniscus/v1/mesh_pb';
 import { History } from '../src/bricks/history';
 
 function brick(bytes: number): EncodedBrick {
@@ -8,7 +9,8 @@ function brick(bytes: number): EncodedBrick {
     vertexCount: 0,
     triangleCount: 0,
     cellLevels: new Uint8Array(0),
-    draco: new Uint8Array(bytes),
+    codec: Codec.DRACO,
+    data: new Uint8Array(bytes),
   };
 }
 

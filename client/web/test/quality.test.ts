@@ -46,7 +46,7 @@ describe('LinkSpeed', () => {
       beganAt: 100,
       arrivedAt: 100 + ms,
       offsetBits: 6,
-      bricks: new Map([['0', { draco: { length: meshBytes } }]]),
+      bricks: new Map([['0', { data: { length: meshBytes } }]]),
     }) as unknown as Frame;
 
   it('tells how long the whole mesh would take, from differences as well', () => {

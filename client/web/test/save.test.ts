@@ -80,7 +80,7 @@ describe('writeGlb', () => {
       const { bufferView, attributes } = primitive.extensions.KHR_draco_mesh_compression;
       const { byteOffset, byteLength } = json.bufferViews[bufferView]!;
       const bytes = binary.slice(byteOffset, byteOffset + byteLength);
-      expect(bytes).toEqual(bricks[i]!.encoded.draco);
+      expect(bytes).toEqual(bricks[i]!.encoded.data);
       const place = node.translation.map((t, axis) => (t + root.translation[axis]!) / (64 * 0.25));
       expect(place).toEqual(bricks[i]!.encoded.place);
       expect(node.scale).toEqual([0.25 / 64, 0.25 / 64, 0.25 / 64]);

@@ -1,10 +1,10 @@
-// Bricks of a mesh to Draco and back, without loss of position, connectivity or level.
+// Bricks of a mesh to bytes and back, without loss of position, connectivity or level.
 //
-// Every brick is a Draco mesh of its own: positions are brick-local uint16 coordinates of the refined lattice
-// (0 ... brick_cells * 2^offset_bits; rounded to a coarser lattice if CodingOptions::position_bits says so), normals
-// are octahedral. A triangle's level needs no attribute: a crack triangle lies in a face plane of the base-cell grid,
-// which no other triangle does; the others lie inside one base cell, and `cell_levels` gives the level of every base
-// cell that holds triangles.
+// Every brick is coded by itself, with Codec::draco as a Draco mesh: positions are brick-local uint16 coordinates of
+// the refined lattice (0 ... brick_cells * 2^offset_bits; rounded to a coarser lattice if CodingOptions::position_bits
+// says so), normals are octahedral. A triangle's level needs no attribute: a crack triangle lies in a face plane of the
+// base-cell grid, which no other triangle does; the others lie inside one base cell, and `cell_levels` gives the level
+// of every base cell that holds triangles.
 #pragma once
 
 #include <array>
@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "meniscus/codec.hpp"
 #include "meniscus/memory.hpp"
 #include "meniscus/mesh.hpp"
 
@@ -25,6 +26,7 @@ struct CodingOptions {
     int position_bits = 0;  ///< vertices are rounded to multiples of c / 2^position_bits, 2 to the mesh's offset_bits;
                             ///< 0: they are not rounded
     int speed = 10;         ///< Draco's speed, 0 (smallest) to 10 (fastest)
+    Codec codec = Codec::draco;
 };
 
 /// The lattice that vertices lie on once they are encoded. Throws InvalidInput for position_bits out of range.
@@ -52,7 +54,8 @@ struct EncodedBrick {
     std::uint32_t triangles = 0;
     std::vector<std::byte>
         cell_levels;  ///< two bits per base cell that holds triangles, in (z, y, x) order, low bits first: 1, 2, 3
-    std::vector<std::byte> draco;
+    std::vector<std::byte> data;  ///< as the codec writes it
+    Codec codec = Codec::draco;
 };
 
 /// Memory that brick_content() works in, kept from brick to brick: at most 24 bytes for each triangle of the largest.
@@ -70,7 +73,8 @@ struct BrickScratch {
 BrickContent brick_content(const Mesh& mesh, std::size_t brick, const CodingOptions& options, BrickScratch& scratch);
 /// The same, with scratch memory of its own.
 BrickContent brick_content(const Mesh& mesh, std::size_t brick, const CodingOptions& options = {});
-/// Encodes a content. options: those that the content was made with.
+/// Encodes a content. options: those that the content was made with. Throws InvalidInput for a speed or a codec out of
+/// range.
 EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& options);
 /// The content of a brick, encoded.
 EncodedBrick encode_brick(const Mesh& mesh, std::size_t brick, const CodingOptions& options = {});
@@ -84,7 +88,8 @@ struct DecodedBrick {
     std::vector<TriangleLevel> levels;  ///< one per triangle
 };
 
-/// Throws InvalidInput for bytes that are not a brick of this lattice; never crashes on any bytes.
+/// Throws InvalidInput for bytes that are not a brick of this lattice, and for a codec that this version does not know,
+/// with its number; never crashes on any bytes.
 DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits);
 
 /// Welds bricks into one mesh, ordered as reconstruct() orders it (triangles within a brick and level excepted).

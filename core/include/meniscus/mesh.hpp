@@ -18,6 +18,12 @@ inline constexpr int base_cell_size = 4;
 /// Edge of a brick, the unit of encoding and streaming, in base cells and in finest cells.
 inline constexpr int brick_base_cells = 16;
 inline constexpr int brick_cells = brick_base_cells * base_cell_size;
+/// Neither triangles nor vertices of a brick are more: sixteen for each of its finest cells.
+inline constexpr std::uint32_t max_brick_triangles = 16U * brick_cells * brick_cells * brick_cells;
+/// The least and the most that Mesh::offset_bits can be; the most comes of the longest bisection.
+inline constexpr std::uint32_t min_offset_bits = 2;
+inline constexpr std::uint32_t max_offset_bits = 8;
+static_assert((brick_cells << max_offset_bits) <= 0xFFFF, "brick-local positions are uint16");
 
 /// The kinds of triangle, in the order in which a mesh holds them (the paper's Figure 8d).
 enum class TriangleLevel : std::uint8_t { level1 = 0, level2 = 1, level3 = 2, crack = 3 };
@@ -63,7 +69,7 @@ struct MeshBrick {
 /// Triangles are ordered by level, by brick (z, y, x) within a level; they run counter-clockwise seen from outside.
 struct Mesh {
     double cell_size = 0.0;           ///< finest cell's edge c, world units
-    std::uint32_t offset_bits = 0;    ///< vertices lie on multiples of c / 2^offset_bits
+    std::uint32_t offset_bits = 0;    ///< vertices lie on multiples of c / 2^offset_bits: min_ to max_offset_bits
     Array<LatticePosition> vertices;  ///< unique
     Array<Normal> normals;            ///< unit length, outward, one per vertex; empty if Settings::normals is false
     Array<Triangle> triangles;        ///< indices into `vertices`

@@ -112,7 +112,7 @@ inline double world_cell_size(const Settings& s) {
     return s.cell_size * s.particle_radius;
 }
 
-/// Vertices lie on multiples of c / 2^offset_bits, 2 to 8.
+/// Vertices lie on multiples of c / 2^offset_bits, min_ to max_offset_bits of mesh.hpp.
 inline std::uint32_t offset_bits(const Settings& s) {
     return std::visit([](const auto& edge_points) { return edge_points.offset_bits(); }, s.edge_points);
 }

@@ -27,7 +27,8 @@ v1::StreamResponse brick(int x, std::uint32_t part = 0, std::uint32_t parts = 1)
     v1::MeshBrick& message = *response.mutable_mesh_brick();
     message.set_x(x);
     message.set_triangle_count(2);
-    message.set_draco(std::string(1, static_cast<char>('a' + part)));
+    message.set_data(std::string(1, static_cast<char>('a' + part)));
+    message.set_codec(v1::CODEC_DRACO);
     message.set_part_index(part);
     message.set_part_count(parts);
     return response;
@@ -48,7 +49,7 @@ TEST(FrameReceiver, PutsPartsAndBricksTogether) {
     const auto frame = receiver.take(statistics(4));
     ASSERT_TRUE(frame);
     ASSERT_EQ(frame->bricks.size(), 2U);
-    EXPECT_EQ(frame->bricks[0]->draco, (std::vector<std::byte>{std::byte{'a'}, std::byte{'b'}, std::byte{'c'}}));
+    EXPECT_EQ(frame->bricks[0]->data, (std::vector<std::byte>{std::byte{'a'}, std::byte{'b'}, std::byte{'c'}}));
     receiver.end_of_stream();
 }
 
@@ -200,10 +201,35 @@ TEST(FrameReceiver, RefusesALatticeItCannotRead) {
         EXPECT_THROW(receiver.take(response), ServerError);
     };
     refuses([](v1::MeshBegin& m) { m.set_offset_bits(1); });
-    refuses([](v1::MeshBegin& m) { m.set_offset_bits(10); });
+    refuses([](v1::MeshBegin& m) { m.set_offset_bits(9); });
     refuses([](v1::MeshBegin& m) { m.set_brick_cells(32); });
     refuses([](v1::MeshBegin& m) { m.set_cell_size(0.0); });
     refuses([](v1::MeshBegin& m) { m.set_cell_size(std::numeric_limits<double>::quiet_NaN()); });
+}
+
+TEST(FrameReceiver, RefusesACodecThatItDoesNotKnowWithItsNumber) {
+    for (const int number : {0, 7, -1}) {
+        FrameReceiver receiver(true);
+        receiver.take(begin(1));
+        v1::StreamResponse response = brick(0);
+        response.mutable_mesh_brick()->set_codec(static_cast<v1::Codec>(number));
+        try {
+            receiver.take(response);
+            FAIL() << number;
+        } catch (const ServerError& error) {
+            EXPECT_EQ(std::string(error.what()), "frame 3, brick (0, 0, 0) has the codec " + std::to_string(number) +
+                                                     ", which this version does not know; it knows 1 (Draco)");
+        }
+    }
+}
+
+TEST(FrameReceiver, RefusesPartsOfOneBrickWithDifferentCodecs) {
+    FrameReceiver receiver(true);
+    receiver.take(begin(1));
+    receiver.take(brick(0, 0, 2));
+    v1::StreamResponse response = brick(0, 1, 2);
+    response.mutable_mesh_brick()->set_codec(v1::CODEC_UNSPECIFIED);
+    EXPECT_THROW(receiver.take(response), ServerError);
 }
 
 TEST(FrameReceiver, RefusesMeshesThatWereNotAskedFor) {

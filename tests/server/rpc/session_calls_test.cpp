@@ -105,7 +105,7 @@ TEST(Sessions, HaveIdsThatDiffer) {
     EXPECT_NE(client::new_session_id(), client::new_session_id());
 }
 
-TEST(ServerInfo, NamesBackendAndLimits) {
+TEST(ServerInfo, NamesBackendCodecsAndLimits) {
     ServerOptions options = test_options();
     options.limits = {.sessions = 3,
                       .watchers_per_session = 4,
@@ -119,6 +119,7 @@ TEST(ServerInfo, NamesBackendAndLimits) {
     EXPECT_FALSE(info.device.empty());
     EXPECT_FALSE(info.backend_reason.empty());
     EXPECT_EQ(info.threads, 2U);
+    EXPECT_EQ(info.codecs, std::vector<std::uint32_t>{1});
     EXPECT_EQ(info.max_sessions, 3U);
     EXPECT_EQ(info.max_watchers_per_session, 4U);
     EXPECT_EQ(info.max_particles_per_frame, 5U);

@@ -87,7 +87,7 @@ TEST(Stream, BringsTheServersFigures) {
     EXPECT_GE(remote.latency_seconds, remote.encode_seconds);
     EXPECT_GE(remote.encoded_bytes,
               std::accumulate(frame->bricks.begin(), frame->bricks.end(), std::size_t{0},
-                              [](std::size_t sum, const auto& b) { return sum + b->draco.size(); }));
+                              [](std::size_t sum, const auto& b) { return sum + b->data.size(); }));
 }
 
 TEST(Stream, SendsNoMeshesToWhoWantsNone) {

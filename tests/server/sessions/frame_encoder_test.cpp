@@ -71,7 +71,7 @@ TEST(FrameEncoder, KeepsThePartsOfABrickTogetherAndWithinTheChunkSize) {
         std::uint32_t part = 0;
         for (const SharedMessage& message : brick->messages) {
             const v1::WatchResponse response = parsed(message);
-            EXPECT_LE(response.mesh_brick().draco().size(), chunk_bytes);
+            EXPECT_LE(response.mesh_brick().data().size(), chunk_bytes);
             EXPECT_EQ(response.mesh_brick().part_index(), part++);
             EXPECT_EQ(response.mesh_brick().part_count(), brick->messages.size());
         }

@@ -40,7 +40,8 @@ inline SharedBrick made_brick(const std::array<std::int32_t, 3>& place, std::uin
         wire.set_y(place[1]);
         wire.set_z(place[2]);
         wire.set_triangle_count(version);
-        wire.set_draco(std::to_string(version) + std::string(padding, '-'));
+        wire.set_data(std::to_string(version) + std::string(padding, '-'));
+        wire.set_codec(v1::CODEC_DRACO);
         wire.set_part_index(part);
         wire.set_part_count(1 + version % 3);
         brick->messages.push_back(serialized(response));

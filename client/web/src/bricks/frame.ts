@@ -1,5 +1,5 @@
 // A frame as it is kept: its bricks still encoded, shared with the frames before and after it where they did not change.
-import type { FrameStatistics } from '../gen/meniscus/v1/mesh_pb';
+import type { Codec, FrameStatistics } from '../gen/meniscus/v1/mesh_pb';
 
 export interface EncodedBrick {
   /** Place, in bricks. */
@@ -7,7 +7,9 @@ export interface EncodedBrick {
   readonly vertexCount: number;
   readonly triangleCount: number;
   readonly cellLevels: Uint8Array;
-  readonly draco: Uint8Array;
+  readonly codec: Codec;
+  /** As the codec writes it. */
+  readonly data: Uint8Array;
 }
 
 /** Names a place in maps. */

@@ -1,16 +1,15 @@
 // Puts one call's messages together to whole frames, and believes none of them.
 import type { FrameStatistics, MeshBegin, MeshBrick } from '../gen/meniscus/v1/mesh_pb';
 import type { WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
+import { isKnownCodec, knownCodecs } from './codecs';
 import { brickKey, type BrickKey, type EncodedBrick, type Frame } from './frame';
+import { brickCells, maxOffsetBits, minOffsetBits } from './lattice';
 
 /** The server contradicts itself or this version. */
 export class ProtocolError extends Error {
   override name = 'ProtocolError';
 }
 
-const knownBrickCells = 64;
-const minOffsetBits = 2;
-const maxOffsetBits = 9;
 /** More than any mesh has that a browser could show. */
 const maxBricks = 1 << 20;
 
@@ -60,8 +59,8 @@ export class FrameReceiver {
     const name = `frame ${begin.frameIndex}`;
     this.partial = undefined;
     this.arriving = undefined;
-    if (begin.brickCells !== knownBrickCells)
-      throw new ProtocolError(`${name} has bricks of ${begin.brickCells} cells; this viewer knows ${knownBrickCells}`);
+    if (begin.brickCells !== brickCells)
+      throw new ProtocolError(`${name} has bricks of ${begin.brickCells} cells; this viewer knows ${brickCells}`);
     if (begin.offsetBits < minOffsetBits || begin.offsetBits > maxOffsetBits)
       throw new ProtocolError(
         `${name} has offset_bits ${begin.offsetBits}; allowed are ${minOffsetBits} to ${maxOffsetBits}`,
@@ -101,6 +100,10 @@ export class FrameReceiver {
         throw new ProtocolError(`${name} begins with part ${brick.partIndex} of ${brick.partCount}`);
       if (arriving.arrived.size === arriving.begin.brickCount)
         throw new ProtocolError(`${name} is one more than the ${arriving.begin.brickCount} that were announced`);
+      if (!isKnownCodec(brick.codec))
+        throw new ProtocolError(
+          `${name} has the codec ${brick.codec}, which this viewer does not know; it knows ${knownCodecs.join(', ')}`,
+        );
       this.partial = { first: brick, parts: [] };
     }
     const { first, parts } = this.partial;
@@ -108,13 +111,14 @@ export class FrameReceiver {
       brick.x !== first.x ||
       brick.y !== first.y ||
       brick.z !== first.z ||
+      brick.codec !== first.codec ||
       brick.partIndex !== parts.length ||
       brick.partCount !== first.partCount
     )
       throw new ProtocolError(
         `${name}, part ${brick.partIndex} of ${brick.partCount}, came in place of part ${parts.length} of (${first.x}, ${first.y}, ${first.z})`,
       );
-    parts.push(brick.draco);
+    parts.push(brick.data);
     if (parts.length < first.partCount) return;
     this.partial = undefined;
     const key = brickKey(first.x, first.y, first.z);
@@ -125,7 +129,8 @@ export class FrameReceiver {
       vertexCount: first.vertexCount,
       triangleCount: first.triangleCount,
       cellLevels: first.cellLevels.slice(),
-      draco: concatenate(parts),
+      codec: first.codec,
+      data: concatenate(parts),
     });
   }
 

@@ -30,7 +30,7 @@ export class History {
     this.kept.push(frame);
     for (const brick of frame.bricks.values()) {
       const uses = this.uses.get(brick) ?? 0;
-      if (uses === 0) this.held += brick.draco.length;
+      if (uses === 0) this.held += brick.data.length;
       this.uses.set(brick, uses + 1);
     }
     while (this.kept.length > 1 && (this.kept.length > this.limits.frames || this.held > this.limits.bytes))
@@ -51,7 +51,7 @@ export class History {
         continue;
       }
       this.uses.delete(brick);
-      this.held -= brick.draco.length;
+      this.held -= brick.data.length;
     }
   }
 }

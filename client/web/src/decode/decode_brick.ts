@@ -1,20 +1,21 @@
 // One brick from its Draco bytes. Draco's own checks are not enough: what it decodes is checked against what was announced.
 import type { DracoAttribute, DracoMesh, DracoModule } from 'draco3d/draco_decoder_nodejs.js';
+import { isKnownCodec } from '../bricks/codecs';
 import type { EncodedBrick } from '../bricks/frame';
+import { brickCells } from '../bricks/lattice';
 import type { Bounds, DecodedBrick } from './decoded_brick';
 import { requirePlausible } from './draco_header';
 import { groupTriangles } from './group_triangles';
 import { triangleGroups } from './triangle_levels';
-
-const brickCells = 64;
 
 /** Throws an Error that names the brick. */
 export function decodeBrick(draco: DracoModule, brick: EncodedBrick, offsetBits: number): DecodedBrick {
   const decoder = new draco.Decoder();
   const mesh = new draco.Mesh();
   try {
+    if (!isKnownCodec(brick.codec)) throw new Error(`this viewer does not know its codec, ${brick.codec}`);
     requirePlausible(brick);
-    const status = decoder.DecodeArrayToMesh(brick.draco, brick.draco.length, mesh);
+    const status = decoder.DecodeArrayToMesh(brick.data, brick.data.length, mesh);
     if (!status.ok()) throw new Error(`its bytes are not a Draco mesh (${status.error_msg()})`);
     if (mesh.num_faces() !== brick.triangleCount)
       throw new Error(`it has ${mesh.num_faces()} triangles; announced were ${brick.triangleCount}`);

@@ -1,24 +1,23 @@
 // What a Draco mesh claims of itself, compared with what was announced before Draco allocates by it.
 import type { EncodedBrick } from '../bricks/frame';
+import { maxBrickTriangles } from '../bricks/lattice';
 
 /** Magic word, version 2.2, triangular mesh (1), edgebreaker (1), no flags: Draco's bitstream specification, section 3. */
 const expected = [0x44, 0x52, 0x41, 0x43, 0x4f, 2, 2, 1, 1, 0, 0];
-/** A brick's lattice has room for no more. */
-const mostTriangles = 16 * 64 ** 3;
 /** The smoothest surface takes an eighth of a byte per triangle. */
 const mostTrianglesPerByte = 64;
 
 /** Throws an Error. */
-export function requirePlausible({ triangleCount, draco }: EncodedBrick): void {
-  if (triangleCount > mostTriangles)
-    throw new Error(`${triangleCount} triangles are announced; a brick has at most ${mostTriangles}`);
-  if (triangleCount > mostTrianglesPerByte * draco.length)
+export function requirePlausible({ triangleCount, data }: EncodedBrick): void {
+  if (triangleCount > maxBrickTriangles)
+    throw new Error(`${triangleCount} triangles are announced; a brick has at most ${maxBrickTriangles}`);
+  if (triangleCount > mostTrianglesPerByte * data.length)
     throw new Error(
-      `${triangleCount} triangles are announced in ${draco.length} bytes, more than ${mostTrianglesPerByte} per byte`,
+      `${triangleCount} triangles are announced in ${data.length} bytes, more than ${mostTrianglesPerByte} per byte`,
     );
-  if (!expected.every((byte, i) => draco[i] === byte))
+  if (!expected.every((byte, i) => data[i] === byte))
     throw new Error('its bytes are not a Draco mesh as bricks have them');
-  const cursor = new Cursor(draco, expected.length + 1);
+  const cursor = new Cursor(data, expected.length + 1);
   const vertices = cursor.number();
   const faces = cursor.number();
   const connectivities = cursor.number();

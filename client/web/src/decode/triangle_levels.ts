@@ -1,8 +1,7 @@
 // A triangle's level, told by where its vertices lie: a crack triangle lies in a face plane of the base-cell grid, any other inside one
 // base cell, whose level is its own.
+import { baseCellSize, brickBaseCells } from '../bricks/lattice';
 
-const baseCellCells = 4;
-const brickBaseCells = 16;
 const cellsPerBrick = brickBaseCells ** 3;
 const noCell = 0xffff;
 /** The group of crack triangles, behind those of levels 1 to 3. */
@@ -16,7 +15,7 @@ export function triangleGroups(
   packedLevels: Uint8Array,
   offsetBits: number,
 ): Uint8Array {
-  const edge = baseCellCells << offsetBits;
+  const edge = baseCellSize << offsetBits;
   const count = triangles.length / 3;
   const cells = new Uint16Array(count);
   const levels = new Uint8Array(cellsPerBrick);

@@ -151,6 +151,6 @@ export class RecordingFrames {
 
 function bytesOf(frame: Frame): number {
   let bytes = 0;
-  for (const brick of frame.bricks.values()) bytes += brick.draco.length;
+  for (const brick of frame.bricks.values()) bytes += brick.data.length;
   return bytes;
 }

@@ -1,5 +1,6 @@
 // The server's calls that a viewer makes.
 import type { MessageInitShape } from '@bufbuild/protobuf';
+import { knownCodecs } from '../bricks/codecs';
 import {
   RecordingService,
   type ReadRecordingRequestSchema,
@@ -60,7 +61,7 @@ export class Server {
     return serverStream(
       this.endpoint,
       SurfaceService.method.watch,
-      request,
+      { ...request, codecs: [...knownCodecs] },
       this.options(signal, request.sessionId, opened),
     );
   }
@@ -94,7 +95,7 @@ export class Server {
     return serverStream(
       this.endpoint,
       RecordingService.method.readRecording,
-      request,
+      { ...request, codecs: [...knownCodecs] },
       this.options(signal, request.sessionId),
     );
   }

@@ -17,12 +17,12 @@ export function writeGlb(shown: Shown, up: UpAxis): Uint8Array {
   const views: { buffer: number; byteOffset: number; byteLength: number }[] = [];
   let bytes = 0;
   for (const { encoded } of bricks) {
-    views.push({ buffer: 0, byteOffset: bytes, byteLength: encoded.draco.length });
-    bytes = aligned(bytes + encoded.draco.length);
+    views.push({ buffer: 0, byteOffset: bytes, byteLength: encoded.data.length });
+    bytes = aligned(bytes + encoded.data.length);
   }
   const binary = new Uint8Array(bytes);
   bricks.forEach(({ encoded }, i) => {
-    binary.set(encoded.draco, views[i]!.byteOffset);
+    binary.set(encoded.data, views[i]!.byteOffset);
   });
   return container(document(shown, bricks, views, bytes, up), binary);
 }

@@ -20,7 +20,7 @@ export class LinkSpeed {
     }
     if (!full) return;
     this.fullBytes = 0;
-    for (const brick of frame.bricks.values()) this.fullBytes += brick.draco.length;
+    for (const brick of frame.bricks.values()) this.fullBytes += brick.data.length;
     this.fullOffsetBits = frame.offsetBits;
   }
 

@@ -2,6 +2,7 @@
 import createDecoder, { type DracoModule } from 'draco3d/draco_decoder_nodejs.js';
 import createEncoder from 'draco3d/draco_encoder_nodejs.js';
 import type { EncodedBrick } from '../../src/bricks/frame';
+import { Codec } from '../../src/gen/meniscus/v1/mesh_pb';
 
 export function dracoDecoder(): Promise<DracoModule> {
   return createDecoder();
@@ -43,7 +44,14 @@ export async function encodeBrick({
   levels.forEach((level, i) => {
     packed[i >> 2]! |= level << (2 * (i & 3));
   });
-  return { place, vertexCount: positions.length, triangleCount: triangles.length, cellLevels: packed, draco: encoded };
+  return {
+    place,
+    vertexCount: positions.length,
+    triangleCount: triangles.length,
+    cellLevels: packed,
+    codec: Codec.DRACO,
+    data: encoded,
+  };
 }
 
 const step = 64;

@@ -1,5 +1,6 @@
 // Watch responses as a server would send them.
 import { create } from '@bufbuild/protobuf';
+import { Codec } from '../../src/gen/meniscus/v1/mesh_pb';
 import { WatchResponseSchema, type WatchResponse } from '../../src/gen/meniscus/v1/surface_service_pb';
 
 export type Place = [number, number, number];
@@ -37,15 +38,26 @@ export function begin({ index, bricks = [], base, vanished = [], triangles, runI
 export function brick(
   place: Place,
   triangles = 1,
-  draco: number[] = [1, 2, 3],
+  data: number[] = [1, 2, 3],
   partIndex = 0,
   partCount = 1,
+  codec = Codec.DRACO,
 ): WatchResponse {
   const [x, y, z] = place;
   return create(WatchResponseSchema, {
     message: {
       case: 'meshBrick',
-      value: { x, y, z, vertexCount: 3, triangleCount: triangles, draco: new Uint8Array(draco), partIndex, partCount },
+      value: {
+        x,
+        y,
+        z,
+        vertexCount: 3,
+        triangleCount: triangles,
+        codec,
+        data: new Uint8Array(data),
+        partIndex,
+        partCount,
+      },
     },
   });
 }

@@ -89,6 +89,14 @@ std::vector<BadInputCase> open_cases() {
         {"SixteenNormalBits", ok, "", normal_bits(16)},
         {"SeventeenNormalBits", invalid, "normal_bits is 17; it must be 0 (no normals) or 2 to 16", normal_bits(17)},
         {"MoreNormalBitsThanAnIntHolds", invalid, "normal_bits is 4294967295", normal_bits(0xFFFFFFFFU)},
+        {"TheCodecDraco", ok, "", open_with([](v1::StreamOpen& open) { open.add_codecs(v1::CODEC_DRACO); })},
+        {"ACodecOfTheFuture", invalid, "codecs has the value 7, which this version does not offer; it offers 1 (Draco)",
+         open_with([](v1::StreamOpen& open) {
+             open.add_codecs(v1::CODEC_DRACO);
+             open.add_codecs(static_cast<v1::Codec>(7));
+         })},
+        {"ACodecWithoutANumber", invalid, "codecs has the value 0, which this version does not offer",
+         open_with([](v1::StreamOpen& open) { open.add_codecs(v1::CODEC_UNSPECIFIED); })},
         {"APolicyOfTheFuture", invalid, "policy has the value 4, which this version does not know",
          open_with([](v1::StreamOpen& open) { open.set_policy(static_cast<v1::UploadPolicy>(4)); })},
         {"EveryFrameOfOne", ok, "", every_nth(1)},

@@ -46,6 +46,9 @@ std::vector<BadInputCase> recording_cases() {
          read(no_session, session(".."))},
         {"ARecordingOfAnotherSessionThanItsMetadataSays", invalid, "but the message's session id is",
          read(no_session, session("00000000-0000-4000-8000-000000000001"))},
+        {"ARecordingInACodecOfTheFuture", invalid,
+         "codecs has the value 2, which this version does not offer; it offers 1 (Draco)",
+         read(no_session, [](v1::ReadRecordingRequest& request) { request.add_codecs(static_cast<v1::Codec>(2)); })},
         {"ARecordingThatIsNoMessage", invalid, "is not a ReadRecordingRequest",
          read(no_session,
               [](v1::ReadRecordingRequest& request) {

@@ -1,5 +1,5 @@
 // Talks to a meniscusd: opens sessions, pushes particle frames, receives and decodes meshes.
-// Knows neither gRPC nor Draco on its face, so that simulation code need not either.
+// This header includes neither gRPC nor Draco, so that simulation code need not either.
 #pragma once
 
 #include <array>
@@ -43,9 +43,9 @@ struct ConnectionOptions {
     std::string server_name = {};  ///< in the server's certificate; empty: the address's host
     std::string token = {};        ///< sent with every call
     bool insecure = false;         ///< whether a token may travel to another machine without TLS
-    /// For a host that does not answer at all. One that refuses the connection is reported at once, unless
+    /// How long to wait for a host that does not answer. A refused connection is reported at once; see `wait`.
     std::chrono::milliseconds timeout = std::chrono::seconds(10);
-    /// the server may still be starting: so long it is tried again.
+    /// For how long a refused connection is tried again, since the server may still be starting.
     std::chrono::milliseconds wait = std::chrono::milliseconds(0);
 };
 
@@ -65,6 +65,7 @@ struct ServerInfo {
     std::uint32_t max_chunks_per_frame = 0;
     double max_idle_seconds = 0.0;
     std::uint64_t max_message_bytes = 0;
+    std::vector<std::uint32_t> codecs;  ///< numbers of those that the server encodes with; codec.hpp names them
 };
 
 /// The server's figures of one frame, beside the reconstruction's own.

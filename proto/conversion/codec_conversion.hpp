@@ -1,0 +1,20 @@
+// Codecs on the wire and in core: the same numbers.
+#pragma once
+
+#include <google/protobuf/repeated_field.h>
+
+#include "meniscus/codec.hpp"
+#include "meniscus/v1/mesh.pb.h"
+
+namespace meniscus::conversion {
+
+v1::Codec to_wire(Codec codec);
+
+/// Adds every codec that this version knows, the one that is preferred first.
+void add_known_codecs(google::protobuf::RepeatedField<int>& wire);
+
+/// The codec to encode with, of those that a client takes; Draco for an empty list. Throws InvalidInput for a number
+/// that this version does not know.
+Codec chosen_codec(const google::protobuf::RepeatedField<int>& taken);
+
+}  // namespace meniscus::conversion
