@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "conversion/particle_arrays.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "files/delimited_messages.hpp"
 #include "files/recording_format.hpp"
@@ -45,24 +46,27 @@ private:
         if (message.frame_index() != frame_.index || message.particle_count() != frame_.particle_count)
             fail("its frame_begin tells of frame " + std::to_string(message.frame_index()) + " with " +
                  std::to_string(message.particle_count()) + " particles");
-        const bool quantized = message.encoding() == v1::POSITION_ENCODING_UINT16;
-        if (!quantized && message.encoding() != v1::POSITION_ENCODING_FLOAT32 &&
-            message.encoding() != v1::POSITION_ENCODING_UNSPECIFIED)
-            fail("its encoding has the value " + std::to_string(static_cast<int>(message.encoding())) +
-                 ", which this version does not know");
-        const std::uint64_t particle_bytes = (quantized ? 6U : 12U) + (message.has_levels() ? 1U : 0U);
+        const conversion::ParticleLayout layout = this->layout(message);
         const std::uint64_t count = message.particle_count();
         // Before memory is allocated by it.
-        if (count > frame_.particles.size / particle_bytes)
-            fail(std::to_string(count) + " particles of " + std::to_string(particle_bytes) +
+        if (count > frame_.particles.size / layout.particle_bytes)
+            fail(std::to_string(count) + " particles of " + std::to_string(layout.particle_bytes) +
                  " bytes are announced, but only " + std::to_string(frame_.particles.size) + " bytes follow");
-        if (quantized) {
+        if (layout.quantized) {
             particles.quantization_box = box(message);
             particles.quantized.resize(3 * count);
         } else {
             particles.positions.resize(3 * count);
         }
-        if (message.has_levels()) particles.levels.resize(count);
+        if (layout.has_levels) particles.levels.resize(count);
+    }
+
+    conversion::ParticleLayout layout(const v1::FrameBegin& message) const {
+        try {
+            return conversion::particle_layout(message.arrays(), conversion::UnknownArrays::refuse);
+        } catch (const InvalidInput& e) {
+            fail(e.what());
+        }
     }
 
     Box box(const v1::FrameBegin& message) const {

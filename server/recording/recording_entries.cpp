@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "conversion/particle_arrays.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "files/recording_format.hpp"
 #include "meniscus/v1/recording.pb.h"
@@ -49,8 +50,7 @@ v1::StreamRequest begin_message(const InputFrame& frame) {
     begin.set_frame_index(frame.index);
     begin.set_simulation_time(frame.simulation_time);
     begin.set_particle_count(frame.particle_count);
-    begin.set_has_levels(frame.has_levels);
-    begin.set_encoding(frame.quantized ? v1::POSITION_ENCODING_UINT16 : v1::POSITION_ENCODING_FLOAT32);
+    *begin.mutable_arrays() = conversion::particle_arrays(frame.quantized, frame.has_levels);
     if (frame.quantized) *begin.mutable_quantization_box() = conversion::to_wire(frame.quantization_box);
     return request;
 }

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "conversion/particle_arrays.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
 
@@ -13,23 +14,17 @@ namespace meniscus::server {
 
 namespace {
 
-bool is_quantized(const v1::FrameBegin& message) {
-    switch (message.encoding()) {
-        case v1::POSITION_ENCODING_UNSPECIFIED:
-        case v1::POSITION_ENCODING_FLOAT32:
-            return false;
-        case v1::POSITION_ENCODING_UINT16:
-            return true;
-        default:
-            throw InvalidInput(fmt::format("frame {}: encoding has the value {}, which this version does not know",
-                                           message.frame_index(), static_cast<int>(message.encoding())));
+conversion::ParticleLayout layout_of(const v1::FrameBegin& message) {
+    try {
+        return conversion::particle_layout(message.arrays(), conversion::UnknownArrays::refuse);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(fmt::format("frame {}: {}", message.frame_index(), error.what()));
     }
 }
 
 Box quantization_box(const v1::FrameBegin& message) {
     if (!message.has_quantization_box())
-        throw InvalidInput(
-            fmt::format("frame {}: POSITION_ENCODING_UINT16 needs a quantization_box", message.frame_index()));
+        throw InvalidInput(fmt::format("frame {}: positions of uint16 need a quantization_box", message.frame_index()));
     const Box box = conversion::from_wire(message.quantization_box(), "quantization_box");
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const char name = "xyz"[axis];
@@ -49,12 +44,11 @@ Box quantization_box(const v1::FrameBegin& message) {
 
 }  // namespace
 
-std::size_t FrameAssembler::admitted_bytes(const v1::FrameBegin& message, bool quantized) const {
+std::size_t FrameAssembler::admitted_bytes(const v1::FrameBegin& message, std::uint64_t particle_bytes) const {
     const std::uint64_t count = message.particle_count();
     if (limits_.particles_per_frame != 0 && count > limits_.particles_per_frame)
         throw LimitExceeded(fmt::format("frame {}: {} particles; the server takes at most {} per frame",
                                         message.frame_index(), count, limits_.particles_per_frame));
-    const std::uint64_t particle_bytes = (quantized ? 6U : 12U) + (message.has_levels() ? 1U : 0U);
     const std::uint64_t limit =
         limits_.bytes_per_session != 0 ? limits_.bytes_per_session : std::numeric_limits<std::ptrdiff_t>::max();
     if (count > limit / particle_bytes)
@@ -73,9 +67,9 @@ void FrameAssembler::begin(const v1::FrameBegin& message, InputFrame& frame) {
     if (!std::isfinite(message.simulation_time()))
         throw InvalidInput(fmt::format("frame {}: simulation_time is {}; it must be finite", message.frame_index(),
                                        message.simulation_time()));
-    const bool quantized = is_quantized(message);
-    const Box box = quantized ? quantization_box(message) : Box{};
-    expected_ = admitted_bytes(message, quantized);
+    const conversion::ParticleLayout layout = layout_of(message);
+    const Box box = layout.quantized ? quantization_box(message) : Box{};
+    expected_ = admitted_bytes(message, layout.particle_bytes);
 
     try {
         frame.allocate(expected_);
@@ -85,9 +79,9 @@ void FrameAssembler::begin(const v1::FrameBegin& message, InputFrame& frame) {
     frame.index = message.frame_index();
     frame.simulation_time = message.simulation_time();
     frame.particle_count = static_cast<std::size_t>(message.particle_count());
-    frame.quantized = quantized;
+    frame.quantized = layout.quantized;
     frame.quantization_box = box;
-    frame.has_levels = message.has_levels();
+    frame.has_levels = layout.has_levels;
     index_ = message.frame_index();
     filled_ = 0;
     chunks_ = 0;

@@ -29,8 +29,8 @@ public:
     bool in_frame() const noexcept { return in_frame_; }
 
 private:
-    /// Of the frame, or LimitExceeded.
-    std::size_t admitted_bytes(const v1::FrameBegin& message, bool quantized) const;
+    /// Of the whole frame. Throws LimitExceeded.
+    std::size_t admitted_bytes(const v1::FrameBegin& message, std::uint64_t particle_bytes) const;
 
     Limits limits_;
     bool in_frame_ = false;

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "conversion/particle_arrays.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/limits/limits.hpp"
@@ -86,7 +87,7 @@ ParticleMessages encode_particles(const InputFrame& frame, std::uint64_t run_id,
     begin.set_stride(stride);
     begin.set_sent_count(sent);
     *begin.mutable_quantization_box() = conversion::to_wire(box);
-    begin.set_has_levels(!particles.levels.empty());
+    *begin.mutable_arrays() = conversion::particle_arrays(true, !particles.levels.empty());
     begin.set_particle_radius(particle_radius);
     add(response);
     const std::string bytes = bytes_of(particles, box, stride, sent);

@@ -1,3 +1,4 @@
+#include "conversion/particle_arrays.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "receiving/frame_receiver.hpp"
 #include "receiving/particle_receiver.hpp"
@@ -86,7 +87,7 @@ std::vector<v1::WatchParticlesResponse> particles() {
     begin.set_particle_count(4);
     begin.set_stride(2);
     begin.set_sent_count(2);
-    begin.set_has_levels(true);
+    *begin.mutable_arrays() = conversion::particle_arrays(true, true);
     begin.set_particle_radius(0.1);
     begin.mutable_quantization_box()->mutable_min()->set_x(-1.0);
     begin.mutable_quantization_box()->mutable_max()->set_x(1.0);

@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "conversion/particle_arrays.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/frame_assembler.hpp"
 #include "sessions/input_frame.hpp"
@@ -39,9 +40,8 @@ v1::StreamRequest begin(std::uint64_t index, bool quantized, bool levels) {
     message.set_frame_index(index);
     message.set_simulation_time(0.5);
     message.set_particle_count(2);
-    message.set_has_levels(levels);
+    *message.mutable_arrays() = conversion::particle_arrays(quantized, levels);
     if (quantized) {
-        message.set_encoding(v1::POSITION_ENCODING_UINT16);
         message.mutable_quantization_box()->mutable_min()->set_x(-1.0);
         message.mutable_quantization_box()->mutable_max()->set_x(1.0);
     }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "connection/connection.hpp"
+#include "conversion/particle_arrays.hpp"
 #include "meniscus/client/client.hpp"
 #include "server.hpp"
 #include "test_frames.hpp"
@@ -62,6 +63,7 @@ struct RawStream {
         v1::StreamRequest request;
         request.mutable_frame_begin()->set_frame_index(index);
         request.mutable_frame_begin()->set_particle_count(particles);
+        *request.mutable_frame_begin()->mutable_arrays() = conversion::particle_arrays(false, false);
         call->Write(request);
     }
 

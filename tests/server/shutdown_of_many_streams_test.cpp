@@ -9,6 +9,7 @@
 #include <list>
 #include <thread>
 
+#include "conversion/particle_arrays.hpp"
 #include "meniscus/client/client.hpp"
 #include "meniscus/v1/surface_service.grpc.pb.h"
 #include "process.hpp"
@@ -73,6 +74,7 @@ private:
         const Particles particles = spray(8);
         v1::StreamRequest begin;
         begin.mutable_frame_begin()->set_particle_count(particles.positions.size() / 3);
+        *begin.mutable_frame_begin()->mutable_arrays() = conversion::particle_arrays(false, false);
         v1::StreamRequest chunk;
         chunk.mutable_frame_chunk()->set_data(particles.positions.data(), particles.positions.size() * sizeof(float));
         v1::StreamRequest end;

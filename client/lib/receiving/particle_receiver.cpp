@@ -14,8 +14,6 @@ namespace meniscus::client {
 
 namespace {
 
-constexpr std::size_t position_bytes = 3 * sizeof(std::uint16_t);
-
 std::string name_of(std::uint64_t index) {
     return "the particles of frame " + std::to_string(index);
 }
@@ -32,6 +30,16 @@ Box box_of(const v1::ParticlesBegin& message) {
             throw ServerError(name_of(message.frame_index()) + " lie in a box from " + std::to_string(box.min[axis]) +
                               " to " + std::to_string(box.max[axis]));
     return box;
+}
+
+conversion::ParticleLayout layout_of(const v1::ParticlesBegin& message) {
+    try {
+        const auto layout = conversion::particle_layout(message.arrays(), conversion::UnknownArrays::skip);
+        if (!layout.quantized) throw InvalidInput("positions of float32; they must be of uint16");
+        return layout;
+    } catch (const InvalidInput& error) {
+        throw ServerError(name_of(message.frame_index()) + ": " + error.what());
+    }
 }
 
 }  // namespace
@@ -62,8 +70,8 @@ void ParticleReceiver::begin(const v1::ParticlesBegin& message) {
     if (stride == 0 || sent != count / stride + (count % stride == 0 ? 0U : 1U))
         throw ServerError(name + ": " + std::to_string(sent) + " of " + std::to_string(count) + " are no " +
                           std::to_string(stride) + "-th part");
-    const std::uint64_t particle_bytes = position_bytes + (message.has_levels() ? 1U : 0U);
-    if (sent > std::numeric_limits<std::ptrdiff_t>::max() / particle_bytes)
+    const conversion::ParticleLayout layout = layout_of(message);
+    if (sent > std::numeric_limits<std::ptrdiff_t>::max() / layout.particle_bytes)
         throw ServerError(name + ": " + std::to_string(sent) + " are more than memory can hold");
     if (!(message.particle_radius() > 0.0) || !std::isfinite(message.particle_radius()))
         throw ServerError(name + " have the radius " + std::to_string(message.particle_radius()));
@@ -75,9 +83,9 @@ void ParticleReceiver::begin(const v1::ParticlesBegin& message) {
     frame.header.stride = stride;
     frame.header.particle_radius = message.particle_radius();
     frame.header.quantization_box = box_of(message);
-    frame.has_levels = message.has_levels();
+    frame.layout = layout;
     frame.sent_count = sent;
-    frame.expected_bytes = sent * particle_bytes;
+    frame.expected_bytes = sent * layout.particle_bytes;
     frame_ = std::move(frame);
 }
 
@@ -100,10 +108,11 @@ ReceivedParticles ParticleReceiver::end() {
     ReceivedParticles particles = frame.header;
     if (frame.sent_count == 0) return particles;
     particles.quantized.resize(3 * frame.sent_count);
-    std::memcpy(particles.quantized.data(), frame.bytes.data(), frame.sent_count * position_bytes);
-    if (frame.has_levels) {
+    std::memcpy(particles.quantized.data(), frame.bytes.data(), frame.sent_count * frame.layout.position_bytes);
+    if (frame.layout.has_levels) {
         particles.levels.resize(frame.sent_count);
-        std::memcpy(particles.levels.data(), frame.bytes.data() + frame.sent_count * position_bytes, frame.sent_count);
+        std::memcpy(particles.levels.data(), frame.bytes.data() + frame.sent_count * frame.layout.levels_after,
+                    frame.sent_count);
         const std::uint8_t highest = *std::ranges::max_element(particles.levels);
         if (highest > max_particle_level)
             throw ServerError(name_of(particles.index) + " have the level " + std::to_string(highest));

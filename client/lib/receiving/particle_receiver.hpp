@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "conversion/particle_arrays.hpp"
 #include "meniscus/client/client.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 
@@ -24,10 +25,10 @@ public:
 private:
     struct Frame {
         ReceivedParticles header;
-        bool has_levels = false;
+        conversion::ParticleLayout layout;
         std::uint64_t sent_count = 0;
         std::uint64_t expected_bytes = 0;
-        std::vector<std::byte> bytes;  ///< all positions, then all levels
+        std::vector<std::byte> bytes;  ///< of the arrays, one after the other
     };
 
     void begin(const v1::ParticlesBegin& message);

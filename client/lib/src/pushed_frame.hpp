@@ -12,10 +12,10 @@ namespace meniscus::client {
 
 struct PushedFrame {
     v1::FrameBegin begin;
-    std::shared_ptr<Bytes> bytes;  ///< all positions, then all levels; none once they will not be sent again
+    std::shared_ptr<Bytes> bytes;  ///< of the arrays, one after the other; none once they will not be sent again
 };
 
-/// Copies the particles, which the caller may change afterwards.
+/// Copies the particles, which the caller may change afterwards. Throws InvalidInput for a frame with further arrays.
 PushedFrame copy_frame(const ParticleFrame& frame, std::uint64_t index, double simulation_time, BytePool& pool);
 
 }  // namespace meniscus::client

@@ -1,6 +1,10 @@
 import { create } from '@bufbuild/protobuf';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { WatchParticlesResponseSchema, type WatchParticlesResponse } from '../src/gen/meniscus/v1/surface_service_pb';
+import {
+  ElementType,
+  WatchParticlesResponseSchema,
+  type WatchParticlesResponse,
+} from '../src/gen/meniscus/v1/surface_service_pb';
 import { KeptParticles } from '../src/particles/kept_particles';
 import { ParticleReceiver } from '../src/particles/particle_receiver';
 import type { Particles } from '../src/particles/particles';
@@ -8,10 +12,14 @@ import type { Received } from '../src/rpc/call';
 import { Code, RpcError } from '../src/rpc/status';
 import { maxParticles, ParticleWatch, type ParticleServer } from '../src/stream/particle_watch';
 
+type Listed = [name: string, type: ElementType, components: number];
+const position: Listed = ['position', ElementType.UINT16, 3];
+const level: Listed = ['level', ElementType.UINT8, 1];
+
 interface Header {
   index?: number;
   count?: number;
-  hasLevels?: boolean;
+  arrays?: Listed[];
   radius?: number;
   max?: number;
 }
@@ -19,7 +27,7 @@ interface Header {
 function begin({
   index = 3,
   count = 2,
-  hasLevels = false,
+  arrays = [position],
   radius = 0.5,
   max = 1,
 }: Header = {}): WatchParticlesResponse {
@@ -32,7 +40,7 @@ function begin({
         particleCount: BigInt(2 * count),
         stride: 2n,
         sentCount: BigInt(count),
-        hasLevels,
+        arrays: arrays.map(([name, type, components]) => ({ name, type, components })),
         particleRadius: radius,
         quantizationBox: { min: { x: 0, y: -1, z: 0 }, max: { x: max, y: 1, z: 1 } },
       },
@@ -62,7 +70,7 @@ describe('ParticleReceiver', () => {
     const bytes = [...positions, 0, 3];
     for (let cut = 0; cut <= bytes.length; ++cut) {
       const particles = take(
-        begin({ hasLevels: true }),
+        begin({ arrays: [position, level] }),
         chunk(...bytes.slice(0, cut)),
         chunk(...bytes.slice(cut)),
         end(),
@@ -71,6 +79,14 @@ describe('ParticleReceiver', () => {
       expect([...particles.levels!]).toEqual([0, 3]);
       expect([particles.index, particles.frameCount, particles.stride, particles.min[1]]).toEqual([3n, 4, 2, -1]);
     }
+  });
+
+  it('skips arrays that it does not know', () => {
+    const arrays: Listed[] = [position, ['velocity', ElementType.FLOAT32, 3], level, ['id', ElementType.UINT32, 1]];
+    const bytes = [...positions, ...new Array<number>(24).fill(9), 0, 3, ...new Array<number>(8).fill(9)];
+    const particles = take(begin({ arrays }), chunk(...bytes), end())!;
+    expect([...particles.positions]).toEqual([1, 2, 3, 4, 5, 262]);
+    expect([...particles.levels!]).toEqual([0, 3]);
   });
 
   it('forgets a frame that is abandoned', () => {
@@ -84,7 +100,21 @@ describe('ParticleReceiver', () => {
     ['more than the 12 bytes', [begin(), chunk(...positions, 0)]],
     ['at most 16777216', [begin({ count: 2 ** 25 })]],
     ['the radius NaN', [begin({ radius: NaN })]],
+    [
+      'have 1174405120 bytes; at most 268435456',
+      [begin({ count: 2 ** 24, arrays: [position, ['other', ElementType.FLOAT32, 16]] })],
+    ],
     ['no finite box', [begin({ max: Infinity })]],
+    ["the first array is ''; it must be 'position'", [begin({ arrays: [] })]],
+    ["the first array is 'level'", [begin({ arrays: [level, position] })]],
+    ["array 'position' comes twice", [begin({ arrays: [position, position] })]],
+    ["'position' is FLOAT32 x 3; it must be UINT16 x 3", [begin({ arrays: [['position', ElementType.FLOAT32, 3]] })]],
+    ['element type 9', [begin({ arrays: [position, ['id', 9 as ElementType, 1]] })]],
+    ['17 components; it must have 1 to 16', [begin({ arrays: [position, ['id', ElementType.INT32, 17]] })]],
+    [
+      '19 arrays; at most 18',
+      [begin({ arrays: [position, ...Array.from({ length: 18 }, (_, i): Listed => [`a${i}`, ElementType.INT32, 1])] })],
+    ],
   ])('refuses: %s', (words, messages) => {
     expect(() => take(...messages)).toThrow(words);
   });

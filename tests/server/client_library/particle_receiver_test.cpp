@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "conversion/particle_arrays.hpp"
+
 namespace meniscus::client {
 namespace {
 
@@ -20,7 +22,7 @@ Response begin() {
     begin.set_particle_count(4);
     begin.set_stride(2);
     begin.set_sent_count(2);
-    begin.set_has_levels(true);
+    *begin.mutable_arrays() = conversion::particle_arrays(true, true);
     begin.set_particle_radius(0.5);
     begin.mutable_quantization_box()->mutable_min()->set_x(0.0);
     begin.mutable_quantization_box()->mutable_max()->set_x(1.0);
@@ -56,6 +58,22 @@ TEST(ParticleReceiver, PutsPiecesTogetherWhereverTheyAreCut) {
     }
 }
 
+TEST(ParticleReceiver, SkipsAnArrayThatItDoesNotKnow) {
+    Response response = begin();
+    v1::ParticleArray& between = *response.mutable_particles_begin()->mutable_arrays(1);
+    between.set_name("velocity");
+    between.set_type(v1::ELEMENT_TYPE_FLOAT32);
+    between.set_components(3);
+    *response.mutable_particles_begin()->add_arrays() = conversion::particle_arrays(true, true)[1];
+    ParticleReceiver receiver;
+    EXPECT_FALSE(receiver.take(response));
+    EXPECT_FALSE(receiver.take(chunk(positions + std::string(24, 'v') + std::string("\0\3", 2))));
+    const auto particles = receiver.take(end());
+    ASSERT_TRUE(particles);
+    EXPECT_EQ(particles->quantized, (std::vector<std::uint16_t>{1, 2, 3, 4, 5, 262}));
+    EXPECT_EQ(particles->levels, (std::vector<std::uint8_t>{0, 3}));
+}
+
 TEST(ParticleReceiver, ForgetsAFrameThatIsAbandoned) {
     ParticleReceiver receiver;
     receiver.take(begin());
@@ -89,6 +107,11 @@ TEST(ParticleReceiver, RefusesWhatContradictsItself) {
              b.set_particle_count(std::numeric_limits<std::uint64_t>::max());
              b.set_sent_count(std::numeric_limits<std::uint64_t>::max());
          })}},
+        {"no arrays; the first must be \"position\"", {changed([](auto& b) { b.clear_arrays(); })}},
+        {"positions of float32; they must be of uint16",
+         {changed([](auto& b) { b.mutable_arrays(0)->set_type(v1::ELEMENT_TYPE_FLOAT32); })}},
+        {"array \"level\" has the element type 9",
+         {changed([](auto& b) { b.mutable_arrays(1)->set_type(static_cast<v1::ElementType>(9)); })}},
         {"have the radius nan",
          {changed([](auto& b) { b.set_particle_radius(std::numeric_limits<double>::quiet_NaN()); })}},
         {"needs both its corners", {changed([](auto& b) { b.mutable_quantization_box()->clear_max(); })}},

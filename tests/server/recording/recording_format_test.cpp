@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "conversion/particle_arrays.hpp"
 #include "files/recording_format.hpp"
 #include "formats/recording.hpp"
 #include "meniscus/error.hpp"
@@ -219,11 +220,12 @@ TEST_F(RecordingFormat, RefusesMessagesThatAreNotTheirFrame) {
         fill(message);
         return delimited(message);
     };
-    const auto begin = [&](std::uint64_t index, std::uint64_t count, int encoding = v1::POSITION_ENCODING_FLOAT32) {
+    const auto begin = [&](std::uint64_t index, std::uint64_t count, int type = v1::ELEMENT_TYPE_FLOAT32) {
         return request([&](v1::StreamRequest& message) {
             message.mutable_frame_begin()->set_frame_index(index);
             message.mutable_frame_begin()->set_particle_count(count);
-            message.mutable_frame_begin()->set_encoding(static_cast<v1::PositionEncoding>(encoding));
+            *message.mutable_frame_begin()->mutable_arrays() = conversion::particle_arrays(false, false);
+            message.mutable_frame_begin()->mutable_arrays(0)->set_type(static_cast<v1::ElementType>(type));
         });
     };
     const auto chunk = [&](std::size_t size) {
@@ -241,8 +243,8 @@ TEST_F(RecordingFormat, RefusesMessagesThatAreNotTheirFrame) {
         {1, begin(7, 1) + chunk(12) + end, "its frame_begin tells of frame 7 with 1 particles"},
         {2, begin(0, 1) + chunk(12) + end, "its frame_begin tells of frame 0 with 1 particles"},
         {huge, begin(0, huge) + chunk(12) + end, "particles of 12 bytes are announced, but only"},
-        {1, begin(0, 1, 9) + chunk(12) + end, "its encoding has the value 9"},
-        {1, begin(0, 1, v1::POSITION_ENCODING_UINT16) + chunk(6) + end, "quantization_box"},
+        {1, begin(0, 1, 9) + chunk(12) + end, "array \"position\" has the element type 9"},
+        {1, begin(0, 1, v1::ELEMENT_TYPE_UINT16) + chunk(6) + end, "quantization_box"},
         {1, begin(0, 1) + chunk(11) + end, "no frame_chunk"},
         {1, begin(0, 1) + chunk(13) + end, "more bytes than its particles have"},
         {1, begin(0, 1) + chunk(0) + chunk(12) + end, "an empty frame_chunk"},

@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "meniscus/error.hpp"
 #include "running_server.hpp"
 
 namespace meniscus::server::test {
@@ -45,6 +46,24 @@ TEST(Stream, ReturnsTheMeshesOfParticleLevels) {
         particles.levels.push_back(static_cast<std::uint8_t>(i % 64 == 0 ? 1 : 0));
     stream.push(particles.view(), 0, 0.0);
     EXPECT_EQ(mesh_sha256(stream.next()->mesh()), local_sha256(particles));
+}
+
+TEST(Stream, RefusesAFrameWithAnArrayThatServersDoNotTakeByItsName) {
+    RunningServer running;
+    auto stream = running.client.stream(running.session());
+    const Particles particles = wave(2, 0.0);
+    const std::vector<std::byte> numbers(4 * particles.view().count());
+    const ParticleArray array{.name = "id", .data = numbers, .element_bytes = 4};
+    ParticleFrame frame = particles.view();
+    frame.arrays = {&array, 1};
+    try {
+        stream.push(frame, 3, 0.0);
+        FAIL();
+    } catch (const InvalidInput& error) {
+        EXPECT_STREQ(error.what(), "frame 3 brings the array \"id\"; servers take positions and levels alone");
+    }
+    stream.push(particles.view(), 3, 0.0);
+    EXPECT_EQ(stream.next()->index, 3U);
 }
 
 TEST(Stream, CutsFramesThatAreLargerThanAChunk) {

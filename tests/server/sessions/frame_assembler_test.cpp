@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "conversion/particle_arrays.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::server {
@@ -16,11 +17,12 @@ struct FrameAssembly : testing::Test {
         v1::FrameBegin message;
         message.set_frame_index(index);
         message.set_particle_count(count);
+        *message.mutable_arrays() = conversion::particle_arrays(false, false);
         return message;
     }
     v1::FrameBegin begin_quantized(double min, double max) const {
         v1::FrameBegin message = begin(0, 1);
-        message.set_encoding(v1::POSITION_ENCODING_UINT16);
+        *message.mutable_arrays() = conversion::particle_arrays(true, false);
         for (auto* corner :
              {message.mutable_quantization_box()->mutable_min(), message.mutable_quantization_box()->mutable_max()}) {
             corner->set_x(0);
@@ -44,7 +46,7 @@ struct FrameAssembly : testing::Test {
 
 TEST_F(FrameAssembly, PutsChunksTogetherWhereverTheyAreCut) {
     v1::FrameBegin message = begin(7, 3);
-    message.set_has_levels(true);
+    *message.mutable_arrays() = conversion::particle_arrays(false, true);
     message.set_simulation_time(1.5);
     assembler.begin(message, frame);
     for (const std::size_t bytes : {1U, 0U, 30U, 8U}) assembler.append(chunk(bytes), frame);
@@ -138,15 +140,16 @@ TEST_F(FrameAssembly, RefusesATimeThatIsNotFinite) {
     EXPECT_THROW(assembler.begin(message, frame), InvalidInput);
 }
 
-TEST_F(FrameAssembly, RefusesAnUnknownEncoding) {
+TEST_F(FrameAssembly, RefusesAnArrayThatItDoesNotKnow) {
     v1::FrameBegin message = begin(0, 1);
-    message.set_encoding(static_cast<v1::PositionEncoding>(9));
+    *message.add_arrays() = message.arrays(0);
+    message.mutable_arrays(1)->set_name("velocity");
     EXPECT_THROW(assembler.begin(message, frame), InvalidInput);
 }
 
 TEST_F(FrameAssembly, RefusesAQuantizationBoxThatIsMissingNotFiniteOrInverted) {
     v1::FrameBegin none = begin(0, 1);
-    none.set_encoding(v1::POSITION_ENCODING_UINT16);
+    *none.mutable_arrays() = conversion::particle_arrays(true, false);
     EXPECT_THROW(assembler.begin(none, frame), InvalidInput);
     v1::FrameBegin half = none;
     half.mutable_quantization_box()->mutable_min();

@@ -2,15 +2,18 @@
 import { ProtocolError } from '../bricks/frame_receiver';
 import type { Vector3 } from '../gen/meniscus/v1/settings_pb';
 import type { ParticlesBegin, WatchParticlesResponse } from '../gen/meniscus/v1/surface_service_pb';
+import { particleLayout, type ParticleLayout } from './particle_arrays';
 import type { Particles } from './particles';
 
-const positionBytes = 6;
 /** Far more than this viewer asks for. */
 const maxParticles = 1n << 24n;
+const maxBytes = 2 ** 28;
 
 interface Arriving {
   readonly header: Omit<Particles, 'positions' | 'levels'>;
   readonly count: number;
+  /** Where the levels begin among the bytes. */
+  readonly levelsAt: number | undefined;
   readonly bytes: Uint8Array;
   filled: number;
 }
@@ -49,14 +52,14 @@ export class ParticleReceiver {
   private end(): Particles {
     const { arriving } = this;
     if (!arriving) throw new ProtocolError('particles ended without having begun');
-    const { header, count, bytes, filled } = arriving;
+    const { header, count, levelsAt, bytes, filled } = arriving;
     if (filled !== bytes.length)
       throw new ProtocolError(`the particles of frame ${header.index} ended after ${filled} of ${bytes.length} bytes`);
     this.arriving = undefined;
     return {
       ...header,
       positions: new Uint16Array(bytes.buffer, 0, 3 * count),
-      levels: bytes.length > positionBytes * count ? bytes.subarray(positionBytes * count) : undefined,
+      levels: levelsAt === undefined || count === 0 ? undefined : bytes.subarray(levelsAt, levelsAt + count),
     };
   }
 }
@@ -71,6 +74,9 @@ function begin(message: ParticlesBegin): Arriving {
   const max = corner(message.quantizationBox?.max);
   if (!min || !max) throw new ProtocolError(`${name} have no finite box`);
   const count = Number(message.sentCount);
+  const { particleBytes, levelsAfter } = layoutOf(message, name);
+  if (count * particleBytes > maxBytes)
+    throw new ProtocolError(`${name} have ${count * particleBytes} bytes; at most ${maxBytes} are taken`);
   return {
     header: {
       index: message.frameIndex,
@@ -82,9 +88,18 @@ function begin(message: ParticlesBegin): Arriving {
       radius: message.particleRadius,
     },
     count,
-    bytes: new Uint8Array(count * (positionBytes + (message.hasLevels ? 1 : 0))),
+    levelsAt: levelsAfter === undefined ? undefined : count * levelsAfter,
+    bytes: new Uint8Array(count * particleBytes),
     filled: 0,
   };
+}
+
+function layoutOf({ arrays }: ParticlesBegin, name: string): ParticleLayout {
+  try {
+    return particleLayout(arrays);
+  } catch (error) {
+    throw new ProtocolError(`${name}: ${error instanceof Error ? error.message : String(error)}`);
+  }
 }
 
 function corner(wire: Vector3 | undefined): [number, number, number] | undefined {

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "conversion/particle_arrays.hpp"
+
 namespace meniscus::server::test {
 
 ServerOptions bad_input_options(const std::filesystem::path& recordings) {
@@ -31,10 +33,11 @@ std::function<grpc::Status(RunningServer&)> after_a_good_frame(std::function<voi
     };
 }
 
-v1::StreamRequest frame_begin(std::uint64_t particles) {
+v1::StreamRequest frame_begin(std::uint64_t particles, bool has_levels) {
     v1::StreamRequest request;
     request.mutable_frame_begin()->set_frame_index(good_frame + 1);
     request.mutable_frame_begin()->set_particle_count(particles);
+    *request.mutable_frame_begin()->mutable_arrays() = conversion::particle_arrays(false, has_levels);
     return request;
 }
 

@@ -31,6 +31,7 @@ ServerOptions bad_input_options(const std::filesystem::path& recordings);
 // The table, by what is wrong.
 std::vector<BadInputCase> message_order_cases();
 std::vector<BadInputCase> frame_cases();
+std::vector<BadInputCase> array_cases();
 std::vector<BadInputCase> position_cases();
 std::vector<BadInputCase> open_cases();
 std::vector<BadInputCase> watch_cases();
@@ -55,8 +56,8 @@ inline client::Connection connect(const RunningServer& running) {
 /// Of a stream of a new session, after a good frame, that must be answered.
 std::function<grpc::Status(RunningServer&)> after_a_good_frame(std::function<void(RawStream&)> send);
 
-/// The begin of the frame after the good one.
-v1::StreamRequest frame_begin(std::uint64_t particles);
+/// The begin of the frame after the good one, of float32 positions.
+v1::StreamRequest frame_begin(std::uint64_t particles, bool has_levels = false);
 v1::StreamRequest chunk_of(std::string bytes);
 
 /// A message whose field of this number holds these bytes, whatever they are.

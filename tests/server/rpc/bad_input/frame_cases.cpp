@@ -14,11 +14,7 @@ constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
 
 /// A frame_begin and no more: one that is admitted ends its stream within the frame.
 std::function<grpc::Status(RunningServer&)> announces(std::uint64_t particles, bool has_levels = false) {
-    return after_a_good_frame([=](RawStream& s) {
-        v1::StreamRequest request = frame_begin(particles);
-        request.mutable_frame_begin()->set_has_levels(has_levels);
-        s.call->Write(request);
-    });
+    return after_a_good_frame([=](RawStream& s) { s.call->Write(frame_begin(particles, has_levels)); });
 }
 
 /// A frame of ten particles, in chunks of these sizes.
@@ -74,9 +70,7 @@ std::vector<BadInputCase> frame_cases() {
          })},
         {"LevelsThatWereAnnouncedAndDidNotCome", invalid, "frame 11: 12 bytes for 1 particles; 13 were announced",
          after_a_good_frame([](RawStream& s) {
-             v1::StreamRequest request = frame_begin(1);
-             request.mutable_frame_begin()->set_has_levels(true);
-             s.call->Write(request);
+             s.call->Write(frame_begin(1, true));
              s.send_chunk(12);
              s.send_end();
          })},

@@ -1,8 +1,9 @@
-// Positions, their encodings and boxes, and particle levels.
+// Positions, their boxes, and particle levels.
 #include <bit>
 #include <limits>
 #include <utility>
 
+#include "conversion/particle_arrays.hpp"
 #include "rpc/bad_input/case.hpp"
 
 namespace meniscus::server::test {
@@ -27,28 +28,22 @@ std::function<grpc::Status(RunningServer&)> particle(float x, float y, float z, 
     }
     bytes += level;
     return after_a_good_frame([bytes, has_levels = !level.empty()](RawStream& s) {
-        v1::StreamRequest request = frame_begin(1);
-        request.mutable_frame_begin()->set_has_levels(has_levels);
-        s.call->Write(request);
+        s.call->Write(frame_begin(1, has_levels));
         s.call->Write(chunk_of(bytes));
         s.send_end();
     });
 }
 
-std::function<grpc::Status(RunningServer&)> encoding(int value) {
-    return after_a_good_frame([=](RawStream& s) {
-        v1::StreamRequest request = frame_begin(0);
-        request.mutable_frame_begin()->set_encoding(static_cast<v1::PositionEncoding>(value));
-        s.call->Write(request);
-        s.send_end();
-    });
+v1::StreamRequest quantized_begin(std::uint64_t particles) {
+    v1::StreamRequest request = frame_begin(particles);
+    *request.mutable_frame_begin()->mutable_arrays() = conversion::particle_arrays(true, false);
+    return request;
 }
 
 /// A frame of one particle over a box that reaches from (low, 0, 0) to (high, 1, 1).
 std::function<grpc::Status(RunningServer&)> box(double low, double high) {
     return after_a_good_frame([=](RawStream& s) {
-        v1::StreamRequest request = frame_begin(1);
-        request.mutable_frame_begin()->set_encoding(v1::POSITION_ENCODING_UINT16);
+        v1::StreamRequest request = quantized_begin(1);
         v1::Box& wire = *request.mutable_frame_begin()->mutable_quantization_box();
         wire.mutable_min()->set_x(low);
         wire.mutable_max()->set_x(high);
@@ -83,17 +78,11 @@ std::vector<BadInputCase> position_cases() {
          particle(0.0F, 0.0F, 0.0F, "\x04")},
         {"TheLargestLevelByte", invalid, "frame 11: particle 0 has level 255, must be 0 to 3",
          particle(0.0F, 0.0F, 0.0F, "\xff")},
-        {"TheFloatEncodingByItsName", ok, "", encoding(v1::POSITION_ENCODING_FLOAT32)},
-        {"AnEncodingOfTheFuture", invalid, "frame 11: encoding has the value 3, which this version does not know",
-         encoding(3)},
-        {"AnEncodingBelowZero", invalid, "frame 11: encoding has the value -1, which this version does not know",
-         encoding(-1)},
-        {"NoQuantizationBox", invalid, "frame 11: POSITION_ENCODING_UINT16 needs a quantization_box",
-         encoding(v1::POSITION_ENCODING_UINT16)},
+        {"NoQuantizationBox", invalid, "frame 11: positions of uint16 need a quantization_box",
+         after_a_good_frame([](RawStream& s) { s.call->Write(quantized_begin(0)); })},
         {"AQuantizationBoxWithoutACorner", invalid, "quantization_box needs both its corners, min and max",
          after_a_good_frame([](RawStream& s) {
-             v1::StreamRequest request = frame_begin(0);
-             request.mutable_frame_begin()->set_encoding(v1::POSITION_ENCODING_UINT16);
+             v1::StreamRequest request = quantized_begin(0);
              request.mutable_frame_begin()->mutable_quantization_box()->mutable_min();
              s.call->Write(request);
          })},

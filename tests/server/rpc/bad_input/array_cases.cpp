@@ -1,0 +1,95 @@
+// The list of a frame's arrays: too many, unknown, twice, of another form than they have.
+#include <utility>
+
+#include "rpc/bad_input/case.hpp"
+
+namespace meniscus::server::test {
+
+namespace {
+
+constexpr auto ok = grpc::StatusCode::OK;
+constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
+
+struct Array {
+    std::string name;
+    int type;
+    std::uint32_t components;
+};
+
+const Array positions{"position", v1::ELEMENT_TYPE_FLOAT32, 3};
+const Array levels{"level", v1::ELEMENT_TYPE_UINT8, 1};
+
+/// A frame without particles that announces these arrays.
+std::function<grpc::Status(RunningServer&)> arrays(std::vector<Array> list) {
+    return after_a_good_frame([list = std::move(list)](RawStream& s) {
+        v1::StreamRequest request = frame_begin(0);
+        request.mutable_frame_begin()->clear_arrays();
+        for (const Array& array : list) {
+            v1::ParticleArray& wire = *request.mutable_frame_begin()->add_arrays();
+            wire.set_name(array.name);
+            wire.set_type(static_cast<v1::ElementType>(array.type));
+            wire.set_components(array.components);
+        }
+        s.call->Write(request);
+        s.send_end();
+    });
+}
+
+/// Positions, and as many other arrays.
+std::vector<Array> positions_and(int others) {
+    std::vector<Array> list{positions};
+    for (int i = 0; i < others; ++i) list.push_back({"other_" + std::to_string(i), v1::ELEMENT_TYPE_INT32, 1});
+    return list;
+}
+
+}  // namespace
+
+std::vector<BadInputCase> array_cases() {
+    return {
+        {"PositionsAlone", ok, "", arrays({positions})},
+        {"PositionsAndLevels", ok, "", arrays({positions, levels})},
+        {"NoArrays", invalid, "frame 11: no arrays; the first must be \"position\"", arrays({})},
+        {"LevelsAlone", invalid, "frame 11: the first array is \"level\"; it must be \"position\"", arrays({levels})},
+        {"LevelsBeforePositions", invalid, "frame 11: the first array is \"level\"; it must be \"position\"",
+         arrays({levels, positions})},
+        {"PositionsTwice", invalid, "frame 11: array \"position\" comes twice; each comes once",
+         arrays({positions, positions})},
+        {"LevelsTwice", invalid, "frame 11: array \"level\" comes twice; each comes once",
+         arrays({positions, levels, levels})},
+        {"AnArrayThatTheServerDoesNotKnow", invalid,
+         "frame 11: array \"velocity\" is not known to this version, which takes \"position\", \"level\"",
+         arrays({positions, {"velocity", v1::ELEMENT_TYPE_FLOAT32, 3}})},
+        {"PositionsOfTwoComponents", invalid,
+         "frame 11: array \"position\" is float32 x 2; it must be float32 x 3 or uint16 x 3",
+         arrays({{"position", v1::ELEMENT_TYPE_FLOAT32, 2}})},
+        {"PositionsOfInt32", invalid, "frame 11: array \"position\" is int32 x 3; it must be float32 x 3 or uint16 x 3",
+         arrays({{"position", v1::ELEMENT_TYPE_INT32, 3}})},
+        {"LevelsOfUint32", invalid, "frame 11: array \"level\" is uint32 x 1; it must be uint8 x 1",
+         arrays({positions, {"level", v1::ELEMENT_TYPE_UINT32, 1}})},
+        {"AnElementTypeOfTheFuture", invalid,
+         "frame 11: array \"position\" has the element type 6, which this version does not know",
+         arrays({{"position", 6, 3}})},
+        {"AnElementTypeBelowZero", invalid, "frame 11: array \"level\" has the element type -1",
+         arrays({positions, {"level", -1, 1}})},
+        {"NoElementType", invalid, "frame 11: array \"position\" has the element type 0",
+         arrays({{"position", v1::ELEMENT_TYPE_UNSPECIFIED, 3}})},
+        {"NoComponents", invalid, "frame 11: array \"position\" has 0 components; it must have 1 to 16",
+         arrays({{"position", v1::ELEMENT_TYPE_FLOAT32, 0}})},
+        {"OneComponentTooMany", invalid, "frame 11: array \"other\" has 17 components; it must have 1 to 16",
+         arrays({positions, {"other", v1::ELEMENT_TYPE_UINT8, 17}})},
+        {"AnArrayWithoutAName", invalid, "frame 11: the name of array 1 has 0 bytes; it must have 1 to 64",
+         arrays({positions, {"", v1::ELEMENT_TYPE_UINT8, 1}})},
+        {"TheLongestName", invalid, "aaaa\" is not known to this version",
+         arrays({positions, {std::string(64, 'a'), v1::ELEMENT_TYPE_UINT8, 1}})},
+        {"ANameThatIsTooLong", invalid, "frame 11: the name of array 1 has 65 bytes; it must have 1 to 64",
+         arrays({positions, {std::string(65, 'a'), v1::ELEMENT_TYPE_UINT8, 1}})},
+        {"ANameThatBreaksTheLine", invalid,
+         "frame 11: the name of array 1 has the byte 10; it must be of a-z, 0-9 and _",
+         arrays({positions, {"level\n", v1::ELEMENT_TYPE_UINT8, 1}})},
+        {"AsManyArraysAsTheLimit", invalid, "frame 11: array \"other_0\" is not known to this version",
+         arrays(positions_and(17))},
+        {"OneArrayPastTheLimit", invalid, "frame 11: 19 arrays; at most 18 are taken", arrays(positions_and(18))},
+    };
+}
+
+}  // namespace meniscus::server::test
