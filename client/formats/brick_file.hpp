@@ -1,9 +1,4 @@
-// Encoded bricks as a file, `.bricks`: what a server sends for one frame, kept as it came.
-//
-// A sequence of meniscus.v1.StreamResponse messages, each after its length in bytes as a protobuf varint (protobuf's
-// usual "delimited" framing): one with mesh_begin, then one or more with mesh_brick for each of its bricks (a brick of
-// more than 1 MiB in parts), then one with frame_statistics. Several frames may follow each other; the reader takes the
-// first.
+// Encoded bricks as a file, `.bricks`; files/brick_file_format.hpp describes it.
 #pragma once
 
 #include <filesystem>
@@ -19,6 +14,10 @@ void write_bricks(const std::filesystem::path& path, const client::ReceivedFrame
 
 /// Reads the first frame. Throws InvalidInput, in one line that names the file, for anything else.
 client::ReceivedFrame read_bricks(const std::string& name, std::string_view bytes);
+
+/// Reads the messages of one frame: a file without its beginning, as recordings hold them. Throws as read_bricks()
+/// does.
+client::ReceivedFrame read_brick_messages(const std::string& name, std::string_view bytes);
 
 /// A mesh reconstructed here, encoded as a server would.
 client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistics, std::uint64_t index,

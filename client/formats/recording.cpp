@@ -121,7 +121,7 @@ client::ReceivedFrame Recording::mesh(const RecordedFrame& frame) const {
         throw InvalidInput(name + ": " + std::to_string(frame.mesh->size) + " bytes; at most " + std::to_string(limit) +
                            " are read");
     client::ReceivedFrame mesh =
-        read_bricks(name, file_.read(frame.mesh->first, static_cast<std::size_t>(frame.mesh->size)));
+        read_brick_messages(name, file_.read(frame.mesh->first, static_cast<std::size_t>(frame.mesh->size)));
     if (mesh.index != frame.index) throw InvalidInput(name + ": it is that of frame " + std::to_string(mesh.index));
     return mesh;
 }

@@ -1,5 +1,7 @@
 #include "files/recording_scan.hpp"
 
+#include <google/protobuf/unknown_field_set.h>
+
 #include "files/recording_format.hpp"
 
 namespace meniscus::files {
@@ -16,35 +18,32 @@ RecordingScan::RecordingScan(const RandomAccessFile& file)
     if (!entry.has_begin()) file_.fail("its first entry is not its beginning");
     begin_ = entry.begin();
     if (begin_.version() != recording_version)
-        file_.fail("of format version " + std::to_string(begin_.version()) + "; this program reads version " +
-                   std::to_string(recording_version));
+        file_.fail("a recording of format version " + std::to_string(begin_.version()) +
+                   "; this program reads version " + std::to_string(recording_version) +
+                   ": read it with the Meniscus that wrote it");
 }
 
 std::optional<RecordingScan::Item> RecordingScan::next() {
-    entry_at_ = messages_.position();
-    const auto bytes = messages_.next(max_recording_entry_bytes);
-    if (!bytes) return std::nullopt;
-    Item item;
-    if (!item.entry.ParseFromString(*bytes)) fail("no entry of a recording");
-    switch (item.entry.entry_case()) {
-        case v1::RecordingEntry::kBegin:
-            fail("a second beginning");
-        case v1::RecordingEntry::kParticles:
-            item.messages.size = item.entry.particles().bytes();
-            break;
-        case v1::RecordingEntry::kMesh:
-            item.messages.size = item.entry.mesh().bytes();
-            break;
-        case v1::RecordingEntry::ENTRY_NOT_SET:
-            fail("an entry of a kind that this version does not know");
+    while (true) {
+        entry_at_ = messages_.position();
+        const auto bytes = messages_.next(max_recording_entry_bytes);
+        if (!bytes) return std::nullopt;
+        Item item;
+        if (!item.entry.ParseFromString(*bytes)) fail("no entry of a recording");
+        if (item.entry.has_begin()) fail("a second beginning");
+        const bool known = item.entry.entry_case() != v1::RecordingEntry::ENTRY_NOT_SET;
+        // What a later version writes has fields that this one does not know. An empty entry is a run of zeros, as some
+        // file systems leave them after a crash.
+        if (!known && v1::RecordingEntry::GetReflection()->GetUnknownFields(item.entry).empty())
+            fail("an entry of no kind");
+        item.messages = {.first = messages_.position(), .size = item.entry.bytes()};
+        if (item.messages.size > file_.size() - item.messages.first) {
+            go_on_at(entry_at_);
+            return std::nullopt;
+        }
+        messages_.skip(item.messages.size);
+        if (known) return item;
     }
-    item.messages.first = messages_.position();
-    if (item.messages.size > file_.size() - item.messages.first) {
-        go_on_at(entry_at_);
-        return std::nullopt;
-    }
-    messages_.skip(item.messages.size);
-    return item;
 }
 
 void RecordingScan::fail(const std::string& what) const {

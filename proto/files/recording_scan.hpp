@@ -17,8 +17,8 @@ struct ByteRange {
     std::uint64_t size = 0;
 };
 
-/// Reads entries, and not the messages that follow them. Everything wrong is InvalidInput, in one line that names file
-/// and byte.
+/// Reads entries, and not the messages that follow them. Throws InvalidInput, in one line that names file and byte, for
+/// everything that is wrong.
 class RecordingScan {
 public:
     /// The file outlives this object. Throws unless it begins as a recording of this version.
@@ -30,7 +30,8 @@ public:
         v1::RecordingEntry entry;  ///< particles or mesh
         ByteRange messages;
     };
-    /// The next entry with all of its messages; none at the end, or where the file is cut. Throws for what is no entry.
+    /// The next entry with all of its messages, of a kind that this version knows; none at the end, or where the file
+    /// is cut. Throws for what is no entry.
     std::optional<Item> next();
 
     /// Where the entry is that next() will return: a file that has grown since can be scanned from there on.

@@ -93,7 +93,7 @@ RecordingBytes recorded_particles(const InputFrame& frame, std::int64_t arrived_
     particles.set_simulation_time(frame.simulation_time);
     particles.set_particle_count(frame.particle_count);
     particles.set_arrived_at(arrived_at);
-    particles.set_bytes(bytes.messages.size());
+    entry.set_bytes(bytes.messages.size());
     append_delimited(bytes.entry, entry);
     return bytes;
 }
@@ -106,7 +106,7 @@ RecordingBytes recorded_mesh(const EncodedFrame& frame) {
     });
     v1::RecordingEntry entry;
     entry.mutable_mesh()->set_frame_index(frame.index);
-    entry.mutable_mesh()->set_bytes(bytes.messages.size());
+    entry.set_bytes(bytes.messages.size());
     append_delimited(bytes.entry, entry);
     return bytes;
 }

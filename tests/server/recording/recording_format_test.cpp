@@ -85,7 +85,7 @@ std::string particles_entry(std::uint64_t index, std::uint64_t count, std::uint6
     v1::RecordingEntry entry;
     entry.mutable_particles()->set_frame_index(index);
     entry.mutable_particles()->set_particle_count(count);
-    entry.mutable_particles()->set_bytes(bytes);
+    entry.set_bytes(bytes);
     entry.mutable_particles()->set_arrived_at(arrived_at);
     return delimited(entry);
 }
@@ -185,19 +185,40 @@ TEST_F(RecordingFormat, TreatsALengthBeyondTheFileAsItsCutEnd) {
     EXPECT_EQ(recording.cut_bytes(), tail.size());
 }
 
+TEST_F(RecordingFormat, SkipsFieldsAndEntriesThatItDoesNotKnow) {
+    constexpr int later_field = 100;
+    const std::string messages = "messages of a kind that is not known";
+    v1::RecordingEntry later;
+    later.GetReflection()->MutableUnknownFields(&later)->AddLengthDelimited(later_field, "checksum");
+    later.set_bytes(messages.size());
+    v1::RecordingEntry particles;
+    const RecordingBytes frame = recorded_particles(input(0, wave(2, 0.0)), start_time);
+    particles.mutable_particles()->set_arrived_at(start_time);
+    particles.mutable_particles()->set_particle_count(wave(2, 0.0).view().count());
+    particles.set_bytes(frame.messages.size());
+    particles.GetReflection()->MutableUnknownFields(&particles)->AddVarint(later_field, 7);
+    const std::string bytes =
+        beginning() + delimited(later) + messages + delimited(particles) + frame.messages + delimited(later) + messages;
+    const Recording recording = open(bytes);
+    ASSERT_EQ(recording.frames().size(), 1U);
+    EXPECT_EQ(recording.cut_bytes(), 0U);
+    EXPECT_EQ(recording.particles(recording.frames()[0]).positions, wave(2, 0.0).positions);
+    EXPECT_EQ(open(bytes.substr(0, bytes.size() - 1)).cut_bytes(), delimited(later).size() + messages.size() - 1);
+}
+
 TEST_F(RecordingFormat, RefusesWhatIsOutOfOrderOrOutOfRange) {
     const std::string first = particles_bytes(5, wave(2, 0.0));
     const std::string mesh = mesh_bytes(5, wave(2, 0.0));
     v1::RecordingEntry unknown;
     v1::RecordingEntry newer;
-    newer.mutable_begin()->set_version(2);
+    newer.mutable_begin()->set_version(3);
     const std::string magic(files::recording_magic);
     const std::string huge_length("\xff\xff\xff\xff\x7f", 5);
     const std::string endless_length(10, '\xff');
     const std::vector<std::pair<std::string, std::string>> cases{
         {"a file of something else", "not a recording"},
         {magic + first, "its first entry is not its beginning"},
-        {magic + delimited(newer), "format version 2; this program reads version 1"},
+        {magic + delimited(newer), "format version 3; this program reads version 2"},
         {recording_begin("../../etc", settings(), start_time), "its session id is '../../etc'"},
         {recording_begin(session_id, {}, start_time), "particle radius is 0"},
         {recording_begin(session_id, settings(), -1), "a time of -1 microseconds"},
@@ -207,7 +228,7 @@ TEST_F(RecordingFormat, RefusesWhatIsOutOfOrderOrOutOfRange) {
         {beginning() + first + mesh + mesh, "a second mesh of frame 5"},
         {beginning() + first + particles_entry(6, 0, 0, start_time - 1), "frame 6 arrived before frame 5"},
         {beginning() + particles_entry(0, 0, 0, std::numeric_limits<std::int64_t>::max()), "a time of"},
-        {beginning() + delimited(unknown), "an entry of a kind that this version does not know"},
+        {beginning() + delimited(unknown), "an entry of no kind"},
         {beginning() + huge_length, "at most 4096 are expected there"},
         {beginning() + endless_length, "no message at byte"},
     };
@@ -268,7 +289,7 @@ TEST_F(RecordingFormat, RefusesTheMeshOfAnotherFrame) {
         return RecordingBytes{.entry = whole.substr(0, entry_size), .messages = whole.substr(entry_size)};
     }();
     entry.mutable_mesh()->set_frame_index(1);
-    entry.mutable_mesh()->set_bytes(mesh.messages.size());
+    entry.set_bytes(mesh.messages.size());
     EXPECT_NE(refused(beginning() + particles + delimited(entry) + mesh.messages).find("it is that of frame 0"),
               std::string::npos);
 }
