@@ -1,0 +1,196 @@
+// Bricks whose bytes and contents are kept in golden_bricks.json, which the viewer's tests read, too: neither the
+// encoder nor one of the two decoders can change unseen. After a change that is wanted, MENISCUS_WRITE_GOLDEN=1 writes
+// the file anew.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "meniscus/meniscus.hpp"
+#include "support/particles.hpp"
+
+namespace meniscus {
+namespace {
+
+using nlohmann::ordered_json;
+
+const std::string path = MENISCUS_GOLDEN_BRICKS;
+
+struct Scene {
+    std::string name;
+    Settings settings;
+    test::Particles particles;
+    CodingOptions options;
+    std::size_t brick;  ///< of the mesh
+};
+
+/// Every setting is written out, so that no default changes the bricks.
+Settings settings() {
+    Settings s;
+    s.particle_radius = 0.125;
+    s.smoothing_length = 2.0;
+    s.cell_size = 0.5;
+    s.iso = 0.6;
+    s.field = Field::color;
+    s.mode = Mode::adaptive;
+    s.criterion = CurvatureCriterion{.tolerance = 0.15};
+    s.edge_points = Interpolation{};
+    s.normals = true;
+    return s;
+}
+
+/// Of level 3, eight times as large as one of level 0: a surface that is coarse but for the place where a small one
+/// sits on it.
+test::Particles large_and_small() {
+    test::Particles particles;
+    particles.add(0.5F, 0.5F, 0.5F);
+    particles.levels.push_back(2);
+    particles.add(0.5F, 0.5F, 1.375F);
+    particles.levels.push_back(0);
+    return particles;
+}
+
+test::Particles two_drops() {
+    test::Particles particles;
+    particles.add(1.0F, 1.0F, 1.0F);
+    particles.add(1.125F, 1.0F, 1.25F);
+    return particles;
+}
+
+std::vector<Scene> scenes() {
+    Settings bisected = settings();
+    bisected.edge_points = Bisection{.steps = 7};
+    bisected.normals = false;
+    Settings uniform = settings();
+    uniform.mode = Mode::uniform;
+    uniform.field = Field::density;
+    return {
+        {"levels and cracks, normals of 8 bits", settings(), large_and_small(), {}, 0},
+        {"8 offset bits, without normals", bisected, two_drops(), {}, 0},
+        {"rounded to 2 offset bits, normals of 10 bits",
+         uniform,
+         two_drops(),
+         {.normal_bits = 10, .position_bits = 2},
+         0},
+    };
+}
+
+std::string hexadecimal(const std::vector<std::byte>& bytes) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string out;
+    for (const std::byte byte : bytes) {
+        out += digits[std::to_integer<std::size_t>(byte) >> 4U];
+        out += digits[std::to_integer<std::size_t>(byte) & 15U];
+    }
+    return out;
+}
+
+std::vector<std::byte> from_hexadecimal(const std::string& digits) {
+    std::vector<std::byte> bytes(digits.size() / 2);
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        bytes[i] = static_cast<std::byte>(std::stoi(digits.substr(2 * i, 2), nullptr, 16));
+    return bytes;
+}
+
+/// What a decoder must make of the brick, in an order of its own: vertices ascending, triangles by their least vertex.
+ordered_json contents(const DecodedBrick& brick, std::uint32_t offset_bits) {
+    std::vector<std::uint32_t> order(brick.vertices.size());
+    for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = v;
+    std::ranges::sort(order, {}, [&](std::uint32_t v) { return brick.vertices[v]; });
+    std::vector<std::uint32_t> place(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+
+    ordered_json vertices = ordered_json::array();
+    ordered_json normals = ordered_json::array();
+    for (const std::uint32_t v : order) {
+        std::array<std::int32_t, 3> local = brick.vertices[v];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            local[axis] -= brick.coordinate[axis] * (brick_cells << offset_bits);
+        vertices.push_back(local);
+        if (brick.normals.empty()) continue;
+        std::array<long, 3> normal{};
+        for (std::size_t axis = 0; axis < 3; ++axis) normal[axis] = std::lround(brick.normals[v][axis] * 32767.0F);
+        normals.push_back(normal);
+    }
+    std::vector<std::array<std::uint32_t, 4>> triangles;
+    for (std::size_t t = 0; t < brick.triangles.size(); ++t) {
+        Triangle triangle = brick.triangles[t];
+        for (std::uint32_t& v : triangle) v = place[v];
+        std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+        triangles.push_back({triangle[0], triangle[1], triangle[2], level_byte(brick.levels[t])});
+    }
+    std::ranges::sort(triangles);
+    return {{"vertices", vertices}, {"normals", normals}, {"triangles", triangles}};
+}
+
+ordered_json golden(const Scene& scene) {
+    const Mesh mesh = test::reconstruct(scene.settings, scene.particles.frame());
+    const std::uint32_t offset_bits = encoded_offset_bits(mesh, scene.options);
+    const EncodedBrick brick = encode_brick(mesh, scene.brick, scene.options);
+    ordered_json out{{"name", scene.name},
+                     {"offset_bits", offset_bits},
+                     {"place", brick.coordinate},
+                     {"vertex_count", brick.vertices},
+                     {"triangle_count", brick.triangles},
+                     {"codec", static_cast<std::uint32_t>(brick.codec)},
+                     {"cell_levels", hexadecimal(brick.cell_levels)},
+                     {"data", hexadecimal(brick.data)}};
+    out.update(contents(decode_brick(brick, offset_bits), offset_bits));
+    return out;
+}
+
+ordered_json today() {
+    ordered_json out{{"base_cell_size", base_cell_size},   {"brick_base_cells", brick_base_cells},
+                     {"brick_cells", brick_cells},         {"max_brick_triangles", max_brick_triangles},
+                     {"min_offset_bits", min_offset_bits}, {"max_offset_bits", max_offset_bits}};
+    for (const Codec codec : codecs) out["codecs"].push_back(static_cast<std::uint32_t>(codec));
+    for (const Scene& scene : scenes()) out["bricks"].push_back(golden(scene));
+    return out;
+}
+
+ordered_json kept() {
+    std::ifstream file(path);
+    return ordered_json::parse(file);
+}
+
+TEST(GoldenBricks, HaveTheBytesThatTheyHad) {
+    const ordered_json now = today();
+    if (std::getenv("MENISCUS_WRITE_GOLDEN") != nullptr) std::ofstream(path) << now.dump() << '\n';
+    const ordered_json before = kept();
+    ASSERT_EQ(before.at("bricks").size(), now.at("bricks").size());
+    for (std::size_t i = 0; i < now.at("bricks").size(); ++i)
+        EXPECT_EQ(before["bricks"][i].dump(), now["bricks"][i].dump()) << now["bricks"][i]["name"];
+    EXPECT_EQ(before, now);
+}
+
+TEST(GoldenBricks, AreDecodedToTheContentsThatTheyHad) {
+    for (const ordered_json& brick : kept().at("bricks")) {
+        EncodedBrick encoded;
+        encoded.coordinate = brick.at("place");
+        encoded.vertices = brick.at("vertex_count");
+        encoded.triangles = brick.at("triangle_count");
+        encoded.codec = codec_by_number(brick.at("codec")).value();
+        encoded.cell_levels = from_hexadecimal(brick.at("cell_levels"));
+        encoded.data = from_hexadecimal(brick.at("data"));
+        const std::uint32_t offset_bits = brick.at("offset_bits");
+        const ordered_json decoded = contents(decode_brick(encoded, offset_bits), offset_bits);
+        for (const char* part : {"vertices", "normals", "triangles"})
+            EXPECT_EQ(decoded.at(part), brick.at(part)) << brick.at("name") << ' ' << part;
+    }
+}
+
+TEST(GoldenBricks, HaveTrianglesOfEveryLevelAndCracks) {
+    std::array<bool, triangle_level_count> seen{};
+    for (const ordered_json& brick : kept().at("bricks"))
+        for (const ordered_json& triangle : brick.at("triangles")) seen.at(triangle.at(3).get<std::size_t>()) = true;
+    EXPECT_EQ(seen, (std::array{true, true, true, true}));
+}
+
+}  // namespace
+}  // namespace meniscus
