@@ -38,7 +38,7 @@ Camera::Camera(std::span<const Vector3> points, UpAxis up, double azimuth, doubl
     const double radius = 0.5 * std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
     if (radius > 0.0) distance_ = distance_in_radii * radius;
 
-    // With scale 1 and no offset, find what the points cover, and fit that.
+    // With scale 1 and no offset, find the rectangle that the points cover, and fit it.
     double left = infinity;
     double right = -infinity;
     double top = infinity;

@@ -3,14 +3,14 @@
 
 namespace meniscus::cli {
 
-/// What the process answers.
+/// The process's exit status.
 enum ExitCode : int {
     success = 0,
-    failure = 1,    ///< anything that is not the caller's fault
+    failure = 1,    ///< an error that is not the caller's
     bad_input = 2,  ///< arguments, files, settings, or a server that is not there
 };
 
-/// Runs `meniscus`. Whatever goes wrong is one line on stderr.
+/// Runs `meniscus`. Every error is one line on stderr.
 int run(int argc, const char* const* argv);
 
 }  // namespace meniscus::cli

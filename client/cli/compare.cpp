@@ -1,4 +1,4 @@
-// meniscus compare: how far two meshes are apart, and what each of them misses.
+// meniscus compare: the distance of two meshes, and the components that only one of them has.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
@@ -90,7 +90,7 @@ void compare_meshes(const CompareOptions& options) {
 void add_compare(CLI::App& app) {
     auto options = std::make_shared<CompareOptions>();
     CLI::App& command = *app.add_subcommand(
-        "compare", "Tell how far two meshes are apart, two-sided, and what one has that the other has not");
+        "compare", "Measure the two-sided distance of two meshes, and name the components that only one of them has");
     command.add_option("A", options->a, "Mesh: .ply, .obj or .bricks")->required();
     command.add_option("B", options->b, "Mesh that A is held against, such as the same frame's in uniform mode")
         ->required();

@@ -7,7 +7,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// unit: what the figures are divided by, world units.
+/// unit: the length that the figures are divided by, world units.
 Json figures(const compare::DistanceSummary& distance, double unit) {
     return {
         {"rms", distance.rms / unit}, {"percentile_99", distance.percentile_99 / unit}, {"max", distance.max / unit}};

@@ -8,7 +8,7 @@
 
 namespace meniscus::cli {
 
-/// cell_size: world units; without it, what is counted in cells (distances, lost and gained components) is left out.
+/// cell_size: world units. Without it, figures in cells (distances, lost and gained components) are left out.
 nlohmann::ordered_json to_json(const compare::Comparison& comparison, const std::optional<double>& cell_size);
 
 }  // namespace meniscus::cli

@@ -1,4 +1,4 @@
-// meniscus info: what a server, or this process, says about itself.
+// meniscus info: version, backend and limits of a server, or the backend of this process.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
@@ -81,8 +81,8 @@ struct InfoOptions {
 
 void add_info(CLI::App& app) {
     auto options = std::make_shared<InfoOptions>();
-    CLI::App& command = *app.add_subcommand("info", "Describe a server, or what this process would reconstruct with");
-    auto* server = options->server.add_to(command, "Version, backend, limits of that server");
+    CLI::App& command = *app.add_subcommand("info", "Describe a server, or the backend that this process would use");
+    auto* server = options->server.add_to(command, "The server to describe: its version, backend and limits");
     add_backend_option(command, options->backend)->excludes(server);
     command.add_flag("--health", options->health, "Only whether it serves, which needs no token; if not, exit code 1")
         ->needs(server);

@@ -149,7 +149,7 @@ void add_reconstruct(CLI::App& app) {
                      "Encoding of the positions; uint16 is over the frame's bounding box");
     command.add_option("--start", options->start, "First frame of a sequence");
     command.add_option("--end", options->end, "Last frame of a sequence");
-    command.add_option("--repeat", options->repeat, "Reconstruct each frame so often")
+    command.add_option("--repeat", options->repeat, "Number of times that each frame is reconstructed")
         ->check(CLI::Range(1U, 1000000U))
         ->capture_default_str();
     command.add_option("--stats", options->stats, "Figures of each frame, as JSON");

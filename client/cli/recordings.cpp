@@ -1,4 +1,4 @@
-// meniscus recordings: what meniscusd --record has kept.
+// meniscus recordings: the recordings in a folder, or on a server.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ctime>
@@ -129,9 +129,9 @@ void list(const RecordingsOptions& options) {
 
 void add_recordings(CLI::App& app) {
     auto options = std::make_shared<RecordingsOptions>();
-    CLI::App& command = *app.add_subcommand("recordings", "List what meniscusd --record DIR has kept");
+    CLI::App& command = *app.add_subcommand("recordings", "List the recordings that meniscusd --record DIR has made");
     CLI::Option* folder = command.add_option("DIR", options->folder, "The folder, or one session's folder in it");
-    options->server.add_to(command, "List what this server offers, instead")->excludes(folder);
+    options->server.add_to(command, "List the recordings of this server instead")->excludes(folder);
     command.add_flag("--json", options->json, "As JSON, with all settings");
     command.callback([options] { list(*options); });
 }

@@ -34,7 +34,7 @@ public:
     Answers(const Answers&) = delete;
     Answers& operator=(const Answers&) = delete;
 
-    /// Waits for the answers to all frames. Throws what went wrong with one of them.
+    /// Waits for the answers to all frames. Throws the error that one of them met.
     void finish() {
         end();
         if (error_) std::rethrow_exception(error_);
@@ -89,7 +89,7 @@ void replay(const ReplayOptions& options) {
     try {
         upload(recording, options, stream);
     } catch (...) {
-        // Nobody else knows of it; what went wrong before is what to report.
+        // Only this process knows of the session. The error to report is the earlier one.
         try {
             client.delete_session(session);
         } catch (const std::exception&) {
@@ -109,7 +109,7 @@ void add_replay(CLI::App& app) {
     command.add_option("--session", options->session, "UUID of the session to create (default: a new one)");
     command.add_option("--speed", options->speed, "Times as fast as it was recorded, or max")->capture_default_str();
     command.add_flag("--loop", options->loop,
-                     "Begin again after the last frame, until interrupted; indices go on rising");
+                     "Begin again after the last frame, until interrupted; frame indices keep rising");
     command.callback([options] { replay(*options); });
 }
 

@@ -16,7 +16,7 @@ struct SessionRow {
     std::optional<double> frames_per_second;  ///< not known before a session was seen twice
 };
 
-/// How fast sessions go, from what they say time after time.
+/// Frames per second of sessions, from their counts of frames at successive times.
 class FrameRates {
 public:
     std::vector<SessionRow> update(const std::vector<client::SessionInfo>& sessions,

@@ -1,4 +1,4 @@
-// meniscus sessions: what a server works on.
+// meniscus sessions: the sessions of a server.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>

@@ -35,7 +35,7 @@ const client::ReceivedFrame& Surface::encoded() const {
 }
 
 CLI::Option* add_backend_option(CLI::App& command, Backend& backend) {
-    return add_named_option(command, "--backend", backend, "Of this process; auto: a GPU if one can be used");
+    return add_named_option(command, "--backend", backend, "Backend of this process; auto: a GPU if one can be used");
 }
 
 namespace {
@@ -50,7 +50,7 @@ void add_stream_options(CLI::App& command, client::StreamOptions& stream, CLI::O
                 stream.reconnect =
                     std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(seconds));
             },
-            "With --server: seconds for which a server that is out of reach is tried again; 0: not at all")
+            "With --server: seconds for which a server that is out of reach is tried again; 0: no retries")
         ->check(CLI::Range(0.0, 1e6))
         ->default_str("30")
         ->needs(&server);
@@ -60,7 +60,7 @@ void add_stream_options(CLI::App& command, client::StreamOptions& stream, CLI::O
 
 void SurfacesOptions::add_to(CLI::App& command) {
     auto* here = command.add_flag("--local", local, "Reconstruct in this process (the default)");
-    auto* there = server.add_to(command, "A meniscusd that reconstructs")->excludes(here);
+    auto* there = server.add_to(command, "Reconstruct on this meniscusd")->excludes(here);
     add_stream_options(command, stream, *there);
     add_backend_option(command, backend.backend)->excludes(there);
     command.add_option("--threads", backend.threads, "Worker threads of this process; 0: one per processor")

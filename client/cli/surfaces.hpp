@@ -18,7 +18,7 @@ class Option;
 
 namespace meniscus::cli {
 
-/// One frame's surface; decodes or encodes only what is asked for.
+/// One frame's surface. Its mesh and its bricks are decoded or encoded when they are first asked for.
 class Surface {
 public:
     /// Reconstructed here; the mesh is borrowed.
@@ -29,9 +29,9 @@ public:
     std::uint64_t index() const { return index_; }
     double simulation_time() const { return simulation_time_; }
     const client::FrameStatistics& statistics() const { return statistics_; }
-    /// Throws InvalidInput if what was received is not a mesh.
+    /// Throws InvalidInput if the received bricks are not a mesh.
     const Mesh& mesh() const;
-    /// Its bricks, for a file of bricks.
+    /// The encoded bricks, for a file of bricks.
     const client::ReceivedFrame& encoded() const;
 
 private:
@@ -51,13 +51,13 @@ public:
     virtual ~Surfaces() = default;
 
     /// Submits the next frame; its index is the number of frames before it. The frame may be changed afterwards.
-    /// Throws what the frame, an earlier frame or the handler caused.
+    /// Throws the error of this frame, of an earlier frame, or of the handler.
     virtual void submit(const ParticleFrame& frame, double simulation_time) = 0;
     /// Returns when every surface has been handled. Throws as submit() does.
     virtual void finish() = 0;
 };
 
-/// The flag --backend: what this process reconstructs with.
+/// The flag --backend: the backend of this process.
 CLI::Option* add_backend_option(CLI::App& command, Backend& backend);
 
 /// The flags --local, --backend and --threads, and those of a server and a stream to it.

@@ -22,7 +22,7 @@ constexpr std::string_view erase_rest_of_screen = "\x1b[J";
 void write_out(std::string_view text) {
     while (!text.empty()) {
         const ssize_t count = ::write(STDOUT_FILENO, text.data(), text.size());
-        if (count <= 0) return;  // the terminal has gone; SIGHUP tells
+        if (count <= 0) return;  // the terminal is closed; SIGHUP ends the program
         text.remove_prefix(static_cast<std::size_t>(count));
     }
 }

@@ -18,7 +18,8 @@ public:
     Terminal(const Terminal&) = delete;
     Terminal& operator=(const Terminal&) = delete;
 
-    /// Replaces what is on the screen at once, so that nothing flickers; what is too large for the screen is cut off.
+    /// Replaces the screen's content in one write, so that nothing flickers. Lines and columns beyond the screen are
+    /// cut off.
     void draw(const std::string& text);
     /// True for q, Ctrl-C, or a signal to end; false after this time.
     bool wait_for_end(std::chrono::milliseconds time) const;

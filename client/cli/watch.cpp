@@ -50,10 +50,10 @@ void add_watch(CLI::App& app) {
     auto options = std::make_shared<WatchOptions>();
     CLI::App& command = *app.add_subcommand("watch", "Write the meshes of a session as they come");
     command.add_option("SESSION", options->session, "The session's id")->required();
-    options->server.add_to(command, "Where it is")->required();
+    options->server.add_to(command, "The server that has the session")->required();
     command.add_option("-o,--output", options->directory, "Folder for the meshes")->required();
     add_named_option(command, "--format", options->format, "Format of the meshes");
-    command.add_option("--frames", options->frames, "End after so many; 0: when the session ends")
+    command.add_option("--frames", options->frames, "Number of frames after which to end; 0: when the session ends")
         ->capture_default_str();
     options->wishes.add_to(command);
     command.callback([options] { watch(*options); });

@@ -11,9 +11,10 @@ void WatchWishes::add_to(CLI::App& command) {
         ->check(CLI::Range(0, 16))
         ->capture_default_str();
     command
-        .add_option("--position-bits", options.position_bits,
-                    "Vertices lie on multiples of the cell size / 2^BITS, from 2 on; fewer take less. Default: as "
-                    "reconstructed")
+        .add_option(
+            "--position-bits", options.position_bits,
+            "Vertices lie on multiples of the cell size / 2^BITS, 2 or more; fewer bits take fewer bytes. Default: as "
+            "reconstructed")
         ->check(CLI::Range(2, 8));
     command.add_option("--max-level", options.max_level, "Finest level of grid, 1 to 3: a coarser surface, as closed")
         ->check(CLI::Range(1, 3))
@@ -22,13 +23,13 @@ void WatchWishes::add_to(CLI::App& command) {
         ->expected(6);
     command
         .add_option("--bytes-per-second", options.bytes_per_second,
-                    "In the mean, as 2MB: frames are skipped to keep it; 0: no limit")
+                    "Bandwidth in the mean, such as 2MB: frames are skipped to keep it; 0: no limit")
         ->transform(CLI::AsSizeValue(false))
         ->capture_default_str();
     command.add_option("--viewpoint", viewpoint, "X Y Z: the nearest bricks are sent first, world units")->expected(3);
     command
         .add_option("--reconnect", reconnect,
-                    "Seconds to try again for when the connection breaks or the server restarts; 0: not at all")
+                    "Seconds for which a broken connection or a restarting server is tried again; 0: no retries")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
 }

@@ -23,9 +23,12 @@ constexpr std::size_t size_of(ScalarType type) {
         case ScalarType::uint32:
         case ScalarType::float32:
             return 4;
-        default:
+        case ScalarType::int64:
+        case ScalarType::uint64:
+        case ScalarType::float64:
             return 8;
     }
+    return 0;
 }
 
 constexpr bool is_integer(ScalarType type) {

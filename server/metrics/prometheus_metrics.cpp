@@ -8,6 +8,7 @@
 #include <array>
 #include <string>
 
+#include "meniscus/names.hpp"
 #include "meniscus/statistics.hpp"
 
 namespace meniscus::server {
@@ -22,6 +23,20 @@ double number(std::uint64_t count) {
     return static_cast<double>(count);
 }
 
+/// An instrument for each enumerator of E, labeled with its name.
+template <class E, class Instrument>
+class PerChoice {
+public:
+    /// make: from a name to the instrument.
+    explicit PerChoice(const auto& make) {
+        for (std::size_t i = 0; i < all_.size(); ++i) all_[i] = make(names<E>[i]);
+    }
+    Instrument& operator[](E choice) const { return *all_[static_cast<std::size_t>(choice)]; }
+
+private:
+    std::array<Instrument*, choices<E>.size()> all_{};
+};
+
 }  // namespace
 
 struct PrometheusMetrics::Instruments {
@@ -34,12 +49,13 @@ struct PrometheusMetrics::Instruments {
     prometheus::Histogram& stage(std::string_view name) {
         return seconds("meniscus_frame_stage_seconds", "Time of one step of a frame.", {{"stage", std::string(name)}});
     }
-    prometheus::Counter& dropped(const char* reason) {
+    prometheus::Counter& dropped(std::string_view reason) {
         return counter("meniscus_frames_dropped_total", "Frames dropped by the policy of their stream.",
-                       {{"reason", reason}});
+                       {{"reason", std::string(reason)}});
     }
-    prometheus::Counter& sent(const char* to) {
-        return counter("meniscus_sent_bytes_total", "Bytes of the messages of Stream and Watch.", {{"to", to}});
+    prometheus::Counter& sent(std::string_view to) {
+        return counter("meniscus_sent_bytes_total", "Bytes of the messages of Stream and Watch.",
+                       {{"to", std::string(to)}});
     }
 
     prometheus::Registry registry;
@@ -51,16 +67,12 @@ struct PrometheusMetrics::Instruments {
         counter("meniscus_upload_bytes_total", "Particle bytes of frames received whole.");
     prometheus::Counter& mesh_bytes =
         counter("meniscus_mesh_bytes_total", "Bytes of encoded bricks, each encoding counted once.");
-    std::array<prometheus::Counter*, 2> drops{&dropped("replaced"), &dropped("not_nth")};
-    std::array<prometheus::Counter*, 3> sent_bytes{&sent("simulator"), &sent("watcher"), &sent("recording_reader")};
+    PerChoice<DropReason, prometheus::Counter> drops{[this](std::string_view name) { return &dropped(name); }};
+    PerChoice<Metrics::Receiver, prometheus::Counter> sent_bytes{[this](std::string_view name) { return &sent(name); }};
     prometheus::Counter& skipped = counter("meniscus_watcher_frames_skipped_total",
                                            "Frames that a watcher had not taken before a newer one came.");
 
-    std::array<prometheus::Histogram*, stage_count> stages = [this] {
-        std::array<prometheus::Histogram*, stage_count> all{};
-        for (std::size_t i = 0; i < stage_count; ++i) all[i] = &stage(names<Stage>[i]);
-        return all;
-    }();
+    PerChoice<Stage, prometheus::Histogram> stages{[this](std::string_view name) { return &stage(name); }};
     prometheus::Histogram& download = stage("download");
     prometheus::Histogram& encode = stage("encode");
     prometheus::Histogram& reconstruction =
@@ -83,8 +95,8 @@ void PrometheusMetrics::frame_received(std::uint64_t bytes) {
     instruments_->upload_bytes.Increment(number(bytes));
 }
 
-void PrometheusMetrics::frame_dropped(Drop reason) {
-    instruments_->drops[static_cast<std::size_t>(reason)]->Increment();
+void PrometheusMetrics::frame_dropped(DropReason reason) {
+    instruments_->drops[reason].Increment();
 }
 
 void PrometheusMetrics::frame_finished(const FrameStatistics& statistics) {
@@ -92,7 +104,8 @@ void PrometheusMetrics::frame_finished(const FrameStatistics& statistics) {
     instruments_->particles.Increment(number(statistics.particles));
     instruments_->triangles.Increment(number(statistics.triangles));
     instruments_->mesh_bytes.Increment(number(statistics.encoded_bytes));
-    for (std::size_t i = 0; i < stage_count; ++i) instruments_->stages[i]->Observe(statistics.stage_seconds[i]);
+    for (const Stage stage : choices<Stage>)
+        instruments_->stages[stage].Observe(statistics.stage_seconds[static_cast<std::size_t>(stage)]);
     instruments_->reconstruction.Observe(statistics.total_seconds);
     if (statistics.download_seconds != 0.0) instruments_->download.Observe(statistics.download_seconds);
     if (statistics.encoded_bytes != 0) instruments_->encode.Observe(statistics.encode_seconds);
@@ -100,7 +113,7 @@ void PrometheusMetrics::frame_finished(const FrameStatistics& statistics) {
 }
 
 void PrometheusMetrics::message_sent(Receiver to, std::uint64_t bytes) {
-    instruments_->sent_bytes[static_cast<std::size_t>(to)]->Increment(number(bytes));
+    instruments_->sent_bytes[to].Increment(number(bytes));
 }
 
 void PrometheusMetrics::frame_skipped() {

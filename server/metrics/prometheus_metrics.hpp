@@ -16,7 +16,7 @@ public:
     ~PrometheusMetrics() override;
 
     void frame_received(std::uint64_t bytes) override;
-    void frame_dropped(Drop reason) override;
+    void frame_dropped(DropReason reason) override;
     void frame_finished(const FrameStatistics& statistics) override;
     void message_sent(Receiver to, std::uint64_t bytes) override;
     void frame_skipped() override;

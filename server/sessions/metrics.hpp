@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "sessions/dropped_frame.hpp"
 #include "sessions/frame_statistics.hpp"
 
 namespace meniscus::server {
@@ -11,7 +12,6 @@ namespace meniscus::server {
 /// Called once per frame, message or call, from any thread. This one counts nothing.
 class Metrics {
 public:
-    enum class Drop : std::uint8_t { replaced, not_nth };
     enum class Receiver : std::uint8_t { simulator, watcher, recording_reader };
 
     Metrics() = default;
@@ -21,7 +21,7 @@ public:
 
     /// The last byte of a frame has come in.
     virtual void frame_received(std::uint64_t /*bytes*/) {}
-    virtual void frame_dropped(Drop /*reason*/) {}
+    virtual void frame_dropped(DropReason /*reason*/) {}
     /// Reconstructed, and encoded for the simulator if it wants meshes.
     virtual void frame_finished(const FrameStatistics& /*statistics*/) {}
     /// Bytes of one message. Takes no lock.
@@ -33,5 +33,17 @@ public:
     /// A call has ended; the status code by its name in gRPC, as "INVALID_ARGUMENT".
     virtual void call_ended(std::string_view /*code*/) {}
 };
+
+constexpr std::string_view name_of(Metrics::Receiver receiver) {
+    switch (receiver) {
+        case Metrics::Receiver::simulator:
+            return "simulator";
+        case Metrics::Receiver::watcher:
+            return "watcher";
+        case Metrics::Receiver::recording_reader:
+            return "recording_reader";
+    }
+    return {};
+}
 
 }  // namespace meniscus::server

@@ -118,7 +118,7 @@ std::vector<InputFrame*> Session::enqueue(std::shared_ptr<Upload> upload, InputF
     if (options.policy == UploadPolicy::every_nth && position % options.nth != 0) {
         upload->unreported_drops.add();
         ++dropped_not_nth_;
-        context_.shared.metrics->frame_dropped(Metrics::Drop::not_nth);
+        context_.shared.metrics->frame_dropped(DropReason::not_nth);
         received_.put({.upload = std::move(upload),
                        .dropped = DroppedFrame{.index = input.index, .reason = DropReason::not_nth}});
         return {&input};
@@ -126,7 +126,7 @@ std::vector<InputFrame*> Session::enqueue(std::shared_ptr<Upload> upload, InputF
     std::vector<InputFrame*> replaced;
     if (options.policy == UploadPolicy::latest) replaced = received_.replace(*upload);
     dropped_replaced_ += replaced.size();
-    for (std::size_t i = 0; i < replaced.size(); ++i) context_.shared.metrics->frame_dropped(Metrics::Drop::replaced);
+    for (std::size_t i = 0; i < replaced.size(); ++i) context_.shared.metrics->frame_dropped(DropReason::replaced);
     received_.put({.upload = std::move(upload), .input = &input});
     return replaced;
 }

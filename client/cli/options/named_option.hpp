@@ -10,7 +10,7 @@
 
 namespace meniscus::cli {
 
-/// value: outlives the parsing; what it is now is the default.
+/// value: outlives the parsing; its present value is the default.
 template <class T>
 CLI::Option* add_named_option(CLI::App& command, const std::string& flag, T& value, const std::string& description) {
     return command

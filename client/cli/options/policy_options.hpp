@@ -10,7 +10,7 @@ class Option;
 
 namespace meniscus::cli {
 
-/// Returns --policy, for what it requires.
+/// Returns --policy, so that the command can say which flags it requires.
 CLI::Option* add_policy_options(CLI::App& command, client::StreamOptions& stream);
 
 }  // namespace meniscus::cli

@@ -26,11 +26,12 @@ CLI::Option* ServerFlags::add_to(CLI::App& command, const std::string& descripti
     const auto add_file = [&](const std::string& flag, std::string& file, const std::string& meaning) {
         return command.add_option(flag, file, meaning)->type_name("FILE")->needs(server);
     };
-    CLI::Option* ca = add_file("--tls-ca", options.ca_file,
-                               "TLS; whose certificates to trust, PEM (default: the variable MENISCUS_SERVER_CA)");
+    CLI::Option* ca =
+        add_file("--tls-ca", options.ca_file,
+                 "TLS: certificates of the authorities to trust, PEM (default: the variable MENISCUS_SERVER_CA)");
     CLI::Option* certificate =
         add_file("--tls-cert", options.certificate_file, "Mutual TLS: this client's certificate, PEM")->needs(ca);
-    certificate->needs(add_file("--tls-key", options.key_file, "Its key, PEM")->needs(certificate));
+    certificate->needs(add_file("--tls-key", options.key_file, "Key of that certificate, PEM")->needs(certificate));
     command
         .add_option("--tls-server-name", options.server_name,
                     "Name in the server's certificate, if not the address's host (with MENISCUS_SERVER_CA: "

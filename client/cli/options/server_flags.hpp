@@ -19,12 +19,12 @@ struct ServerFlags {
     std::string token_file;
     double wait_seconds = 0.0;
 
-    /// Returns --server, for what else it excludes or requires.
+    /// Returns --server, so that the command can say which flags exclude or require it.
     CLI::Option* add_to(CLI::App& command, const std::string& description);
-    /// What no flag says is taken from MENISCUS_TOKEN, MENISCUS_SERVER_CA and MENISCUS_SERVER_NAME. Throws InvalidInput
-    /// for a file that cannot be read.
+    /// Flags that are not given are taken from MENISCUS_TOKEN, MENISCUS_SERVER_CA and MENISCUS_SERVER_NAME. Throws
+    /// InvalidInput for a file that cannot be read.
     client::ConnectionOptions connection() const;
-    /// By it. Throws InvalidInput if there is no server.
+    /// A client over that connection. Throws InvalidInput if there is no server.
     client::Client connect() const;
 };
 
