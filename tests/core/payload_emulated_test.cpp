@@ -23,11 +23,13 @@ public:
         return payloads;
     }
     void run(const ParticleFrame& frame) { run_.run(frame); }
+    std::uint64_t bytes() const { return device_account_->bytes(); }
 
 private:
     std::shared_ptr<MemoryAccount> account_ = std::make_shared<MemoryAccount>();
-    cuda::MeshSets sets_{0, account_, account_};
-    cuda::FrameRun run_{LatticeSettings(test::default_settings()), 0, sets_, account_, account_};
+    std::shared_ptr<MemoryAccount> device_account_ = std::make_shared<MemoryAccount>();
+    cuda::MeshSets sets_{0, account_, device_account_};
+    cuda::FrameRun run_{LatticeSettings(test::default_settings()), 0, sets_, account_, device_account_};
 };
 
 TEST(PayloadEmulated, ComesInTheSameOrderWhateverTheOrderOfTheFrame) {
@@ -43,6 +45,34 @@ TEST(PayloadEmulated, ComesInTheSameOrderWhateverTheOrderOfTheFrame) {
             if (seed % 3 == 0) device.run(particles.particles.frame());
         }
     }
+}
+
+TEST(PayloadEmulated, TakesRoomForItsOwnBytesHoweverManyParticlesEarlierFramesHad) {
+    Device device;
+    const test::Particles many = test::splash(3, 12);
+    device.run(many.frame());
+    test::Particles one;
+    one.add(0.0F, 0.0F, 0.0F);
+    const std::vector<std::byte> element(std::size_t{1} << 20);
+    const ParticleArray array{"large", element, element.size()};
+    ParticleFrame frame = one.frame();
+    frame.arrays = {&array, 1};
+    const std::uint64_t before = device.bytes();
+    device.run(frame);
+    EXPECT_LT(device.bytes() - before, 2 * element.size());
+}
+
+TEST(PayloadEmulated, OfNoParticlesTakesNoRoomHoweverLargeItsElements) {
+    Device device;
+    test::ParticlesWithPayload particles = test::crowded_places(false);
+    const auto expected = device.sorted_payloads(particles);
+    Device other;
+    // Large enough for their product with a capacity to wrap around.
+    const ParticleArray array{"none", {}, std::size_t{1} << 56};
+    ParticleFrame empty;
+    empty.arrays = {&array, 1};
+    other.run(empty);
+    EXPECT_EQ(other.sorted_payloads(particles), expected);
 }
 
 TEST(PayloadEmulated, LeavesTheSurfaceAsItIs) {
