@@ -13,15 +13,15 @@ namespace meniscus {
 struct PayloadView {
     std::uint32_t arrays = 0;
     const std::byte* data[max_particle_arrays] = {};
-    std::uint32_t element_bytes[max_particle_arrays] = {};
+    std::size_t element_bytes[max_particle_arrays] = {};
 
     /// Whether particle a comes before particle b of the same key: by the bytes of the first array, then of the next;
     /// in the frame's order if all are equal, which nothing can tell from the other order.
     MENISCUS_HD bool before(std::uint32_t a, std::uint32_t b) const {
         for (std::uint32_t array = 0; array < arrays; ++array) {
-            const std::byte* const of_a = data[array] + std::size_t{a} * element_bytes[array];
-            const std::byte* const of_b = data[array] + std::size_t{b} * element_bytes[array];
-            for (std::uint32_t i = 0; i < element_bytes[array]; ++i)
+            const std::byte* const of_a = data[array] + a * element_bytes[array];
+            const std::byte* const of_b = data[array] + b * element_bytes[array];
+            for (std::size_t i = 0; i < element_bytes[array]; ++i)
                 if (of_a[i] != of_b[i]) return of_a[i] < of_b[i];
         }
         return a < b;
@@ -33,7 +33,7 @@ inline PayloadView payload_view(const ParticleFrame& frame) {
     PayloadView view;
     for (const ParticleArray& array : frame.arrays) {
         view.data[view.arrays] = array.data.data();
-        view.element_bytes[view.arrays++] = static_cast<std::uint32_t>(array.element_bytes);
+        view.element_bytes[view.arrays++] = array.element_bytes;
     }
     return view;
 }

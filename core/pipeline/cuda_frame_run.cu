@@ -22,6 +22,7 @@
 
 #include <algorithm>
 
+#include "engine/growth.hpp"
 #include "engine/index_limit.hpp"
 #include "pipeline/cuda_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
@@ -45,12 +46,12 @@ FrameRun::FrameRun(const LatticeSettings& settings, int device, MeshSets& sets,
 }
 
 void FrameRun::run(const ParticleFrame& particles) {
-    const FrameParts parts{!particles.levels.empty(), !particles.arrays.empty()};
+    std::uint64_t payload_bytes = 0;
+    for (const ParticleArray& array : particles.arrays) payload_bytes += array.data.size();
+    const FrameParts parts{!particles.levels.empty(), payload_bytes != 0};
     if (parts != parts_) drop_graphs();
     parts_ = parts;
     particles_ = particles.count();
-    std::uint64_t payload_bytes = 0;
-    for (const ParticleArray& array : particles.arrays) payload_bytes += array.element_bytes;
     bool grown = make_room({}, payload_bytes);
     sets_.take(state_);
     for (;;) {
@@ -122,7 +123,7 @@ bool FrameRun::make_room(const Needed& needed, std::uint64_t payload_bytes) {
     sets_.forget_refusal();
     drop_graphs();
     if (state_.capacity.same_but_for_mesh(before) && !more_payload) return true;
-    if (more_payload) state_.payload_bytes = payload_bytes;
+    if (more_payload) state_.payload_bytes = with_room_to_grow(payload_bytes);
     const Capacities& room = state_.capacity;
     const std::uint64_t sums =
         std::max({room.particles, room[Resource::reached_bricks], room[Resource::bricks], room[Resource::blocks]}) + 1;

@@ -1,11 +1,14 @@
 // Particles that carry more than a position, on the device in software: the CPU's order, and its mesh.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <random>
 
 #include "meniscus/meniscus.hpp"
 #include "pipeline/backend.hpp"
 #include "pipeline/cuda_frame_run.hpp"
+#include "steps/cpu_steps.hpp"
 #include "support/particles.hpp"
 #include "support/payload.hpp"
 
@@ -22,13 +25,35 @@ public:
             payloads.push_back(particles.payload_of(run_.state().sources[i]));
         return payloads;
     }
+    /// Of the sorted particles, all levels in one.
+    std::vector<std::uint32_t> sources(const ParticleFrame& frame) {
+        run_.run(frame);
+        return {run_.state().sources, run_.state().sources + frame.count()};
+    }
     void run(const ParticleFrame& frame) { run_.run(frame); }
+    std::uint64_t bytes() const { return device_account_->bytes(); }
 
 private:
     std::shared_ptr<MemoryAccount> account_ = std::make_shared<MemoryAccount>();
-    cuda::MeshSets sets_{0, account_, account_};
-    cuda::FrameRun run_{LatticeSettings(test::default_settings()), 0, sets_, account_, account_};
+    std::shared_ptr<MemoryAccount> device_account_ = std::make_shared<MemoryAccount>();
+    cuda::MeshSets sets_{0, account_, device_account_};
+    cuda::FrameRun run_{LatticeSettings(test::default_settings()), 0, sets_, account_, device_account_};
 };
+
+/// The same on the CPU.
+std::vector<std::uint32_t> sources_on_cpu(const ParticleFrame& frame) {
+    const LatticeSettings settings(test::default_settings());
+    const auto account = std::make_shared<MemoryAccount>();
+    cpu::Workers workers(1);
+    cpu::State state(account, workers, settings);
+    cpu::ParticleSets sets(account, workers, settings);
+    cpu::Neighborhoods near(account, workers.count(), sets);
+    cpu::register_particles(state, sets, near, frame);
+    std::vector<std::uint32_t> sources;
+    for (const cpu::ParticleSet& set : sets.of_level)
+        sources.insert(sources.end(), set.sources.begin(), set.sources.end());
+    return sources;
+}
 
 TEST(PayloadEmulated, ComesInTheSameOrderWhateverTheOrderOfTheFrame) {
     for (const bool levels : {false, true}) {
@@ -43,6 +68,63 @@ TEST(PayloadEmulated, ComesInTheSameOrderWhateverTheOrderOfTheFrame) {
             if (seed % 3 == 0) device.run(particles.particles.frame());
         }
     }
+}
+
+TEST(PayloadEmulated, HasTheCpusOrder) {
+    std::mt19937 random(7);
+    for (const bool levels : {false, true})
+        for (const bool quantized : {false, true}) {
+            SCOPED_TRACE(testing::Message() << "levels " << levels << ", quantized " << quantized);
+            const test::Particles particles = test::crowded_places(levels).particles;
+            std::vector<std::uint16_t> coordinates;
+            for (const float x : particles.positions)
+                coordinates.push_back(static_cast<std::uint16_t>(std::lround((x + 2.0F) * 8192.0F)));
+            ParticleFrame frame = particles.frame();
+            if (quantized) {
+                frame.positions = {};
+                frame.quantized = coordinates;
+                frame.quantization_box = {{-2.0, -2.0, -2.0}, {6.0, 6.0, 6.0}};
+            }
+            // As many arrays as there can be, of elements of 1 to 16 bytes that are often the same.
+            std::vector<std::vector<std::byte>> bytes;
+            std::vector<ParticleArray> arrays;
+            for (std::size_t size = 1; size <= max_particle_arrays; ++size) {
+                auto& data = bytes.emplace_back(size * frame.count());
+                for (std::size_t i = 0; i < data.size(); i += size)
+                    data[i + size - 1] = static_cast<std::byte>(random() % 8 == 0 ? 255 : 0);
+                arrays.push_back({"array", data, size});
+            }
+            frame.arrays = arrays;
+            EXPECT_EQ(Device().sources(frame), sources_on_cpu(frame));
+        }
+}
+
+TEST(PayloadEmulated, TakesRoomForItsOwnBytesHoweverManyParticlesEarlierFramesHad) {
+    Device device;
+    const test::Particles many = test::splash(3, 12);
+    device.run(many.frame());
+    test::Particles one;
+    one.add(0.0F, 0.0F, 0.0F);
+    const std::vector<std::byte> element(std::size_t{1} << 20);
+    const ParticleArray array{"large", element, element.size()};
+    ParticleFrame frame = one.frame();
+    frame.arrays = {&array, 1};
+    const std::uint64_t before = device.bytes();
+    device.run(frame);
+    EXPECT_LT(device.bytes() - before, 2 * element.size());
+}
+
+TEST(PayloadEmulated, OfNoParticlesTakesNoRoomHoweverLargeItsElements) {
+    Device device;
+    test::ParticlesWithPayload particles = test::crowded_places(false);
+    const auto expected = device.sorted_payloads(particles);
+    Device other;
+    // Large enough for their product with a capacity to wrap around.
+    const ParticleArray array{"none", {}, std::size_t{1} << 56};
+    ParticleFrame empty;
+    empty.arrays = {&array, 1};
+    other.run(empty);
+    EXPECT_EQ(other.sorted_payloads(particles), expected);
 }
 
 TEST(PayloadEmulated, LeavesTheSurfaceAsItIs) {

@@ -87,7 +87,7 @@ using Pointer = T*;
 struct State : BlockState<Pointer> {
     LatticeSettings settings;
     Capacities capacity;
-    std::uint64_t payload_bytes = 0;  ///< room in the upload for each particle's
+    std::uint64_t payload_bytes = 0;  ///< room in the upload for all arrays of a frame's payload
     FrameInput* input = nullptr;
     Counts* counts = nullptr;
     const CubeCase* cube_table = nullptr;
@@ -96,7 +96,7 @@ struct State : BlockState<Pointer> {
     std::size_t scratch_bytes = 0;
 
     // Of every particle. Those of a level lie together, levels in ascending order; ParticleSetView explains the rest.
-    std::byte* upload = nullptr;  ///< 12 bytes for positions, one for the level, payload_bytes
+    std::byte* upload = nullptr;  ///< 12 bytes for a position, one for a level; then payload_bytes
     SortKey* keys = nullptr;      ///< level, ParticleKey::cell, ParticleKey::place
     SortKey* unsorted_keys = nullptr;
     // Only where particles carry a payload:
@@ -151,7 +151,7 @@ struct State : BlockState<Pointer> {
         take(cube_table, cube_case_count);
         take(crack_table, crack_case_count);
         take(scratch, scratch_bytes);
-        take(upload, (13 + payload_bytes) * n);
+        take(upload, 13 * n + payload_bytes);
         take(keys, n);
         take(unsorted_keys, n);
         take(sources, payload_bytes != 0 ? n : 0);
