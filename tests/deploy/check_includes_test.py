@@ -52,6 +52,21 @@ class CheckIncludes(unittest.TestCase):
         for line in lines:
             self.assertIn("(proto/meniscus/v1/mesh.proto): core must not include proto", line)
 
+    def test_finds_an_engine_that_includes_a_step(self):
+        files = {
+            "core/engine/cuda/cell.hpp": '#include "steps/place/place.hpp"\n',
+            "core/steps/place/place.hpp": '#include "engine/cuda/state.hpp"\n',
+            "core/engine/cuda/state.hpp": "",
+            "core/CMakeLists.txt": "target_include_directories(core PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})\n",
+        }
+        self.assertEqual(
+            findings(files),
+            [
+                "core/engine/cuda/cell.hpp:1: #include steps/place/place.hpp (core/steps/place/place.hpp): "
+                "core/engine must not include core/steps"
+            ],
+        )
+
     def test_finds_an_include_between_the_folders_of_a_room(self):
         files = {
             "server/sessions/session.cpp": '#include "metrics/metrics.hpp"\n',

@@ -1,7 +1,5 @@
 // A build without CUDA has no GPU.
 #include "engine/cuda/device.hpp"
-#include "meniscus/error.hpp"
-#include "pipeline/backend.hpp"
 
 namespace meniscus::cuda {
 
@@ -15,12 +13,6 @@ std::string why_unavailable(int) {
 
 std::string device_name(int) {
     return "no GPU";
-}
-
-std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings&, int device,
-                                                           const std::shared_ptr<MemoryAccount>&,
-                                                           const std::shared_ptr<MemoryAccount>&) {
-    throw InvalidInput("the CUDA backend cannot be used: " + why_unavailable(device));
 }
 
 }  // namespace meniscus::cuda

@@ -1,10 +1,10 @@
 // Step 5 on the GPU, and the order of the mesh.
 #include "steps/count_triangles/count_triangles.hpp"
 
-#include "engine/cuda/closed_cell.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/fill_cracks/fill_cracks.hpp"
+#include "steps/shared_closed_cell.hpp"
 
 namespace meniscus::cuda {
 namespace {

@@ -1,9 +1,9 @@
 // Step 7 on the GPU.
 #include "steps/emit_triangles/emit_triangles.hpp"
 
-#include "engine/cuda/closed_cell.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
+#include "steps/shared_closed_cell.hpp"
 
 namespace meniscus::cuda {
 namespace {
