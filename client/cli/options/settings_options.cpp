@@ -14,8 +14,8 @@ void fill_in(const Alternative& parameters, const CLI::Option* option, const std
     if (auto* chosen = std::get_if<Alternative>(&choice))
         *chosen = parameters;
     else if (option->count() > 0)
-        throw InvalidInput(option->get_name() + " is of " + choice_flag + " " + std::string(Alternative::name) +
-                           ", but " + choice_flag + " is " + std::string(name_of(choice)) + ": leave one of them out");
+        throw InvalidInput(option->get_name() + " needs " + choice_flag + " " + std::string(Alternative::name) +
+                           ", but " + choice_flag + " is " + std::string(name_of(choice)));
 }
 
 }  // namespace
