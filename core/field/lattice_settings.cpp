@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "field/kernel.hpp"
-#include "particles/particle_set.hpp"
 
 namespace meniscus {
 namespace {

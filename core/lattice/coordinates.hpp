@@ -43,6 +43,13 @@ MENISCUS_HD inline std::int64_t floor_div(std::int64_t a, std::int64_t b) {
     return static_cast<std::int64_t>(floor(static_cast<double>(a) / static_cast<double>(b)));
 }
 
+/// The edge of support cells: at least the support (so that a point's neighbors lie in 27 cells), at least a base cell
+/// (so that keys fit), and a multiple of 16 (so that the distance of two brick corners is exact in float32).
+MENISCUS_HD constexpr std::int64_t support_cell_units(std::int64_t support_units) {
+    const std::int64_t edge = support_units > units_per_base_cell ? support_units : units_per_base_cell;
+    return (edge + 15) / 16 * 16;
+}
+
 /// World coordinate to units; units_per_length = 4096 / c in double.
 MENISCUS_HD inline std::int64_t snap(double position, double units_per_length) {
 #ifdef __CUDA_ARCH__

@@ -16,13 +16,6 @@ struct UnitBox {
     float high[3];
 };
 
-/// The edge of support cells: at least the support (so that a point's neighbors lie in 27 cells), at least a base cell
-/// (so that keys fit), and a multiple of 16 (so that the distance of two brick corners is exact in float32).
-MENISCUS_HD constexpr std::int64_t support_cell_units(std::int64_t support_units) {
-    const std::int64_t edge = support_units > units_per_base_cell ? support_units : units_per_base_cell;
-    return (edge + 15) / 16 * 16;
-}
-
 /// Coordinates in units from the corner of the particle's support cell's brick: exact in float32.
 struct ParticleSetView {
     BrickGridView cells;

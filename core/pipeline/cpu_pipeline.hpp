@@ -34,7 +34,7 @@ protected:
     Slivers slivers_ = Slivers::raised;
 };
 
-/// Those and the ones before, which ask for particles.
+/// All steps of a frame of particles.
 class ParticleSteps : public SurfaceSteps {
 public:
     ParticleSteps(State& state, FieldSource& field, Mesh& mesh, ParticleSets& sets, Neighborhoods& near,

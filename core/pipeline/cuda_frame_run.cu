@@ -49,7 +49,10 @@ void FrameRun::run(const ParticleFrame& particles) {
     std::uint64_t payload_bytes = 0;
     for (const ParticleArray& array : particles.arrays) payload_bytes += array.data.size();
     const FrameParts parts{!particles.levels.empty(), payload_bytes != 0};
-    if (parts != parts_) drop_graphs();
+    if (parts != parts_) {
+        drop_graphs();
+        settled_ = false;  // other kernels run first, then are captured
+    }
     parts_ = parts;
     particles_ = particles.count();
     bool grown = make_room({}, payload_bytes);

@@ -31,8 +31,8 @@ public:
     FrameRun(const LatticeSettings& settings, int device, MeshSets& sets, const std::shared_ptr<MemoryAccount>& account,
              const std::shared_ptr<MemoryAccount>& device_account);
 
-    /// A valid frame, up to its mesh on the device. Throws LimitExceeded for one that crowds, and for one that needs
-    /// more than can be numbered or held.
+    /// A valid frame, up to its mesh on the device. Throws LimitExceeded for one that crowds, after which the next
+    /// frame may follow, and for one that needs more than can be numbered or held, after which nothing may.
     void run(const ParticleFrame& particles);
     /// The mesh of the last frame once more, with no cell finer than max_level. first: whether the levels on the device
     /// are still those that the frame found.

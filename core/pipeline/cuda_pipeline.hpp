@@ -38,7 +38,7 @@ struct FrameParts {
     bool operator==(const FrameParts&) const = default;
 };
 
-/// Those and the ones before, which ask for particles; these are on their way to State::upload.
+/// All steps of a frame of particles, which are on their way to State::upload.
 class ParticleSteps : public SurfaceSteps<ParticleField> {
 public:
     ParticleSteps(State& state, const FrameParts& parts, const Launcher& launch)

@@ -33,7 +33,8 @@ void collect_level_sets(const State& state, const Launcher& launch);
 /// Step 3: balance and promotion among the cells of the band, until nothing changes.
 void adjust_levels(const State& state, const Launcher& launch);
 /// After a frame: gives every cell the level that it had, or max_level where that is coarser, and takes back what was
-/// counted from step 5 on. first: whether the levels are still those that the frame found.
+/// counted from step 5 on. Level sets stay as they are: no later step reads them. first: whether the levels are still
+/// those that the frame found.
 void cap_levels(const State& state, int max_level, bool first, const Launcher& launch);
 
 /// Step 4: samples what the cells of the band need, until no cell joins the band or goes up for it.

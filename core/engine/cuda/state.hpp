@@ -100,7 +100,8 @@ struct State : BlockState<Pointer> {
     SortKey* keys = nullptr;      ///< level, ParticleKey::cell, ParticleKey::place
     SortKey* unsorted_keys = nullptr;
     // Only where particles carry a payload:
-    std::uint32_t* sources = nullptr;  ///< each sorted particle's index in the frame
+    std::uint32_t* sources =
+        nullptr;  ///< each sorted particle's index in the frame; stale after a frame without payload
     std::uint32_t* sources_room = nullptr;
 
     std::uint64_t* starts = nullptr;  ///< support cells that begin before it, and in the upper half bricks of them

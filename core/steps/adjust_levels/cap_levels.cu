@@ -32,7 +32,6 @@ __global__ void __launch_bounds__(block_threads) cap_each(const __grid_constant_
 void cap_levels(const State& state, int max_level, bool first, const Launcher& launch) {
     launch(1, block_threads, count_anew, state);
     launch(state.capacity[Resource::blocks], block_threads, cap_each, state, max_level, first);
-    collect_level_sets(state, launch);
 }
 
 }  // namespace meniscus::cuda
