@@ -1,5 +1,9 @@
 #include "cli/mesh_output.hpp"
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "cli/file_pattern.hpp"
 #include "formats/brick_file.hpp"
 #include "formats/extension.hpp"
@@ -12,9 +16,13 @@ namespace {
 
 MeshFormat format_of(const std::filesystem::path& path) {
     const std::string extension = formats::lower_extension(path);
-    if (extension.starts_with('.'))
-        if (const auto format = find_by_name<MeshFormat>(std::string_view(extension).substr(1))) return *format;
-    throw InvalidInput(path.string() + ": meshes are written as " + listed(names<MeshFormat>) + ", not as '" +
+    std::vector<std::string> extensions;
+    for (const MeshFormat format : choices<MeshFormat>) {
+        extensions.push_back(std::string(".").append(name_of(format)));
+        if (extension == extensions.back()) return format;
+    }
+    throw InvalidInput(path.string() + ": meshes are written as " +
+                       listed(std::vector<std::string_view>(extensions.begin(), extensions.end())) + ", not as '" +
                        extension + "'");
 }
 
