@@ -1,3 +1,4 @@
+// A hash table with linear probing, by multiplicative hashing.
 #include "codec/brick_index.hpp"
 
 #include <algorithm>
@@ -12,7 +13,10 @@ BrickIndex index_brick(const Mesh& mesh, const MeshBrick& brick, Array<std::uint
     // Room for three vertices a triangle, so that a slot stays empty; connected triangles have half a vertex each.
     const auto bits = static_cast<std::uint32_t>(std::bit_width(3 * triangle_count | 1U));
     const std::size_t size = std::size_t{1} << bits;
-    if (slots.size() < size) slots.resize(size);
+    if (slots.size() < size) {
+        slots = Array<std::uint32_t>(slots.get_allocator());  // gives the smaller table back first
+        slots.resize(size);
+    }
     std::fill_n(slots.begin(), size, empty);
 
     BrickIndex index;

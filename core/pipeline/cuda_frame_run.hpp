@@ -5,8 +5,8 @@
 // frame runs once more. Counts stay on the device: kernels loop over as many elements as they find there, from launches
 // sized by capacities. Sweeps that end when nothing changes end on the device (steps/adjust_levels/sweeps.hpp). So the
 // host waits once a frame, for the counts. Once a frame has passed without growth, its chain of kernels is captured as
-// a graph, which later frames replay until something grows. A first frame runs some times: each run ends where an array
-// is too small, and what comes after it is only known to the next.
+// a graph, which later frames replay until something grows. A first frame runs several times: each run ends where an
+// array is too small, and what comes after it is only known to the next.
 #pragma once
 
 #include <array>
