@@ -1,14 +1,15 @@
 // The flags that become Settings, shared by the commands that reconstruct.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "meniscus/settings.hpp"
 
 namespace CLI {
 class App;
-class Option;
-}  // namespace CLI
+}
 
 namespace meniscus::cli {
 
@@ -23,13 +24,10 @@ struct SettingsOptions {
     Settings build(double particle_radius) const;
 
 private:
-    /// The parameters of every alternative, whichever is chosen.
-    CurvatureCriterion curvature_;
-    CountCriterion count_;
-    Bisection bisection_;
-    const CLI::Option* tolerance_ = nullptr;
-    const CLI::Option* count_threshold_ = nullptr;
-    const CLI::Option* bisection_steps_ = nullptr;
+    // The parameters of alternatives, where their flags were given.
+    std::optional<double> tolerance_;
+    std::optional<std::uint32_t> count_threshold_;
+    std::optional<std::uint32_t> bisection_steps_;
 };
 
 }  // namespace meniscus::cli
