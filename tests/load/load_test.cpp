@@ -75,7 +75,7 @@ TEST(Load, MeasuresFromWhenAFrameWasDueAlsoOnAServerThatStalls) {
     // The server stands still for 0.4 s: frames due in that time waited for it, whenever they were sent.
     std::thread stalling([&] {
         wait_for_frame(10, process, options.server.address);
-        process.signal(SIGSTOP);
+        process.stop();
         wait_in_vain(options.server.address, std::chrono::milliseconds(400));
         process.signal(SIGCONT);
     });

@@ -77,6 +77,11 @@ public:
         throw std::runtime_error("meniscusd has created no session");
     }
     void signal(int number) const { ::kill(pid_, number); }
+    /// Until SIGCONT. Returns once all threads stand still, which they may not do yet when the signal has been sent.
+    void stop() const {
+        signal(SIGSTOP);
+        ::waitpid(pid_, nullptr, WUNTRACED);
+    }
     /// Of the process, which ends.
     int exit_code() {
         int status = 0;
