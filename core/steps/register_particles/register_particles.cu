@@ -27,7 +27,7 @@ __global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant
 
 /// Sorts each run of equal keys by payload, one thread a run. Runs after stop_if_crowded, which bounds a run to about
 /// the root of 1024 n particles: a heap sort of these by one thread may still take long on a GPU.
-__global__ void __launch_bounds__(block_threads) order_by_payload(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads, 4) order_by_payload(const __grid_constant__ State f) {
     const std::uint32_t n = f.particle_count();
     GridLoop{}.each(n, [&](std::uint32_t i) {
         const SortKey key = f.keys[i];
