@@ -111,7 +111,7 @@ MENISCUS_HD inline F interpolated_offset(F low, F high, float iso, int bits) {
 /// The paper's bisection, in steps of c / 2^bits: the first point tried on a finest edge is its middle. The halves of
 /// coarse edges have been chosen by the samples already.
 MENISCUS_HD inline float bisection_start(int bits) {
-    return static_cast<float>((1 << bits) / 2);
+    return static_cast<float>(1 << (bits - 1));
 }
 /// How far the second point lies from the first; each further one half as far, down to 1.
 MENISCUS_HD inline int first_bisection_step(int bits) {
