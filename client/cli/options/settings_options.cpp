@@ -2,6 +2,7 @@
 #include "cli/options/settings_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <sstream>
 
 #include "cli/options/named_option.hpp"
 #include "meniscus/error.hpp"
@@ -21,6 +22,13 @@ void fill_in(Choice& choice, const char* choice_flag, Parameter Alternative::*pa
     chosen->*parameter = *given;
 }
 
+/// As CLI11 shows the defaults of other numbers.
+std::string text_of(double value) {
+    std::ostringstream out;
+    out << value;
+    return out.str();
+}
+
 }  // namespace
 
 void SettingsOptions::add_to(CLI::App& command) {
@@ -38,7 +46,7 @@ void SettingsOptions::add_to(CLI::App& command) {
         .add_option(
             "--tolerance", tolerance_,
             "With --criterion curvature: how far the surface may depart from that of the finest cells, in those")
-        ->default_str(CLI::detail::to_string(CurvatureCriterion{}.tolerance));
+        ->default_str(text_of(CurvatureCriterion{}.tolerance));
     command
         .add_option("--count-threshold", count_threshold_,
                     "With --criterion count: particles per base cell that decide about level 3")
