@@ -14,6 +14,7 @@
 namespace meniscus {
 
 void Mesh::clear() {
+    spray.clear();
     vertices.clear();
     normals.clear();
     triangles.clear();

@@ -36,7 +36,7 @@ void require_box(const char* name, const Box& box, bool may_be_flat) {
 }
 
 void require(const CurvatureCriterion& criterion) {
-    require_positive("tolerance", criterion.tolerance);
+    if (criterion.tolerance) require_positive("tolerance", *criterion.tolerance);
 }
 void require(const CountCriterion& criterion) {
     if (criterion.threshold < 1) throw InvalidInput("count threshold is 0, must be at least 1");
@@ -48,9 +48,31 @@ void require(const Bisection& bisection) {
                            std::to_string(Bisection::max_steps));
 }
 
+/// What belongs to one field is refused with another, where it would change nothing.
+void require_field_settings(const Settings& s) {
+    if (s.field == Field::smooth) {
+        if (s.smoothing_length)
+            throw InvalidInput("the smoothing length is " + text(*s.smoothing_length) +
+                               ", but the field is smooth, which has none: leave it out and use --smoothness, or take "
+                               "--field color");
+        if (s.smoothness && (*s.smoothness < min_smoothness || *s.smoothness > max_smoothness))
+            throw InvalidInput("the smoothness is " + std::to_string(*s.smoothness) + ", must be " +
+                               std::to_string(min_smoothness) + " to " + std::to_string(max_smoothness));
+        return;
+    }
+    const std::string field(name_of(s.field));
+    if (s.smoothing_length) require_positive("smoothing length", *s.smoothing_length);
+    if (s.smoothness)
+        throw InvalidInput("the smoothness is " + std::to_string(*s.smoothness) + ", but the field is " + field +
+                           ", which has none: leave it out and use --smoothing-length, or take --field smooth");
+    if (s.spray != Spray::keep)
+        throw InvalidInput("spray is " + std::string(name_of(s.spray)) + ", but the field is " + field +
+                           ", which does not tell spray from water: take --spray keep or --field smooth");
+}
+
 /// The coarsest particle level's support must stay exact in float32.
 void require_support(const Settings& s, unsigned coarsest_level) {
-    const double cells = std::ldexp(2.0 * s.smoothing_length / s.cell_size, static_cast<int>(coarsest_level));
+    const double cells = std::ldexp(support(s) / s.cell_size, static_cast<int>(coarsest_level));
     if (cells > max_support_cells)
         throw InvalidInput("the support of particle level " + std::to_string(coarsest_level) + " spans " + text(cells) +
                            " cells, at most " + std::to_string(max_support_cells) +
@@ -61,12 +83,12 @@ void require_support(const Settings& s, unsigned coarsest_level) {
 
 void validate(const Settings& s) {
     require_positive("particle radius", s.particle_radius);
-    require_positive("smoothing length", s.smoothing_length);
     require_positive("cell size", s.cell_size);
     require_positive("iso value", s.iso);
     require_positive("cell size in world units", world_cell_size(s));
     // In float32 the iso value must remain above zero, or the outside would be inside.
     require_positive("iso value", static_cast<float>(s.iso));
+    require_field_settings(s);
     require_support(s, 0);
     std::visit([](const auto& criterion) { require(criterion); }, s.criterion);
     std::visit([](const auto& edge_points) { require(edge_points); }, s.edge_points);

@@ -9,13 +9,13 @@ namespace meniscus::cli {
 nlohmann::ordered_json to_json(const Settings& settings) {
     nlohmann::ordered_json out;
     out["particle_radius"] = settings.particle_radius;
-    out["smoothing_length"] = settings.smoothing_length;
+    out["smoothing_length"] = smoothing_length(settings);
     out["cell_size"] = settings.cell_size;
     out["iso"] = settings.iso;
     out["field"] = name_of(settings.field);
     out["mode"] = name_of(settings.mode);
     out["criterion"] = name_of(settings.criterion);
-    out["tolerance"] = value_or_default<CurvatureCriterion>(settings.criterion).tolerance;
+    out["tolerance"] = tolerance(settings);
     out["count_threshold"] = value_or_default<CountCriterion>(settings.criterion).threshold;
     out["edge_points"] = name_of(settings.edge_points);
     out["bisection_steps"] = value_or_default<Bisection>(settings.edge_points).steps;

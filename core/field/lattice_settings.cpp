@@ -30,9 +30,8 @@ double lone_particle_reach(double share) {
 }
 
 // One for each alternative: another does not compile without.
-void use(LatticeSettings& settings, const CurvatureCriterion& criterion) {
+void use(LatticeSettings& settings, const CurvatureCriterion&) {
     settings.measures_bends = true;
-    settings.tolerance = static_cast<float>(criterion.tolerance);
 }
 void use(LatticeSettings& settings, const CountCriterion& criterion) {
     settings.counts_particles = true;
@@ -49,14 +48,14 @@ void use(LatticeSettings& settings, const Bisection& bisection) {
 LatticeSettings::LatticeSettings(const Settings& s) {
     cell_size = world_cell_size(s);
     units_per_length = units_per_cell / cell_size;
-    const double support_units = 2.0 * s.smoothing_length / s.cell_size * units_per_cell;
+    const double support_units = meniscus::support(s) / s.cell_size * units_per_cell;
     for (unsigned k = 0; k < particle_level_count; ++k) {
         support[k] = static_cast<float>(std::ldexp(support_units, static_cast<int>(k)));
         inverse_support[k] = meniscus::inverse_support(support[k]);
         cell_units[k] = support_cell_units(static_cast<std::int64_t>(std::ceil(support[k])));
     }
     divides_by_density = s.field == Field::color;
-    const double l = s.smoothing_length;
+    const double l = smoothing_length(s);
     weight = static_cast<float>(16.0 / (std::numbers::pi * l * l * l));
     iso = static_cast<float>(s.iso);
     // Measured: core/README.md#the-band-085, core/README.md#drops-025-and-017.
@@ -66,7 +65,8 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     if (s.field == Field::color && s.iso < 1.0)
         blob_closest =
             static_cast<float>(1.0 - std::min(0.25 * lone_particle_reach(s.iso) / lone_particle_reach(0.6), 1.0));
-    if (s.cell_size > 0.17 * 2.0 * s.smoothing_length) blob_level = 3;
+    if (s.cell_size > 0.17 * 2.0 * smoothing_length(s)) blob_level = 3;
+    tolerance = static_cast<float>(meniscus::tolerance(s));
     is_adaptive = s.mode == Mode::adaptive;
     if (is_adaptive) std::visit([this](const auto& criterion) { use(*this, criterion); }, s.criterion);
     std::visit([this](const auto& edge_points) { use(*this, edge_points); }, s.edge_points);

@@ -32,6 +32,8 @@ v1::Field to_wire(Field field) {
             return v1::FIELD_COLOR;
         case Field::density:
             return v1::FIELD_DENSITY;
+        case Field::smooth:
+            return v1::FIELD_SMOOTH;
     }
     return v1::FIELD_UNSPECIFIED;
 }
@@ -43,6 +45,8 @@ Field from_wire(v1::Field wire) {
             return Field::color;
         case v1::FIELD_DENSITY:
             return Field::density;
+        case v1::FIELD_SMOOTH:
+            return Field::smooth;
         case v1::Field_INT_MIN_SENTINEL_DO_NOT_USE_:
         case v1::Field_INT_MAX_SENTINEL_DO_NOT_USE_:
             break;
@@ -75,7 +79,8 @@ Mode from_wire(v1::Mode wire) {
 }
 
 void to_wire(const CurvatureCriterion& criterion, v1::Settings& wire) {
-    wire.mutable_curvature()->set_tolerance(criterion.tolerance);
+    wire.mutable_curvature();
+    if (criterion.tolerance) wire.mutable_curvature()->set_tolerance(*criterion.tolerance);
 }
 void to_wire(const CountCriterion& criterion, v1::Settings& wire) {
     wire.mutable_count()->set_threshold(criterion.threshold);
@@ -168,7 +173,7 @@ Settings from_wire(const v1::Settings& wire) {
 v1::Settings to_wire(const Settings& settings) {
     v1::Settings wire;
     wire.set_particle_radius(settings.particle_radius);
-    wire.set_smoothing_length(settings.smoothing_length);
+    if (settings.smoothing_length) wire.set_smoothing_length(*settings.smoothing_length);
     wire.set_cell_size(settings.cell_size);
     wire.set_iso(settings.iso);
     wire.set_field(to_wire(settings.field));

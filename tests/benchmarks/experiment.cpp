@@ -25,7 +25,7 @@ struct ExperimentOptions {
     unsigned repeats = 1;
     BackendOptions backend = one_cpu_thread;
     Settings settings;
-    CurvatureCriterion criterion;
+    std::optional<double> tolerance;
     std::string out = "tests/benchmarks/results";
 };
 
@@ -64,7 +64,7 @@ constexpr auto thousand_triangles = [](const Statistics& s) { return 1e-3 * stat
 
 BothSeries simulate(const ExperimentOptions& options, const simulator::Scene& scene) {
     Settings settings = options.settings;
-    settings.criterion = options.criterion;
+    settings.criterion = CurvatureCriterion{options.tolerance};
     settings.particle_radius = static_cast<double>(scene.particle_radius);
     BothSeries series;
     for (std::size_t m = 0; m < modes.size(); ++m) {
@@ -164,7 +164,7 @@ void run_experiment(const ExperimentOptions& options) {
     add_backend(summary, options.backend);
     summary["particles"] = options.particles;
     summary["cell_size"] = options.settings.cell_size;
-    summary["tolerance"] = options.criterion.tolerance;
+    summary["tolerance"] = options.tolerance.value_or(tolerance(options.settings));
     summary["adaptive_against_uniform"] = summarize(series);
     write_report(options.out, "experiment", summary, rows);
     write_plots(options.out, series);
@@ -192,8 +192,8 @@ void add_experiment(CLI::App& app) {
         ->capture_default_str();
     add_backend_options(command, options->backend);
     command.add_option("--cell-size", options->settings.cell_size, "In particle radii")->capture_default_str();
-    command.add_option("--tolerance", options->criterion.tolerance, "Of the curvature criterion, in cells")
-        ->capture_default_str();
+    command.add_option("--tolerance", options->tolerance, "Of the curvature criterion, in cells")
+        ->default_str("that of the field");
     command.add_option("--out", options->out, "Folder for the results")->capture_default_str();
     command.callback([options] { run_experiment(*options); });
 }

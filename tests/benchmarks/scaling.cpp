@@ -21,7 +21,7 @@ struct ScalingOptions {
     std::size_t max_particles = 1024 * basin_particles;
     std::size_t max_particles_fine = 256 * basin_particles;
     BackendOptions backend = one_cpu_thread;
-    CurvatureCriterion criterion;
+    std::optional<double> tolerance;
     RepeatLimits limits;
     std::string out = "tests/benchmarks/results";
 };
@@ -49,8 +49,8 @@ Neighborhood sample_neighborhood(const std::vector<float>& positions, const Mesh
     std::vector<float> vertices;
     for (const std::size_t i : pick_evenly(mesh.vertices.size(), samples))
         for (const double coordinate : mesh.world(mesh.vertices[i])) vertices.push_back(static_cast<float>(coordinate));
-    const auto support = static_cast<float>(2.0 * settings.smoothing_length * settings.particle_radius);
-    return {mean_neighbors(positions, particles, support), mean_neighbors(positions, vertices, support)};
+    const auto reach = static_cast<float>(support(settings) * settings.particle_radius);
+    return {mean_neighbors(positions, particles, reach), mean_neighbors(positions, vertices, reach)};
 }
 
 /// What could not be done in less time: the kernel for every pair within its support (densities at the particles, the
@@ -74,7 +74,7 @@ Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<flo
     settings.particle_radius = particle_radius;
     settings.cell_size = cell_size;
     settings.mode = mode;
-    settings.criterion = options.criterion;
+    settings.criterion = CurvatureCriterion{options.tolerance};
     ParticleFrame frame;
     frame.positions = positions;
     Mesh mesh;
@@ -146,7 +146,7 @@ void run_scaling(const ScalingOptions& options) {
     nlohmann::ordered_json summary;
     summary["runs"] = "warm medians; first: a new reconstructor's first frame";
     add_backend(summary, options.backend);
-    summary["tolerance"] = options.criterion.tolerance;
+    summary["tolerance"] = options.tolerance.value_or(tolerance(Settings{}));
     const bool on_device = summary["backend"] == "cuda";
     const MachinePeaks peaks = on_device ? measure_device_peaks() : measure_peaks();
     summary["peaks_of"] = on_device ? "the device" : "one core";
@@ -188,8 +188,8 @@ void add_scaling(CLI::App& app) {
     command.add_option("--max-particles-fine", options->max_particles_fine, "Largest scene at cell size 0.5")
         ->capture_default_str();
     add_backend_options(command, options->backend);
-    command.add_option("--tolerance", options->criterion.tolerance, "Of the curvature criterion, in cells")
-        ->capture_default_str();
+    command.add_option("--tolerance", options->tolerance, "Of the curvature criterion, in cells")
+        ->default_str("that of the field");
     command.add_option("--repeats", options->limits.runs, "Warm runs of each case, of which the median counts")
         ->check(CLI::Range(1U, 1000U))
         ->capture_default_str();

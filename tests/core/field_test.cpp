@@ -41,7 +41,7 @@ public:
         for (std::size_t i = 0; i < weights_.size(); ++i) {
             const auto p = position(i);
             sum += weights_[i] *
-                   spline(std::hypot(x - p[0], y - p[1], z - p[2]), 2 * settings_.smoothing_length * radius(i));
+                   spline(std::hypot(x - p[0], y - p[1], z - p[2]), support(settings_) * radius(i));
         }
         return sum;
     }

@@ -11,9 +11,9 @@ namespace meniscus::cli {
 namespace {
 
 /// Gives the alternative its parameter, if the flag was given; refuses a flag that would change nothing.
-template <class Alternative, class Choice, class Parameter>
+template <class Alternative, class Choice, class Parameter, class Value>
 void fill_in(Choice& choice, const char* choice_flag, Parameter Alternative::*parameter,
-             const std::optional<Parameter>& given, const char* flag) {
+             const std::optional<Value>& given, const char* flag) {
     if (!given) return;
     auto* const chosen = std::get_if<Alternative>(&choice);
     if (chosen == nullptr)
@@ -35,7 +35,7 @@ void SettingsOptions::add_to(CLI::App& command) {
     command
         .add_option("--smoothing-length", settings.smoothing_length,
                     "In particle radii; the kernel's support is twice that")
-        ->capture_default_str();
+        ->default_str(text_of(smoothing_length(Settings{})));
     command.add_option("--cell-size", settings.cell_size, "Edge of a finest cell, in particle radii")
         ->capture_default_str();
     command.add_option("--iso", settings.iso, "Field value at the surface")->capture_default_str();
@@ -46,7 +46,7 @@ void SettingsOptions::add_to(CLI::App& command) {
         .add_option(
             "--tolerance", tolerance_,
             "With --criterion curvature: how far the surface may depart from that of the finest cells, in those")
-        ->default_str(text_of(CurvatureCriterion{}.tolerance));
+        ->default_str(text_of(tolerance(Settings{})));
     command
         .add_option("--count-threshold", count_threshold_,
                     "With --criterion count: particles per base cell that decide about level 3")

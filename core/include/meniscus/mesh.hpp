@@ -50,6 +50,7 @@ inline constexpr std::uint8_t level_byte(TriangleLevel level) {
 /// A point of the lattice refined by 2^offset_bits: exact, and a vertex's identity.
 using LatticePosition = std::array<std::int32_t, 3>;
 using Normal = std::array<float, 3>;
+using Point = std::array<float, 3>;  ///< world units
 using Triangle = std::array<std::uint32_t, 3>;
 
 struct TriangleRange {
@@ -75,6 +76,7 @@ struct Mesh {
     Array<Triangle> triangles;        ///< indices into `vertices`
     std::array<TriangleRange, triangle_level_count> levels{};  ///< into `triangles`
     Array<MeshBrick> bricks;                                   ///< ordered by coordinate (z, y, x)
+    Array<Point> spray;  ///< places of the particles left out of the surface, in no order of the frame's; Spray::points
 
     /// World position of a lattice position of this mesh: exact product in double, one rounding.
     std::array<double, 3> world(const LatticePosition& p) const {

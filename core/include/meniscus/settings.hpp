@@ -9,10 +9,11 @@
 
 namespace meniscus {
 
-/// The scalar function whose iso-surface is the fluid surface. Both are sums over particles of a cubic spline.
+/// The scalar function whose iso-surface is the fluid surface: a sum over particles (core/README.md#fields).
 enum class Field : std::uint8_t {
-    color,    ///< (m_j / rho_j) W(x - x_j, h), rho_j from the same kernel
-    density,  ///< m_j W(x - x_j, h), relative to the rest density (the paper's Equation 1)
+    color,    ///< (m_j / rho_j) W(x - x_j, h) with a cubic spline, rho_j from the same kernel
+    density,  ///< m_j W(x - x_j, h) with a cubic spline, relative to the rest density (the paper's Equation 1)
+    smooth,   ///< V_j W(x - x_j, h_j), the support h_j wide among other particles and narrow for one alone
 };
 constexpr std::string_view name_of(Field field) {
     switch (field) {
@@ -20,6 +21,26 @@ constexpr std::string_view name_of(Field field) {
             return "color";
         case Field::density:
             return "density";
+        case Field::smooth:
+            return "smooth";
+    }
+    return {};
+}
+
+/// What becomes of particles without company, with Field::smooth.
+enum class Spray : std::uint8_t {
+    keep,     ///< part of the surface, as drops
+    discard,  ///< left out
+    points,   ///< left out of the surface, and listed in Mesh::spray
+};
+constexpr std::string_view name_of(Spray spray) {
+    switch (spray) {
+        case Spray::keep:
+            return "keep";
+        case Spray::discard:
+            return "discard";
+        case Spray::points:
+            return "points";
     }
     return {};
 }
@@ -42,8 +63,8 @@ constexpr std::string_view name_of(Mode mode) {
 struct CurvatureCriterion {
     static constexpr std::string_view name = "curvature";
     /// How far the surface may depart from that of the finest cells, in finest cells, > 0: about the 99th percentile of
-    /// the distance between the two.
-    double tolerance = 0.15;
+    /// the distance between the two. None: as tolerance(Settings) has it for the field.
+    std::optional<double> tolerance;
     bool operator==(const CurvatureCriterion&) const = default;
 };
 
@@ -88,11 +109,15 @@ struct Box {
 
 /// All lengths but the first are in multiples of the particle radius, as in splashsurf.
 struct Settings {
-    double particle_radius = 0.0;   ///< world units, finite, > 0; that of level 0 for adaptive SPH
-    double smoothing_length = 2.0;  ///< radii, > 0; the kernel's support is twice that
+    double particle_radius = 0.0;  ///< world units, finite, > 0; that of level 0 for adaptive SPH
     double cell_size = 0.5;  ///< radii, > 0: edge of a finest cell; at least support/256 of the coarsest particle level
     double iso = 0.6;        ///< field value at the surface, > 0
     Field field = Field::color;
+    /// Field::color and Field::density only: > 0; the kernel's support is twice that. None: 2.
+    std::optional<double> smoothing_length;
+    /// Field::smooth only: the widest support, 5, 6 or 7 (smoother, and slower). None: 6.
+    std::optional<std::uint32_t> smoothness;
+    Spray spray = Spray::keep;  ///< others than keep with Field::smooth only
     Mode mode = Mode::adaptive;
     Criterion criterion;     ///< by curvature unless another is chosen
     EdgePoints edge_points;  ///< interpolated unless bisection is chosen
@@ -106,6 +131,39 @@ struct Settings {
 
 /// Throws InvalidInput naming the first setting that is out of range, its value and the range.
 void validate(const Settings& settings);
+
+inline constexpr std::uint32_t min_smoothness = 5;
+inline constexpr std::uint32_t max_smoothness = 7;
+
+/// Settings that have a name; single ones may be changed afterwards.
+enum class Preset : std::uint8_t {
+    smooth,      ///< the defaults
+    paper,       ///< Du and Kanai 2014: Equation 1, particle counts, five bisections
+    splashsurf,  ///< the surface of splashsurf without smoothing: its field, at the finest cell everywhere
+};
+constexpr std::string_view name_of(Preset preset) {
+    switch (preset) {
+        case Preset::smooth:
+            return "smooth";
+        case Preset::paper:
+            return "paper";
+        case Preset::splashsurf:
+            return "splashsurf";
+    }
+    return {};
+}
+Settings preset(Preset preset, double particle_radius);
+
+// The settings in force: as given, or the default of the field.
+
+/// Radii.
+double smoothing_length(const Settings& settings);
+/// Radii.
+std::uint32_t smoothness(const Settings& settings);
+/// The distance from which no particle of level 0 counts, radii: twice the smoothing length, or the smoothness.
+double support(const Settings& settings);
+/// Finest cells, with CurvatureCriterion.
+double tolerance(const Settings& settings);
 
 /// The finest cell's edge in world units.
 inline double world_cell_size(const Settings& s) {

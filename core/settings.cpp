@@ -1,0 +1,41 @@
+// The sets of settings that have a name, and the defaults that depend on the field.
+#include "meniscus/settings.hpp"
+
+namespace meniscus {
+
+Settings preset(Preset preset, double particle_radius) {
+    Settings settings;
+    settings.particle_radius = particle_radius;
+    switch (preset) {
+        case Preset::smooth:
+            break;
+        case Preset::paper:
+            settings.field = Field::density;
+            settings.criterion = CountCriterion{};
+            settings.edge_points = Bisection{5};
+            break;
+        case Preset::splashsurf:
+            settings.field = Field::color;
+            settings.mode = Mode::uniform;
+            break;
+    }
+    return settings;
+}
+
+double smoothing_length(const Settings& settings) {
+    return settings.smoothing_length.value_or(2.0);
+}
+
+std::uint32_t smoothness(const Settings& settings) {
+    return settings.smoothness.value_or(6);
+}
+
+double support(const Settings& settings) {
+    return settings.field == Field::smooth ? smoothness(settings) : 2.0 * smoothing_length(settings);
+}
+
+double tolerance(const Settings& settings) {
+    return value_or_default<CurvatureCriterion>(settings.criterion).tolerance.value_or(0.15);
+}
+
+}  // namespace meniscus
