@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "field/kernel.hpp"
+#include "field/cubic_spline.hpp"
+#include "field/poly6.hpp"
 
 namespace meniscus {
 namespace {
@@ -27,6 +28,22 @@ double lone_particle_reach(double share) {
         (2.0 * a * a * a - 8.0 * b * b * b > share ? low : high) = q;
     }
     return low;
+}
+
+/// Measured: core/README.md#the-smooth-field.
+void use_smooth_field(LatticeSettings& settings, const Settings& s) {
+    settings.has_own_supports = true;
+    settings.leaves_out_spray = s.spray != Spray::keep;
+    settings.lists_spray = s.spray == Spray::points;
+    SmoothField& f = settings.smooth = SmoothField(smoothness(s), s.cell_size);
+    for (unsigned k = 0; k < particle_level_count; ++k)
+        settings.company_support[k] = f.company_support * f.units_per_radius[k];
+    // The user's threshold is 0.6 for every smoothness; the constants may be for another.
+    settings.iso = static_cast<float>(s.iso * (f.iso / 0.6));
+    settings.deep_inside = f.deep_inside / f.iso * settings.iso;
+    // A particle that can be a drop reaches as far as its share alone is above the threshold, and farther with others.
+    const auto reach2 = [](float iso) { return iso < 1.0F ? 1.0F - cube_root(iso) : 0.0F; };
+    settings.blob_closest = 1.0F - std::min(0.58F * 0.58F * reach2(settings.iso) / reach2(f.iso), 1.0F);
 }
 
 // One for each alternative: another does not compile without.
@@ -58,6 +75,7 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     const double l = smoothing_length(s);
     weight = static_cast<float>(16.0 / (std::numbers::pi * l * l * l));
     iso = static_cast<float>(s.iso);
+    if (s.field == Field::smooth) use_smooth_field(*this, s);
     // Measured: core/README.md#the-band-085, core/README.md#drops-025-and-017.
     if (s.field == Field::color) deep_inside = static_cast<float>(s.iso * (0.85 / 0.6));
     // A lone particle's blob in the color field: W(q) = iso W(0). At iso 0.6 that is q = 0.28; a quarter support is
@@ -65,7 +83,8 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     if (s.field == Field::color && s.iso < 1.0)
         blob_closest =
             static_cast<float>(1.0 - std::min(0.25 * lone_particle_reach(s.iso) / lone_particle_reach(0.6), 1.0));
-    if (s.cell_size > 0.17 * 2.0 * smoothing_length(s)) blob_level = 3;
+    const double lone_support = s.field == Field::smooth ? smooth.lone_support : 2.0 * smoothing_length(s);
+    if (s.cell_size > 0.17 * lone_support) blob_level = 3;
     tolerance = static_cast<float>(meniscus::tolerance(s));
     is_adaptive = s.mode == Mode::adaptive;
     if (is_adaptive) std::visit([this](const auto& criterion) { use(*this, criterion); }, s.criterion);

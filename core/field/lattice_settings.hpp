@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "field/smooth_field.hpp"
 #include "lattice/coordinates.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
@@ -25,6 +26,11 @@ struct LatticeSettings {
 
     // The field.
     bool divides_by_density = false;  ///< the color field
+    bool has_own_supports = false;    ///< the smooth field
+    SmoothField smooth;
+    bool leaves_out_spray = false;                              ///< Spray::discard and Spray::points
+    bool lists_spray = false;                                   ///< Spray::points
+    std::array<float, particle_level_count> company_support{};  ///< units; smooth field only
     /// m / rho0 times the kernel's W0 = 16 / (pi h^3): both scale with 2^3k, so that all particle levels share it.
     float weight = 0.0F;
     float iso = 0.0F;

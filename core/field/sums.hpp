@@ -1,67 +1,57 @@
-// The field and its gradient at one point or at eight: sums over candidate particles in their order.
+// The field and its gradient at one point or at eight: sums over candidate particles in their order. Kernel:
+// CubicSpline or Poly6.
 #pragma once
 
 #include <cstddef>
 
-#include "field/kernel.hpp"
+#include "field/candidate_view.hpp"
+#include "field/jet.hpp"
+#include "field/lanes.hpp"
 #include "lattice/host_device.hpp"
 
 namespace meniscus {
 
-/// Candidate particles of one level, borrowed.
-struct CandidateView {
-    const float* x;
-    const float* y;
-    const float* z;
-    const float* weight;
-    std::size_t count;
-    float inverse_support;
-};
-
 /// Adds to the values at G points (F = float) or G times eight (F = Lanes).
-template <int G, class F>
+template <class Kernel, int G, class F>
 MENISCUS_HD inline void sum_values(const CandidateView& c, const F (&x)[G], const F (&y)[G], const F (&z)[G],
                                    F (&sum)[G]) {
-    for (std::size_t j = 0; j < c.count; ++j)
+    for (std::size_t j = 0; j < c.count; ++j) {
+        const auto share = Kernel::of(c, j);
         for (int g = 0; g < G; ++g)
-            sum[g] =
-                add_value(sum[g], x[g] - F(c.x[j]), y[g] - F(c.y[j]), z[g] - F(c.z[j]), c.weight[j], c.inverse_support);
+            sum[g] = share.add_value(sum[g], x[g] - F(c.x[j]), y[g] - F(c.y[j]), z[g] - F(c.z[j]));
+    }
 }
 
 /// The same for a grid of points: NY x NZ, lane by lane at (x, y[i], z[j]), i running first in `sum`.
-template <int NY, int NZ, class F>
+template <class Kernel, int NY, int NZ, class F>
 MENISCUS_HD inline void sum_grid_values(const CandidateView& c, F x, const F (&y)[NY], const float (&z)[NZ],
                                         F (&sum)[NY * NZ]) {
     for (std::size_t j = 0; j < c.count; ++j) {
+        const auto share = Kernel::of(c, j);
         const F dx = x - F(c.x[j]);
         F dy[NY];
         for (int i = 0; i < NY; ++i) dy[i] = y[i] - F(c.y[j]);
         for (int k = 0; k < NZ; ++k) {
             const F dz(z[k] - c.z[j]);
-            for (int i = 0; i < NY; ++i)
-                sum[NY * k + i] = add_value(sum[NY * k + i], dx, dy[i], dz, c.weight[j], c.inverse_support);
+            for (int i = 0; i < NY; ++i) sum[NY * k + i] = share.add_value(sum[NY * k + i], dx, dy[i], dz);
         }
     }
 }
 
 /// Adds to upper bounds of the field in boxes of half edge `half` around the points: every particle counts with the
-/// kernel at its distance from the box. `closest` becomes the largest of 1 - distance/h.
-template <class F>
+/// kernel at its distance from the box. `closest`: see the kernel's add_bound().
+template <class Kernel, class F>
 MENISCUS_HD inline void sum_bounds(const CandidateView& c, F x, F y, F z, float half, F& sum, F& closest) {
     const auto gap = [half](F d) { return max(max(d - F(half), F(-half) - d), F(0.0F)); };
-    for (std::size_t j = 0; j < c.count; ++j) {
-        const F q = length(gap(x - F(c.x[j])), gap(y - F(c.y[j])), gap(z - F(c.z[j]))) * F(c.inverse_support);
-        sum = fma(F(c.weight[j]), cubic_spline(q), sum);
-        closest = max(closest, F(1.0F) - q);
-    }
+    for (std::size_t j = 0; j < c.count; ++j)
+        Kernel::of(c, j).add_bound(sum, closest, gap(x - F(c.x[j])), gap(y - F(c.y[j])), gap(z - F(c.z[j])), c.support);
 }
 
-/// Adds to the gradient, up to a positive factor common to all levels (the paper's Equation 2).
-template <class F>
+/// Adds to the gradient, up to a positive factor common to all particles (the paper's Equation 2).
+template <class Kernel, class F>
 MENISCUS_HD inline void sum_gradients(const CandidateView& c, F x, F y, F z, F& gx, F& gy, F& gz) {
     for (std::size_t j = 0; j < c.count; ++j)
-        add_gradient(gx, gy, gz, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]), c.weight[j] * c.inverse_support,
-                     c.inverse_support);
+        Kernel::of(c, j).add_gradient(gx, gy, gz, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]));
 }
 
 /// A gradient becomes the unit vector against it; not-a-numbers where it vanishes.
@@ -74,10 +64,10 @@ MENISCUS_HD inline void turn_outward(F& x, F& y, F& z) {
 }
 
 /// Adds to the field's jets.
-template <class F>
+template <class Kernel, class F>
 MENISCUS_HD inline void sum_jets(const CandidateView& c, F x, F y, F z, FieldJet<F>& jet) {
     for (std::size_t j = 0; j < c.count; ++j)
-        add_jet(jet, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]), c.weight[j], c.inverse_support);
+        Kernel::of(c, j).add_jet(jet, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]));
 }
 
 }  // namespace meniscus

@@ -58,6 +58,15 @@ MENISCUS_HD inline Units3 cell_corner(std::uint64_t cell_key, std::int64_t cell_
             (brick.z * brick_size + place.z) * cell_units};
 }
 
+/// A key's position in the world, in units.
+MENISCUS_HD inline Units3 key_place(const ParticleKey& key, std::int64_t cell_units) {
+    constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
+    const Units3 corner = cell_corner(key.cell, cell_units);
+    return {corner.x + static_cast<std::int64_t>(key.place & mask),
+            corner.y + static_cast<std::int64_t>(key.place >> place_axis_bits & mask),
+            corner.z + static_cast<std::int64_t>(key.place >> (2 * place_axis_bits))};
+}
+
 /// A key's position, in units from the corner of its support cell's brick.
 MENISCUS_HD inline void key_position(const ParticleKey& key, std::int64_t cell_units, float& x, float& y, float& z) {
     constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;

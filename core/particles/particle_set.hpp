@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "field/poly6.hpp"
 #include "lattice/brick_grid.hpp"
 #include "lattice/coordinates.hpp"
 #include "lattice/host_device.hpp"
@@ -23,14 +24,20 @@ struct ParticleSetView {
     const float* x = nullptr;
     const float* y = nullptr;
     const float* z = nullptr;
-    const float* weight = nullptr;  ///< mass (color: mass over density) times the kernel's W0
+    const float* weight = nullptr;  ///< of the kernel, see CubicSpline and Poly6
+    const float* fall = nullptr;    ///< of Poly6, else none
     std::int64_t cell_units = 0;    ///< edge of a support cell
-    float support = 0.0F;           ///< h, units
+    float support = 0.0F;           ///< h, or the widest of the particles; units
 
     MENISCUS_HD Int3 cell_of(std::int64_t px, std::int64_t py, std::int64_t pz) const {
         return {static_cast<std::int32_t>(floor_div(px, cell_units)),
                 static_cast<std::int32_t>(floor_div(py, cell_units)),
                 static_cast<std::int32_t>(floor_div(pz, cell_units))};
+    }
+
+    /// The distance from which particle i adds nothing, units.
+    MENISCUS_HD float support_of(std::uint32_t i) const {
+        return fall == nullptr ? support : Poly6{weight[i], fall[i]}.support();
     }
 
     /// Particles farther from a box than this may be passed over. A little more than the support, since a rounded
@@ -60,12 +67,12 @@ struct ParticleSetView {
         });
     }
 
-    /// Calls visit(x, y, z) for all particles of those runs, relative to `origin`.
+    /// Calls visit(x, y, z, particle) for all particles of those runs, relative to `origin`.
     template <class Visit>
     MENISCUS_HD void for_each_near(const Units3& origin, const UnitBox& box, Visit&& visit) const {
         BrickHints hints;
         for_each_run_near(origin, box, hints, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
-            for (std::uint32_t i = begin; i < end; ++i) visit(x[i] + shift[0], y[i] + shift[1], z[i] + shift[2]);
+            for (std::uint32_t i = begin; i < end; ++i) visit(x[i] + shift[0], y[i] + shift[1], z[i] + shift[2], i);
         });
     }
 };

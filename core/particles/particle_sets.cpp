@@ -14,18 +14,21 @@ ParticleSet::ParticleSet(const std::shared_ptr<MemoryAccount>& account)
       y(make_array<float>(account)),
       z(make_array<float>(account)),
       weight(make_array<float>(account)),
-      densities(make_array<float>(account)) {}
+      fall(make_array<float>(account)),
+      sums(make_array<float>(account)) {}
 
 ParticleSets::ParticleSets(const std::shared_ptr<MemoryAccount>& account, Workers& own_workers,
                            const LatticeSettings& own_settings)
     : workers(own_workers),
       settings(own_settings),
       of_level{ParticleSet(account), ParticleSet(account), ParticleSet(account), ParticleSet(account)},
+      spray(make_array<Point>(account)),
       scan(account),
       reached_bricks(make_array<std::uint64_t>(account)) {
     for (unsigned k = 0; k < particle_level_count; ++k) {
         of_level[k].support = settings.support[k];
         of_level[k].cell_units = settings.cell_units[k];
+        of_level[k].company_support = settings.company_support[k];
     }
 }
 

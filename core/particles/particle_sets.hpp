@@ -9,6 +9,7 @@
 #include "engine/cpu/scan.hpp"
 #include "engine/cpu/workers.hpp"
 #include "field/lattice_settings.hpp"
+#include "meniscus/mesh.hpp"
 #include "particles/particle_key.hpp"
 #include "particles/particle_set.hpp"
 
@@ -32,14 +33,27 @@ struct ParticleSet {
     Array<std::uint64_t> cell_keys;
     // Of every particle, and room for whole lanes beyond the last; ParticleSetView explains them.
     Array<float> x, y, z, weight;
-    Array<float> densities;  ///< relative to the rest density; color field only
+    Array<float> fall;  ///< smooth field only
+    Array<float> sums;  ///< one at each particle's place, while weights are found
     std::size_t count() const { return keys.size(); }
     std::int64_t cell_units = 0;
     float support = 0.0F;
+    float company_support = 0.0F;  ///< smooth field only, see LatticeSettings
 
     ParticleSetView view() const {
-        return {cells.view(), first.data(), x.data(), y.data(), z.data(), weight.data(), cell_units, support};
+        return {cells.view(),  first.data(),   x.data(),   y.data(), z.data(),
+                weight.data(), own_supports(), cell_units, support};
     }
+    /// For counts of particles around a place.
+    ParticleSetView company_view() const {
+        ParticleSetView company = view();
+        company.fall = nullptr;
+        company.support = company_support;
+        return company;
+    }
+
+private:
+    const float* own_supports() const { return fall.empty() ? nullptr : fall.data(); }
 };
 
 struct ParticleSets {
@@ -48,6 +62,8 @@ struct ParticleSets {
     Workers& workers;
     const LatticeSettings& settings;
     std::array<ParticleSet, particle_level_count> of_level;
+    Array<Point> spray;  ///< world units, where the settings want it listed
+    std::uint64_t spray_particles = 0;
     // While particles are registered.
     Scan scan;
     Array<std::uint64_t> reached_bricks;

@@ -1,5 +1,6 @@
 // The CPU backend: state, particles and field that live from frame to frame.
 #include "engine/cpu/particle_field.hpp"
+#include "field/kernels.hpp"
 #include "pipeline/backend.hpp"
 #include "pipeline/cpu_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
@@ -9,6 +10,12 @@
 namespace meniscus::cpu {
 namespace {
 
+std::unique_ptr<FieldSource> make_field(const LatticeSettings& settings, Neighborhoods& near) {
+    return with_kernel(settings, [&]<class Kernel>() -> std::unique_ptr<FieldSource> {
+        return std::make_unique<ParticleField<Kernel>>(near);
+    });
+}
+
 class Reconstruction final : public BackendReconstruction {
 public:
     Reconstruction(const Settings& user, unsigned threads, const std::shared_ptr<MemoryAccount>& account)
@@ -17,15 +24,17 @@ public:
           state_(account, workers_, settings_),
           particles_(account, workers_, settings_),
           near_(account, workers_.count(), particles_),
-          field_(near_),
+          field_(make_field(settings_, near_)),
           found_levels_(make_array<std::uint8_t>(account)) {}
 
     MeshDownload reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) override {
         StageClock clock(statistics);
-        ParticleSteps steps(state_, field_, mesh, particles_, near_, frame);
+        ParticleSteps steps(state_, *field_, mesh, particles_, near_, frame);
         run_pipeline(steps, clock);
         is_capped_ = false;
 
+        mesh.spray.assign(particles_.spray.begin(), particles_.spray.end());
+        statistics.spray_particles = particles_.spray_particles;
         statistics.field_evaluations = state_.field_evaluations;
         statistics.base_cells_by_level = count_band_cells(state_);
         statistics.backend = "cpu";
@@ -37,7 +46,7 @@ public:
         if (!is_capped_) found_levels_.assign(state_.level.begin(), state_.level.end());
         is_capped_ = true;
         cap_levels(state_, found_levels_, max_level);
-        SurfaceSteps steps(state_, field_, mesh);
+        SurfaceSteps steps(state_, *field_, mesh);
         NoClock clock;
         emit_mesh(steps, clock);
     }
@@ -48,7 +57,7 @@ private:
     State state_;
     ParticleSets particles_;
     Neighborhoods near_;
-    ParticleField field_;
+    std::unique_ptr<FieldSource> field_;
     Array<std::uint8_t> found_levels_;  ///< of the last frame, once a mesh of it was emitted with capped ones
     bool is_capped_ = false;
 };

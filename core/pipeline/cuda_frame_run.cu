@@ -80,9 +80,11 @@ void FrameRun::emit_capped(int max_level, bool first) {
     sets_.take(state_);
     for (;; first = false) {
         cap_levels(state_, max_level, first, launcher_);
-        SurfaceSteps<ParticleField> steps(state_, {}, launcher_);
-        NoClock clock;
-        emit_mesh(steps, clock);
+        with_kernel(state_.settings, [&]<class Kernel>() {
+            SurfaceSteps<ParticleField<Kernel>> steps(state_, {}, launcher_);
+            NoClock clock;
+            emit_mesh(steps, clock);
+        });
         fetch_counts();
         stream_.synchronize();
         if (counts().stop == Stop::none) break;
@@ -94,9 +96,11 @@ void FrameRun::enqueue(bool captured) {
     // Sorting swaps arrays in the copy, and the next frame begins with them as they are laid out.
     State state = state_;
     check(cudaMemsetAsync(state.counts, 0, sizeof(Counts), stream_.get()), "cudaMemsetAsync");
-    ParticleSteps steps(state, parts_, launcher_);
     clock_.begin(stream_.get(), captured);
-    run_pipeline(steps, clock_);
+    with_kernel(state.settings, [&]<class Kernel>() {
+        ParticleSteps<Kernel> steps(state, parts_, launcher_);
+        run_pipeline(steps, clock_);
+    });
     clock_.finish();
     fetch_counts();
 }

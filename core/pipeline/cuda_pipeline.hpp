@@ -9,7 +9,7 @@
 namespace meniscus::cuda {
 
 /// The steps from levels on: they ask nothing but values and normals of the field. Field: see ParticleField.
-template <class Field>
+template <class Field, Slivers slivers = Slivers::raised>
 class SurfaceSteps {
 public:
     SurfaceSteps(State& state, const Field& field, const Launcher& launch)
@@ -17,7 +17,7 @@ public:
 
     bool is_adaptive() const { return state_.settings.is_adaptive; }
     void adjust_levels() { cuda::adjust_levels(state_, launch_); }
-    void sample_field() { cuda::sample_field(state_, field_, slivers_, launch_); }
+    void sample_field() { cuda::sample_field<slivers>(state_, field_, launch_); }
     void sample_edge_middles() { cuda::sample_edge_middles(state_, field_, launch_); }
     void count_triangles() { cuda::count_triangles(state_, launch_); }
     void place_vertices() { cuda::place_vertices(state_, field_, launch_); }
@@ -28,7 +28,6 @@ protected:
     State& state_;
     Field field_;
     const Launcher& launch_;
-    Slivers slivers_ = Slivers::raised;
 };
 
 /// The parts of a frame beside positions, by which kernels are chosen.
@@ -39,14 +38,15 @@ struct FrameParts {
 };
 
 /// All steps of a frame of particles, which are on their way to State::upload.
-class ParticleSteps : public SurfaceSteps<ParticleField> {
+template <class Kernel>
+class ParticleSteps : public SurfaceSteps<ParticleField<Kernel>> {
 public:
     ParticleSteps(State& state, const FrameParts& parts, const Launcher& launch)
-        : SurfaceSteps(state, ParticleField{}, launch), parts_(parts) {}
+        : SurfaceSteps<ParticleField<Kernel>>(state, {}, launch), parts_(parts) {}
 
-    void register_particles() { cuda::register_particles(state_, parts_.payload, launch_); }
-    void sample_base_vertices() { cuda::sample_base_vertices(state_, launch_); }
-    void split_cells() { cuda::split_cells(state_, parts_.levels, launch_); }
+    void register_particles() { cuda::register_particles(this->state_, parts_.payload, this->launch_); }
+    void sample_base_vertices() { cuda::sample_base_vertices(this->state_, this->launch_); }
+    void split_cells() { cuda::split_cells(this->state_, parts_.levels, this->launch_); }
 
 private:
     FrameParts parts_;

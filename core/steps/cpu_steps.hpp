@@ -18,6 +18,8 @@ namespace meniscus::cpu {
 /// Step 1: sorts a valid frame's particles, and stores the base cells that they reach. Throws LimitExceeded where the
 /// particles crowd.
 void register_particles(State& state, ParticleSets& sets, Neighborhoods& near, const ParticleFrame& frame);
+/// Gives every particle a support that fits its neighborhood, and the volume that it stands for: the smooth field.
+void fit_supports(ParticleSets& sets, Neighborhoods& near);
 /// Divides the particles' weights by the density at their places: the color field.
 void divide_weights_by_density(ParticleSets& sets, Neighborhoods& near);
 /// Numbers the members of a grid whose bits are set, and finds its bricks' neighbors.

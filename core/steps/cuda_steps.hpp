@@ -13,6 +13,8 @@ namespace meniscus::cuda {
 /// Step 1: sorts the particles, and stores the base cells that they reach. Also tells the state which of its arrays
 /// hold the sorted keys. has_payload: whether State::sources is to tell where each particle came from.
 void register_particles(State& state, bool has_payload, const Launcher& launch);
+/// Gives every particle a support that fits its neighborhood, and the volume that it stands for: the smooth field.
+void fit_supports(const State& state, const Launcher& launch);
 /// Divides the particles' weights by the density at their places: the color field.
 void divide_weights_by_density(const State& state, const Launcher& launch);
 /// Numbers the members of the bricks, whose bits are set and counted in members_before; makes their blocks, none of
@@ -38,8 +40,8 @@ void adjust_levels(const State& state, const Launcher& launch);
 void cap_levels(const State& state, int max_level, bool first, const Launcher& launch);
 
 /// Step 4: samples what the cells of the band need, until no cell joins the band or goes up for it.
-template <class Field>
-void sample_field(const State& state, const Field& field, Slivers slivers, const Launcher& launch);
+template <Slivers slivers, class Field>
+void sample_field(const State& state, const Field& field, const Launcher& launch);
 /// Samples the middles of coarse edges that cross the surface.
 template <class Field>
 void sample_edge_middles(const State& state, const Field& field, const Launcher& launch);

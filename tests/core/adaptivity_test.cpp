@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/comparison.hpp"
+#include "field/cubic_spline.hpp"
 #include "meniscus/mesh.hpp"
 #include "steps/split_cells/curvature.hpp"
 #include "support/particles.hpp"
@@ -126,7 +127,7 @@ TEST(Adaptivity, ADropsCurvatureIsToldFromOutsideOfIt) {
     const float radius = 0.28F * support;
     const auto jet_at = [&](float distance) {
         FieldJet<float> jet;
-        add_jet(jet, 0.6F * distance, 0.8F * distance, 0.0F, 1.0F, 1.0F / support);
+        CubicSpline{1.0F, 1.0F / support}.add_jet(jet, 0.6F * distance, 0.8F * distance, 0.0F);
         return jet;
     };
     const float iso = jet_at(radius).value;

@@ -15,7 +15,7 @@ namespace {
 std::vector<Settings> all_settings() {
     std::vector<Settings> all;
     for (const Mode mode : {Mode::adaptive, Mode::uniform})
-        for (const Field field : {Field::color, Field::density})
+        for (const Field field : {Field::color, Field::density, Field::smooth})
             for (const EdgePoints& edge_points : choices<EdgePoints>) {
                 Settings settings = test::default_settings();
                 settings.mode = mode;

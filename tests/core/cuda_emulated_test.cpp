@@ -69,7 +69,7 @@ private:
 
 TEST(CudaEmulated, GivesTheCpusMeshForASplash) {
     const test::Particles particles = test::splash(3, 8);
-    for (const Field field : {Field::color, Field::density})
+    for (const Field field : {Field::color, Field::density, Field::smooth})
         for (const Mode mode : {Mode::adaptive, Mode::uniform})
             for (const EdgePoints& edge_points : choices<EdgePoints>) {
                 SCOPED_TRACE(testing::Message()
@@ -97,10 +97,19 @@ TEST(CudaEmulated, GivesTheCpusMeshForOtherSettings) {
         for (const double smoothing_length : {1.1, 2.0}) {
             SCOPED_TRACE(testing::Message() << cell_size << " " << smoothing_length);
             Settings settings = test::default_settings();
+            settings.field = Field::color;
             settings.cell_size = cell_size;
             settings.smoothing_length = smoothing_length;
             EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
             settings.criterion = CountCriterion{};
+            EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
+        }
+    for (const std::uint32_t smoothness : {5U, 6U, 7U})
+        for (const double cell_size : {0.3, 1.0}) {
+            SCOPED_TRACE(testing::Message() << "smoothness " << smoothness << " " << cell_size);
+            Settings settings = test::default_settings();
+            settings.smoothness = smoothness;
+            settings.cell_size = cell_size;
             EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
         }
 }

@@ -53,7 +53,7 @@ class Cuda : public NeedsGpu {};
 
 TEST_F(CudaSmall, GivesTheCpusMeshForEveryModeCriterionFieldAndEdgePoint) {
     const test::Particles particles = test::splash(3, 6);
-    for (const Field field : {Field::color, Field::density})
+    for (const Field field : {Field::color, Field::density, Field::smooth})
         for (const Mode mode : {Mode::adaptive, Mode::uniform})
             for (const Criterion& criterion : choices<Criterion>)
                 for (const EdgePoints& edge_points : choices<EdgePoints>) {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "engine/cpu/particle_field.hpp"
-#include "field/kernel.hpp"
+#include "field/kernels.hpp"
 #include "particles/particle_sets.hpp"
 #include "steps/cpu_steps.hpp"
 #include "support/particles.hpp"
@@ -21,29 +21,68 @@ double spline(double distance, double h) {
     return 8 / (std::numbers::pi * h * h * h) * (2 * a * a * a - 8 * b * b * b);
 }
 
+/// 1 at distance 0.
+double poly6(double distance, double h) {
+    return std::pow(std::max(1 - distance * distance / (h * h), 0.0), 3);
+}
+
 /// All particles, in double: what the field is by definition.
 class NaiveField {
 public:
     NaiveField(const Settings& s, const test::Particles& particles) : settings_(s), particles_(particles) {
-        weights_.assign(particles.count(), 0.0);
-        for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] = std::pow(2 * radius(i), 3);
-        if (s.field == Field::color) {
-            std::vector<double> density(weights_.size());
-            for (std::size_t i = 0; i < weights_.size(); ++i) {
-                const auto p = position(i);
-                density[i] = value(p[0], p[1], p[2]);
-            }
-            for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] /= density[i];
+        if (s.field == Field::smooth) {
+            fit_supports();
+            return;
         }
+        for (std::size_t i = 0; i < particles.count(); ++i) {
+            weights_.push_back(std::pow(2 * radius(i), 3));
+            supports_.push_back(support(s) * radius(i));
+        }
+        if (s.field == Field::density) return;
+        const std::vector<double> densities = values_at_particles();
+        for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] /= densities[i];
     }
     double value(double x, double y, double z) const {
+        return sum(x, y, z, settings_.field == Field::smooth ? poly6 : spline);
+    }
+
+private:
+    using Kernel = double (*)(double distance, double support);
+
+    double sum(double x, double y, double z, Kernel kernel) const {
         double sum = 0;
         for (std::size_t i = 0; i < weights_.size(); ++i) {
             const auto p = position(i);
-            sum += weights_[i] *
-                   spline(std::hypot(x - p[0], y - p[1], z - p[2]), support(settings_) * radius(i));
+            sum += weights_[i] * kernel(std::hypot(x - p[0], y - p[1], z - p[2]), supports_[i]);
         }
         return sum;
+    }
+    std::vector<double> values_at_particles() const {
+        std::vector<double> values;
+        for (std::size_t i = 0; i < weights_.size(); ++i) {
+            const auto p = position(i);
+            values.push_back(value(p[0], p[1], p[2]));
+        }
+        return values;
+    }
+    void fit_supports() {
+        const SmoothField f(smoothness(settings_));
+        for (std::size_t i = 0; i < particles_.count(); ++i) {
+            weights_.push_back(1.0);
+            supports_.push_back(double{f.company_support} * radius(i));
+        }
+        const std::vector<double> company = values_at_particles();
+        for (std::size_t i = 0; i < weights_.size(); ++i) {
+            const double u =
+                std::clamp((company[i] - 1 - f.least_company) / (f.full_company - f.least_company), 0.0, 1.0);
+            const double t = u * u * (3 - 2 * u);
+            const double h = f.lone_support + t * (f.widest_support - f.lone_support);
+            weights_[i] = (t * std::pow(f.company_support, 3) / company[i] + (1 - t) * std::pow(f.lone_support, 3)) /
+                          std::pow(h, 3);
+            supports_[i] = h * radius(i);
+        }
+        const std::vector<double> values = values_at_particles();
+        for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] *= std::max(1.0, f.least_value / values[i]);
     }
 
 private:
@@ -59,7 +98,7 @@ private:
     }
     Settings settings_;
     const test::Particles& particles_;
-    std::vector<double> weights_;
+    std::vector<double> weights_, supports_;
 };
 
 void expect_naive_values(const Settings& user, const test::Particles& particles) {
@@ -69,7 +108,9 @@ void expect_naive_values(const Settings& user, const test::Particles& particles)
     cpu::ParticleSets sets(account, workers, settings);
     cpu::State state(account, workers, settings);
     cpu::Neighborhoods near(account, workers.count(), sets);
-    cpu::ParticleField field(near);
+    std::unique_ptr<cpu::FieldSource> field = with_kernel(settings, [&]<class Kernel>() {
+        return std::unique_ptr<cpu::FieldSource>(new cpu::ParticleField<Kernel>(near));
+    });
     cpu::register_particles(state, sets, near, particles.frame());
     const NaiveField naive(user, particles);
 
@@ -84,8 +125,8 @@ void expect_naive_values(const Settings& user, const test::Particles& particles)
             points.add(static_cast<float>(unit(random)), static_cast<float>(unit(random)),
                        static_cast<float>(unit(random)));
         alignas(32) float values[cpu::max_points], gx[cpu::max_points], gy[cpu::max_points], gz[cpu::max_points];
-        field.values(base, points, values, 0);
-        field.normals(base, points, gx, gy, gz, 0);
+        field->values(base, points, values, 0);
+        field->normals(base, points, gx, gy, gz, 0);
         const double c = settings.cell_size;
         for (std::size_t i = 0; i < points.count; ++i) {
             const double p[3] = {(base.x * 4 + points.x[i] / 4096.0) * c, (base.y * 4 + points.y[i] / 4096.0) * c,
@@ -115,18 +156,50 @@ TEST(Field, DensityIsTheSumOverAllParticles) {
     expect_naive_values(settings, test::splash(21, 10));
 }
 
+TEST(Field, SmoothIsTheSumOverAllParticlesByTheirCompany) {
+    Settings settings = test::default_settings();
+    for (const std::uint32_t smoothness : {5U, 6U, 7U}) {
+        settings.smoothness = smoothness;
+        expect_naive_values(settings, test::splash(24, 10));
+    }
+}
+
 TEST(Field, ColorIsTheSumOverAllParticlesDividedByTheirDensity) {
-    expect_naive_values(test::default_settings(), test::splash(22, 10));
+    Settings settings = test::default_settings();
+    settings.field = Field::color;
+    expect_naive_values(settings, test::splash(22, 10));
 }
 
 TEST(Field, ParticleLevelsScaleRadiusSupportAndMass) {
     test::Particles particles = test::splash(23, 8);
     for (std::size_t i = 0; i < particles.count(); ++i)
         particles.levels.push_back(static_cast<std::uint8_t>(i % 11 == 0 ? 3 : i % 4));
-    for (const Field field : {Field::density, Field::color}) {
+    for (const Field field : {Field::density, Field::color, Field::smooth}) {
         Settings settings = test::default_settings();
         settings.field = field;
         expect_naive_values(settings, particles);
+    }
+}
+
+template <class Kernel>
+void expect_bits_of_one_float(const Kernel& kernel, const float (&x)[8], const float (&y)[8], const float (&z)[8]) {
+    alignas(32) float values[8], gradients[8], hessians[8];
+    const Lanes lx = Lanes::load(x), ly = Lanes::load(y), lz = Lanes::load(z);
+    kernel.add_value(Lanes(0.25F), lx, ly, lz).store(values);
+    Lanes gx(0.0F), gy(0.0F), gz(0.0F);
+    kernel.add_gradient(gx, gy, gz, lx, ly, lz);
+    gy.store(gradients);
+    FieldJet<Lanes> jets;
+    kernel.add_jet(jets, lx, ly, lz);
+    jets.xz.store(hessians);
+    for (int i = 0; i < 8; ++i) {
+        ASSERT_EQ(values[i], kernel.add_value(0.25F, x[i], y[i], z[i]));
+        float sx = 0.0F, sy = 0.0F, sz = 0.0F;
+        kernel.add_gradient(sx, sy, sz, x[i], y[i], z[i]);
+        ASSERT_EQ(gradients[i], sy);
+        FieldJet<float> jet;
+        kernel.add_jet(jet, x[i], y[i], z[i]);
+        ASSERT_EQ(hessians[i], jet.xz);
     }
 }
 
@@ -134,24 +207,14 @@ TEST(Field, EightLanesGiveTheBitsOfOneFloat) {
     std::mt19937 random(4);
     std::uniform_real_distribution<float> distance(-40000.0F, 40000.0F);
     for (int round = 0; round < 2000; ++round) {
-        alignas(32) float x[8], y[8], z[8], lanes[8], gradient[8];
+        alignas(32) float x[8], y[8], z[8];
         for (int i = 0; i < 8; ++i) {
             x[i] = std::round(distance(random));
             y[i] = std::round(distance(random));
             z[i] = std::round(distance(random));
         }
-        const Lanes sum =
-            add_value(Lanes(0.25F), Lanes::load(x), Lanes::load(y), Lanes::load(z), 0.318F, 1.0F / 32768.0F);
-        sum.store(lanes);
-        Lanes gx(0.0F), gy(0.0F), gz(0.0F);
-        add_gradient(gx, gy, gz, Lanes::load(x), Lanes::load(y), Lanes::load(z), 0.318F, 1.0F / 32768.0F);
-        gy.store(gradient);
-        for (int i = 0; i < 8; ++i) {
-            ASSERT_EQ(lanes[i], add_value(0.25F, x[i], y[i], z[i], 0.318F, 1.0F / 32768.0F));
-            float sx = 0.0F, sy = 0.0F, sz = 0.0F;
-            add_gradient(sx, sy, sz, x[i], y[i], z[i], 0.318F, 1.0F / 32768.0F);
-            ASSERT_EQ(gradient[i], sy);
-        }
+        expect_bits_of_one_float(CubicSpline{0.318F, 1.0F / 32768.0F}, x, y, z);
+        expect_bits_of_one_float(Poly6{0.68F, Poly6::fall_of(0.68F, 32768.0F)}, x, y, z);
     }
 }
 
@@ -164,6 +227,46 @@ TEST(Field, TheKernelIntegratesToOne) {
                     16 / std::numbers::pi;
     }
     EXPECT_NEAR(integral, 1.0, 1e-5);
+}
+
+TEST(Field, AJetIsTheValueAndItsDerivatives) {
+    const auto expect_derivatives = [](const auto& kernel, float h) {
+        const float x = 0.31F * h, y = -0.42F * h, z = 0.23F * h, e = h / 256;
+        FieldJet<float> jet, above, below;
+        kernel.add_jet(jet, x, y, z);
+        kernel.add_jet(above, x, y + e, z);
+        kernel.add_jet(below, x, y - e, z);
+        EXPECT_FLOAT_EQ(jet.value, kernel.add_value(0.0F, x, y, z));
+        EXPECT_NEAR(jet.y, (above.value - below.value) / (2 * e), 1e-3 * std::abs(jet.y));
+        EXPECT_NEAR(jet.xy, (above.x - below.x) / (2 * e), 1e-2 * std::abs(jet.xy));
+        EXPECT_NEAR(jet.yy, (above.y - below.y) / (2 * e), 1e-2 * std::abs(jet.yy));
+        EXPECT_NEAR(jet.yz, (above.z - below.z) / (2 * e), 1e-2 * std::abs(jet.yz));
+        float gx = 0.0F, gy = 0.0F, gz = 0.0F;
+        kernel.add_gradient(gx, gy, gz, x, y, z);
+        EXPECT_NEAR(gx / gy, jet.x / jet.y, 1e-4);
+        EXPECT_NEAR(gz / gy, jet.z / jet.y, 1e-4);
+    };
+    expect_derivatives(CubicSpline{0.318F, 1.0F / 32768.0F}, 32768.0F);
+    expect_derivatives(Poly6{0.68F, Poly6::fall_of(0.68F, 32768.0F)}, 32768.0F);
+}
+
+TEST(Field, ASmoothShareEndsExactlyAtItsSupport) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> supports(1.0F, 1048576.0F), weights(0.01F, 2.0F);
+    for (int round = 0; round < 20000; ++round) {
+        const float support = supports(random), weight = weights(random);
+        const Poly6 kernel{weight, Poly6::fall_of(weight, support)};
+        const float at = std::ceil(support);
+        ASSERT_EQ(kernel.add_value(0.0F, at, 0.0F, 0.0F), 0.0F) << support;
+        ASSERT_EQ(kernel.add_value(0.0F, 0.0F, at, 1.0F), 0.0F) << support;
+        ASSERT_GT(kernel.add_value(0.0F, 0.0F, 0.0F, 0.99F * support), 0.0F);
+        ASSERT_NEAR(kernel.support(), support, 4e-6F * support);
+    }
+}
+
+TEST(Field, CubeRootsAreThose) {
+    for (double x = 1e-30; x < 1e30; x *= 1.37)
+        ASSERT_NEAR(cube_root(static_cast<float>(x)) / std::cbrt(x), 1.0, 4e-7) << x;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ void expect_closed_in_all_settings(const std::string& name, const test::Particle
                                    std::initializer_list<double> cell_sizes) {
     for (const double cell_size : cell_sizes)
         for (const Mode mode : {Mode::adaptive, Mode::uniform})
-            for (const Field field : {Field::color, Field::density})
+            for (const Field field : {Field::color, Field::density, Field::smooth})
                 for (const EdgePoints& edge_points : choices<EdgePoints>) {
                     Settings settings = test::default_settings();
                     settings.cell_size = cell_size;

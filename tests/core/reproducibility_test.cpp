@@ -23,7 +23,7 @@ bool same(const Mesh& a, const Mesh& b) {
 
 TEST(Reproducibility, AnyNumberOfThreadsGivesTheSameBytes) {
     const test::Particles particles = test::splash(5);
-    for (const Field field : {Field::color, Field::density})
+    for (const Field field : {Field::color, Field::density, Field::smooth})
         for (const EdgePoints& edge_points : choices<EdgePoints>) {
             Settings settings = test::default_settings();
             settings.field = field;

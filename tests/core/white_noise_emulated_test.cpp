@@ -19,26 +19,32 @@ namespace {
 
 /// In the place of cuda::ParticleField.
 struct NoiseField {
+    struct Staging {};
+
     test::NoiseWorld world;
 
     template <int G>
-    void values(const cuda::State&, const Int3& base_cell, const UnitBox&, cuda::Staging&, const float (&x)[G],
+    void values(const cuda::State&, const Int3& base_cell, const UnitBox&, Staging&, const float (&x)[G],
                 const float (&y)[G], const float (&z)[G], float (&value)[G]) const {
         for (int g = 0; g < G; ++g) value[g] = test::noise_value(world, base_cell, x[g], y[g], z[g]);
     }
-    Normal normal(const cuda::State&, const Int3&, const UnitBox&, cuda::Staging&, float, float, float) const {
+    Normal normal(const cuda::State&, const Int3&, const UnitBox&, Staging&, float, float, float) const {
         const float none = std::nanf("");
         return {none, none, none};
     }
 };
 
 /// The device's memory is the host's: what asks for particles is done by the host between waits for the stream.
-class NoiseSteps : public cuda::SurfaceSteps<NoiseField> {
+template <Slivers slivers>
+class NoiseSteps : public cuda::SurfaceSteps<NoiseField, slivers> {
+    using Surface = cuda::SurfaceSteps<NoiseField, slivers>;
+    using Surface::field_;
+    using Surface::launch_;
+    using Surface::state_;
+
 public:
     NoiseSteps(cuda::State& state, const test::NoiseWorld& world, const cuda::Launcher& launch)
-        : SurfaceSteps(state, NoiseField{world}, launch), levels_(test::noise_levels(world)) {
-        if (world.keeps_slivers) slivers_ = Slivers::kept;
-    }
+        : Surface(state, NoiseField{world}, launch), levels_(test::noise_levels(world)) {}
 
     void register_particles() {
         wait();
@@ -105,13 +111,18 @@ public:
 
     Mesh mesh(const test::NoiseWorld& world) {
         const cuda::Launcher launch{stream_.get(), 4};
-        NoiseSteps steps(state_, world, launch);
-        NoClock clock;
-        run_pipeline(steps, clock);
-        if (world.max_level < 3) {
-            cuda::cap_levels(state_, world.max_level, true, launch);
-            emit_mesh(steps, clock);
-        }
+        const auto run = [&](auto steps) {
+            NoClock clock;
+            run_pipeline(steps, clock);
+            if (world.max_level < 3) {
+                cuda::cap_levels(state_, world.max_level, true, launch);
+                emit_mesh(steps, clock);
+            }
+        };
+        if (world.keeps_slivers)
+            run(NoiseSteps<Slivers::kept>(state_, world, launch));
+        else
+            run(NoiseSteps<Slivers::raised>(state_, world, launch));
         stream_.synchronize();
         EXPECT_EQ(state_.counts->stop, cuda::Stop::none);
         const auto needed = [&](cuda::Resource r) { return state_.counts->needed[static_cast<int>(r)]; };

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "engine/arrays.hpp"
+#include "field/candidate_view.hpp"
 #include "field/lattice_settings.hpp"
-#include "field/sums.hpp"
 #include "particles/particle_set.hpp"
 
 namespace meniscus::cpu {
@@ -15,32 +15,43 @@ namespace meniscus::cpu {
 /// Of one particle level.
 class Candidates {
 public:
-    explicit Candidates(const std::shared_ptr<MemoryAccount>& account);
+    /// has_own_supports: whether particles of this frame may have supports of their own.
+    Candidates(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports);
 
     /// Searches a set for the particles that may reach into a box relative to `origin`.
     void gather(const ParticleSetView& set, const Units3& origin, const UnitBox& box);
     /// Those of another list that may reach into a box, their positions moved by `shift`.
     void cull(const Candidates& from, const std::array<float, 3>& shift, const UnitBox& box);
 
-    CandidateView view() const { return {x_.data(), y_.data(), z_.data(), weight_.data(), count_, inverse_support_}; }
+    CandidateView view() const {
+        return {x_.data(), y_.data(), z_.data(), weight_.data(), fall_.data(), count_, support_, inverse_support_};
+    }
     std::size_t capacity() const { return x_.size(); }
     void reserve(std::size_t n);
 
 private:
-    class BoxVicinity;
+    class UnitBoxLanes;
     /// Arrays of `from` have room for whole lanes beyond the last particle.
-    void append_near(const CandidateView& from, const std::array<float, 3>& shift, const BoxVicinity& vicinity);
+    void append_near(const CandidateView& from, const std::array<float, 3>& shift, const UnitBoxLanes& box);
+    /// is_near(i, squared distances from the box): the set of eight particles from the i-th that are near.
+    template <bool has_own_supports, class IsNear>
+    void append(const CandidateView& from, const std::array<float, 3>& shift, const UnitBoxLanes& box,
+                const IsNear& is_near);
 
     Array<float> x_, y_, z_, weight_;
+    Array<float> fall_;  ///< where particles have supports of their own, else empty
+    bool may_have_own_supports_;
     std::size_t count_ = 0;
     BrickHints hints_;
+    bool has_own_supports_ = false;  ///< those of the list
     float reach_ = 0.0F;
+    float support_ = 0.0F;
     float inverse_support_ = 0.0F;
 };
 
 /// Of all particle levels: near a cluster of blocks, and near some points in one of its blocks.
 struct CandidateLists {
-    explicit CandidateLists(const std::shared_ptr<MemoryAccount>& account);
+    CandidateLists(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports);
 
     using Levels = std::array<Candidates, particle_level_count>;
     Levels cluster;

@@ -12,7 +12,7 @@ constexpr float base_edge = units_per_base_cell;
 
 Neighborhoods::Neighborhoods(const std::shared_ptr<MemoryAccount>& account, unsigned workers, ParticleSets& sets)
     : sets_(sets) {
-    for (unsigned i = 0; i < workers; ++i) lists_.emplace_back(account);
+    for (unsigned i = 0; i < workers; ++i) lists_.emplace_back(account, sets.settings.has_own_supports);
 }
 
 void Neighborhoods::forget() {
@@ -46,6 +46,13 @@ const CandidateLists::Levels& Neighborhoods::near_box(const Int3& base_cell, con
 const CandidateLists::Levels& Neighborhoods::near_box(const Units3& origin, const UnitBox& box, unsigned worker) {
     CandidateLists& lists = lists_[worker];
     for (std::size_t k = 0; k < particle_level_count; ++k) lists.near[k].gather(sets_[k].view(), origin, box);
+    return lists.near;
+}
+
+const CandidateLists::Levels& Neighborhoods::company_near_box(const Units3& origin, const UnitBox& box,
+                                                              unsigned worker) {
+    CandidateLists& lists = lists_[worker];
+    for (std::size_t k = 0; k < particle_level_count; ++k) lists.near[k].gather(sets_[k].company_view(), origin, box);
     return lists.near;
 }
 

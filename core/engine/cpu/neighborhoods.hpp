@@ -23,6 +23,8 @@ public:
     const CandidateLists::Levels& near_box(const Int3& base_cell, const UnitBox& box, unsigned worker);
     /// Those near a box, both relative to an origin that may lie anywhere.
     const CandidateLists::Levels& near_box(const Units3& origin, const UnitBox& box, unsigned worker);
+    /// Those within the company's support of it.
+    const CandidateLists::Levels& company_near_box(const Units3& origin, const UnitBox& box, unsigned worker);
 
     /// Gives every worker room for the longest lists that any has met, so that a warm frame allocates nothing.
     void even_out();

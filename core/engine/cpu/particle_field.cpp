@@ -40,13 +40,15 @@ const float* scatter(BlockMask points, const float* values, float* by_bit) {
 
 }  // namespace
 
-void ParticleField::values(const Int3& base_cell, PointList& points, float* values, unsigned worker) {
+template <class Kernel>
+void ParticleField<Kernel>::values(const Int3& base_cell, PointList& points, float* values, unsigned worker) {
     pad(points);
-    sum_points(near_.near_box(base_cell, box_of(points), worker), points, values);
+    sum_points<Kernel>(near_.near_box(base_cell, box_of(points), worker), points, values);
 }
 
-void ParticleField::cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values,
-                                   unsigned worker) {
+template <class Kernel>
+void ParticleField<Kernel>::cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points,
+                                           ClusterValues& values, unsigned worker) {
     // A block with few points would fill registers badly, and its own list of particles would cost more than it saves
     // (core/README.md#sampling-clusters-16-and-48).
     constexpr int few = 2 * Lanes::count;
@@ -69,22 +71,24 @@ void ParticleField::cluster_values(const Int3& lowest_base_cell, const ClusterPo
     if (pool.count == 0) return;
     pad(pool);
     alignas(32) float sums[max_points];
-    sum_points(near_.near_box(lowest_base_cell, box_of(pool), worker), pool, sums);
+    sum_points<Kernel>(near_.near_box(lowest_base_cell, box_of(pool), worker), pool, sums);
     const float* next = sums;
     for (std::size_t i = 0; i < 8; ++i)
         if (popcount(points[i]) <= few) next = scatter(points[i], next, values[i].data());
 }
 
-void ParticleField::block_values(const Int3& base_cell, BlockMask points, float* values, unsigned worker) {
+template <class Kernel>
+void ParticleField<Kernel>::block_values(const Int3& base_cell, BlockMask points, float* values, unsigned worker) {
     PointList list;
     list_block_points(points, {0, 0, 0}, list);
     pad(list);
     alignas(32) float sums[max_points];
-    sum_points(near_.near_box(base_cell, box_of(points), worker), list, sums);
+    sum_points<Kernel>(near_.near_box(base_cell, box_of(points), worker), list, sums);
     scatter(points, sums, values);
 }
 
-void ParticleField::whole_block_values(const Int3& base_cell, float* values, unsigned worker) {
+template <class Kernel>
+void ParticleField<Kernel>::whole_block_values(const Int3& base_cell, float* values, unsigned worker) {
     constexpr float cell = units_per_cell;
     static constexpr float row_x[8] = {0, cell, 2 * cell, 3 * cell, 0, cell, 2 * cell, 3 * cell};
     static constexpr float row_y[8] = {0, 0, 0, 0, cell, cell, cell, cell};
@@ -96,23 +100,28 @@ void ParticleField::whole_block_values(const Int3& base_cell, float* values, uns
         const float z[2] = {low, low + cell};
         Lanes sum[4] = {Lanes(0.0F), Lanes(0.0F), Lanes(0.0F), Lanes(0.0F)};
         for (const Candidates& c : near_.near_box(base_cell, {{0.0F, 0.0F, z[0]}, {3 * cell, 3 * cell, z[1]}}, worker))
-            sum_grid_values<2, 2>(c.view(), x, y, z, sum);
+            sum_grid_values<Kernel, 2, 2>(c.view(), x, y, z, sum);
         for (int i = 0; i < 4; ++i) sum[i].store(values + (2 * slab + i) * Lanes::count);
     }
 }
 
-void ParticleField::normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) {
+template <class Kernel>
+void ParticleField<Kernel>::normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z,
+                                    unsigned worker) {
     pad(points);
     const CandidateLists::Levels& near = near_.near_box(base_cell, box_of(points), worker);
     for (std::size_t i = 0; i < points.count; i += Lanes::count) {
         const Lanes px = Lanes::load(points.x + i), py = Lanes::load(points.y + i), pz = Lanes::load(points.z + i);
         Lanes gx(0.0F), gy(0.0F), gz(0.0F);
-        for (const Candidates& c : near) sum_gradients(c.view(), px, py, pz, gx, gy, gz);
+        for (const Candidates& c : near) sum_gradients<Kernel>(c.view(), px, py, pz, gx, gy, gz);
         turn_outward(gx, gy, gz);
         gx.store(x + i);
         gy.store(y + i);
         gz.store(z + i);
     }
 }
+
+template class ParticleField<CubicSpline>;
+template class ParticleField<Poly6>;
 
 }  // namespace meniscus::cpu

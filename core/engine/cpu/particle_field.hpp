@@ -3,9 +3,13 @@
 
 #include "engine/cpu/field_source.hpp"
 #include "engine/cpu/neighborhoods.hpp"
+#include "field/cubic_spline.hpp"
+#include "field/poly6.hpp"
 
 namespace meniscus::cpu {
 
+/// Kernel: CubicSpline or Poly6.
+template <class Kernel>
 class ParticleField final : public FieldSource {
 public:
     explicit ParticleField(Neighborhoods& near) : near_(near) {}
@@ -21,5 +25,8 @@ private:
 
     Neighborhoods& near_;
 };
+
+extern template class ParticleField<CubicSpline>;
+extern template class ParticleField<Poly6>;
 
 }  // namespace meniscus::cpu

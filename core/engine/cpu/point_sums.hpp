@@ -37,7 +37,7 @@ inline void pad(PointList& points) {
 }
 
 /// Values at G registers of points from the i-th on.
-template <int G>
+template <class Kernel, int G>
 void sum_group(const CandidateLists::Levels& near, const PointList& points, std::size_t i, float* out) {
     Lanes x[G], y[G], z[G], sum[G];
     for (int g = 0; g < G; ++g) {
@@ -47,14 +47,15 @@ void sum_group(const CandidateLists::Levels& near, const PointList& points, std:
         z[g] = Lanes::load(points.z + at);
         sum[g] = Lanes(0.0F);
     }
-    for (const Candidates& c : near) sum_values<G>(c.view(), x, y, z, sum);
+    for (const Candidates& c : near) sum_values<Kernel, G>(c.view(), x, y, z, sum);
     for (int g = 0; g < G; ++g) sum[g].store(out + i + static_cast<std::size_t>(g) * Lanes::count);
 }
 
-inline void sum_points(const CandidateLists::Levels& near, const PointList& points, float* out) {
+template <class Kernel>
+void sum_points(const CandidateLists::Levels& near, const PointList& points, float* out) {
     std::size_t i = 0;
-    for (; points.count > i + Lanes::count; i += 2 * Lanes::count) sum_group<2>(near, points, i, out);
-    if (points.count > i) sum_group<1>(near, points, i, out);
+    for (; points.count > i + Lanes::count; i += 2 * Lanes::count) sum_group<Kernel, 2>(near, points, i, out);
+    if (points.count > i) sum_group<Kernel, 1>(near, points, i, out);
 }
 
 }  // namespace meniscus::cpu

@@ -106,7 +106,8 @@ struct State : BlockState<Pointer> {
 
     std::uint64_t* starts = nullptr;  ///< support cells that begin before it, and in the upper half bricks of them
     float4* particles = nullptr;      ///< position and weight
-    float* densities = nullptr;       ///< color field only
+    float* sums = nullptr;            ///< one at each particle's place, while weights are found
+    float* falls = nullptr;           ///< smooth field only, see Poly6
     std::uint32_t* first_particle = nullptr;  ///< of every support cell, and one past the last
     Brick* particle_bricks = nullptr;
     std::uint64_t* particle_brick_keys = nullptr;
@@ -159,7 +160,8 @@ struct State : BlockState<Pointer> {
         take(sources_room, payload_bytes != 0 ? n : 0);
         take(starts, n);
         take(particles, n);
-        take(densities, n);
+        take(sums, n);
+        take(falls, settings.has_own_supports ? n : 0);
         take(first_particle, n + 1);
         take(particle_bricks, capacity[Resource::particle_bricks]);
         take(particle_brick_keys, capacity[Resource::particle_bricks]);
@@ -237,7 +239,15 @@ struct State : BlockState<Pointer> {
         const std::uint32_t begin = counts->first_particle_brick[k];
         const BrickGridView grid{particle_bricks + begin, particle_brick_keys + begin, nullptr,
                                  counts->first_particle_brick[k + 1] - begin};
-        return {grid, first_particle, nullptr, nullptr, nullptr, nullptr, settings.cell_units[k], settings.support[k]};
+        return {grid,
+                first_particle,
+                nullptr,
+                nullptr,
+                nullptr,
+                nullptr,
+                nullptr,
+                settings.cell_units[k],
+                settings.support[k]};
     }
     __device__ BrickGridView grid() const { return {bricks, brick_keys, neighbors, count(Resource::bricks)}; }
     __device__ BlocksView blocks() const { return blocks_view(*this, grid(), count(Resource::blocks)); }

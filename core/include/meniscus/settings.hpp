@@ -112,7 +112,7 @@ struct Settings {
     double particle_radius = 0.0;  ///< world units, finite, > 0; that of level 0 for adaptive SPH
     double cell_size = 0.5;  ///< radii, > 0: edge of a finest cell; at least support/256 of the coarsest particle level
     double iso = 0.6;        ///< field value at the surface, > 0
-    Field field = Field::color;
+    Field field = Field::smooth;
     /// Field::color and Field::density only: > 0; the kernel's support is twice that. None: 2.
     std::optional<double> smoothing_length;
     /// Field::smooth only: the widest support, 5, 6 or 7 (smoother, and slower). None: 6.

@@ -63,7 +63,7 @@ struct Vertex {
 /// One warp for every block with vertices, one lane for every vertex.
 template <bool bisects, class Field>
 __global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_constant__ State f, const Field field) {
-    __shared__ Staging staging[block_warps];
+    __shared__ typename Field::Staging staging[block_warps];
     const BlocksView blocks = f.blocks();
     const int bits = static_cast<int>(f.settings.offset_bits);
     const float iso = f.settings.iso;
@@ -126,6 +126,7 @@ void place_vertices(const State& state, const Field& field, const Launcher& laun
            field);
 }
 
-template void place_vertices(const State&, const ParticleField&, const Launcher&);
+template void place_vertices(const State&, const ParticleField<CubicSpline>&, const Launcher&);
+template void place_vertices(const State&, const ParticleField<Poly6>&, const Launcher&);
 
 }  // namespace meniscus::cuda

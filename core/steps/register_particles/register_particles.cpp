@@ -169,9 +169,10 @@ void mark_reached_cells(ParticleSets& sets, BrickGrid& grid) {
             const Units3 origin{brick.coordinate.x * edge, brick.coordinate.y * edge, brick.coordinate.z * edge};
             const auto size = static_cast<float>(edge);
             for (const ParticleSet& set : sets.of_level)
-                set.view().for_each_near(
-                    origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
-                    [&](float x, float y, float z) { mark_reached(BrickMarks{brick}, x, y, z, set.support); });
+                set.view().for_each_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
+                                         [&, view = set.view()](float x, float y, float z, std::uint32_t particle) {
+                                             mark_reached(BrickMarks{brick}, x, y, z, view.support_of(particle));
+                                         });
             if (!sets.settings.has_domain) continue;
             for (int w = 0; w < Brick::words; ++w)
                 brick.occupied[w] &=
@@ -195,13 +196,14 @@ void count_particles(State& s, const ParticleSets& sets) {
             const Units3 origin{brick.coordinate.x * edge, brick.coordinate.y * edge, brick.coordinate.z * edge};
             const auto size = static_cast<float>(edge);
             // Wider than needed by the support; particles of other bricks are passed over.
-            set.view().for_each_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, [&](float x, float y, float z) {
-                if (x < 0.0F || y < 0.0F || z < 0.0F || x >= size || y >= size || z >= size) return;
-                constexpr float cell = units_per_base_cell;
-                const Int3 at{static_cast<int>(x / cell), static_cast<int>(y / cell), static_cast<int>(z / cell)};
-                // Cells beyond the domain are not stored.
-                if (brick.holds(index_in_brick(at))) ++counts[brick.number(index_in_brick(at))];
-            });
+            set.view().for_each_near(
+                origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, [&](float x, float y, float z, std::uint32_t) {
+                    if (x < 0.0F || y < 0.0F || z < 0.0F || x >= size || y >= size || z >= size) return;
+                    constexpr float cell = units_per_base_cell;
+                    const Int3 at{static_cast<int>(x / cell), static_cast<int>(y / cell), static_cast<int>(z / cell)};
+                    // Cells beyond the domain are not stored.
+                    if (brick.holds(index_in_brick(at))) ++counts[brick.number(index_in_brick(at))];
+                });
         }
     });
 }
@@ -265,11 +267,12 @@ void register_particles(State& s, ParticleSets& sets, Neighborhoods& near, const
         store_support_cells(sets, sets[k]);
     }
     require_uncrowded(sets, frame.count());
+    near.forget();
+    if (s.settings.has_own_supports) fit_supports(sets, near);
     mark_reached_cells(sets, s.grid);
     number_members(s.grid, s.workers);
     store_blocks(s);
     if (s.settings.counts_particles) count_particles(s, sets);
-    near.forget();
     if (s.settings.divides_by_density) divide_weights_by_density(sets, near);
 }
 

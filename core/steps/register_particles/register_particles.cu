@@ -196,15 +196,16 @@ __global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __g
             const ParticleSetView set = f.set(k);
             if (set.cells.brick_count == 0) continue;
             NoBrickHints hints;
-            set.for_each_run_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, hints,
-                                  [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
-                                      if (run++ % block_warps != warp_in_block()) return;
-                                      for (std::uint32_t i = begin + lane_index(); i < end; i += warp_threads) {
-                                          const float4 p = f.particles[i];
-                                          mark_reached(marks, p.x + shift[0], p.y + shift[1], p.z + shift[2],
-                                                       set.support);
-                                      }
-                                  });
+            set.for_each_run_near(
+                origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, hints,
+                [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+                    if (run++ % block_warps != warp_in_block()) return;
+                    for (std::uint32_t i = begin + lane_index(); i < end; i += warp_threads) {
+                        const float4 p = f.particles[i];
+                        mark_reached(marks, p.x + shift[0], p.y + shift[1], p.z + shift[2],
+                                     f.settings.has_own_supports ? Poly6{p.w, f.falls[i]}.support() : set.support);
+                    }
+                });
         }
         __syncthreads();
         if (threadIdx.x < Brick::words) {
@@ -319,6 +320,7 @@ void store_blocks(const State& state, const Launcher& launch) {
 
 void register_particles(State& state, bool has_payload, const Launcher& launch) {
     sort_particles(state, has_payload, launch);
+    if (state.settings.has_own_supports) fit_supports(state, launch);
     store_reached_bricks(state, launch);
     store_blocks(state, launch);
     if (state.settings.counts_particles) launch(state.capacity.particles, block_threads, count_particles, state);

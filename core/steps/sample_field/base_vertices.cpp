@@ -1,5 +1,6 @@
 // Base vertices are sampled for all stored cells, before the band is known.
 #include "engine/cpu/clusters.hpp"
+#include "field/kernels.hpp"
 #include "field/sums.hpp"
 #include "steps/cpu_steps.hpp"
 #include "steps/sample_field/sample_field.hpp"
@@ -9,9 +10,8 @@ namespace {
 
 constexpr float base_edge = units_per_base_cell;
 
-}  // namespace
-
-void sample_base_vertices(State& s, Neighborhoods& near) {
+template <class Kernel>
+void sample(State& s, Neighborhoods& near) {
     resize_for_overwrite(s.reaches, s.block_count());
     s.samples.reserve(s.block_count());
     s.samples.resize(s.block_count());
@@ -33,8 +33,8 @@ void sample_base_vertices(State& s, Neighborhoods& near) {
                 Lanes sum[1] = {Lanes(0.0F)};
                 Lanes most(0.0F), nearest(0.0F);
                 for (const Candidates& c : near.near_cluster(base, worker)) {
-                    sum_values<1>(c.view(), x, y, z, sum);
-                    sum_bounds(c.view(), x[0] + half, y[0] + half, z[0] + half, base_edge / 2, most, nearest);
+                    sum_values<Kernel, 1>(c.view(), x, y, z, sum);
+                    sum_bounds<Kernel>(c.view(), x[0] + half, y[0] + half, z[0] + half, base_edge / 2, most, nearest);
                 }
                 sum[0].store(value);
                 most.store(bound);
@@ -58,6 +58,12 @@ void sample_base_vertices(State& s, Neighborhoods& near) {
     });
     s.field_evaluations += s.block_count();
     near.even_out();
+}
+
+}  // namespace
+
+void sample_base_vertices(State& s, Neighborhoods& near) {
+    with_kernel(s.settings, [&]<class Kernel>() { sample<Kernel>(s, near); });
 }
 
 }  // namespace meniscus::cpu

@@ -8,6 +8,7 @@ namespace meniscus::cuda {
 namespace {
 
 /// One thread for every block: base vertices lie as far apart as particles, so that few of them share any.
+template <class Kernel>
 __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_constant__ State f) {
     const BlocksView blocks = f.blocks();
     // What is sampled later is appended.
@@ -23,11 +24,11 @@ __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_con
         float value[1] = {0.0F};
         float bound = 0.0F;
         float closest = 0.0F;
-        for_each_candidate(f, base_cell_origin(at), {{0.0F, 0.0F, 0.0F}, {edge, edge, edge}},
-                           [&](const OneCandidate& c) {
-                               sum_values<1>(c.view(), zero, zero, zero, value);
-                               sum_bounds(c.view(), edge / 2, edge / 2, edge / 2, edge / 2, bound, closest);
-                           });
+        for_each_candidate<Kernel>(
+            f, base_cell_origin(at), {{0.0F, 0.0F, 0.0F}, {edge, edge, edge}}, [&](const OneCandidate& c) {
+                sum_values<Kernel, 1>(c.view(), zero, zero, zero, value);
+                sum_bounds<Kernel>(c.view(), edge / 2, edge / 2, edge / 2, edge / 2, bound, closest);
+            });
         const bool allowed =
             !f.settings.has_domain || (domain_points(at, f.settings.domain_low, f.settings.domain_high) & 1) != 0;
         f.samples[b] = value[0];
@@ -41,7 +42,9 @@ __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_con
 }  // namespace
 
 void sample_base_vertices(const State& state, const Launcher& launch) {
-    launch(state.capacity[Resource::blocks], block_threads, sample_base, state);
+    with_kernel(state.settings, [&]<class Kernel>() {
+        launch(state.capacity[Resource::blocks], block_threads, sample_base<Kernel>, state);
+    });
 }
 
 }  // namespace meniscus::cuda

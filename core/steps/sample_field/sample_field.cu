@@ -35,7 +35,7 @@ __device__ void list_wanted_points(const State& f, List list, const Wanted& want
 /// Values of G points of a block for each lane; lanes without a point repeat another's.
 template <int G, class Field>
 __device__ void point_values(const State& f, const Field& field, const Int3& at, const UnitBox& box,
-                             const int (&bit)[G], Staging& staging, float (&value)[G]) {
+                             const int (&bit)[G], typename Field::Staging& staging, float (&value)[G]) {
     float x[G], y[G], z[G];
     for (int g = 0; g < G; ++g) {
         x[g] = static_cast<float>(point_coordinate(bit[g], 0) * units_per_cell);
@@ -46,8 +46,9 @@ __device__ void point_values(const State& f, const Field& field, const Int3& at,
 }
 
 /// Shared memory of a warp that samples a block.
+template <class Field>
 struct BlockSampling {
-    Staging staging;
+    typename Field::Staging staging;
     float fresh[64];
 };
 
@@ -55,7 +56,7 @@ struct BlockSampling {
 /// follow. Returns how many there were.
 template <class Field>
 __device__ int sample_block(const State& f, const Field& field, const BlocksView& blocks, std::uint32_t block,
-                            BlockSampling& shared) {
+                            BlockSampling<Field>& shared) {
     const int lane = static_cast<int>(lane_index());
     const Int3 at = blocks.coordinate(block);
     const BlockMask known = blocks.sampled[block];
@@ -108,7 +109,8 @@ __device__ int sample_block(const State& f, const Field& field, const BlocksView
 }
 
 template <class Field>
-__device__ void sample_listed(const State& f, const Field& field, List list, BlockSampling (&shared)[block_warps]) {
+__device__ void sample_listed(const State& f, const Field& field, List list,
+                              BlockSampling<Field> (&shared)[block_warps]) {
     const BlocksView blocks = f.blocks();
     Counter evaluations = 0;
     each_by_warp(f.listed(list), [&](std::uint32_t i) {
@@ -142,7 +144,7 @@ __global__ void __launch_bounds__(block_threads) list_half_edge_middles(const __
 template <class Field>
 __global__ void __launch_bounds__(block_threads, 2)
     sample_list(const __grid_constant__ State f, const Field field, List list) {
-    __shared__ BlockSampling shared[block_warps];
+    __shared__ BlockSampling<Field> shared[block_warps];
     sample_listed(f, field, list, shared);
 }
 
@@ -150,7 +152,7 @@ __global__ void __launch_bounds__(block_threads, 2)
 /// finer neighbor's surface in a sliver, adjusts and samples, until there are none.
 template <Slivers slivers, class Field>
 __global__ void __launch_bounds__(block_threads, 2) settle_band(const __grid_constant__ State f, const Field field) {
-    __shared__ BlockSampling shared[block_warps];
+    __shared__ BlockSampling<Field> shared[block_warps];
     Sweeps sweeps(f);
     for (;;) {
         const bool grown = sweeps.raise_blocks(
@@ -177,14 +179,12 @@ __global__ void __launch_bounds__(block_threads, 2) settle_band(const __grid_con
 
 }  // namespace
 
-template <class Field>
-void sample_field(const State& state, const Field& field, Slivers slivers, const Launcher& launch) {
+template <Slivers slivers, class Field>
+void sample_field(const State& state, const Field& field, const Launcher& launch) {
     const std::uint64_t blocks = state.capacity[Resource::blocks];
     launch(blocks, block_threads, list_corner_points, state);
     launch(blocks, block_warps, sample_list<Field>, state, field, List::corner_points);
-    launch.cooperative(
-        blocks, slivers == Slivers::raised ? settle_band<Slivers::raised, Field> : settle_band<Slivers::kept, Field>,
-        state, field);
+    launch.cooperative(blocks, settle_band<slivers, Field>, state, field);
 }
 
 template <class Field>
@@ -196,7 +196,9 @@ void sample_edge_middles(const State& state, const Field& field, const Launcher&
     launch(blocks, block_warps, sample_list<Field>, state, field, List::half_edge_middles);
 }
 
-template void sample_field(const State&, const ParticleField&, Slivers, const Launcher&);
-template void sample_edge_middles(const State&, const ParticleField&, const Launcher&);
+template void sample_field<Slivers::raised>(const State&, const ParticleField<CubicSpline>&, const Launcher&);
+template void sample_field<Slivers::raised>(const State&, const ParticleField<Poly6>&, const Launcher&);
+template void sample_edge_middles(const State&, const ParticleField<CubicSpline>&, const Launcher&);
+template void sample_edge_middles(const State&, const ParticleField<Poly6>&, const Launcher&);
 
 }  // namespace meniscus::cuda

@@ -2,6 +2,7 @@
 #include <atomic>
 
 #include "engine/cpu/clusters.hpp"
+#include "field/kernels.hpp"
 #include "field/sums.hpp"
 #include "steps/cpu_steps.hpp"
 #include "steps/split_cells/curvature.hpp"
@@ -18,9 +19,8 @@ UnitBox box_of(const Point3<Lanes>& points) {
             {reduce_max(points.x), reduce_max(points.y), reduce_max(points.z)}};
 }
 
-}  // namespace
-
-void measure_bends(State& s, Neighborhoods& near) {
+template <class Kernel>
+void measure(State& s, Neighborhoods& near) {
     resize_for_overwrite(s.bends, s.block_count());
     const BlocksView blocks = s.blocks();
     const BlobRule blobs{s.settings.blob_closest, s.settings.blob_level};
@@ -73,7 +73,7 @@ void measure_bends(State& s, Neighborhoods& near) {
                 const auto jet_at = [&](const Point3<Lanes>& p) {
                     FieldJet<Lanes> jet;
                     for (const Candidates& c : near.near_box(base, box_of(p), worker))
-                        sum_jets(c.view(), p.x, p.y, p.z, jet);
+                        sum_jets<Kernel>(c.view(), p.x, p.y, p.z, jet);
                     return jet;
                 };
                 CellCorners<Lanes> values;
@@ -93,6 +93,12 @@ void measure_bends(State& s, Neighborhoods& near) {
     });
     s.field_evaluations += evaluations.load(std::memory_order_relaxed);
     near.even_out();
+}
+
+}  // namespace
+
+void measure_bends(State& s, Neighborhoods& near) {
+    with_kernel(s.settings, [&]<class Kernel>() { measure<Kernel>(s, near); });
 }
 
 }  // namespace meniscus::cpu

@@ -8,6 +8,7 @@
 namespace meniscus::cuda {
 namespace {
 
+template <class Kernel>
 __global__ void __launch_bounds__(block_threads, 2) measure_listed(const __grid_constant__ State f) {
     const BlocksView blocks = f.blocks();
     const BlobRule blobs{f.settings.blob_closest, f.settings.blob_level};
@@ -33,8 +34,8 @@ __global__ void __launch_bounds__(block_threads, 2) measure_listed(const __grid_
             FieldJet<float> jet;
             // Wider by a unit, since the sides of the box are rounded.
             const UnitBox box{{p.x - 1.0F, p.y - 1.0F, p.z - 1.0F}, {p.x + 1.0F, p.y + 1.0F, p.z + 1.0F}};
-            for_each_candidate(f, base_cell_origin(cluster), box,
-                               [&](const OneCandidate& c) { sum_jets(c.view(), p.x, p.y, p.z, jet); });
+            for_each_candidate<Kernel>(f, base_cell_origin(cluster), box,
+                                       [&](const OneCandidate& c) { sum_jets<Kernel>(c.view(), p.x, p.y, p.z, jet); });
             return jet;
         };
         const SurfaceSearch<float> search =
@@ -47,7 +48,9 @@ __global__ void __launch_bounds__(block_threads, 2) measure_listed(const __grid_
 }  // namespace
 
 void measure_bends(const State& state, const Launcher& launch) {
-    launch(state.capacity[Resource::blocks], block_threads, measure_listed, state);
+    with_kernel(state.settings, [&]<class Kernel>() {
+        launch(state.capacity[Resource::blocks], block_threads, measure_listed<Kernel>, state);
+    });
 }
 
 }  // namespace meniscus::cuda

@@ -4,7 +4,8 @@
 
 #include <cstdint>
 
-#include "field/kernel.hpp"
+#include "field/jet.hpp"
+#include "field/lanes.hpp"
 #include "lattice/coordinates.hpp"
 #include "lattice/host_device.hpp"
 

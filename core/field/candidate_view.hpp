@@ -1,0 +1,20 @@
+// Particles to be summed over.
+#pragma once
+
+#include <cstddef>
+
+namespace meniscus {
+
+/// Candidate particles of one level, borrowed.
+struct CandidateView {
+    const float* x;
+    const float* y;
+    const float* z;
+    const float* weight;
+    const float* fall;  ///< Poly6 only
+    std::size_t count;
+    float support;          ///< of the level: none reaches farther; units
+    float inverse_support;  ///< see inverse_support()
+};
+
+}  // namespace meniscus

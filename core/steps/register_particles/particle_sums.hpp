@@ -1,0 +1,34 @@
+// Sums at the places of particles on the GPU, a thread for each.
+#pragma once
+
+#include "engine/cuda/candidates.hpp"
+#include "engine/cuda/launch.hpp"
+#include "engine/cuda/sort_key.hpp"
+#include "engine/cuda/warp.hpp"
+
+namespace meniscus::cuda {
+
+template <class Kernel>
+__global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const __grid_constant__ State f) {
+    GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
+        const unsigned level = key_level(f.keys[i]);
+        const ParticleKey key = particle_key(f.keys[i]);
+        const Units3 origin = cell_corner(key.cell, f.settings.cell_units[level]);
+        constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
+        const float x[1] = {static_cast<float>(key.place & mask)},
+                    y[1] = {static_cast<float>(key.place >> place_axis_bits & mask)},
+                    z[1] = {static_cast<float>(key.place >> (2 * place_axis_bits))};
+        float sum[1] = {0.0F};
+        for_each_candidate<Kernel>(f, origin, {{x[0], y[0], z[0]}, {x[0], y[0], z[0]}},
+                                   [&](const OneCandidate& c) { sum_values<Kernel, 1>(c.view(), x, y, z, sum); });
+        f.sums[i] = sum[0];
+    });
+}
+
+/// Into State::sums. Kernel: CubicSpline, Poly6 or Company.
+template <class Kernel>
+void sum_at_particles(const State& state, const Launcher& launch) {
+    launch(state.capacity.particles, block_threads, sum_at_each_particle<Kernel>, state);
+}
+
+}  // namespace meniscus::cuda

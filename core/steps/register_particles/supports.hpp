@@ -1,0 +1,49 @@
+// The smooth field's supports and weights: a particle among others reaches far, which makes the surface smooth; one
+// alone stays a drop (core/README.md#the-smooth-field).
+#pragma once
+
+#include "field/lattice_settings.hpp"
+#include "field/poly6.hpp"
+#include "lattice/host_device.hpp"
+#include "meniscus/mesh.hpp"
+#include "particles/particle_key.hpp"
+
+namespace meniscus {
+
+// The company of a particle is the sum of poly6 kernels (1 at distance 0) over all particles, itself included, each
+// with the company's support of its level.
+
+/// A particle alone.
+MENISCUS_HD inline bool is_spray(float company, const SmoothField& f) {
+    return company - 1.0F <= f.least_company;
+}
+
+/// By the particle's company.
+MENISCUS_HD inline Poly6 fitted_kernel(float company, unsigned level, const SmoothField& f) {
+    const auto cube = [](float v) { return v * v * v; };
+    const float u = (company - 1.0F - f.least_company) / (f.full_company - f.least_company);
+    const float clamped = max(min(u, 1.0F), 0.0F);
+    const float t = clamped * clamped * fma(-2.0F, clamped, 3.0F);
+    const float support = fma(t, f.widest_support - f.lone_support, f.lone_support);
+    // The volume that the particle stands for, times the kernel's norm: among others by the density, alone so that the
+    // field is 1 at its place.
+    const float volume = fma(t, cube(f.company_support) / company, (1.0F - t) * cube(f.lone_support));
+    const float weight = cube_root(volume) / support;
+    return {weight, Poly6::fall_of(weight, support * f.units_per_radius[level])};
+}
+
+MENISCUS_HD inline Point spray_point(const ParticleKey& key, std::int64_t cell_units, double units_per_length) {
+    const Units3 p = key_place(key, cell_units);
+    const auto world = [&](std::int64_t v) { return static_cast<float>(static_cast<double>(v) / units_per_length); };
+    return {world(p.x), world(p.y), world(p.z)};
+}
+
+/// The field at a particle's place is `least_value` at least: otherwise a few particles close together sink below the
+/// threshold. value: what it is.
+MENISCUS_HD inline Poly6 lifted_kernel(const Poly6& kernel, float value, const SmoothField& f) {
+    if (value >= f.least_value || kernel.weight == 0.0F) return kernel;
+    const float lift = cube_root(f.least_value / value);
+    return {kernel.weight * lift, kernel.fall * lift};
+}
+
+}  // namespace meniscus
