@@ -32,8 +32,8 @@ TEST(GoldenEmulated, MeshesKeepTheirBits) {
     });
 }
 
-// Prints a line for each mesh, which tests/acceptance/golden-frames compares with its table.
-TEST(GoldenEmulated, RealFramesGiveTheCpusBits) {
+// Run by tests/acceptance/golden-frames, which compares the line of each mesh with its table: too long for the suite.
+TEST(GoldenEmulated, DISABLED_RealFramesGiveTheCpusBits) {
     const char* data = std::getenv("MENISCUS_DATA");
     if (!data) GTEST_SKIP() << "MENISCUS_DATA is not set";
     for (const char* frame : {"frame_040.vtk", "frame_258.vtk"})
