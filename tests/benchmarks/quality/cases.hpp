@@ -28,7 +28,8 @@ std::vector<Case> frame_cases(const FrameFiles& files, const std::vector<unsigne
 /// A ball moved by fractions of a cell, and a pool whose particles tremble: how far the surface moves against the
 /// water. cell_size: radii.
 std::vector<Case> motion_cases(double radius, double cell_size);
-/// Real frames, each with the next one where that is there: how far the surface moves where the particles hardly do.
+/// Real frames, each with the next one where that is there: how far the surface moves against the water where that
+/// keeps its shape.
 std::vector<Case> rest_cases(const FrameFiles& files, const std::vector<unsigned>& numbers, double radius);
 
 }  // namespace meniscus::benchmarks::quality

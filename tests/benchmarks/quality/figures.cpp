@@ -38,6 +38,18 @@ std::string with_mean(const Values& values) {
     return out.str();
 }
 
+int width_of(const Values& values) {
+    return values.size() > 1 ? 26 : 21;
+}
+
+std::string header_of(const Ordered<Values>& figures) {
+    std::ostringstream out;
+    out << std::left << std::setw(20) << "";
+    for (const auto& [figure, values] : figures) out << ' ' << std::setw(width_of(values)) << figure;
+    out << '\n';
+    return out.str();
+}
+
 std::string text_of(const Row& row, const char* column) {
     return row.at(column).get<std::string>();
 }
@@ -67,18 +79,14 @@ std::string Figures::text() const {
     out << std::left;
     for (const auto& [title, subjects] : tables) {
         out << '\n' << title << '\n';
-        bool first = true;
+        std::string header;
         for (const auto& [subject, figures] : subjects) {
-            if (first) {
-                out << std::setw(20) << "";
-                for (const auto& [figure, values] : figures)
-                    out << ' ' << std::setw(values.size() > 1 ? 26 : 16) << figure;
-                out << '\n';
-                first = false;
+            if (std::string names = header_of(figures); names != header) {
+                header = std::move(names);
+                out << header;
             }
             out << std::setw(20) << subject;
-            for (const auto& [figure, values] : figures)
-                out << ' ' << std::setw(values.size() > 1 ? 26 : 16) << with_mean(values);
+            for (const auto& [figure, values] : figures) out << ' ' << std::setw(width_of(values)) << with_mean(values);
             out << '\n';
         }
     }

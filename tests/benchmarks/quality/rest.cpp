@@ -12,11 +12,13 @@
 namespace meniscus::benchmarks::quality {
 namespace {
 
+using compare::add_scaled;
 using compare::dot;
 using compare::subtract;
 
-constexpr double around = 6.0;  ///< radii: particles that make the surface
-constexpr double still = 0.2;   ///< radii from one frame to the next
+constexpr double around = 6.0;      ///< radii: particles that make the surface
+constexpr double still = 0.3;       ///< radii from one frame to the next, against the mean of those around
+constexpr std::size_t fewest = 20;  ///< particles around: lone drops say nothing
 constexpr std::size_t samples = 50000;
 
 /// The box around the points.
@@ -39,19 +41,24 @@ Rest find_rest(compare::SurfaceView surface, const std::vector<Point>& particles
     const auto [low, high] = bounds_of(particles);
     Grid grid(low, high, around);
     grid.fill(particles);
-    const auto is_moved = [&](std::size_t i) {
-        const Point d = subtract(next[i], particles[i]);
-        return dot(d, d) > still * still;
-    };
     Rest rest;
     const compare::Samples looked_at = compare::sample(surface, compare::find_components(surface), samples);
     for (const Point& p : looked_at.points) {
-        bool resting = true;
+        std::vector<Point> moves;
+        Point mean{};
         grid.for_each_near(p, [&](std::size_t i) {
             const Point d = subtract(particles[i], p);
-            if (dot(d, d) < around * around && is_moved(i)) resting = false;
+            if (dot(d, d) >= around * around) return;
+            moves.push_back(subtract(next[i], particles[i]));
+            mean = add_scaled(mean, 1.0, moves.back());
         });
-        if (resting) rest.places.push_back(p);
+        if (moves.size() < fewest) continue;
+        for (double& coordinate : mean) coordinate /= static_cast<double>(moves.size());
+        const bool together = std::all_of(moves.begin(), moves.end(), [&](const Point& move) {
+            const Point d = subtract(move, mean);
+            return dot(d, d) < still * still;
+        });
+        if (together) rest.places.push_back(add_scaled(p, 1.0, mean));
     }
     rest.share = static_cast<double>(rest.places.size()) / static_cast<double>(looked_at.points.size());
     return rest;

@@ -5,14 +5,14 @@
 
 namespace meniscus::benchmarks::quality {
 
-/// Angles between a triangle's normal and the mean normal of the triangles around it, degrees.
+/// Angles between the normal at a vertex, by its triangles, and the mean normal within 5 r of it, degrees.
 struct Roughness {
     double rms = 0.0;     ///< over the area
     double median = 0.0;  ///< over the area
 };
 
-/// Of the triangles that face up (y), away from the walls at the ends of the surface's extent in x and z. surface: in
-/// radii, with at least one such triangle.
+/// Of the vertices that face up (y), farther than 10 r from the walls at the ends of the surface's extent in x and z.
+/// surface: in radii, with at least one such vertex.
 Roughness roughness_of(compare::SurfaceView surface);
 
 }  // namespace meniscus::benchmarks::quality

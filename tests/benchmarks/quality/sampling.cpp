@@ -15,7 +15,7 @@ namespace {
 using compare::dot;
 using compare::subtract;
 
-constexpr int phases = 64;
+constexpr int phases = 64;  ///< of a lattice, of which the best is taken
 constexpr double jitter = 0.2 * spacing;
 /// Before the relaxation: anywhere in the particle's cell of the lattice, so that nothing of the lattice remains.
 constexpr double scatter = 0.5 * spacing;
@@ -58,13 +58,13 @@ std::vector<Point> cut_best_lattice(const Shape& shape, const Rotation& turned, 
 
 /// A layer in columns over a square lattice in x and y. A column has the number of particles that its share of the
 /// water asks for, evenly over its height; what is left over goes to the next column.
-std::vector<Point> stack_columns(const Layer& layer, const Rotation& turned) {
+std::vector<Point> stack_columns(const Layer& layer) {
     const int reach = static_cast<int>(std::ceil(std::hypot(layer.patch.high[0], layer.patch.high[1]) / spacing)) + 1;
     std::vector<Point> points;
     double left_over = 0.0;
     for (int i = -reach; i < reach; ++i)
         for (int j = -reach; j < reach; ++j) {
-            const Point foot = turn(turned, {spacing * (i + 0.5), spacing * (j + 0.5), 0.0});
+            const Point foot{spacing * (i + 0.5), spacing * (j + 0.5), 0.0};
             if (!layer.patch.contains(foot)) continue;
             const double thickness = layer.thickness(foot[0]);
             const double wanted = thickness / spacing + left_over;
@@ -76,15 +76,7 @@ std::vector<Point> stack_columns(const Layer& layer, const Rotation& turned) {
 }
 
 std::vector<Point> lattice_along_axes(const Shape& shape, Random& random) {
-    return shape.layer ? stack_columns(*shape.layer, no_rotation) : cut_best_lattice(shape, no_rotation, random);
-}
-
-/// A cut through a turned lattice leaves holes in a layer that is thinner than two spacings: such a one is turned in
-/// its own plane.
-std::vector<Point> turned_lattice(const Shape& shape, Random& random) {
-    const bool thin = shape.layer && (!shape.layer->level || shape.layer->thickness(0.0) < 2.0 * spacing);
-    return thin ? stack_columns(*shape.layer, rotation({0.0, 0.0, 1.0}, 0.5))
-                : cut_best_lattice(shape, generic, random);
+    return shape.layer ? stack_columns(*shape.layer) : cut_best_lattice(shape, no_rotation, random);
 }
 
 void scatter_by(double size, std::vector<Point>& points, Random& random) {
@@ -102,7 +94,7 @@ std::vector<Point> sample(const Shape& shape, Sampling sampling) {
             return points;
         }
         case Sampling::rotated:
-            return turned_lattice(shape, random);
+            return cut_best_lattice(shape, generic, random);
         case Sampling::relaxed: {
             std::vector<Point> points = lattice_along_axes(shape, random);
             scatter_by(scatter, points, random);
