@@ -13,5 +13,6 @@ void add_encoding(CLI::App& app);
 void add_goals(CLI::App& app);
 void add_upload(CLI::App& app);
 void add_service(CLI::App& app);
+void add_quality(CLI::App& app);
 
 }  // namespace meniscus::benchmarks

@@ -17,7 +17,8 @@ int report_failure(const std::exception& e, int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Measures what reconstruction, encoding, uploads and the service cost", "meniscus-bench");
+    CLI::App app("Measures what reconstruction, encoding, uploads and the service cost, and how good surfaces are",
+                 "meniscus-bench");
     app.require_subcommand(1);
     meniscus::benchmarks::add_experiment(app);
     meniscus::benchmarks::add_scaling(app);
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
     meniscus::benchmarks::add_goals(app);
     meniscus::benchmarks::add_upload(app);
     meniscus::benchmarks::add_service(app);
+    meniscus::benchmarks::add_quality(app);
     try {
         meniscus::benchmarks::remember_command(argc, argv);
         app.parse(argc, argv);

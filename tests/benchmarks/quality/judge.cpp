@@ -1,0 +1,96 @@
+#include "quality/judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/vector_math.hpp"
+#include "meniscus/error.hpp"
+#include "quality/sampling.hpp"
+#include "quality/triangle.hpp"
+
+namespace meniscus::benchmarks::quality {
+namespace {
+
+using compare::add_scaled;
+using compare::cross;
+using compare::dot;
+using compare::subtract;
+
+/// What lies on one side of a plane across an axis: above `limit` if sign is 1, below if it is -1.
+std::vector<Point> clip(const std::vector<Point>& polygon, std::size_t axis, double limit, double sign) {
+    std::vector<Point> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Point& from = polygon[i];
+        const Point& to = polygon[(i + 1) % polygon.size()];
+        const double a = sign * (from[axis] - limit);
+        const double b = sign * (to[axis] - limit);
+        if (a >= 0.0) kept.push_back(from);
+        if ((a >= 0.0) != (b >= 0.0)) kept.push_back(add_scaled(from, a / (a - b), subtract(to, from)));
+    }
+    return kept;
+}
+
+/// Signed volume between a triangle and the plane z = 0, over the rectangle.
+double volume_below(const Corners& corners, const Rectangle& over) {
+    std::vector<Point> polygon(corners.begin(), corners.end());
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        polygon = clip(polygon, axis, over.low[axis], 1.0);
+        polygon = clip(polygon, axis, over.high[axis], -1.0);
+    }
+    double volume = 0.0;
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+        const Corners part{polygon[0], polygon[i - 1], polygon[i]};
+        volume += area_normal(part)[2] / 2.0 * center_of(part)[2];
+    }
+    return volume;
+}
+
+double layer_volume(const Layer& layer, compare::SurfaceView surface) {
+    double volume = 0.0;
+    for (const Triangle& t : surface.triangles) volume += volume_below(surface.corners(t), layer.inner);
+    return volume;
+}
+
+}  // namespace
+
+double enclosed_volume(compare::SurfaceView surface) {
+    double six_times = 0.0;
+    for (const Triangle& t : surface.triangles) {
+        const Corners c = surface.corners(t);
+        six_times += dot(c[0], cross(c[1], c[2]));
+    }
+    return six_times / 6.0;
+}
+
+Deviation judge(const Shape& shape, compare::SurfaceView surface, std::size_t particles) {
+    Deviation out;
+    double area = 0.0;
+    double offsets = 0.0;
+    double squared_offsets = 0.0;
+    double squared_angles = 0.0;
+    for (const Triangle& t : surface.triangles) {
+        const Corners corners = surface.corners(t);
+        const Point center = center_of(corners);
+        if (!shape.is_judged_at(center)) continue;
+        const Point normal = area_normal(corners);
+        const double weight = length_of(normal);
+        const Nearest nearest = shape.nearest(center);
+        area += weight;
+        offsets += weight * nearest.offset;
+        squared_offsets += weight * nearest.offset * nearest.offset;
+        for (const Point& corner : corners) out.worst = std::max(out.worst, std::abs(shape.nearest(corner).offset));
+        if (!(weight > 0.0)) continue;
+        const double angle = angle_between(normal, nearest.normal);
+        squared_angles += weight * angle * angle;
+    }
+    if (!(area > 0.0)) throw InvalidInput("the surface of " + shape.name + " is empty");
+    out.offset = offsets / area;
+    out.rms = std::sqrt(std::max(squared_offsets / area - out.offset * out.offset, 0.0));
+    out.degrees = quality::degrees(std::sqrt(squared_angles / area));
+    const double whole = enclosed_volume(surface);
+    out.particle_volume = whole / (static_cast<double>(particles) * particle_volume);
+    out.volume = shape.layer ? layer_volume(*shape.layer, surface) / shape.layer->inner_volume : whole / shape.volume;
+    return out;
+}
+
+}  // namespace meniscus::benchmarks::quality

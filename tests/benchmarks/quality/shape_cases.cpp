@@ -1,0 +1,46 @@
+#include <algorithm>
+
+#include "meniscus/error.hpp"
+#include "quality/cases.hpp"
+#include "quality/judge.hpp"
+#include "quality/sampling.hpp"
+
+namespace meniscus::benchmarks::quality {
+namespace {
+
+void refuse_unknown(const std::vector<std::string>& names, const std::vector<Shape>& shapes) {
+    std::string known;
+    for (const Shape& shape : shapes) known += (known.empty() ? "" : ", ") + shape.name;
+    for (const std::string& name : names)
+        if (std::none_of(shapes.begin(), shapes.end(), [&](const Shape& s) { return s.name == name; }))
+            throw InvalidInput("--shapes is " + name + ", but must be of " + known);
+}
+
+Case make_case(const Shape& shape, Sampling sampling, double radius) {
+    const std::string text(name_of(sampling));
+    Case out;
+    out.subject = {"shapes", shape.name, text};
+    out.clouds.push_back(make_cloud(shape.name + "-" + text, sample(shape, sampling), radius));
+    out.judge = [shape, particles = out.clouds[0].count()](const std::vector<Surface>& surfaces) {
+        const Deviation d = judge(shape, surfaces[0].view(), particles);
+        return std::vector<Figure>{{"offset_radii", d.offset}, {"rms_radii", d.rms},
+                                   {"worst_radii", d.worst},   {"degrees", d.degrees},
+                                   {"volume", d.volume},       {"volume_of_particles", d.particle_volume}};
+    };
+    return out;
+}
+
+}  // namespace
+
+std::vector<Case> shape_cases(const std::vector<std::string>& names, double radius) {
+    const std::vector<Shape> shapes = make_shapes();
+    refuse_unknown(names, shapes);
+    std::vector<Case> cases;
+    for (const Shape& shape : shapes) {
+        if (!names.empty() && std::find(names.begin(), names.end(), shape.name) == names.end()) continue;
+        for (const Sampling sampling : choices<Sampling>) cases.push_back(make_case(shape, sampling, radius));
+    }
+    return cases;
+}
+
+}  // namespace meniscus::benchmarks::quality
