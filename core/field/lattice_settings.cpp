@@ -38,12 +38,10 @@ void use_smooth_field(LatticeSettings& settings, const Settings& s) {
     SmoothField& f = settings.smooth = SmoothField(smoothness(s), s.cell_size);
     for (unsigned k = 0; k < particle_level_count; ++k)
         settings.company_support[k] = f.company_support * f.units_per_radius[k];
-    // The user's threshold is 0.6 for every smoothness; the constants may be for another.
-    settings.iso = static_cast<float>(s.iso * (f.iso / 0.6));
-    settings.deep_inside = f.deep_inside / f.iso * settings.iso;
+    settings.deep_inside = static_cast<float>(f.deep_inside / 0.6 * s.iso);
     // A particle that can be a drop reaches as far as its share alone is above the threshold, and farther with others.
     const auto reach2 = [](float iso) { return iso < 1.0F ? 1.0F - cube_root(iso) : 0.0F; };
-    settings.blob_closest = 1.0F - std::min(0.58F * 0.58F * reach2(settings.iso) / reach2(f.iso), 1.0F);
+    settings.blob_closest = 1.0F - std::min(0.58F * 0.58F * reach2(settings.iso) / reach2(0.6F), 1.0F);
 }
 
 // One for each alternative: another does not compile without.

@@ -14,15 +14,20 @@ SmoothField::SmoothField(std::uint32_t smoothness, double cell_size) {
     switch (smoothness) {
         case 5:
             company_support = 4.0F;
+            least_value = 0.82F;
+            group_lift = 0.065F;
             deep_inside = 0.80F;
             break;
         case 7:
-            company_support = 5.0F;
-            iso = 0.55F;
+            company_support = 4.75F;
+            least_value = 0.70F;
+            group_lift = 0.045F;
             deep_inside = 0.72F;
             break;
         default:
             company_support = 4.5F;
+            least_value = 0.75F;
+            group_lift = 0.065F;
             deep_inside = 0.72F;
     }
 }

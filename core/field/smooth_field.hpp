@@ -10,17 +10,21 @@ namespace meniscus {
 
 /// Each is found by an experiment (core/README.md#the-smooth-field). Lengths in radii of the particle's level.
 struct SmoothField {
-    float lone_support = 3.0F;     ///< of a particle alone
+    float lone_support = 3.12F;    ///< of a particle alone
     float widest_support = 0.0F;   ///< of a particle among others
     float company_support = 0.0F;  ///< within which others count as company, and as density
     float least_company = 0.25F;   ///< others than itself; below it a particle is alone
     float full_company = 1.75F;    ///< above it a particle is among others
-    float least_value = 0.75F;     ///< of the field at a particle's place, before `factor`
-    float iso = 0.6F;              ///< the threshold for which the constants were found
-    float deep_inside = 0.0F;      ///< see BandTest, for that threshold
+    float shared_drop = 0.3F;      ///< how much company takes from the volume of a particle that counts as alone
+    float least_value = 0.0F;      ///< of the field at a particle's place
+    // A group of few particles nearer to each other than at rest is lifted more, or it would shrink to a few of them.
+    float group_size = 2.5F;     ///< particles within the support, from which
+    float group_spread = 0.66F;  ///< company for each of them, from which
+    float group_lift = 0.0F;     ///< by so much for the product of both excesses
+    float deep_inside = 0.0F;    ///< see BandTest, at the threshold 0.6
     std::array<float, max_particle_level + 1> units_per_radius{};
 
-    /// smoothness: as in Settings.
+    /// smoothness: as in Settings. cell_size: radii.
     explicit SmoothField(std::uint32_t smoothness = 6, double cell_size = 1.0);
 };
 

@@ -92,6 +92,17 @@ void FrameRun::emit_capped(int max_level, bool first) {
     }
 }
 
+void FrameRun::copy_spray(Array<Point>& spray) {
+    if (!state_.settings.lists_spray) return;
+    const CurrentDevice current(device_);
+    spray.resize(counts().spray_particles);
+    if (spray.empty()) return;
+    check(cudaMemcpyAsync(spray.data(), state_.spray, spray.size() * sizeof(Point), cudaMemcpyDeviceToHost,
+                          stream_.get()),
+          "cudaMemcpyAsync");
+    stream_.synchronize();
+}
+
 void FrameRun::enqueue(bool captured) {
     // Sorting swaps arrays in the copy, and the next frame begins with them as they are laid out.
     State state = state_;

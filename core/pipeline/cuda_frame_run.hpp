@@ -38,6 +38,9 @@ public:
     /// are still those that the frame found.
     void emit_capped(int max_level, bool first);
 
+    /// The places of the last frame's spray, where the settings want it listed; waits for the copy.
+    void copy_spray(Array<Point>& spray);
+
     const State& state() const { return state_; }
     /// Of the last run.
     const Counts& counts() const { return *reinterpret_cast<const Counts*>(host_counts_.get()); }

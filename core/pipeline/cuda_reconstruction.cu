@@ -26,7 +26,9 @@ public:
     }
 
     MeshDownload reconstruct(const ParticleFrame& particles, Mesh& mesh, Statistics& statistics) override {
-        return download(reconstruct_on_device(particles, statistics), mesh);
+        const DeviceMesh on_device = reconstruct_on_device(particles, statistics);
+        run_.copy_spray(mesh.spray);
+        return download(on_device, mesh);
     }
 
     void emit_capped(int max_level, Mesh& mesh) override {
@@ -41,6 +43,7 @@ public:
         const CurrentDevice current(device_);
         run_.run(particles);
         is_capped_ = false;
+        statistics.spray_particles = run_.counts().spray_particles;
         statistics.field_evaluations = run_.counts().field_evaluations;
         for (std::size_t level = 0; level < 3; ++level)
             statistics.base_cells_by_level[level] = run_.counts().band_cells[level];

@@ -115,6 +115,7 @@ TEST_F(CudaDownload, AFrameThatFindsBothSetsOfArraysInUseBringsTheEarlierMeshDow
 
 TEST_F(CudaDownload, TrianglesComeDownBrickByBrickAfterTheVertices) {
     Settings settings = test::default_settings();
+    settings.field = Field::color;  // with triangles enough for several runs of them
     settings.cell_size = 0.2;
     make_device(0, settings);
     Frame frame(test::splash(4, 10), settings);
@@ -320,6 +321,7 @@ TEST_F(CudaDownload, ADeviceWithoutMemoryForACopyHasFailed) {
 
 TEST_F(CudaDownload, ABrickThatIsThereIsTakenWhileOthersComeDown) {
     Settings settings = test::default_settings();
+    settings.field = Field::color;  // with triangles enough for several runs of them
     settings.cell_size = 0.2;
     make_device(0, settings);
     Frame frame(test::splash(4, 10), settings);

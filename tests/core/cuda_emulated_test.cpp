@@ -114,6 +114,22 @@ TEST(CudaEmulated, GivesTheCpusMeshForOtherSettings) {
         }
 }
 
+TEST(CudaEmulated, GivesTheCpusMeshAndSpray) {
+    test::Particles particles = test::splash(6, 6);
+    for (int i = 0; i < 40; ++i)
+        particles.add(1.0F + 0.2F * static_cast<float>(i % 7), 0.3F * static_cast<float>(i / 7), -0.5F);
+    Settings settings = test::default_settings();
+    for (const Spray spray : choices<Spray>) {
+        SCOPED_TRACE(name_of(spray));
+        settings.spray = spray;
+        EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
+        for (std::size_t i = particles.levels.size(); i < particles.count(); ++i)
+            particles.levels.push_back(static_cast<std::uint8_t>(i % 3));
+        EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
+        particles.levels.clear();
+    }
+}
+
 TEST(CudaEmulated, GivesTheCpusMeshForParticleLevelsDomainsAndQuantizedPositions) {
     test::Particles particles = test::splash(5, 8);
     Settings settings = test::default_settings();

@@ -77,12 +77,19 @@ private:
                 std::clamp((company[i] - 1 - f.least_company) / (f.full_company - f.least_company), 0.0, 1.0);
             const double t = u * u * (3 - 2 * u);
             const double h = f.lone_support + t * (f.widest_support - f.lone_support);
-            weights_[i] = (t * std::pow(f.company_support, 3) / company[i] + (1 - t) * std::pow(f.lone_support, 3)) /
+            weights_[i] = (t * std::pow(f.company_support, 3) / company[i] +
+                           (1 - t) * std::pow(f.lone_support, 3) / (1 + f.shared_drop * (company[i] - 1))) /
                           std::pow(h, 3);
             supports_[i] = h * radius(i);
         }
         const std::vector<double> values = values_at_particles();
-        for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] *= std::max(1.0, f.least_value / values[i]);
+        for (std::size_t i = 0; i < weights_.size(); ++i) {
+            const double neighbors = values[i] / weights_[i];
+            const double near = std::pow(f.company_support / f.widest_support, 3) / weights_[i];
+            const double least = f.least_value + f.group_lift * std::max(neighbors - f.group_size, 0.0) *
+                                                     std::max(near - f.group_spread * neighbors, 0.0);
+            weights_[i] *= std::max(1.0, least / values[i]);
+        }
     }
 
 private:

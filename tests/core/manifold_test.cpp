@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "field/smooth_field.hpp"
 #include "meniscus/meniscus.hpp"
 #include "support/mesh_check.hpp"
 #include "support/particles.hpp"
@@ -78,10 +79,17 @@ TEST(Manifold, HoldsForAdaptiveSph) {
             Settings settings = test::default_settings();
             settings.cell_size = cell_size;
             settings.criterion = criterion;
-            const Mesh mesh = test::reconstruct(settings, particles.frame());
-            const test::MeshReport report = test::check(mesh);
-            EXPECT_TRUE(report.closed_manifold()) << report.text();
-            EXPECT_GT(mesh.levels[2].count, 0U);
+            for (const Field field : choices<Field>) {
+                settings.field = field;
+                settings.iso = field == Field::density ? 0.2 : 0.6;
+                const Mesh mesh = test::reconstruct(settings, particles.frame());
+                const test::MeshReport report = test::check(mesh);
+                EXPECT_TRUE(report.closed_manifold()) << name_of(field) << ": " << report.text();
+                EXPECT_FALSE(mesh.triangles.empty());
+                if (field == Field::color) {
+                    EXPECT_GT(mesh.levels[2].count, 0U);
+                }
+            }
         }
 }
 
@@ -101,29 +109,35 @@ TEST(Manifold, AFieldBelowTheIsoValueGivesAnEmptyMesh) {
 }
 
 TEST(Manifold, ASingleParticleIsASphere) {
-    // color of one particle: W(q) / W(0); the surface lies where it is 0.6.
     test::Particles particles;
     particles.add(0.01F, -0.02F, 0.03F);
-    Settings settings = test::default_settings();
-    settings.cell_size = 0.1;
-    settings.mode = Mode::uniform;
-    const Mesh mesh = test::reconstruct(settings, particles.frame());
-    const test::MeshReport report = test::check(mesh);
-    // 1 - 6 q^2 + 6 q^3 = 0.6 for q below one half.
+    // color of one particle: W(q) / W(0), which is 1 - 6 q^2 + 6 q^3 for q below one half; the surface is where it is
+    // 0.6.
     double low = 0.0, high = 0.5;
     for (int i = 0; i < 60; ++i) {
         const double q = (low + high) / 2;
         (1 - 6 * q * q + 6 * q * q * q > 0.6 ? low : high) = q;
     }
-    const double radius = low * 4.0 * settings.particle_radius;
-    EXPECT_NEAR(report.volume, 4.0 / 3.0 * std::numbers::pi * radius * radius * radius, 0.01 * report.volume);
-    EXPECT_EQ(report.components, 1U);
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        const auto p = mesh.world(mesh.vertices[v]);
-        const double d[3] = {p[0] - 0.01F, p[1] + 0.02F, p[2] - 0.03F};
-        const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        const auto& n = mesh.normals[v];
-        EXPECT_GT((d[0] * n[0] + d[1] * n[1] + d[2] * n[2]) / length, 0.999);
+    // smooth: (1 - q^2)^3, with the support of a particle alone.
+    const double smooth_radius = double{SmoothField().lone_support} * std::sqrt(1 - std::cbrt(0.6));
+    for (const auto& [field, radii] : {std::pair{Field::color, 4.0 * low}, std::pair{Field::smooth, smooth_radius}}) {
+        SCOPED_TRACE(name_of(field));
+        Settings settings = test::default_settings();
+        settings.field = field;
+        settings.cell_size = 0.1;
+        settings.mode = Mode::uniform;
+        const Mesh mesh = test::reconstruct(settings, particles.frame());
+        const test::MeshReport report = test::check(mesh);
+        const double radius = radii * settings.particle_radius;
+        EXPECT_NEAR(report.volume, 4.0 / 3.0 * std::numbers::pi * radius * radius * radius, 0.01 * report.volume);
+        EXPECT_EQ(report.components, 1U);
+        for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+            const auto p = mesh.world(mesh.vertices[v]);
+            const double d[3] = {p[0] - 0.01F, p[1] + 0.02F, p[2] - 0.03F};
+            const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            const auto& n = mesh.normals[v];
+            EXPECT_GT((d[0] * n[0] + d[1] * n[1] + d[2] * n[2]) / length, 0.999);
+        }
     }
 }
 

@@ -32,9 +32,27 @@ TEST(Validation, RefusesEverySettingOutOfRangeNamingItsValue) {
         {[](Settings& s) { s.particle_radius = -1.0; }, "particle radius is -1"},
         {[&](Settings& s) { s.particle_radius = nan; }, "particle radius is nan"},
         {[&](Settings& s) { s.particle_radius = inf; }, "particle radius is inf"},
-        {[](Settings& s) { s.smoothing_length = 0.0; }, "smoothing length is 0"},
+        {[](Settings& s) {
+             s.field = Field::color;
+             s.smoothing_length = 0.0;
+         },
+         "smoothing length is 0"},
+        {[](Settings& s) { s.smoothing_length = 2.0; }, "smoothing length is 2, but the field is smooth"},
+        {[](Settings& s) { s.smoothing_length = 2.0; }, "use --smoothness, or take --field color"},
+        {[](Settings& s) { s.smoothness = 4; }, "smoothness is 4, must be 5 to 7"},
+        {[](Settings& s) { s.smoothness = 8; }, "smoothness is 8, must be 5 to 7"},
+        {[](Settings& s) {
+             s.field = Field::density;
+             s.smoothness = 6;
+         },
+         "smoothness is 6, but the field is density"},
+        {[](Settings& s) {
+             s.field = Field::color;
+             s.spray = Spray::discard;
+         },
+         "spray is discard, but the field is color"},
         {[](Settings& s) { s.cell_size = -0.5; }, "cell size is -0.5"},
-        {[](Settings& s) { s.cell_size = 0.015; }, "266.66"},
+        {[](Settings& s) { s.cell_size = 0.015; }, "spans 400 cells"},
         {[](Settings& s) { s.iso = 0.0; }, "iso value is 0"},
         {[](Settings& s) { s.iso = 1e-60; }, "iso value is 0"},
         {[](Settings& s) { s.criterion = CurvatureCriterion{0.0}; }, "tolerance is 0"},
@@ -52,6 +70,7 @@ TEST(Validation, RefusesEverySettingOutOfRangeNamingItsValue) {
          "along z"},
         {[](Settings& s) {
              s.particle_radius = 1e-300;
+             s.field = Field::color;
              s.cell_size = 1e-50;
              s.smoothing_length = 1e-50;
          },

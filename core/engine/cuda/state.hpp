@@ -60,6 +60,7 @@ struct Counts {
     std::uint32_t first_triangle[triangle_level_count];
     std::uint32_t band_cells[3];  ///< by level
     Counter crowd;                ///< see is_crowded()
+    Counter spray_particles;
     std::uint32_t particle_cells;
     std::uint32_t first_particle_brick[particle_level_count + 1];
     std::uint32_t listed[list_count];
@@ -108,6 +109,9 @@ struct State : BlockState<Pointer> {
     float4* particles = nullptr;      ///< position and weight
     float* sums = nullptr;            ///< one at each particle's place, while weights are found
     float* falls = nullptr;           ///< smooth field only, see Poly6
+    // Only where spray is listed:
+    std::uint32_t* spray_before = nullptr;    ///< particles alone before each
+    Point* spray = nullptr;                   ///< their places
     std::uint32_t* first_particle = nullptr;  ///< of every support cell, and one past the last
     Brick* particle_bricks = nullptr;
     std::uint64_t* particle_brick_keys = nullptr;
@@ -162,6 +166,8 @@ struct State : BlockState<Pointer> {
         take(particles, n);
         take(sums, n);
         take(falls, settings.has_own_supports ? n : 0);
+        take(spray_before, settings.lists_spray ? n : 0);
+        take(spray, settings.lists_spray ? n : 0);
         take(first_particle, n + 1);
         take(particle_bricks, capacity[Resource::particle_bricks]);
         take(particle_brick_keys, capacity[Resource::particle_bricks]);

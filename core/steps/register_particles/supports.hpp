@@ -27,23 +27,32 @@ MENISCUS_HD inline Poly6 fitted_kernel(float company, unsigned level, const Smoo
     const float support = fma(t, f.widest_support - f.lone_support, f.lone_support);
     // The volume that the particle stands for, times the kernel's norm: among others by the density, alone so that the
     // field is 1 at its place.
-    const float volume = fma(t, cube(f.company_support) / company, (1.0F - t) * cube(f.lone_support));
-    const float weight = cube_root(volume) / support;
+    const float among_others = cube(f.company_support) / company;
+    const float alone = cube(f.lone_support) / fma(f.shared_drop, company - 1.0F, 1.0F);
+    const float weight = cube_root(fma(t, among_others, (1.0F - t) * alone)) / support;
     return {weight, Poly6::fall_of(weight, support * f.units_per_radius[level])};
+}
+
+/// The field at a particle's place has a least value: otherwise a few particles close together sink below the
+/// threshold. value: what it is.
+MENISCUS_HD inline Poly6 lifted_kernel(const Poly6& kernel, float value, const SmoothField& f) {
+    if (kernel.weight == 0.0F) return kernel;
+    const float share = kernel.weight * kernel.weight * kernel.weight;
+    const float neighbors = value / share;
+    // As fitted_kernel() had it for a particle among others.
+    const float ratio = f.company_support / f.widest_support;
+    const float company = ratio * ratio * ratio / share;
+    const float squeezed = max(neighbors - f.group_size, 0.0F) * max(fma(-f.group_spread, neighbors, company), 0.0F);
+    const float least = fma(f.group_lift, squeezed, f.least_value);
+    if (value >= least) return kernel;
+    const float lift = cube_root(least / value);
+    return {kernel.weight * lift, kernel.fall * lift};
 }
 
 MENISCUS_HD inline Point spray_point(const ParticleKey& key, std::int64_t cell_units, double units_per_length) {
     const Units3 p = key_place(key, cell_units);
     const auto world = [&](std::int64_t v) { return static_cast<float>(static_cast<double>(v) / units_per_length); };
     return {world(p.x), world(p.y), world(p.z)};
-}
-
-/// The field at a particle's place is `least_value` at least: otherwise a few particles close together sink below the
-/// threshold. value: what it is.
-MENISCUS_HD inline Poly6 lifted_kernel(const Poly6& kernel, float value, const SmoothField& f) {
-    if (value >= f.least_value || kernel.weight == 0.0F) return kernel;
-    const float lift = cube_root(f.least_value / value);
-    return {kernel.weight * lift, kernel.fall * lift};
 }
 
 }  // namespace meniscus
