@@ -22,10 +22,14 @@ Case make_case(const Shape& shape, Sampling sampling, double radius) {
     out.subject = {"shapes", shape.name, text};
     out.clouds.push_back(make_cloud(shape.name + "-" + text, sample(shape, sampling), radius));
     out.judge = [shape, particles = out.clouds[0].count()](const std::vector<Surface>& surfaces) {
-        const Deviation d = judge(shape, surfaces[0].view(), particles);
-        return std::vector<Figure>{{"offset_radii", d.offset}, {"rms_radii", d.rms},
-                                   {"worst_radii", d.worst},   {"degrees", d.degrees},
-                                   {"volume", d.volume},       {"volume_of_particles", d.particle_volume}};
+        const Deviation d = judge(shape, surfaces[0].view(), surfaces[0].normals, particles);
+        return std::vector<Figure>{{"offset_radii", d.offset},
+                                   {"rms_radii", d.rms},
+                                   {"worst_radii", d.worst},
+                                   {"degrees", d.degrees},
+                                   {"triangle_degrees", d.triangle_degrees},
+                                   {"volume", d.volume},
+                                   {"volume_of_particles", d.particle_volume}};
     };
     return out;
 }
