@@ -30,24 +30,21 @@ std::vector<Point> clip(const std::vector<Point>& polygon, std::size_t axis, dou
     return kept;
 }
 
-/// Signed volume between a triangle and the plane z = 0, over the rectangle.
-double volume_below(const Corners& corners, const Rectangle& over) {
+/// Calls visit(part) for triangles that make up what of a triangle is over the rectangle.
+void for_each_part(const Corners& corners, const Rectangle& over, const auto& visit) {
     std::vector<Point> polygon(corners.begin(), corners.end());
     for (std::size_t axis = 0; axis < 2; ++axis) {
         polygon = clip(polygon, axis, over.low[axis], 1.0);
         polygon = clip(polygon, axis, over.high[axis], -1.0);
     }
-    double volume = 0.0;
-    for (std::size_t i = 2; i < polygon.size(); ++i) {
-        const Corners part{polygon[0], polygon[i - 1], polygon[i]};
-        volume += area_normal(part)[2] / 2.0 * center_of(part)[2];
-    }
-    return volume;
+    for (std::size_t i = 2; i < polygon.size(); ++i) visit(Corners{polygon[0], polygon[i - 1], polygon[i]});
 }
 
 double layer_volume(const Layer& layer, compare::SurfaceView surface) {
     double volume = 0.0;
-    for (const Triangle& t : surface.triangles) volume += volume_below(surface.corners(t), layer.inner);
+    for (const Triangle& t : surface.triangles)
+        for_each_part(surface.corners(t), layer.inner,
+                      [&](const Corners& part) { volume += area_normal(part)[2] / 2.0 * center_of(part)[2]; });
     return volume;
 }
 
@@ -90,6 +87,15 @@ void judge_vertices(const Shape& shape, compare::SurfaceView surface, std::span<
 }
 
 }  // namespace
+
+double thickness_at_end(const Layer& layer, compare::SurfaceView surface) {
+    double covered = 0.0;
+    for (const Triangle& t : surface.triangles)
+        for_each_part(surface.corners(t), layer.inner, [&](const Corners& part) {
+            covered += std::abs(area_normal(part)[2]) / 4.0;  // there are an upper and a lower side
+        });
+    return layer.thickness(layer.inner.low[0] + covered / (layer.inner.high[1] - layer.inner.low[1]));
+}
 
 double enclosed_volume(compare::SurfaceView surface) {
     double six_times = 0.0;

@@ -24,6 +24,10 @@ struct Deviation {
 Deviation judge(const Shape& shape, compare::SurfaceView surface, std::span<const Normal> normals,
                 std::size_t particles);
 
+/// The true thickness of a layer that thins out where its surface ends, radii: over its judged part, the surface covers
+/// as much as if it ended there in a straight line.
+double thickness_at_end(const Layer& layer, compare::SurfaceView surface);
+
 /// Enclosed by a closed surface, in its own units cubed.
 double enclosed_volume(compare::SurfaceView surface);
 
