@@ -1,9 +1,12 @@
 #include "quality/pictures.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "cli/picture.hpp"
 #include "formats/atomic_file.hpp"
+#include "quality/triangle.hpp"
 
 namespace meniscus::benchmarks::quality {
 namespace {
@@ -12,9 +15,11 @@ using Box = std::array<Point, 2>;
 
 constexpr std::size_t width = 900;
 constexpr std::size_t height = 600;
-/// Of the frame's extent in x and z: what is drawn from near.
-constexpr double near_begin = 0.3;
-constexpr double near_end = 0.5;
+/// The part that is drawn from near: of the frame's extent in x and z, and radii above its bottom.
+constexpr std::array<double, 2> near_x{0.0, 0.45};
+constexpr std::array<double, 2> near_z{0.55, 1.0};
+constexpr double near_height = 45.0;
+constexpr double beyond_particles = 3.0;  ///< radii that a surface may stand out
 
 Box bounds_of(const std::vector<Point>& places) {
     Box box{places.at(0), places.at(0)};
@@ -27,13 +32,13 @@ Box bounds_of(const std::vector<Point>& places) {
 }
 
 Box near_part(const Box& box) {
-    Box part = box;
-    for (const std::size_t a : {std::size_t{0}, std::size_t{2}}) {
-        const double extent = box[1][a] - box[0][a];
-        part[0][a] = box[0][a] + near_begin * extent;
-        part[1][a] = box[0][a] + near_end * extent;
-    }
-    return part;
+    const auto part_of = [&](std::size_t axis, const std::array<double, 2>& part) {
+        const double extent = box[1][axis] - box[0][axis];
+        return std::array<double, 2>{box[0][axis] + part[0] * extent, box[0][axis] + part[1] * extent};
+    };
+    const auto [low_x, high_x] = part_of(0, near_x);
+    const auto [low_z, high_z] = part_of(2, near_z);
+    return {{{low_x, box[0][1], low_z}, {high_x, std::min(box[0][1] + near_height, box[1][1]), high_z}}};
 }
 
 bool contains(const Box& box, const Point& p, double margin) {
@@ -42,9 +47,19 @@ bool contains(const Box& box, const Point& p, double margin) {
     return true;
 }
 
+/// The back of the surface, which shows only where a cut opens it.
+bool faces_away(const Corners& corners, const cli::PictureOptions& options) {
+    const double azimuth = options.azimuth * std::numbers::pi / 180.0;
+    const double elevation = options.elevation * std::numbers::pi / 180.0;
+    const Point viewer{std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                       std::cos(azimuth) * std::cos(elevation)};
+    const Point normal = area_normal(corners);
+    constexpr double perspective = 0.3;  // rays are not parallel
+    return compare::dot(normal, viewer) < -perspective * length_of(normal);
+}
+
 /// The camera takes in all positions: those of the box alone, which are the same for every surface.
-formats::TriangleMesh cut(const Surface& surface, const Box& box) {
-    constexpr double beyond_particles = 3.0;  // radii that a surface may stand out
+formats::TriangleMesh cut(const Surface& surface, const Box& box, const cli::PictureOptions& options) {
     formats::TriangleMesh mesh;
     std::vector<std::uint32_t> numbers(surface.positions.size());
     std::vector<bool> kept(surface.positions.size());
@@ -56,7 +71,7 @@ formats::TriangleMesh cut(const Surface& surface, const Box& box) {
         if (!surface.normals.empty()) mesh.normals.push_back(surface.normals[i]);
     }
     for (const Triangle& t : surface.triangles)
-        if (kept[t[0]] && kept[t[1]] && kept[t[2]])
+        if (kept[t[0]] && kept[t[1]] && kept[t[2]] && !faces_away(surface.view().corners(t), options))
             mesh.triangles.push_back({numbers[t[0]], numbers[t[1]], numbers[t[2]]});
     for (unsigned corner = 0; corner < 8; ++corner) {
         Point p{};
@@ -81,8 +96,9 @@ void draw_surface(const Surface& surface, const Cloud& cloud, const Method& meth
     std::string name = cloud.name + "-" + method.field + "-" + method.mode;
     std::replace(name.begin(), name.end(), ' ', '-');
     formats::make_directory(folder);
-    formats::write_png(folder / (name + ".png"), cli::draw_picture(cut(surface, whole), options));
-    formats::write_png(folder / (name + "-near.png"), cli::draw_picture(cut(surface, near_part(whole)), options));
+    formats::write_png(folder / (name + ".png"), cli::draw_picture(cut(surface, whole, options), options));
+    formats::write_png(folder / (name + "-near.png"),
+                       cli::draw_picture(cut(surface, near_part(whole), options), options));
 }
 
 }  // namespace meniscus::benchmarks::quality
