@@ -73,6 +73,38 @@ def check_service(bench, meniscusd, folder):
     check(missing.returncode == 1 and "nowhere" in missing.stderr, f"service: a missing program gives {missing}")
 
 
+def check_quality(bench, folder):
+    """The plain field has the figures that are known for it; wrong input is refused; the page can be written."""
+    few = ["--shapes", "drops", "--field", "color", "--mode", "uniform", "--out", folder]
+    quality = [bench, "quality", *few]
+    subprocess.run([*quality, "--parts", "shapes", "groups", "--cell-size", "0.25"], check=True)
+    rows = read_rows(folder, "quality")
+
+    def figure(subject, sampling, name):
+        (row,) = [r for r in rows if (r["subject"], r["sampling"], r["figure"]) == (subject, sampling, name)]
+        return float(row["value"])
+
+    volumes = {"one": 0.98, "two at 2 r": 1.02, "three in one place": 0.33, "cube of 8 at 1.6 r": 0.55}
+    for group, volume in volumes.items():
+        found = figure(group, "", "volume")
+        check(abs(found - volume) < 0.006, f"quality: the volume of {group} is {found}, should be {volume}")
+        check(figure(group, "", "lost_particles") == 0, f"quality: particles of {group} are lost")
+    for sampling in ("jittered", "rotated", "relaxed"):
+        check(figure("drops", sampling, "components") == 2, f"quality: {sampling} drops are joined")
+        check(0.8 < figure("drops", sampling, "volume") < 1.1, f"quality: {sampling} drops have a wrong volume")
+
+    particles = folder / "particles"
+    subprocess.run([*quality, "--parts", "shapes", "--write-particles", particles], check=True)
+    check(len(list(particles.glob("drops-*.vtk"))) == 3, "quality: one file of particles for each sampling")
+    for options, name in ((["--shapes", "cone"], "cone"), (["--parts", "taste"], "taste"), (["--judge", "x"], "x")):
+        refused = subprocess.run([bench, "quality", *options], capture_output=True, text=True)
+        check(refused.returncode == 2 and name in refused.stderr, f"quality: {options} gives {refused}")
+
+    figures = Path(__file__).with_name("quality-figures")
+    subprocess.run([sys.executable, figures, bench, "--parts", "groups", "--out", folder], check=True)
+    check("0 lost" in (folder / "quality.md").read_text(), "quality: the page has no lone groups")
+
+
 def main():
     bench = sys.argv[1]
     with tempfile.TemporaryDirectory() as temporary:
@@ -94,6 +126,7 @@ def main():
         lines = [len(xml.etree.ElementTree.parse(p).findall("{http://www.w3.org/2000/svg}polyline")) for p in plots]
         check(lines == [2, 2, 8, 4], f"experiment: lines in the plots are {lines}")
         check_service(bench, sys.argv[2], folder)
+        check_quality(bench, folder)
     check_goals(bench)
     check(
         subprocess.run([bench, "encoding", "--water", "ice"], capture_output=True).returncode == 2,

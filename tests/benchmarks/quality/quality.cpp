@@ -11,6 +11,7 @@
 #include "meniscus/error.hpp"
 #include "quality/cases.hpp"
 #include "quality/levels.hpp"
+#include "quality/pictures.hpp"
 #include "report.hpp"
 
 namespace meniscus::benchmarks {
@@ -35,6 +36,7 @@ struct QualityOptions {
     unsigned runs = 7;
     std::vector<std::string> judged;  ///< LABEL=FOLDER
     std::string particles;
+    std::string pictures;
     std::string out = "tests/benchmarks/results";
 
     bool wants(std::string_view part) const {
@@ -109,6 +111,8 @@ void measure_cases(const QualityOptions& options, const std::vector<Case>& cases
             std::vector<Surface> surfaces;
             for (const Cloud& cloud : c.clouds) surfaces.push_back(method.surface_of(cloud));
             figures.add(c.subject, method, c.judge(surfaces));
+            if (!options.pictures.empty() && c.subject.part == "frames")
+                draw_surface(surfaces[0], c.clouds[0], method, options.settings.particle_radius, options.pictures);
         }
 }
 
@@ -175,6 +179,7 @@ void add_quality(CLI::App& app) {
             "--judge", options->judged,
             "LABEL=FOLDER: in place of reconstructions, the meshes in FOLDER, each a PLY of its particles' name")
         ->expected(1, -1);
+    command.add_option("--pictures", options->pictures, "Folder for pictures of the real frames");
     command.add_option("--data", options->data, "Folder with frame_NNN.vtk below it")
         ->default_str("that of the environment's MENISCUS_DATA; without it, no real frames");
     command.add_option("--frames", options->frames, "Numbers of real frames, even, odd")

@@ -15,7 +15,9 @@ namespace {
 using compare::dot;
 using compare::subtract;
 
-constexpr int phases = 64;  ///< of a lattice, of which the best is taken
+/// A lattice's place: the origin, about which closed bodies are symmetric, is the middle of a cell.
+constexpr Point middle{spacing / 2.0, spacing / 2.0, spacing / 2.0};
+constexpr int phases = 64;  ///< places of a lattice, of which the best is taken
 constexpr double jitter = 0.2 * spacing;
 /// Before the relaxation: anywhere in the particle's cell of the lattice, so that nothing of the lattice remains.
 constexpr double scatter = 0.5 * spacing;
@@ -42,12 +44,12 @@ std::vector<Point> cut_lattice(const Shape& shape, const Rotation& turned, const
     return points;
 }
 
-/// With the phase, of some, for which the number of points fits the volume best.
-std::vector<Point> cut_best_lattice(const Shape& shape, const Rotation& turned, Random& random) {
+/// A lattice along the axes whose place, of some, gives the number of points that fits the volume best.
+std::vector<Point> cut_best_lattice(const Shape& shape, Random& random) {
     std::vector<Point> best;
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < phases; ++i) {
-        std::vector<Point> points = cut_lattice(shape, turned, random.next_point(spacing / 2.0));
+        std::vector<Point> points = cut_lattice(shape, no_rotation, random.next_point(spacing / 2.0));
         const double error = std::abs(static_cast<double>(points.size()) * particle_volume - shape.volume);
         if (error >= least) continue;
         least = error;
@@ -75,10 +77,6 @@ std::vector<Point> stack_columns(const Layer& layer) {
     return points;
 }
 
-std::vector<Point> lattice_along_axes(const Shape& shape, Random& random) {
-    return shape.layer ? stack_columns(*shape.layer) : cut_best_lattice(shape, no_rotation, random);
-}
-
 void scatter_by(double size, std::vector<Point>& points, Random& random) {
     for (Point& p : points) p = compare::add_scaled(p, 1.0, random.next_point(size));
 }
@@ -89,14 +87,15 @@ std::vector<Point> sample(const Shape& shape, Sampling sampling) {
     Random random(shape.name);
     switch (sampling) {
         case Sampling::jittered: {
-            std::vector<Point> points = lattice_along_axes(shape, random);
+            std::vector<Point> points =
+                shape.layer ? stack_columns(*shape.layer) : cut_lattice(shape, no_rotation, middle);
             scatter_by(jitter, points, random);
             return points;
         }
         case Sampling::rotated:
-            return cut_best_lattice(shape, generic, random);
+            return cut_lattice(shape, generic, middle);
         case Sampling::relaxed: {
-            std::vector<Point> points = lattice_along_axes(shape, random);
+            std::vector<Point> points = shape.layer ? stack_columns(*shape.layer) : cut_best_lattice(shape, random);
             scatter_by(scatter, points, random);
             relax(shape, points);
             return points;

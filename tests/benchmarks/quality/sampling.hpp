@@ -30,8 +30,8 @@ constexpr std::string_view name_of(Sampling sampling) {
 inline constexpr double spacing = 2.0;
 inline constexpr double particle_volume = spacing * spacing * spacing;
 
-/// Places in radii, the same on every run; their number times `particle_volume` is the shape's volume as nearly as the
-/// lattice's phase can make it.
+/// Places in radii, the same on every run. The lattices lie with a cell's middle at the shape's, so that a cut through
+/// them holds up to 5 % more or less than the shape's volume; the relaxed particles are as many as fit it best.
 std::vector<Point> sample(const Shape& shape, Sampling sampling);
 
 }  // namespace meniscus::benchmarks::quality

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "compare/components.hpp"
 #include "meniscus/error.hpp"
 #include "quality/cases.hpp"
 #include "quality/judge.hpp"
@@ -22,10 +23,19 @@ Case make_case(const Shape& shape, Sampling sampling, double radius) {
     out.subject = {"shapes", shape.name, text};
     out.clouds.push_back(make_cloud(shape.name + "-" + text, sample(shape, sampling), radius));
     out.judge = [shape, particles = out.clouds[0].count()](const std::vector<Surface>& surfaces) {
-        const Deviation d = judge(shape, surfaces[0].view(), particles);
-        return std::vector<Figure>{{"offset_radii", d.offset}, {"rms_radii", d.rms},
-                                   {"worst_radii", d.worst},   {"degrees", d.degrees},
-                                   {"volume", d.volume},       {"volume_of_particles", d.particle_volume}};
+        const compare::SurfaceView surface = surfaces[0].view();
+        const Deviation d = judge(shape, surface, surfaces[0].normals, particles);
+        std::vector<Figure> figures{{"offset_radii", d.offset},
+                                    {"rms_radii", d.rms},
+                                    {"worst_radii", d.worst},
+                                    {"degrees", d.degrees},
+                                    {"triangle_degrees", d.triangle_degrees},
+                                    {"volume", d.volume},
+                                    {"volume_of_particles", d.particle_volume},
+                                    {"components", static_cast<double>(compare::find_components(surface).count())}};
+        if (shape.layer && !shape.layer->level)
+            figures.push_back({"thickness_at_end_radii", thickness_at_end(*shape.layer, surface)});
+        return figures;
     };
     return out;
 }

@@ -12,6 +12,7 @@ namespace {
 Surface in_radii(formats::TriangleMesh mesh, double radius) {
     Surface surface;
     surface.positions = std::move(mesh.positions);
+    surface.normals = std::move(mesh.normals);
     surface.triangles = std::move(mesh.triangles);
     for (Point& p : surface.positions)
         for (double& coordinate : p) coordinate /= radius;

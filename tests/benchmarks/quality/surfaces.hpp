@@ -36,6 +36,7 @@ std::vector<Point> places_of(const Cloud& cloud, double radius);
 /// A triangle mesh, in radii.
 struct Surface {
     std::vector<Point> positions;
+    std::vector<Normal> normals;  ///< empty, or one per position
     std::vector<Triangle> triangles;
     std::optional<Statistics> statistics;  ///< of its reconstruction; none: read from a file
 
