@@ -41,13 +41,12 @@ v1::Field to_wire(Field field) {
 Field from_wire(v1::Field wire) {
     switch (wire) {
         case v1::FIELD_UNSPECIFIED:
-            return Settings{}.field;
+        case v1::FIELD_SMOOTH:
+            return Field::smooth;
         case v1::FIELD_COLOR:
             return Field::color;
         case v1::FIELD_DENSITY:
             return Field::density;
-        case v1::FIELD_SMOOTH:
-            return Field::smooth;
         case v1::Field_INT_MIN_SENTINEL_DO_NOT_USE_:
         case v1::Field_INT_MAX_SENTINEL_DO_NOT_USE_:
             break;

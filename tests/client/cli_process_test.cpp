@@ -119,6 +119,8 @@ TEST_F(Cli, RefusesParametersOfAChoiceThatIsNotMade) {
 }
 
 TEST_F(Cli, RefusesWhatBelongsToAnotherFieldInALineThatSaysWhatToDo) {
+    expect_refused(reconstruct({"--smoothing-length", "2"}),
+                   {"smoothing length is 2", "--smoothness", "--field color"});
     expect_refused(reconstruct({"--field", "smooth", "--smoothing-length", "2"}),
                    {"smoothing length is 2", "--smoothness", "--field color"});
     expect_refused({"simulate", "--frames", "1", "--field", "smooth", "--smoothing-length", "2"},

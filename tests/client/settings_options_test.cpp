@@ -80,6 +80,7 @@ TEST(SettingsOptions, RefuseWhatBelongsToAnotherFieldThanThePresets) {
         "the smoothing length is 2, but the field is smooth, which has none: leave it out and use --smoothness, or "
         "take "
         "--field color";
+    EXPECT_EQ(refusal("--smoothing-length 2"), no_smoothing_length);
     EXPECT_EQ(refusal("--field smooth --smoothing-length 2"), no_smoothing_length);
     EXPECT_EQ(refusal("--preset paper --field smooth --smoothing-length 2"), no_smoothing_length);
     EXPECT_EQ(refusal("--field color --smoothing-length 2"), "");

@@ -76,6 +76,17 @@ TEST(SettingsConversion, WritesTheDefaultsOfTheFieldOutAndNothingOfOtherFields) 
     }
 }
 
+TEST(SettingsConversion, TakesAFieldThatIsNotSetForTheSmoothOne) {
+    v1::Settings wire;
+    wire.set_particle_radius(0.25);
+    EXPECT_EQ(from_wire(wire), from_wire(wire_of(v1::FIELD_SMOOTH)));
+    Settings defaults;
+    defaults.particle_radius = 0.25;
+    EXPECT_EQ(from_wire(wire), in_force(defaults));
+    wire.set_smoothing_length(2.0);
+    EXPECT_NE(refusal(wire).find("the smoothing length is 2, but the field is smooth"), std::string::npos);
+}
+
 TEST(SettingsConversion, MakesSettingsEqualWhetherOrNotADefaultIsNamed) {
     for (const v1::Field field : {v1::FIELD_COLOR, v1::FIELD_DENSITY, v1::FIELD_SMOOTH}) {
         const Settings unnamed = from_wire(wire_of(field));
