@@ -38,4 +38,14 @@ double tolerance(const Settings& settings) {
     return value_or_default<CurvatureCriterion>(settings.criterion).tolerance.value_or(0.15);
 }
 
+Settings in_force(Settings settings) {
+    if (settings.field == Field::smooth)
+        settings.smoothness = smoothness(settings);
+    else
+        settings.smoothing_length = smoothing_length(settings);
+    if (auto* const curvature = std::get_if<CurvatureCriterion>(&settings.criterion))
+        curvature->tolerance = tolerance(settings);
+    return settings;
+}
+
 }  // namespace meniscus

@@ -9,10 +9,12 @@ namespace meniscus::cli {
 nlohmann::ordered_json to_json(const Settings& settings) {
     nlohmann::ordered_json out;
     out["particle_radius"] = settings.particle_radius;
-    out["smoothing_length"] = smoothing_length(settings);
     out["cell_size"] = settings.cell_size;
     out["iso"] = settings.iso;
     out["field"] = name_of(settings.field);
+    out["smoothness"] = smoothness(settings);
+    out["spray"] = name_of(settings.spray);
+    out["smoothing_length"] = smoothing_length(settings);
     out["mode"] = name_of(settings.mode);
     out["criterion"] = name_of(settings.criterion);
     out["tolerance"] = tolerance(settings);

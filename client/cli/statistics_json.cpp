@@ -18,12 +18,15 @@ nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::s
     const Statistics& s = median_run(runs);
     nlohmann::ordered_json out;
     out["particles"] = s.particles;
+    out["spray_particles"] = s.spray_particles;
     out["vertices"] = s.vertices;
     out["triangles"] = s.triangles;
     for (const TriangleLevel level : choices<TriangleLevel>)
         out["triangles_by_level"][std::string(name_of(level))] = s.triangles_by_level[static_cast<std::size_t>(level)];
     for (std::size_t i = 0; i < s.base_cells_by_level.size(); ++i)
         out["base_cells_by_level"][std::string(names<TriangleLevel>[i])] = s.base_cells_by_level[i];
+    out["volume"] = s.volume;
+    out["particle_volume"] = s.particle_volume;
     out["field_evaluations"] = s.field_evaluations;
     for (const Stage stage : choices<Stage>)
         out["stage_seconds"][std::string(name_of(stage))] = s.stage_seconds[static_cast<std::size_t>(stage)];

@@ -41,17 +41,45 @@ v1::Field to_wire(Field field) {
 Field from_wire(v1::Field wire) {
     switch (wire) {
         case v1::FIELD_UNSPECIFIED:
+        case v1::FIELD_SMOOTH:
+            return Field::smooth;
         case v1::FIELD_COLOR:
             return Field::color;
         case v1::FIELD_DENSITY:
             return Field::density;
-        case v1::FIELD_SMOOTH:
-            return Field::smooth;
         case v1::Field_INT_MIN_SENTINEL_DO_NOT_USE_:
         case v1::Field_INT_MAX_SENTINEL_DO_NOT_USE_:
             break;
     }
     refuse_enum("field", wire);
+}
+
+v1::Spray to_wire(Spray spray) {
+    switch (spray) {
+        case Spray::keep:
+            return v1::SPRAY_KEEP;
+        case Spray::discard:
+            return v1::SPRAY_DISCARD;
+        case Spray::points:
+            return v1::SPRAY_POINTS;
+    }
+    return v1::SPRAY_UNSPECIFIED;
+}
+
+Spray from_wire(v1::Spray wire) {
+    switch (wire) {
+        case v1::SPRAY_UNSPECIFIED:
+        case v1::SPRAY_KEEP:
+            return Spray::keep;
+        case v1::SPRAY_DISCARD:
+            return Spray::discard;
+        case v1::SPRAY_POINTS:
+            return Spray::points;
+        case v1::Spray_INT_MIN_SENTINEL_DO_NOT_USE_:
+        case v1::Spray_INT_MAX_SENTINEL_DO_NOT_USE_:
+            break;
+    }
+    refuse_enum("spray", wire);
 }
 
 v1::Mode to_wire(Mode mode) {
@@ -79,8 +107,8 @@ Mode from_wire(v1::Mode wire) {
 }
 
 void to_wire(const CurvatureCriterion& criterion, v1::Settings& wire) {
-    wire.mutable_curvature();
-    if (criterion.tolerance) wire.mutable_curvature()->set_tolerance(*criterion.tolerance);
+    v1::CurvatureCriterion& curvature = *wire.mutable_curvature();
+    if (criterion.tolerance) curvature.set_tolerance(*criterion.tolerance);
 }
 void to_wire(const CountCriterion& criterion, v1::Settings& wire) {
     wire.mutable_count()->set_threshold(criterion.threshold);
@@ -158,25 +186,34 @@ Settings from_wire(const v1::Settings& wire) {
     refuse_unknown_fields(wire, "settings");
     Settings settings;
     settings.particle_radius = wire.particle_radius();
-    if (wire.has_smoothing_length()) settings.smoothing_length = wire.smoothing_length();
     if (wire.has_cell_size()) settings.cell_size = wire.cell_size();
     if (wire.has_iso()) settings.iso = wire.iso();
     settings.field = from_wire(wire.field());
+    if (wire.has_smoothing_length()) settings.smoothing_length = wire.smoothing_length();
+    if (wire.has_smoothness()) settings.smoothness = wire.smoothness();
+    settings.spray = from_wire(wire.spray());
     settings.mode = from_wire(wire.mode());
     settings.criterion = criterion_from_wire(wire);
     settings.edge_points = edge_points_from_wire(wire);
     if (wire.has_normals()) settings.normals = wire.normals();
     if (wire.has_domain()) settings.domain = from_wire(wire.domain(), "settings.domain");
-    return settings;
+    // Sessions of one surface have equal settings, whether or not their makers named a default.
+    return in_force(settings);
 }
 
-v1::Settings to_wire(const Settings& settings) {
+v1::Settings to_wire(const Settings& given) {
+    // A recording keeps its surface should a default change.
+    const Settings settings = in_force(given);
     v1::Settings wire;
     wire.set_particle_radius(settings.particle_radius);
-    if (settings.smoothing_length) wire.set_smoothing_length(*settings.smoothing_length);
     wire.set_cell_size(settings.cell_size);
     wire.set_iso(settings.iso);
     wire.set_field(to_wire(settings.field));
+    // A setting of another field is here only if it was given: the receiver refuses it.
+    if (settings.smoothing_length) wire.set_smoothing_length(*settings.smoothing_length);
+    if (settings.smoothness) wire.set_smoothness(*settings.smoothness);
+    // A reader from before spray was known would refuse a field of which it need not know.
+    if (settings.spray != Spray::keep) wire.set_spray(to_wire(settings.spray));
     wire.set_mode(to_wire(settings.mode));
     std::visit([&](const auto& criterion) { to_wire(criterion, wire); }, settings.criterion);
     std::visit([&](const auto& edge_points) { to_wire(edge_points, wire); }, settings.edge_points);

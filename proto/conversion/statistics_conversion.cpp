@@ -103,6 +103,9 @@ void to_wire(const Statistics& statistics, v1::FrameStatistics& wire) {
     wire.set_allocations(statistics.allocations);
     wire.set_backend(statistics.backend);
     wire.set_threads(statistics.threads);
+    wire.set_spray_particles(statistics.spray_particles);
+    wire.set_volume(statistics.volume);
+    wire.set_particle_volume(statistics.particle_volume);
 }
 
 Statistics from_wire(const v1::FrameStatistics& wire) {
@@ -129,6 +132,9 @@ Statistics from_wire(const v1::FrameStatistics& wire) {
     statistics.allocations = wire.allocations();
     statistics.backend = wire.backend();
     statistics.threads = wire.threads();
+    statistics.spray_particles = wire.spray_particles();
+    statistics.volume = wire.volume();
+    statistics.particle_volume = wire.particle_volume();
     return statistics;
 }
 

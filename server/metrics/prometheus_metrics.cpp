@@ -62,7 +62,13 @@ struct PrometheusMetrics::Instruments {
 
     prometheus::Counter& frames = counter("meniscus_frames_total", "Frames reconstructed and answered.");
     prometheus::Counter& particles = counter("meniscus_particles_total", "Particles of those frames.");
+    prometheus::Counter& spray =
+        counter("meniscus_spray_particles_total", "Particles of those frames that are without company.");
+    prometheus::Counter& particle_volume =
+        counter("meniscus_particle_volume_total", "Volume of those particles, (2 r)^3 each, world units cubed.");
     prometheus::Counter& triangles = counter("meniscus_triangles_total", "Triangles of their meshes.");
+    prometheus::Counter& mesh_volume =
+        counter("meniscus_mesh_volume_total", "Volume that those meshes enclose, world units cubed.");
     prometheus::Counter& upload_bytes =
         counter("meniscus_upload_bytes_total", "Particle bytes of frames received whole.");
     prometheus::Counter& mesh_bytes =
@@ -102,7 +108,10 @@ void PrometheusMetrics::frame_dropped(DropReason reason) {
 void PrometheusMetrics::frame_finished(const FrameStatistics& statistics) {
     instruments_->frames.Increment();
     instruments_->particles.Increment(number(statistics.particles));
+    instruments_->spray.Increment(number(statistics.spray_particles));
+    instruments_->particle_volume.Increment(statistics.particle_volume);
     instruments_->triangles.Increment(number(statistics.triangles));
+    instruments_->mesh_volume.Increment(statistics.volume);
     instruments_->mesh_bytes.Increment(number(statistics.encoded_bytes));
     for (const Stage stage : choices<Stage>)
         instruments_->stages[stage].Observe(statistics.stage_seconds[static_cast<std::size_t>(stage)]);

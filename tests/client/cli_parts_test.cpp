@@ -63,9 +63,10 @@ TEST(SettingsAsJson, HaveEveryKeyWhateverIsChosen) {
         return all;
     };
     const nlohmann::ordered_json defaults = to_json(settings);
-    EXPECT_EQ(keys(defaults), (std::vector<std::string>{"particle_radius", "smoothing_length", "cell_size", "iso",
-                                                        "field", "mode", "criterion", "tolerance", "count_threshold",
-                                                        "edge_points", "bisection_steps", "normals"}));
+    EXPECT_EQ(keys(defaults),
+              (std::vector<std::string>{"particle_radius", "cell_size", "iso", "field", "smoothness", "spray",
+                                        "smoothing_length", "mode", "criterion", "tolerance", "count_threshold",
+                                        "edge_points", "bisection_steps", "normals"}));
     settings.criterion = CountCriterion{4};
     settings.edge_points = Bisection{3};
     const nlohmann::ordered_json others = to_json(settings);
@@ -75,6 +76,23 @@ TEST(SettingsAsJson, HaveEveryKeyWhateverIsChosen) {
     EXPECT_EQ(others["count_threshold"], 4);
     EXPECT_EQ(others["edge_points"], "bisect");
     EXPECT_EQ(others["bisection_steps"], 3);
+}
+
+TEST(SettingsAsJson, NameWhatIsInForce) {
+    Settings settings;
+    settings.field = Field::smooth;
+    settings.smoothness = 7;
+    settings.spray = Spray::points;
+    const nlohmann::ordered_json smooth = to_json(settings);
+    EXPECT_EQ(smooth["field"], "smooth");
+    EXPECT_EQ(smooth["smoothness"], 7);
+    EXPECT_EQ(smooth["spray"], "points");
+    EXPECT_EQ(smooth["tolerance"], tolerance(settings));
+    Settings color;
+    color.field = Field::color;
+    color.smoothing_length = 1.5;
+    EXPECT_EQ(to_json(color)["smoothing_length"], 1.5);
+    EXPECT_EQ(to_json(color)["tolerance"], tolerance(color));
 }
 
 TEST(Statistics, ReportTheMedianWarmRunAndTheColdOne) {

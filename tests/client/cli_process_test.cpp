@@ -118,6 +118,32 @@ TEST_F(Cli, RefusesParametersOfAChoiceThatIsNotMade) {
                    {"--bisection-steps", "--edge-points bisect", "interpolate"});
 }
 
+TEST_F(Cli, RefusesWhatBelongsToAnotherFieldInALineThatSaysWhatToDo) {
+    expect_refused(reconstruct({"--smoothing-length", "2"}),
+                   {"smoothing length is 2", "--smoothness", "--field color"});
+    expect_refused(reconstruct({"--field", "smooth", "--smoothing-length", "2"}),
+                   {"smoothing length is 2", "--smoothness", "--field color"});
+    expect_refused({"simulate", "--frames", "1", "--field", "smooth", "--smoothing-length", "2"},
+                   {"smoothing length is 2", "--smoothness", "--field color"});
+    expect_refused(reconstruct({"--field", "smooth", "--smoothness", "8"}), {"smoothness is 8", "5 to 7"});
+    expect_refused(reconstruct({"--field", "smooth", "--smoothness", "six"}), {"--smoothness", "six"});
+    expect_refused(reconstruct({"--field", "color", "--smoothness", "6"}), {"--smoothing-length", "--field smooth"});
+    expect_refused(reconstruct({"--field", "color", "--spray", "discard"}), {"spray", "--field smooth"});
+    expect_refused(reconstruct({"--preset", "foam"}), {"--preset", "foam", "smooth", "paper", "splashsurf"});
+}
+
+TEST_F(Cli, APresetIsTheFlagsThatItStandsFor) {
+    const auto hash = [&](const std::vector<std::string>& flags) {
+        return stats(flags).at("mesh_sha256").get<std::string>();
+    };
+    const std::string paper = hash({"--preset", "paper"});
+    EXPECT_EQ(hash({"--field", "density", "--criterion", "count", "--edge-points", "bisect"}), paper);
+    EXPECT_NE(hash({"--preset", "paper", "--criterion", "curvature"}), paper);
+    EXPECT_EQ(hash({"--preset", "splashsurf"}), hash({"--field", "color", "--mode", "uniform"}));
+    EXPECT_EQ(hash({"--preset", "splashsurf", "--mode", "adaptive"}), hash({"--field", "color"}));
+    EXPECT_EQ(hash({"--preset", "smooth"}), hash({}));
+}
+
 TEST_F(Cli, PassesParametersOnWithTheirChoice) {
     for (const char* threshold : {"0", "1"}) {
         const auto flags = reconstruct({"--count-threshold", threshold, "--criterion", "count"});

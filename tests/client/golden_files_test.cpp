@@ -10,6 +10,8 @@
 #include "formats/mesh_file.hpp"
 #include "formats/recording.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/mesh_hash.hpp"
+#include "meniscus/reconstructor.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {
@@ -47,6 +49,21 @@ TEST(GoldenFiles, OfVersion2AreRead) {
         EXPECT_EQ(recording.mesh(frame).mesh().triangles.size(), triangles);
     }
     EXPECT_EQ(formats::read_mesh(folder / "version_2.bricks").triangles.size(), triangles);
+}
+
+TEST(GoldenFiles, ARecordingOfBeforeTheSmoothFieldGivesItsColorMeshesAgain) {
+    const formats::Recording recording(folder / "version_2.recording");
+    const Settings& settings = recording.settings();
+    EXPECT_EQ(settings.field, Field::color);
+    EXPECT_EQ(smoothing_length(settings), 2.0);
+    EXPECT_EQ(settings.smoothness, std::nullopt);
+    EXPECT_EQ(tolerance(settings), 0.15);
+    Reconstructor reconstructor(settings, {.threads = 1});
+    for (const formats::RecordedFrame& frame : recording.frames()) {
+        Mesh mesh;
+        reconstructor.reconstruct(recording.particles(frame).view(), mesh);
+        EXPECT_EQ(mesh_sha256(mesh), mesh_sha256(recording.mesh(frame).mesh())) << frame.index;
+    }
 }
 
 TEST(BrickFile, OfALaterVersionIsRefusedWithItsNumber) {

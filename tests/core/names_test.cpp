@@ -13,7 +13,7 @@ namespace {
 
 template <class T>
 class Names : public testing::Test {};
-using Choices = testing::Types<Field, Mode, Criterion, EdgePoints, Backend, TriangleLevel, Stage>;
+using Choices = testing::Types<Field, Spray, Preset, Mode, Criterion, EdgePoints, Backend, TriangleLevel, Stage>;
 TYPED_TEST_SUITE(Names, Choices);
 
 TYPED_TEST(Names, AreThereForEveryChoiceAndDiffer) {

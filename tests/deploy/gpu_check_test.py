@@ -12,7 +12,7 @@ from pathlib import Path
 
 GPU_CHECK = sys.argv.pop()
 FRAMES = 3
-SETTINGS = 26  # particles, mode and criterion, field, edge points; and 16-bit positions of both kinds of particles
+SETTINGS = 38  # particles, mode and criterion, field, edge points; and 16-bit positions of both kinds of particles
 INSTALLED_SANITIZER = Path("/usr/local/cuda/bin/compute-sanitizer")
 
 MENISCUS = r"""

@@ -21,7 +21,12 @@ Seeds settings_seeds() {
     full.criterion = CountCriterion{2};
     full.edge_points = Bisection{3};
     full.domain = Box{{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}};
-    return {conversion::to_wire(plain).SerializeAsString(), conversion::to_wire(full).SerializeAsString()};
+    Settings smooth = plain;
+    smooth.field = Field::smooth;
+    smooth.smoothness = 7;
+    smooth.spray = Spray::points;
+    return {conversion::to_wire(plain).SerializeAsString(), conversion::to_wire(full).SerializeAsString(),
+            conversion::to_wire(smooth).SerializeAsString()};
 }
 
 }  // namespace meniscus::fuzz

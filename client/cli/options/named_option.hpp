@@ -10,14 +10,21 @@
 
 namespace meniscus::cli {
 
+/// given: set when the option is; outlives the parsing. otherwise: the default that --help shows.
+template <class T, class Given>
+CLI::Option* add_named_option(CLI::App& command, const std::string& flag, Given& given, const T& otherwise,
+                              const std::string& description) {
+    return command
+        .add_option_function<std::string>(
+            flag, [&given, flag](const std::string& name) { given = by_name<T>(name, flag); }, description)
+        ->check(CLI::IsMember(std::vector<std::string>(names<T>.begin(), names<T>.end())))
+        ->default_str(std::string(name_of(otherwise)));
+}
+
 /// value: outlives the parsing; its present value is the default.
 template <class T>
 CLI::Option* add_named_option(CLI::App& command, const std::string& flag, T& value, const std::string& description) {
-    return command
-        .add_option_function<std::string>(
-            flag, [&value, flag](const std::string& name) { value = by_name<T>(name, flag); }, description)
-        ->check(CLI::IsMember(std::vector<std::string>(names<T>.begin(), names<T>.end())))
-        ->default_str(std::string(name_of(value)));
+    return add_named_option<T>(command, flag, value, value, description);
 }
 
 }  // namespace meniscus::cli

@@ -164,6 +164,8 @@ std::uint32_t smoothness(const Settings& settings);
 double support(const Settings& settings);
 /// Finest cells, with CurvatureCriterion.
 double tolerance(const Settings& settings);
+/// All of them: the same settings with the defaults of their field written out, as a server answers them.
+Settings in_force(Settings settings);
 
 /// The finest cell's edge in world units.
 inline double world_cell_size(const Settings& s) {

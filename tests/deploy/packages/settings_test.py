@@ -1,11 +1,16 @@
 """The table of settings, against all that follows from it: settings_test.py DOCUMENT MAN_PAGE PROTO MENISCUS.
 
 The table in DOCUMENT is where settings are described: flag, default, meaning. The program, its man page and the
-contract must have the same settings with the same defaults.
+contract must have the same settings with the same defaults. The table of presets there says which flags each one stands
+for; the program must make the same mesh of both.
 """
 
+import json
 import re
+import struct
+import subprocess
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -21,7 +26,9 @@ FIELDS = {
     "bisection-steps": "Bisection.steps",
 }
 # What a frame, not a session, is uploaded with.
-NOT_IN_THE_CONTRACT = {"positions"}
+NOT_OF_THE_SESSION = {"positions"}
+# Nor is a preset: clients spell its settings out.
+NOT_IN_THE_CONTRACT = NOT_OF_THE_SESSION | {"preset"}
 
 
 def table():
@@ -31,6 +38,23 @@ def table():
         flag: default.strip().strip("`")
         for flag, default in re.findall(r"^\| `--([a-z-]+)` \|([^|]*)\|", section, re.MULTILINE)
     }
+
+
+def presets():
+    """Preset to the flags that it stands for."""
+    section = re.search(r"^##+ Presets$(.*?)(?=^##|\Z)", Path(DOCUMENT).read_text(), re.MULTILINE | re.DOTALL).group(1)
+    return {name: flags.split() for name, flags in re.findall(r"^\| `(\w+)` \|[^|]*\| `(--[^`]+)` \|$", section, re.M)}
+
+
+def mesh_of(*flags):
+    """Hash of the mesh of nine particles, some of them close together."""
+    with tempfile.TemporaryDirectory() as folder:
+        particles, figures = Path(folder, "particles.xyz"), Path(folder, "figures.json")
+        at = [(0.4 * i, 0.3 * j, 0.05 * i * j) for i in range(3) for j in range(3)]
+        particles.write_bytes(b"".join(struct.pack("<3f", *p) for p in at))
+        command = [MENISCUS, "reconstruct", particles, "--particle-radius", "0.25", "--stats", figures, *flags]
+        subprocess.run(command, check=True, capture_output=True, timeout=60)
+        return json.loads(figures.read_text())["mesh_sha256"]
 
 
 def has_default(written):
@@ -79,7 +103,7 @@ class Settings(unittest.TestCase):
     def test_the_man_page_has_exactly_these_settings_with_their_defaults(self):
         sections = subsections_of(Path(MAN_PAGE).read_text())
         settings = set(items_of(sections["The reconstruction"])) - {"normals"}  # a pair with no-normals
-        self.assertEqual(settings, set(self.table) - {"particle-radius"} - NOT_IN_THE_CONTRACT)
+        self.assertEqual(settings, set(self.table) - {"particle-radius"} - NOT_OF_THE_SESSION)
         items = {flag: text for section in sections.values() for flag, text in items_of(section).items()}
         for flag in self.table:
             default = re.search(r"Default: (\S+)\.(?:\s|$)", items[flag])
@@ -92,6 +116,13 @@ class Settings(unittest.TestCase):
             self.assertIn(field, fields)
             self.assert_same_default(flag, fields[field])
         self.assertEqual(fields["Settings.normals"], "true")
+
+    def test_each_preset_is_the_flags_that_the_document_says(self):
+        offered = re.search(r"--preset .*?\{([\w,]+)\}", help_of(MENISCUS, "reconstruct"), re.DOTALL).group(1)
+        self.assertEqual(set(offered.split(",")), set(presets()))
+        for preset, flags in presets().items():
+            self.assertEqual(mesh_of("--preset", preset), mesh_of(*flags), preset)
+        self.assertEqual(mesh_of("--preset", self.table["preset"]), mesh_of())
 
 
 if __name__ == "__main__":

@@ -95,7 +95,7 @@ TEST(ReconnectingStream, GoesOnWithTheServerThatTakesThePlaceOfOneThatIsShutDown
         running = std::make_unique<RunningServer>(on_tcp(port));
     });
     EXPECT_EQ(received, numbers(30));
-    EXPECT_EQ(running->client.session(id).settings, settings());
+    EXPECT_EQ(running->client.session(id).settings, in_force(settings()));
 }
 
 TEST(ReconnectingStream, WaitsForAServerThatIsFull) {

@@ -29,6 +29,9 @@ TEST(Metrics, CountWhatWasDone) {
     double particles = 0;
     double triangles = 0;
     double encoded_bytes = 0;
+    double particle_volume = 0;
+    double mesh_volume = 0;
+    double spray = 0;
     for (std::uint64_t i = 0; i < 3; ++i) {
         const Particles frame = wave(6, 0.1 * static_cast<double>(i));
         stream.push(frame.view(), i, 0.0);
@@ -37,6 +40,9 @@ TEST(Metrics, CountWhatWasDone) {
         particles += static_cast<double>(frame.view().count());
         triangles += static_cast<double>(received->statistics.triangles);
         encoded_bytes += static_cast<double>(received->statistics.encoded_bytes);
+        particle_volume += received->statistics.particle_volume;
+        mesh_volume += received->statistics.volume;
+        spray += static_cast<double>(received->statistics.spray_particles);
         ASSERT_TRUE(watcher.next());
     }
     const Samples samples = scrape_until(http, "meniscus_frames_total", 3);
@@ -44,6 +50,9 @@ TEST(Metrics, CountWhatWasDone) {
     EXPECT_EQ(samples.at("meniscus_triangles_total"), triangles);
     EXPECT_EQ(samples.at("meniscus_upload_bytes_total"), particles * 12);
     EXPECT_EQ(samples.at("meniscus_mesh_bytes_total"), encoded_bytes);
+    EXPECT_NEAR(samples.at("meniscus_particle_volume_total"), particle_volume, 1e-5 * particle_volume);
+    EXPECT_NEAR(samples.at("meniscus_mesh_volume_total"), mesh_volume, 1e-5 * mesh_volume);
+    EXPECT_EQ(samples.at("meniscus_spray_particles_total"), spray);
     // The bricks, and around them what begins and ends each mesh.
     EXPECT_GT(samples.at("meniscus_sent_bytes_total{to=\"simulator\"}"), encoded_bytes);
     EXPECT_GT(samples.at("meniscus_sent_bytes_total{to=\"watcher\"}"), encoded_bytes / 3);

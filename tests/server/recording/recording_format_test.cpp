@@ -122,7 +122,7 @@ TEST_F(RecordingFormat, KeepsParticlesAsTheyWereUploaded) {
     for (std::size_t i = 0; i < all.size(); ++i) bytes += particles_bytes(i, all[i]);
     const Recording recording = open(bytes);
     EXPECT_EQ(recording.session_id(), session_id);
-    EXPECT_EQ(recording.settings(), settings());
+    EXPECT_EQ(recording.settings(), in_force(settings()));
     EXPECT_EQ(recording.cut_bytes(), 0U);
     ASSERT_EQ(recording.frames().size(), all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -80,7 +80,7 @@ void expect_meshes_of_all_frames(const Recording& recording) {
 
 TEST_F(RecordedSession, HoldsEveryFrameWithItsMesh) {
     const Recording recording(record());
-    EXPECT_EQ(recording.settings(), settings());
+    EXPECT_EQ(recording.settings(), in_force(settings()));
     EXPECT_EQ(recording.cut_bytes(), 0U);
     expect_meshes_of_all_frames(recording);
 }

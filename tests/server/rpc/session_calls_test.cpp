@@ -23,9 +23,9 @@ grpc::Status create_raw(RunningServer& running, const std::string& metadata, con
 TEST(Sessions, KeepEverySetting) {
     RunningServer running;
     Settings chosen = settings();
-    chosen.smoothing_length = 1.75;
     chosen.iso = 0.5;
     chosen.field = Field::density;
+    chosen.smoothing_length = 1.75;
     chosen.mode = Mode::uniform;
     chosen.criterion = CountCriterion{3};
     chosen.edge_points = Bisection{4};
@@ -34,17 +34,28 @@ TEST(Sessions, KeepEverySetting) {
     const std::string id = client::new_session_id();
     running.client.create_session(id, chosen);
     EXPECT_EQ(running.client.session(id).settings, chosen);
+
+    Settings smooth = settings();
+    smooth.field = Field::smooth;
+    smooth.smoothness = 7;
+    smooth.spray = Spray::discard;
+    smooth.criterion = CurvatureCriterion{0.3};
+    const std::string other = client::new_session_id();
+    running.client.create_session(other, smooth);
+    EXPECT_EQ(running.client.session(other).settings, smooth);
 }
 
 TEST(Sessions, AreCreatedOnceHoweverOftenWithEqualSettings) {
     RunningServer running;
     const std::string id = running.session();
     running.client.create_session(id, settings());
+    // Defaults that are named are no other settings.
+    running.client.create_session(id, in_force(settings()));
     EXPECT_EQ(running.client.sessions().size(), 1U);
     Settings other = settings();
     other.cell_size = 2.0;
     EXPECT_THROW(running.client.create_session(id, other), client::ServerError);
-    EXPECT_EQ(running.client.session(id).settings, settings());
+    EXPECT_EQ(running.client.session(id).settings, in_force(settings()));
 }
 
 TEST(Sessions, FillDefaultsIn) {
@@ -55,7 +66,7 @@ TEST(Sessions, FillDefaultsIn) {
     ASSERT_TRUE(create_raw(running, id, id, wire).ok());
     Settings defaults;
     defaults.particle_radius = radius;
-    EXPECT_EQ(running.client.session(id).settings, defaults);
+    EXPECT_EQ(running.client.session(id).settings, in_force(defaults));
 }
 
 TEST(Sessions, AreRefusedPastTheLimit) {
@@ -77,6 +88,21 @@ TEST(Sessions, AreRefusedWithSettingsOutOfRange) {
     const grpc::Status status = create_raw(running, id, id, unknown);
     EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
     EXPECT_NE(status.error_message().find("77"), std::string::npos);
+    EXPECT_TRUE(running.client.sessions().empty());
+}
+
+TEST(Sessions, AreRefusedWithSettingsOfAnotherField) {
+    RunningServer running;
+    Settings smooth = settings();
+    smooth.field = Field::smooth;
+    smooth.smoothing_length = 2.0;
+    try {
+        running.client.create_session(client::new_session_id(), smooth);
+        ADD_FAILURE() << "a smoothing length with the smooth field is taken";
+    } catch (const InvalidInput& e) {
+        for (const char* word : {"smoothing length is 2", "--smoothness", "--field color"})
+            EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+    }
     EXPECT_TRUE(running.client.sessions().empty());
 }
 

@@ -7,10 +7,10 @@ import { legendRow } from './legend';
 import { element } from './page';
 import { Rate } from './rates';
 import { StageChart } from './stage_chart';
-import { bytesText, countText, millisecondsText } from './texts';
+import { bytesText, countText, millisecondsText, volumeText } from './texts';
 
 const unknown = '–';
-const figures = ['frame', 'latency', 'skipped', 'particles', 'triangles'];
+const figures = ['frame', 'latency', 'skipped', 'particles', 'spray', 'volume', 'triangles'];
 
 export class Overlay {
   private readonly drawn = new Rate();
@@ -41,6 +41,10 @@ export class Overlay {
   /** When a picture of the frame has been drawn, new or from the frames that are kept. */
   frameDrawn(frame: Frame, levels: readonly number[]): void {
     set('frame', `${countText(frame.index)} (${frame.simulationTime.toFixed(2)} s)`);
+    const { sprayParticles, volume, particleVolume } = frame.statistics;
+    // Recordings of before have no volumes.
+    set('spray', particleVolume > 0 ? countText(sprayParticles) : unknown);
+    set('volume', particleVolume > 0 ? volumeText(volume, particleVolume) : unknown);
     set('triangles', countText(frame.triangleCount));
     set('latency', unknown);
     this.levelTexts.forEach((text, level) => {

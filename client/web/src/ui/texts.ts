@@ -18,3 +18,8 @@ export function millisecondsText(ms: number): string {
 export function countText(count: number | bigint): string {
   return count.toLocaleString('en-US');
 }
+
+/** A mesh's volume, and its ratio to that of the particles. */
+export function volumeText(volume: number, particles: number): string {
+  return `${Number(volume.toPrecision(3))} (${(volume / particles).toFixed(2)})`;
+}

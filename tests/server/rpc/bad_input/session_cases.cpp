@@ -36,6 +36,17 @@ std::function<grpc::Status(RunningServer&)> settings_with(std::function<void(v1:
     };
 }
 
+/// The same, with this field and nothing of another.
+std::function<grpc::Status(RunningServer&)> field_with(v1::Field field, std::function<void(v1::Settings&)> change) {
+    return settings_with([=, change = std::move(change)](v1::Settings& s) {
+        s.set_field(field);
+        s.clear_smoothing_length();
+        s.clear_smoothness();
+        s.clear_spray();
+        change(s);
+    });
+}
+
 std::function<grpc::Status(RunningServer&)> id(std::string in_message) {
     return [in_message = std::move(in_message)](RunningServer& running) {
         v1::CreateSessionRequest request;
@@ -81,10 +92,15 @@ std::vector<BadInputCase> session_cases() {
     const auto radius_of = [](double value) {
         return settings_with([=](v1::Settings& s) { s.set_particle_radius(value); });
     };
-    const auto cell_size = [](double value) { return settings_with([=](v1::Settings& s) { s.set_cell_size(value); }); };
+    const auto cell_size = [](double value) {
+        return field_with(v1::FIELD_COLOR, [=](v1::Settings& s) { s.set_cell_size(value); });
+    };
     const auto iso = [](double value) { return settings_with([=](v1::Settings& s) { s.set_iso(value); }); };
     const auto steps = [](std::uint32_t value) {
         return settings_with([=](v1::Settings& s) { s.mutable_bisect()->set_steps(value); });
+    };
+    const auto smoothness = [](std::uint32_t value) {
+        return field_with(v1::FIELD_SMOOTH, [=](v1::Settings& s) { s.set_smoothness(value); });
     };
     const auto domain = [](double low, double high) {
         return settings_with([=](v1::Settings& s) {
@@ -100,13 +116,35 @@ std::vector<BadInputCase> session_cases() {
         {"ARadiusBelowZero", invalid, "particle radius is -1, must be finite and greater than 0", radius_of(-1.0)},
         {"ARadiusThatIsNoNumber", invalid, "particle radius is nan, must be finite and greater than 0", radius_of(nan)},
         {"ARadiusWhoseCellIsBelowAllNumbers", invalid,
-         "cell size in world units is 0, must be finite and greater than 0", settings_with([](v1::Settings& s) {
-             s.set_particle_radius(1e-300);
-             s.set_cell_size(1e-300);
-             s.set_smoothing_length(1e-300);
-         })},
+         "cell size in world units is 0, must be finite and greater than 0",
+         field_with(v1::FIELD_COLOR,
+                    [](v1::Settings& s) {
+                        s.set_particle_radius(1e-300);
+                        s.set_cell_size(1e-300);
+                        s.set_smoothing_length(1e-300);
+                    })},
         {"ASmoothingLengthOfZero", invalid, "smoothing length is 0, must be finite and greater than 0",
-         settings_with([](v1::Settings& s) { s.set_smoothing_length(0.0); })},
+         field_with(v1::FIELD_COLOR, [](v1::Settings& s) { s.set_smoothing_length(0.0); })},
+        {"ASmoothingLengthOfTheSmoothField", invalid,
+         "the smoothing length is 2, but the field is smooth, which has none: leave it out and use --smoothness, or "
+         "take "
+         "--field color",
+         field_with(v1::FIELD_SMOOTH, [](v1::Settings& s) { s.set_smoothing_length(2.0); })},
+        {"ASmoothnessOfTheColorField", invalid,
+         "the smoothness is 6, but the field is color, which has none: leave it out and use --smoothing-length, or "
+         "take "
+         "--field smooth",
+         field_with(v1::FIELD_COLOR, [](v1::Settings& s) { s.set_smoothness(6); })},
+        {"TheLeastSmoothness", ok, "", smoothness(5)},
+        {"TheGreatestSmoothness", ok, "", smoothness(7)},
+        {"ASmoothnessOfFour", invalid, "the smoothness is 4, must be 5 to 7", smoothness(4)},
+        {"ASmoothnessOfEight", invalid, "the smoothness is 8, must be 5 to 7", smoothness(8)},
+        {"SprayOfTheColorField", invalid,
+         "spray is points, but the field is color, which does not tell spray from water: take --spray keep or --field "
+         "smooth",
+         field_with(v1::FIELD_COLOR, [](v1::Settings& s) { s.set_spray(v1::SPRAY_POINTS); })},
+        {"AnUnknownSpray", invalid, "settings.spray has the value 7, which this version does not know",
+         settings_with([](v1::Settings& s) { s.set_spray(static_cast<v1::Spray>(7)); })},
         {"ACellSizeOfZero", invalid, "cell size is 0, must be finite and greater than 0", cell_size(0.0)},
         {"TheSmallestCellSizeForItsSupport", ok, "", cell_size(0.015625)},
         {"ACellSizeTooSmallForItsSupport", invalid,

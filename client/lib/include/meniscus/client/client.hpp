@@ -78,7 +78,7 @@ struct FrameStatistics : Statistics {
 struct SessionInfo {
     std::string id;
     std::string owner;  ///< who made it; empty where nobody is asked
-    Settings settings;
+    Settings settings;  ///< as in_force() has them
     bool uploading = false;
     unsigned watchers = 0;
     std::uint64_t frames = 0;
