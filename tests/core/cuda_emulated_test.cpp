@@ -33,6 +33,8 @@ public:
         Reconstructor cpu(settings_, {Backend::cpu, 1, 0});
         Mesh again;
         cpu.reconstruct(frame, again);
+        EXPECT_TRUE(same_bytes(mesh_.spray, again.spray));
+        EXPECT_EQ(statistics_.spray_particles, cpu.statistics().spray_particles);
         EXPECT_EQ(statistics_.field_evaluations, cpu.statistics().field_evaluations);
         EXPECT_EQ(statistics_.base_cells_by_level, cpu.statistics().base_cells_by_level);
         for (const int max_level : {1, 3, 2}) {
