@@ -37,6 +37,30 @@ TEST(Domain, CropsTheSurfaceClosedAtItsBorder) {
                 }
 }
 
+// What the documents tell those who send a part of a frame.
+TEST(Domain, DependsOnNoParticleBeyondTheMargin) {
+    const test::Particles all = test::splash(33, 24);
+    for (const Field field : choices<Field>)
+        for (const std::uint32_t smoothness : {5U, 6U, 7U}) {
+            if (field != Field::smooth && smoothness != 6) continue;
+            Settings settings = test::default_settings();
+            settings.field = field;
+            if (field == Field::smooth) settings.smoothness = smoothness;
+            settings.iso = field == Field::density ? 0.2 : 0.6;
+            settings.domain = Box{{-1.0, -1.0, -1.0}, {0.21, 9.0, 9.0}};
+            const double reach = margin(settings) * settings.particle_radius;
+            test::Particles part;
+            for (std::size_t i = 0; i < all.count(); ++i)
+                if (static_cast<double>(all.positions[3 * i]) <= settings.domain->max[0] + reach)
+                    part.add(all.positions[3 * i], all.positions[3 * i + 1], all.positions[3 * i + 2]);
+            ASSERT_LT(part.count(), all.count() - 100);
+            const Mesh mesh = test::reconstruct(settings, part.frame());
+            ASSERT_FALSE(mesh.triangles.empty());
+            EXPECT_EQ(mesh_sha256(mesh), mesh_sha256(test::reconstruct(settings, all.frame())))
+                << name_of(field) << " " << smoothness;
+        }
+}
+
 TEST(Domain, CutsFullWaterFlatNextToTheBorder) {
     test::Particles particles;
     for (int z = 0; z < 12; ++z)

@@ -45,7 +45,7 @@ TEST(GoldenEmulated, DISABLED_RealFramesGiveTheCpusBits) {
             test::GoldenRow row{};
             row.field = Field::color;
             row.mode = mode;
-            row.smoothing_length = 2.0;
+            row.smoothing = 2.0;
             row.cell_size = 1.0;
             row.iso = 0.6;
             row.tolerance = 0.15;

@@ -167,6 +167,11 @@ double tolerance(const Settings& settings);
 /// All of them: the same settings with the defaults of their field written out, as a server answers them.
 Settings in_force(Settings settings);
 
+/// How far from the border of a part of a frame particles decide about the surface inside of it, radii of the coarsest
+/// particles: with all that lie within this margin of Settings::domain, the mesh is that of the whole frame to the bit
+/// (core/README.md#parts-of-a-frame).
+double margin(const Settings& settings);
+
 /// The finest cell's edge in world units.
 inline double world_cell_size(const Settings& s) {
     return s.cell_size * s.particle_radius;

@@ -62,6 +62,20 @@ std::vector<GoldenHashes> golden_hashes() {
         {"quantized, color, adaptive", "95dbc6ab6376ad133fc092c0efd56f47bc2e26866ae14c2e64500b89e4732dda", "2cd7b2ded3cebd3a"},
         {"quantized, density, uniform", "a689d0931c6c0913cdd4a4ac05b1b89e5978a984f768e7b4d7d60bf4a10f0560", "d21051878f11bca2"},
         {"quantized, density, by count, cropped", "b7b23f938914b5cb872676b6547230707302c32a775e5cfc7faf30253e8d817b", "b1e02c185ce78692"},
+        {"splash, smooth 5, adaptive", "fad35deefd4e1b197e03c8f7b34760588e8c505a547bdfa58ac60f7aa9bf7a5d", "876ac1e57ada9db8"},
+        {"splash, smooth 6, adaptive", "2e0ba5768757aec13811ea663c6c23719b7d3ea4f90cbf5ed158fb7db1766ae7", "c5ace546a9c52225"},
+        {"splash, smooth 7, uniform", "907deaca7f216ae59da6d6686d1bf9474da8d9812f1dcf9b36c68961d0766e47", "ac20bd14f381ca77"},
+        {"splash, smooth 6, cells of 1, levels up to 2", "d840dee5ee0a2e55a3d1d1cba990c1d815bc1b8e5dd8f4b4ba7aa8a274bd38af", "ced26e85ee82c76d"},
+        {"slab, smooth 6, adaptive", "f372beea9d802d4d18885670525f68372d93dfc87ef041d632434b9cbc2bb0f4", "7310dda6f12e2e40"},
+        {"slab, smooth 6, cropped", "ca3adb341f5fe17eae2d4d021827cf469da1cf254b7230a7bf3ab564f3fc6bd3", "cfedb55cc049dfbb"},
+        {"slab, smooth 5, by count", "d0d8e20242a36ca897e9e74a28eacc74987e157831d261eadf30ed69f3c751a6", "12444f673d4226a5"},
+        {"drops, smooth 6, adaptive, 5 bisections", "a749d8bc3dfb53b2acb7dc9b185ffff913556762767ba505a07905330a2e70b6", "9c7ef354a657bc2b"},
+        {"drops, smooth 7, adaptive", "78d5482bf5317afea0edde133b9f9148d2d8da4e2b66e54f5c4caf1ecbee3ec2", "9e517b77af0de93c"},
+        {"lone, smooth 6, adaptive", "620a7a00b35fc57347ba64b0357cc676d15e674fa7fd08545da4e7097fc792ed", "075be33024cbfda4"},
+        {"lone, smooth 5, uniform", "e5484911b3e81cd8027514bc75be7bfafa806e27f899a5bf09db65370133edc6", "d6b444e50ea4cf21"},
+        {"levels, smooth 6, adaptive", "e1b94f6ca5276d7f8a07fde597536b08c512cc991c9b2af513db0de43a65641f", "58251f13ba9118f0"},
+        {"levels, smooth 7, levels up to 1", "e501a68da30f18ea1baf287bb3a7a6e94bc3775bb341b11703eb89cc25d37ffd", "0708811545268d9b"},
+        {"quantized, smooth 6, adaptive", "959d9eb4e086eca517c14b30a0f04854e0130134d60fb6e7068721d026df3448", "85722dbf0012b1b8"},
         // clang-format on
     };
 }

@@ -36,7 +36,10 @@ private:
 Settings GoldenRow::settings() const {
     Settings s;
     s.particle_radius = golden_radius;
-    s.smoothing_length = smoothing_length;
+    if (field == Field::smooth)
+        s.smoothness = static_cast<std::uint32_t>(smoothing);
+    else
+        s.smoothing_length = smoothing;
     s.cell_size = cell_size;
     s.iso = iso;
     s.field = field;
@@ -56,11 +59,11 @@ Settings GoldenRow::settings() const {
 }
 
 std::vector<GoldenRow> golden_rows() {
-    constexpr Field color = Field::color, density = Field::density;
+    constexpr Field color = Field::color, density = Field::density, smooth = Field::smooth;
     constexpr Mode adaptive = Mode::adaptive, uniform = Mode::uniform;
     constexpr bool yes = true, no = false;
     return {
-        // name, scene, field, mode, smoothing length, cell size, iso, tolerance, count threshold, bisection steps,
+        // name, scene, field, mode, smoothing, cell size, iso, tolerance, count threshold, bisection steps,
         // normals, cropped, max level
         // clang-format off
         {"splash, color, adaptive", "splash", color, adaptive, 2.0, 0.5, 0.6, 0.15, 0, 0, yes, no, 3},
@@ -120,6 +123,20 @@ std::vector<GoldenRow> golden_rows() {
         {"quantized, color, adaptive", "quantized", color, adaptive, 2.0, 0.5, 0.6, 0.15, 0, 0, yes, no, 3},
         {"quantized, density, uniform", "quantized", density, uniform, 2.0, 1.0, 0.2, 0.15, 0, 0, yes, no, 3},
         {"quantized, density, by count, cropped", "quantized", density, adaptive, 2.0, 0.5, 0.2, 0.0, 1, 0, yes, yes, 3},
+        {"splash, smooth 5, adaptive", "splash", smooth, adaptive, 5.0, 0.5, 0.6, 0.15, 0, 0, yes, no, 3},
+        {"splash, smooth 6, adaptive", "splash", smooth, adaptive, 6.0, 0.5, 0.6, 0.15, 0, 0, yes, no, 3},
+        {"splash, smooth 7, uniform", "splash", smooth, uniform, 7.0, 1.0, 0.6, 0.15, 0, 0, yes, no, 3},
+        {"splash, smooth 6, cells of 1, levels up to 2", "splash", smooth, adaptive, 6.0, 1.0, 0.6, 0.15, 0, 0, yes, no, 2},
+        {"slab, smooth 6, adaptive", "slab", smooth, adaptive, 6.0, 0.5, 0.6, 0.15, 0, 0, yes, no, 3},
+        {"slab, smooth 6, cropped", "slab", smooth, adaptive, 6.0, 0.5, 0.6, 0.15, 0, 0, yes, yes, 3},
+        {"slab, smooth 5, by count", "slab", smooth, adaptive, 5.0, 1.0, 0.6, 0.0, 1, 0, yes, no, 3},
+        {"drops, smooth 6, adaptive, 5 bisections", "drops", smooth, adaptive, 6.0, 0.5, 0.6, 0.15, 0, 5, yes, no, 3},
+        {"drops, smooth 7, adaptive", "drops", smooth, adaptive, 7.0, 1.0, 0.5, 0.15, 0, 0, yes, no, 3},
+        {"lone, smooth 6, adaptive", "lone", smooth, adaptive, 6.0, 0.5, 0.6, 0.15, 0, 0, yes, no, 3},
+        {"lone, smooth 5, uniform", "lone", smooth, uniform, 5.0, 0.5, 0.6, 0.15, 0, 0, no, no, 3},
+        {"levels, smooth 6, adaptive", "levels", smooth, adaptive, 6.0, 1.0, 0.6, 0.15, 0, 0, yes, no, 3},
+        {"levels, smooth 7, levels up to 1", "levels", smooth, adaptive, 7.0, 1.37, 0.6, 0.15, 0, 0, yes, no, 1},
+        {"quantized, smooth 6, adaptive", "quantized", smooth, adaptive, 6.0, 0.5, 0.6, 0.15, 0, 0, yes, no, 3},
         // clang-format on
     };
 }

@@ -1,4 +1,5 @@
-// The golden table: for each scene and its settings the mesh that commit 609d103 made, as hashes.
+// The golden table: for each scene and its settings the mesh, as hashes. Those of color and density are what commit
+// 609d103 made, those of smooth what the commit made that brought the field.
 //
 // A mesh that differs in a single bit is a change of what users get. Only a commit that wants such a change replaces
 // hashes: a row that fails prints its name and the line to put into golden_hashes.cpp.
@@ -22,7 +23,7 @@ struct GoldenRow {
     std::string scene;  ///< of golden_scenes()
     Field field;
     Mode mode;
-    double smoothing_length;        ///< radii
+    double smoothing;               ///< the smoothing length, or the smoothness of the smooth field; radii
     double cell_size;               ///< radii
     double iso;                     ///< field value at the surface
     double tolerance;               ///< of the curvature criterion, finest cells; 0: the count criterion decides
