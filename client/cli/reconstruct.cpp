@@ -67,7 +67,7 @@ Input check_input(const ReconstructOptions& options) {
                            "' must both have {} or both not");
     if (!input.is_sequence()) {
         if (!options.out.empty()) check_mesh_path(options.out);
-        check_folder(options.spray_out);
+        if (!options.spray_out.empty()) check_points_path(options.spray_out);
         return input;
     }
     input.start = *options.start;
@@ -84,7 +84,7 @@ Input check_input(const ReconstructOptions& options) {
         if (frame == input.end) break;
     }
     if (!options.out.empty()) check_mesh_path(input.out.at(input.start));
-    check_folder(input.spray_out.at(input.start));
+    if (!options.spray_out.empty()) check_points_path(input.spray_out.at(input.start));
     return input;
 }
 

@@ -65,7 +65,10 @@ describe('FrameReceiver', () => {
 
   it('joins the messages of the spray, which each frame has anew', () => {
     const receiver = new FrameReceiver();
-    const spray = [[1, 2, 3, 4.5, 5, 6], [-7, 8, 9]];
+    const spray = [
+      [1, 2, 3, 4.5, 5, 6],
+      [-7, 8, 9],
+    ];
     expect([...taken(receiver, { ...two, spray }).spray]).toEqual([1, 2, 3, 4.5, 5, 6, -7, 8, 9]);
     expect(taken(receiver, { index: 2, base: 1, triangles: 3 }).spray.length).toBe(0);
   });

@@ -2,14 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "running_server.hpp"
-#include "test_folder.hpp"
+#include "sample_files.hpp"
 
 namespace meniscus::server::test {
 namespace {
