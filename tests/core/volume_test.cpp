@@ -155,13 +155,13 @@ TEST(Volume, OfFullWaterWithinADomainIsTheDomains) {
 }
 
 TEST(Volume, HasTheSameBitsForAnyNumberOfThreadsAndAfterAMoveByWholeBricks) {
-    // Radius, cell and move are powers of two, so that the move is exact in float32.
+    // Exact in float32, and by bricks of support cells, too: those are 16 * 12 cells, 3 world units, a side.
     Settings settings;
     settings.particle_radius = 1.0 / 32;
     test::Particles here = ball(10.0F / 32, 1.0F / 32), there;
     for (std::size_t i = 0; i < here.count(); ++i)
-        there.add(here.positions[3 * i] + 4096.0F, here.positions[3 * i + 1] - 8192.0F,
-                  here.positions[3 * i + 2] - 64.0F);
+        there.add(here.positions[3 * i] + 3072.0F, here.positions[3 * i + 1] - 6144.0F,
+                  here.positions[3 * i + 2] - 48.0F);
     Mesh mesh;
     const double volume = statistics_of(settings, here.frame(), mesh).volume;
     ASSERT_GT(volume, 0.0);
