@@ -1,4 +1,5 @@
-// The volume of the finished mesh on the CPU: four triangles at a time.
+// The volume of the finished mesh on the CPU, four triangles at a time: 1 % of an adaptive frame, up to 2 % of a
+// uniform one. One triangle at a time took half as long again; added up while triangles are written it took no less.
 #include <atomic>
 #include <cstring>
 
