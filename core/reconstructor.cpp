@@ -1,7 +1,9 @@
 // Validation, accounts and statistics around a backend.
 #include "meniscus/reconstructor.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <thread>
 
@@ -12,6 +14,20 @@
 #include "processor.hpp"
 
 namespace meniscus {
+namespace {
+
+/// A particle of level k stands for a cube of twice its radius: 8^k times that of level 0. World units cubed.
+double volume_of(const ParticleFrame& frame, const Settings& settings) {
+    std::uint64_t cubes = frame.count();
+    for (unsigned level = 1; level <= max_particle_level && !frame.levels.empty(); ++level) {
+        const auto particles = std::count(frame.levels.begin(), frame.levels.end(), static_cast<std::uint8_t>(level));
+        cubes += static_cast<std::uint64_t>(particles) * ((std::uint64_t{1} << (3 * level)) - 1);
+    }
+    const double edge = 2.0 * settings.particle_radius;
+    return static_cast<double>(cubes) * (edge * edge * edge);
+}
+
+}  // namespace
 
 void Mesh::clear() {
     spray.clear();
@@ -141,6 +157,7 @@ private:
         has_surface_ = true;
         statistics_.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         statistics_.particles = frame.count();
+        statistics_.particle_volume = volume_of(frame, settings_);
         statistics_.peak_bytes = account_->peak_bytes();
         statistics_.device_bytes = device_account_->bytes();
         statistics_.device_peak_bytes = device_account_->peak_bytes();

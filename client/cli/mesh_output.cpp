@@ -39,6 +39,19 @@ void check_mesh_path(const std::filesystem::path& path) {
     check_folder(path);
 }
 
+void check_points_path(const std::filesystem::path& path) {
+    if (formats::lower_extension(path) != ".ply")
+        throw InvalidInput(path.string() + ": points are written as .ply, not as '" + formats::lower_extension(path) +
+                           "'");
+    check_folder(path);
+}
+
+void check_spray(const Settings& settings) {
+    if (settings.spray != Spray::points)
+        throw InvalidInput("--spray-out has nothing to write: spray is '" + std::string(name_of(settings.spray)) +
+                           "', and must be '" + std::string(name_of(Spray::points)) + "'");
+}
+
 void write_surface(const std::filesystem::path& path, const Surface& surface) {
     switch (format_of(path)) {
         case MeshFormat::ply:

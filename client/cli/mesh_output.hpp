@@ -26,6 +26,10 @@ constexpr std::string_view name_of(MeshFormat format) {
 void check_folder(const std::filesystem::path& path);
 /// Throws InvalidInput unless the extension names a MeshFormat and the folder exists: to be called before long work.
 void check_mesh_path(const std::filesystem::path& path);
+/// The same of a file of points, which is PLY.
+void check_points_path(const std::filesystem::path& path);
+/// Throws InvalidInput unless these settings bring points for a file of spray: to be called before long work.
+void check_spray(const Settings& settings);
 /// Writes the format that the extension names.
 void write_surface(const std::filesystem::path& path, const Surface& surface);
 

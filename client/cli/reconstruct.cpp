@@ -17,6 +17,7 @@
 #include "cli/surfaces.hpp"
 #include "formats/atomic_file.hpp"
 #include "formats/particles.hpp"
+#include "formats/point_writer.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh_hash.hpp"
 #include "meniscus/reconstructor.hpp"
@@ -27,6 +28,7 @@ namespace {
 struct ReconstructOptions {
     std::string in;
     std::string out;
+    std::string spray_out;
     std::string stats;
     double particle_radius = 0.0;
     SettingsOptions settings;
@@ -41,6 +43,7 @@ struct ReconstructOptions {
 struct Input {
     FilePattern in;
     FilePattern out;
+    FilePattern spray_out;
     std::uint64_t start = 0;
     std::uint64_t end = 0;
 
@@ -49,9 +52,9 @@ struct Input {
 };
 
 Input check_input(const ReconstructOptions& options) {
-    Input input{FilePattern(options.in), FilePattern(options.out)};
-    if (options.out.empty() && options.stats.empty())
-        throw InvalidInput("nothing to write: give -o OUT, --stats FILE.json or both");
+    Input input{FilePattern(options.in), FilePattern(options.out), FilePattern(options.spray_out)};
+    if (options.out.empty() && options.spray_out.empty() && options.stats.empty())
+        throw InvalidInput("nothing to write: give -o OUT, --spray-out FILE.ply, --stats FILE.json or several of them");
     check_folder(options.stats);
     if (input.is_sequence() && !(options.start && options.end))
         throw InvalidInput("IN '" + options.in + "' is a sequence: --start and --end are needed");
@@ -59,8 +62,12 @@ Input check_input(const ReconstructOptions& options) {
         throw InvalidInput("--start and --end need {} in IN, which is '" + options.in + "'");
     if (!options.out.empty() && input.out.has_number() != input.is_sequence())
         throw InvalidInput("IN '" + options.in + "' and OUT '" + options.out + "' must both have {} or both not");
+    if (!options.spray_out.empty() && input.spray_out.has_number() != input.is_sequence())
+        throw InvalidInput("IN '" + options.in + "' and --spray-out '" + options.spray_out +
+                           "' must both have {} or both not");
     if (!input.is_sequence()) {
         if (!options.out.empty()) check_mesh_path(options.out);
+        if (!options.spray_out.empty()) check_points_path(options.spray_out);
         return input;
     }
     input.start = *options.start;
@@ -69,6 +76,7 @@ Input check_input(const ReconstructOptions& options) {
         throw InvalidInput("--start " + std::to_string(input.start) + " is beyond --end " + std::to_string(input.end));
     input.in.match_existing(input.start);
     input.out.pad_like(input.in);
+    input.spray_out.pad_like(input.in);
     for (std::uint64_t frame = input.start;; ++frame) {
         if (!std::filesystem::exists(input.in.at(frame)))
             throw InvalidInput(input.in.at(frame).string() + ": no such file (frame " + std::to_string(frame) + " of " +
@@ -76,6 +84,7 @@ Input check_input(const ReconstructOptions& options) {
         if (frame == input.end) break;
     }
     if (!options.out.empty()) check_mesh_path(input.out.at(input.start));
+    if (!options.spray_out.empty()) check_points_path(input.spray_out.at(input.start));
     return input;
 }
 
@@ -87,6 +96,7 @@ void print_progress(const std::string& name, const Statistics& s) {
 void reconstruct(const ReconstructOptions& options) {
     const Settings settings = options.settings.build(options.particle_radius);
     const Input input = check_input(options);
+    if (!options.spray_out.empty()) check_spray(settings);
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     std::vector<Statistics> runs;
     const bool interactive = isatty(STDERR_FILENO) != 0;
@@ -99,6 +109,7 @@ void reconstruct(const ReconstructOptions& options) {
         if (runs.size() < options.repeat) return;
         const std::uint64_t frame = input.start + surface.index() / options.repeat;
         if (!options.out.empty()) write_surface(input.out.at(frame), surface);
+        if (!options.spray_out.empty()) formats::write_points(input.spray_out.at(frame), surface.spray());
         if (!options.stats.empty()) {
             nlohmann::ordered_json figures;
             if (input.is_sequence()) figures["frame"] = frame;
@@ -109,7 +120,9 @@ void reconstruct(const ReconstructOptions& options) {
         runs.clear();
     };
 
-    const auto surfaces = options.surfaces.open(settings, handle);
+    SurfacesOptions place = options.surfaces;
+    place.stream.spray = settings.spray == Spray::points;
+    const auto surfaces = place.open(settings, handle);
     for (std::uint64_t i = 0; i < input.count(); ++i) {
         const std::filesystem::path path = input.in.at(input.start + i);
         const formats::Particles particles = formats::read_particles(path);
@@ -142,6 +155,8 @@ void add_reconstruct(CLI::App& app) {
             "for the frame number ({} also finds zero-padded names)")
         ->required();
     command.add_option("-o,--output", options->out, "Mesh: .ply, .obj or .bricks; with {} for a sequence");
+    command.add_option("--spray-out", options->spray_out,
+                       "With --spray points: the particles left out of the surface, as PLY; with {} for a sequence");
     command.add_option("--particle-radius", options->particle_radius, "World units")->required();
     options->settings.add_to(command);
     options->surfaces.add_to(command);

@@ -28,6 +28,11 @@ const Mesh& Surface::mesh() const {
     return *decoded_;
 }
 
+std::span<const Point> Surface::spray() const {
+    if (mesh_ != nullptr) return mesh_->spray;
+    return received_->spray;
+}
+
 const client::ReceivedFrame& Surface::encoded() const {
     if (received_ != nullptr) return *received_;
     if (!encoded_) encoded_ = formats::encode_frame(*mesh_, statistics_, index_, simulation_time_);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "cli/options/server_flags.hpp"
@@ -31,6 +32,8 @@ public:
     const client::FrameStatistics& statistics() const { return statistics_; }
     /// Throws InvalidInput if the received bricks are not a mesh.
     const Mesh& mesh() const;
+    /// Places of the particles left out of the surface.
+    std::span<const Point> spray() const;
     /// The encoded bricks, for a file of bricks.
     const client::ReceivedFrame& encoded() const;
 

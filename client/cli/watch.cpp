@@ -9,6 +9,7 @@
 #include "cli/options/server_flags.hpp"
 #include "cli/watch_wishes.hpp"
 #include "formats/atomic_file.hpp"
+#include "formats/point_writer.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {
@@ -18,6 +19,7 @@ struct WatchOptions {
     std::string session;
     ServerFlags server;
     std::string directory;
+    std::string spray_directory;
     MeshFormat format = MeshFormat::ply;
     std::uint64_t frames = 0;  ///< 0: until the session ends
     WatchWishes wishes;
@@ -25,18 +27,28 @@ struct WatchOptions {
 
 void watch(const WatchOptions& options) {
     client::Client client = options.server.connect();
+    client::SessionInfo session;
     try {
-        client.session(options.session);
+        session = client.session(options.session);
     } catch (const client::ServerError& e) {
         throw InvalidInput("no session '" + options.session + "' at '" + options.server.address + "': " + e.what());
     }
     formats::make_directory(options.directory);
-    client::Watcher watcher = client.watch(options.session, options.wishes.build());
+    client::WatchOptions wishes = options.wishes.build();
+    wishes.spray = !options.spray_directory.empty() || options.format == MeshFormat::bricks;
+    if (!options.spray_directory.empty()) {
+        check_spray(session.settings);
+        formats::make_directory(options.spray_directory);
+    }
+    client::Watcher watcher = client.watch(options.session, wishes);
     for (std::uint64_t received = 0; options.frames == 0 || received < options.frames; ++received) {
         const auto frame = watcher.next();
         if (!frame) return;
         const auto path = frame_path(options.directory, frame->index, name_of(options.format));
         write_surface(path, Surface(*frame));
+        if (!options.spray_directory.empty())
+            formats::write_points(frame_path(options.spray_directory, frame->index, name_of(MeshFormat::ply)),
+                                  frame->spray);
         std::uint64_t triangles = 0;
         for (const auto& brick : frame->bricks) triangles += brick->triangles;
         std::cerr << path.string() << ": " << triangles << " triangles, " << frame->changed.size() << " of "
@@ -52,6 +64,8 @@ void add_watch(CLI::App& app) {
     command.add_option("SESSION", options->session, "The session's id")->required();
     options->server.add_to(command, "The server that has the session")->required();
     command.add_option("-o,--output", options->directory, "Folder for the meshes")->required();
+    command.add_option("--spray-out", options->spray_directory,
+                       "Folder for the particles left out of the surface, as PLY; of a session with spray points");
     add_named_option(command, "--format", options->format, "Format of the meshes");
     command.add_option("--frames", options->frames, "Number of frames after which to end; 0: when the session ends")
         ->capture_default_str();

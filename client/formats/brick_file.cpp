@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "conversion/codec_conversion.hpp"
+#include "conversion/spray_conversion.hpp"
 #include "conversion/statistics_conversion.hpp"
 #include "files/brick_file_format.hpp"
 #include "formats/atomic_file.hpp"
@@ -39,6 +40,7 @@ v1::StreamResponse begin_message(const client::ReceivedFrame& frame) {
     begin.set_brick_cells(brick_cells);
     begin.set_brick_count(static_cast<std::uint32_t>(frame.bricks.size()));
     begin.set_run_id(frame.run_id);
+    begin.set_spray_count(frame.spray.size());
     std::uint64_t triangles = 0;
     for (const auto& brick : frame.bricks) triangles += brick->triangles;
     begin.set_triangle_count(triangles);
@@ -147,6 +149,11 @@ void write_bricks(const std::filesystem::path& path, const client::ReceivedFrame
         const std::size_t parts = std::max<std::size_t>(1, (brick->data.size() + part_bytes - 1) / part_bytes);
         for (std::size_t part = 0; part < parts; ++part) write(part_message(*brick, part, parts));
     }
+    for (v1::SprayPoints& points : conversion::to_wire(frame.spray)) {
+        v1::StreamResponse message;
+        *message.mutable_spray_points() = std::move(points);
+        write(message);
+    }
     write(statistics_message(frame));
     file.commit();
 }
@@ -176,6 +183,7 @@ client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistic
     frame.simulation_time = simulation_time;
     frame.cell_size = mesh.cell_size;
     frame.offset_bits = mesh.offset_bits;
+    frame.spray.assign(mesh.spray.begin(), mesh.spray.end());
     static_cast<Statistics&>(frame.statistics) = statistics;
     for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
         const auto brick = std::make_shared<const EncodedBrick>(encode_brick(mesh, i, options));

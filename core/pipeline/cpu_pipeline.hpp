@@ -25,6 +25,7 @@ public:
     void place_vertices() { cpu::place_vertices(state_, field_, mesh_); }
     void emit_triangles() { cpu::emit_triangles(state_, mesh_); }
     void fill_cracks() { cpu::fill_cracks(state_, mesh_); }
+    void measure_volume() { cpu::measure_volume(state_, mesh_); }
 
 protected:
     State& state_;

@@ -1,6 +1,7 @@
 // The CPU backend: state, particles and field that live from frame to frame.
 #include "engine/cpu/particle_field.hpp"
 #include "field/kernels.hpp"
+#include "mesh/volume.hpp"
 #include "pipeline/backend.hpp"
 #include "pipeline/cpu_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
@@ -35,6 +36,7 @@ public:
 
         mesh.spray.assign(particles_.spray.begin(), particles_.spray.end());
         statistics.spray_particles = particles_.spray_particles;
+        statistics.volume = world_volume(state_.sixfold_volume, settings_.cell_size, settings_.offset_bits);
         statistics.field_evaluations = state_.field_evaluations;
         statistics.base_cells_by_level = count_band_cells(state_);
         statistics.backend = "cpu";

@@ -11,7 +11,7 @@
 //   sample       list_corner_points, sample_list, settle_band               (cooperative); list_edge_middles, ...
 //   count        list_band, count_cells, count_cracks, scan, order_by_level_and_brick
 //   place        count_vertices, scan, require_room, place_listed
-//   emit, fill   emit_cells, fill_listed
+//   emit, fill   emit_cells, fill_listed, add_volumes
 //   Counts       -> pinned memory; the host waits
 //   PendingMesh  the mesh -> pinned memory -> the caller's arrays           (when they ask for it, on a stream of its
 //   own)

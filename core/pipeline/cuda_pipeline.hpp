@@ -23,6 +23,7 @@ public:
     void place_vertices() { cuda::place_vertices(state_, field_, launch_); }
     void emit_triangles() { cuda::emit_triangles(state_, launch_); }
     void fill_cracks() { cuda::fill_cracks(state_, launch_); }
+    void measure_volume() { cuda::measure_volume(state_, launch_); }
 
 protected:
     State& state_;

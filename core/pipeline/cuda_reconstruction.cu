@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 
+#include "mesh/volume.hpp"
 #include "pipeline/backend.hpp"
 #include "pipeline/cuda_frame_run.hpp"
 
@@ -44,6 +45,8 @@ public:
         run_.run(particles);
         is_capped_ = false;
         statistics.spray_particles = run_.counts().spray_particles;
+        const LatticeSettings& settings = run_.state().settings;
+        statistics.volume = world_volume(run_.counts().sixfold_volume, settings.cell_size, settings.offset_bits);
         statistics.field_evaluations = run_.counts().field_evaluations;
         for (std::size_t level = 0; level < 3; ++level)
             statistics.base_cells_by_level[level] = run_.counts().band_cells[level];

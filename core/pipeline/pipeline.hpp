@@ -20,7 +20,8 @@ void emit_mesh(Steps& steps, Clock& clock) {
     steps.fill_cracks();
 }
 
-/// A frame's whole way. Step 2 asks for the field at base vertices, which are part of step 4's samples.
+/// A frame's whole way. Step 2 asks for the field at base vertices, which are part of step 4's samples. The volume is
+/// that of the whole mesh, whatever levels are emitted later; its time counts as the last stage's.
 template <class Steps, class Clock>
 void run_pipeline(Steps& steps, Clock& clock) {
     clock.enter(Stage::register_particles);
@@ -35,6 +36,7 @@ void run_pipeline(Steps& steps, Clock& clock) {
     steps.sample_field();
     if (steps.is_adaptive()) steps.sample_edge_middles();
     emit_mesh(steps, clock);
+    steps.measure_volume();
 }
 
 }  // namespace meniscus

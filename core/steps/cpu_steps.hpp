@@ -68,5 +68,7 @@ void place_vertices(State& state, FieldSource& field, Mesh& mesh);
 void emit_triangles(State& state, Mesh& mesh);
 /// Algorithm 3.
 void fill_cracks(State& state, Mesh& mesh);
+/// Adds up State::sixfold_volume.
+void measure_volume(State& state, const Mesh& mesh);
 
 }  // namespace meniscus::cpu

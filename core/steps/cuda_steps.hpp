@@ -55,5 +55,7 @@ void place_vertices(const State& state, const Field& field, const Launcher& laun
 void emit_triangles(const State& state, const Launcher& launch);
 /// Algorithm 3.
 void fill_cracks(const State& state, const Launcher& launch);
+/// Adds up Counts::sixfold_volume, which must be 0.
+void measure_volume(const State& state, const Launcher& launch);
 
 }  // namespace meniscus::cuda

@@ -23,6 +23,7 @@
 #include "rpc/status.hpp"
 #include "rpc/wire_bytes.hpp"
 #include "sessions/refusal.hpp"
+#include "sessions/spray_messages.hpp"
 
 namespace meniscus::server {
 
@@ -32,7 +33,9 @@ namespace {
 class RecordedMessages {
 public:
     RecordedMessages(const RecordingCatalog::Opened& opened, const v1::ReadRecordingRequest& request)
-        : file_(opened.file), name_(fmt::format("recording {} of session {}", request.number(), request.session_id())) {
+        : file_(opened.file),
+          with_spray_(request.with_spray()),
+          name_(fmt::format("recording {} of session {}", request.number(), request.session_id())) {
         const auto& meshes = opened.index.meshes();
         const std::uint64_t first = request.position();
         if (first > meshes.size() || (first == meshes.size() && first != 0))
@@ -46,15 +49,17 @@ public:
     /// None after the last. Throws Refusal, data_loss, where the file is damaged.
     SharedMessage next() {
         try {
-            if (messages_ && messages_->at_end()) messages_.reset();
-            if (!messages_) {
-                if (at_ == meshes_.size()) return nullptr;
-                const files::ByteRange range = meshes_[at_++].messages;
-                messages_.emplace(*file_, range.first, range.first + range.size);
+            for (;;) {
+                if (messages_ && messages_->at_end()) messages_.reset();
+                if (!messages_) {
+                    if (at_ == meshes_.size()) return nullptr;
+                    const files::ByteRange range = meshes_[at_++].messages;
+                    messages_.emplace(*file_, range.first, range.first + range.size);
+                }
+                auto message = messages_->next(files::max_recorded_message_bytes);
+                if (!message) file_->fail("a message is cut");
+                if (with_spray_ || !is_spray(*message)) return std::make_shared<const std::string>(std::move(*message));
             }
-            if (auto message = messages_->next(files::max_recorded_message_bytes))
-                return std::make_shared<const std::string>(std::move(*message));
-            file_->fail("a message is cut");
         } catch (const InvalidInput& error) {
             const std::uint64_t frame = meshes_[at_ - 1].frame_index;
             log_error({.frame = frame}, "a recording cannot be read: {}", error.what());
@@ -65,6 +70,7 @@ public:
 
 private:
     const std::shared_ptr<const files::RandomAccessFile> file_;
+    const bool with_spray_;
     const std::string name_;
     std::vector<MeshPlace> meshes_;
     std::size_t at_ = 0;                                ///< the next of meshes_

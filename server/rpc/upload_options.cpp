@@ -34,6 +34,7 @@ UploadOptions upload_options(const v1::StreamOpen& message) {
     return {.receive_meshes = message.receive_meshes(),
             .normal_bits = normal_bits_of(message),
             .codec = conversion::chosen_codec(message.codecs()),
+            .spray = message.with_spray(),
             .policy = policy_of(message),
             .nth = message.nth(),
             .run_id = message.run_id()};

@@ -62,6 +62,7 @@ WatchWishes watch_wishes_of(const v1::WatchRequest& request, const Settings& set
     if (!settings.normals) wishes.format.normal_bits = 0;
     if (request.has_region()) wishes.region = region_of(request.region());
     wishes.bytes_per_second = request.bytes_per_second();
+    wishes.spray = request.with_spray();
     if (request.has_viewpoint()) wishes.viewpoint = viewpoint_of(request.viewpoint());
     return wishes;
 }

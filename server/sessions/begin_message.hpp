@@ -17,6 +17,7 @@ inline v1::StreamResponse begin_response(const EncodedFrame& frame) {
     begin.set_cell_size(frame.cell_size);
     begin.set_offset_bits(frame.offset_bits);
     begin.set_brick_cells(static_cast<std::uint32_t>(brick_cells));
+    begin.set_spray_count(frame.spray_count);
     return response;
 }
 

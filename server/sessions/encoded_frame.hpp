@@ -48,17 +48,20 @@ struct EncodedFrame {
     std::chrono::steady_clock::time_point received_at;  ///< the last byte of its particles
     double cell_size = 0.0;
     std::uint32_t offset_bits = 0;
-    SharedMessage begin;              ///< announces the whole mesh
-    std::vector<SharedBrick> bricks;  ///< ordered by place (z, y, x)
+    SharedMessage begin;               ///< announces the whole mesh
+    std::vector<SharedBrick> bricks;   ///< ordered by place (z, y, x)
+    std::uint64_t spray_count = 0;     ///< points in all of the next
+    std::vector<SharedMessage> spray;  ///< for those who wish for it
     FrameStatistics statistics;
     SharedMessage end;  ///< carries the statistics
 
-    /// The messages that carry the whole mesh, in their order.
+    /// The messages that carry the whole mesh and its spray, in their order.
     template <class Visit>
     void for_each_message(const Visit& visit) const {
         visit(begin);
         for (const SharedBrick& brick : bricks)
             for (const SharedMessage& message : brick->messages) visit(message);
+        for (const SharedMessage& message : spray) visit(message);
         visit(end);
     }
 };

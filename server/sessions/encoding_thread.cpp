@@ -82,8 +82,8 @@ void EncodingThread::perform(Encode& task) {
         if (upload.options.receive_meshes) {
             const MeshFormat format =
                 stream_format(upload.options.normal_bits, upload.options.codec, context_.settings);
-            const auto encoded =
-                encode_newest(format, [&](const SharedMessage& message) { upload.output.push(message); });
+            const auto encoded = encode_newest(
+                format, [&](const SharedMessage& message) { upload.output.push(message); }, upload.options.spray);
             count_answer(encoded->statistics);
             watchers_.publish(format, encoded);
         } else {
@@ -106,10 +106,10 @@ void EncodingThread::answer_again(Encode& task) {
     Upload& upload = *task.upload;
     try {
         if (upload.options.receive_meshes)
-            encode_frame(*task.frame,
-                         stream_format(upload.options.normal_bits, upload.options.codec, context_.settings), nullptr,
-                         *context_.shared.workers, scratch_,
-                         [&](const SharedMessage& message) { upload.output.push(message); });
+            encode_frame(
+                *task.frame, stream_format(upload.options.normal_bits, upload.options.codec, context_.settings),
+                nullptr, *context_.shared.workers, scratch_,
+                [&](const SharedMessage& message) { upload.output.push(message); }, upload.options.spray);
         else
             upload.output.push(serialize(statistics_of(*task.frame)));
     } catch (const DeviceError&) {
@@ -161,10 +161,11 @@ void EncodingThread::count_answer(const FrameStatistics& statistics) {
     last_frame_ = statistics;
 }
 
-std::shared_ptr<const EncodedFrame> EncodingThread::encode_newest(const MeshFormat& format, const MessageSink& sink) {
+std::shared_ptr<const EncodedFrame> EncodingThread::encode_newest(const MeshFormat& format, const MessageSink& sink,
+                                                                  bool spray_to_sink) {
     const auto before = before_.find(format);
     return encode_frame(*newest_, format, before != before_.end() ? before->second.get() : nullptr,
-                        *context_.shared.workers, scratch_, sink);
+                        *context_.shared.workers, scratch_, sink, spray_to_sink);
 }
 
 void EncodingThread::encode_for_watchers() {

@@ -92,7 +92,8 @@ private:
     void count_answer(const FrameStatistics& statistics);
     void give_back(ReconstructedFrame& frame);
 
-    std::shared_ptr<const EncodedFrame> encode_newest(const MeshFormat& format, const MessageSink& sink);
+    std::shared_ptr<const EncodedFrame> encode_newest(const MeshFormat& format, const MessageSink& sink,
+                                                      bool spray_to_sink = false);
     /// Encodes the newest mesh in the formats that watchers wish for and nobody has published.
     void encode_for_watchers();
     void encode_for_observer();

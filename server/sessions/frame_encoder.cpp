@@ -10,6 +10,7 @@
 #include "sessions/begin_message.hpp"
 #include "sessions/limits/limits.hpp"
 #include "sessions/place_order.hpp"
+#include "sessions/spray_messages.hpp"
 #include "sessions/statistics_message.hpp"
 
 namespace meniscus::server {
@@ -21,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 // One serialization serves both RPCs, as the contract says of WatchResponse.
 static_assert(int{v1::StreamResponse::kMeshBeginFieldNumber} == int{v1::WatchResponse::kMeshBeginFieldNumber});
 static_assert(int{v1::StreamResponse::kMeshBrickFieldNumber} == int{v1::WatchResponse::kMeshBrickFieldNumber});
+static_assert(int{v1::StreamResponse::kSprayPointsFieldNumber} == int{v1::WatchResponse::kSprayPointsFieldNumber});
 static_assert(int{v1::StreamResponse::kFrameStatisticsFieldNumber} ==
               int{v1::WatchResponse::kFrameStatisticsFieldNumber});
 
@@ -82,9 +84,12 @@ FrameStatistics statistics_of(const ReconstructedFrame& frame, const MeshDownloa
 
 std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
                                                  const EncodedFrame* before, WorkerPool& workers, ScratchPool& scratch,
-                                                 const MessageSink& sink) {
+                                                 const MessageSink& sink, bool spray_to_sink) {
     const MeshDownload& download = frame.download_at(format.max_level);
     download.start();
+    // Spray lies beside the mesh as reconstructed, whatever its level cap.
+    const Array<Point>& spray = frame.mesh.spray;
+    if (!spray.empty()) frame.download.start();
     const auto start = Clock::now();
     const Mesh& mesh = *frame.mesh_at(format.max_level);
     const CodingOptions coding{
@@ -96,6 +101,8 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
     encoded->received_at = frame.received_at;
     encoded->cell_size = mesh.cell_size;
     encoded->offset_bits = encoded_offset_bits(mesh, coding);
+    encoded->spray_count = spray.size();
+    encoded->spray = spray_messages(spray);
     const auto emit = [&](const SharedMessage& message) {
         if (sink) sink(message);
     };
@@ -123,6 +130,8 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
         for (const SharedMessage& message : brick->messages) emit(message);
     });
 
+    if (spray_to_sink)
+        for (const SharedMessage& message : encoded->spray) emit(message);
     encoded->statistics = statistics_of(frame, download);
     encoded->statistics.encode_seconds = seconds_since(start);
     encoded->statistics.encoded_bytes = bytes;

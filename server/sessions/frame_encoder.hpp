@@ -57,9 +57,10 @@ using MessageSink = std::function<void(const SharedMessage&)>;
 /// Brings the mesh down, and encodes the bricks in parallel, but those whose content `before` has already: an earlier
 /// frame of the session in the same format, or none. The frame has the mesh of that format. sink may be empty. Throws
 /// DeviceError if the mesh cannot come down, LimitExceeded if the account of the scratch memory would pass its limit.
+/// spray_to_sink: whether the sink gets the spray as well, which the encoded frame has anyway.
 std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
                                                  const EncodedFrame* before, WorkerPool& workers, ScratchPool& scratch,
-                                                 const MessageSink& sink);
+                                                 const MessageSink& sink, bool spray_to_sink = false);
 
 /// The statistics of a frame whose simulator wants no meshes, until now.
 FrameStatistics statistics_of(const ReconstructedFrame& frame);

@@ -126,6 +126,7 @@ FrameUpdate update_mesh(const EncodedFrame& frame, const WatchWishes& wishes, co
     update.messages.push_back(begin_message(frame, difference, triangles, base));
     for (const BrickMessages* brick : difference.changed)
         update.messages.insert(update.messages.end(), brick->messages.begin(), brick->messages.end());
+    if (wishes.spray) update.messages.insert(update.messages.end(), frame.spray.begin(), frame.spray.end());
     update.messages.push_back(frame.end);
     for (const SharedMessage& message : update.messages) update.bytes += message->size();
     return update;

@@ -25,6 +25,7 @@ struct UploadOptions {
     bool receive_meshes = false;
     int normal_bits = 0;
     Codec codec = Codec::draco;
+    bool spray = false;  ///< whether it comes beside the meshes
     UploadPolicy policy = UploadPolicy::every_frame;
     std::uint32_t nth = 1;     ///< at least 1; for UploadPolicy::every_nth
     std::uint64_t run_id = 0;  ///< 0: a run of its own

@@ -8,6 +8,7 @@
 #include "formats/atomic_file.hpp"
 #include "formats/byte_cursor.hpp"
 #include "formats/mesh_file.hpp"
+#include "formats/particles.hpp"
 #include "formats/scalar.hpp"
 #include "formats/vtk_writer.hpp"
 #include "meniscus/statistics.hpp"
@@ -281,6 +282,27 @@ TEST_F(Cli, EveryOutputFormatHoldsTheSameTriangles) {
                 .exit_code,
             0);
     }
+}
+
+TEST_F(Cli, WritesThePointsThatAreLeftOutOfTheSurface) {
+    std::string bytes;
+    for (const float x : {1.0F, -2.0F, 3.0F}) formats::store(bytes, x);
+    const std::string lone = write("lone.xyz", bytes);
+    const std::string spray = path("spray.ply");
+    const std::vector<std::string> arguments{"reconstruct",       lone,  "-o",          out_,
+                                             "--particle-radius", "0.5", "--spray-out", spray};
+    expect_refused(arguments, {"--spray-out", "keep", "points"});
+    std::vector<std::string> points = arguments;
+    points.insert(points.end(), {"--spray", "points"});
+    const ProcessResult result = run_meniscus(points);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(formats::read_mesh(out_).triangles.empty());
+    const std::vector<float> written = formats::read_particles(spray).positions;
+    ASSERT_EQ(written.size(), 3U);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(written[axis], (std::vector<float>{1.0F, -2.0F, 3.0F})[axis], 1e-3);
+    points[7] = path("spray.obj");
+    expect_refused(points, {"spray.obj", ".ply"});
 }
 
 TEST_F(Cli, AnEmptyFrameGivesAnEmptyMesh) {

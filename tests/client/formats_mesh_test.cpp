@@ -100,12 +100,14 @@ TEST(BrickFile, IsReadBackInParts) {
     frame.bricks.push_back(std::make_shared<EncodedBrick>(EncodedBrick{{0, 0, 0}, 1, 1, {}, {}}));
     frame.bricks.push_back(std::make_shared<EncodedBrick>(
         EncodedBrick{{-1, 2, 3}, 5, 6, {std::byte{3}}, std::vector<std::byte>((1 << 21) + 5, std::byte{9})}));
+    frame.spray = {{1.0F, -2.0F, 3.5F}, {4.0F, 5.0F, 6.0F}};
     formats::write_bricks(directory / "f.bricks", frame);
     const auto back = formats::read_bricks("f", formats::read_file(directory / "f.bricks"));
     EXPECT_EQ(back.index, 7U);
     EXPECT_EQ(back.simulation_time, 0.25);
     EXPECT_EQ(back.cell_size, 0.0125);
     EXPECT_EQ(back.offset_bits, 6U);
+    EXPECT_EQ(back.spray, frame.spray);
     ASSERT_EQ(back.bricks.size(), 2U);
     EXPECT_EQ(back.bricks[1]->coordinate, frame.bricks[1]->coordinate);
     EXPECT_EQ(back.bricks[1]->cell_levels, frame.bricks[1]->cell_levels);

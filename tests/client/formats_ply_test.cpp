@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "formats/particles.hpp"
+#include "formats/point_writer.hpp"
 #include "formats/scalar.hpp"
 #include "sample_files.hpp"
 
@@ -38,6 +39,15 @@ TEST(ParticlePlyReader, ReadsBothByteOrders) {
         EXPECT_EQ(particles.positions, (std::vector<float>{1, 2, 3, 4, 5, 6}));
         EXPECT_EQ(particles.levels, (std::vector<std::uint8_t>{1, 2}));
     }
+}
+
+TEST(ParticlePlyReader, ReadsThePointsThatTheWriterWrites) {
+    const TemporaryDirectory directory;
+    formats::write_points(directory / "points.ply", std::vector<Point>{{1.0F, -2.5F, 3e7F}, {0.1F, 0.0F, -0.0F}});
+    EXPECT_EQ(formats::read_particles(directory / "points.ply").positions,
+              (std::vector<float>{1.0F, -2.5F, 3e7F, 0.1F, 0.0F, -0.0F}));
+    formats::write_points(directory / "none.ply", {});
+    EXPECT_EQ(formats::read_particles(directory / "none.ply").count(), 0U);
 }
 
 TEST(ParticlePlyReader, ReadsAscii) {

@@ -37,6 +37,7 @@ public:
         EXPECT_EQ(statistics_.spray_particles, cpu.statistics().spray_particles);
         EXPECT_EQ(statistics_.field_evaluations, cpu.statistics().field_evaluations);
         EXPECT_EQ(statistics_.base_cells_by_level, cpu.statistics().base_cells_by_level);
+        EXPECT_EQ(statistics_.volume, cpu.statistics().volume);
         for (const int max_level : {1, 3, 2}) {
             SCOPED_TRACE(testing::Message() << "levels up to " << max_level);
             cpu.emit_capped(max_level, again);

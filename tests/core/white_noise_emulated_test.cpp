@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "engine/cuda/device_memory.hpp"
+#include "mesh/volume.hpp"
 #include "pipeline/cuda_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/stage_clock.hpp"
@@ -125,6 +126,7 @@ public:
             run(NoiseSteps<Slivers::raised>(state_, world, launch));
         stream_.synchronize();
         EXPECT_EQ(state_.counts->stop, cuda::Stop::none);
+        sixfold_volume_ = state_.counts->sixfold_volume;
         const auto needed = [&](cuda::Resource r) { return state_.counts->needed[static_cast<int>(r)]; };
         Mesh mesh;
         mesh.cell_size = state_.settings.cell_size;
@@ -137,10 +139,14 @@ public:
         return mesh;
     }
 
+    /// Of the mesh before its levels were capped.
+    std::uint64_t measured_sixfold_volume() const { return sixfold_volume_; }
+
 private:
     cuda::Stream stream_;
     cuda::DeviceMemory memory_, mesh_memory_;
     cuda::State state_;
+    std::uint64_t sixfold_volume_ = 0;
 };
 
 void expect_closed(const test::NoiseWorld& world, std::uint64_t first, std::uint64_t count) {
@@ -153,6 +159,10 @@ void expect_closed(const test::NoiseWorld& world, std::uint64_t first, std::uint
         ASSERT_EQ(mesh.vertices, expected.vertices) << "seed " << seeded.seed;
         ASSERT_EQ(mesh.triangles, expected.triangles) << "seed " << seeded.seed;
         ASSERT_FALSE(mesh.triangles.empty()) << "seed " << seeded.seed;
+        std::uint64_t sixfold = 0;
+        for (const Triangle& triangle : mesh.triangles)
+            sixfold += static_cast<std::uint64_t>(sixfold_volume(mesh.vertices.data(), triangle));
+        if (seeded.max_level == 3) ASSERT_EQ(device.measured_sixfold_volume(), sixfold) << "seed " << seeded.seed;
     });
 }
 

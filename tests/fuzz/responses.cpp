@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "conversion/particle_arrays.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "receiving/frame_receiver.hpp"
@@ -19,13 +21,15 @@ void receive(Bytes bytes, bool differences) {
             if (!response.ParseFromArray(message.data(), static_cast<int>(message.size()))) return;
             const auto frame = receiver.take(response);
             if (!frame) continue;
+            for (const Point& point : frame->spray)
+                for (const float x : point) require(std::isfinite(x), "spray is finite");
             may_refuse([&] { (void)frame->mesh(); });
         }
         receiver.end_of_stream();
     });
 }
 
-/// One frame with all of its bricks, the first in two parts.
+/// One frame with all of its bricks, the first in two parts, and its spray in two messages.
 template <class Response>
 std::vector<Response> whole_frame() {
     const Mesh mesh = sample_mesh();
@@ -37,6 +41,7 @@ std::vector<Response> whole_frame() {
     begin.set_brick_cells(brick_cells);
     begin.set_brick_count(static_cast<std::uint32_t>(mesh.bricks.size()));
     begin.set_triangle_count(mesh.triangles.size());
+    begin.set_spray_count(2);
     for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
         const EncodedBrick encoded = encode_brick(mesh, i);
         const std::string data(reinterpret_cast<const char*>(encoded.data.data()), encoded.data.size());
@@ -56,6 +61,8 @@ std::vector<Response> whole_frame() {
             brick.set_part_count(static_cast<std::uint32_t>(parts));
         }
     }
+    for (const char* point : {"\0\0\0\0\0\0\0\0\0\0\0\0", "1234567890ab"})
+        responses.emplace_back().mutable_spray_points()->set_positions(point, 12);
     v1::FrameStatistics& statistics = *responses.emplace_back().mutable_frame_statistics();
     statistics.set_frame_index(3);
     statistics.set_triangles(mesh.triangles.size());

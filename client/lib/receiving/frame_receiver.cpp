@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "conversion/spray_conversion.hpp"
+#include "meniscus/error.hpp"
 #include "receiving/frame_statistics.hpp"
 
 namespace meniscus::client {
@@ -61,6 +63,7 @@ void FrameReceiver::begin(const v1::MeshBegin& message) {
     frame.header.cell_size = message.cell_size();
     frame.header.offset_bits = message.offset_bits();
     frame.brick_count = message.brick_count();
+    frame.spray_count = message.spray_count();
     frame.triangles = message.triangle_count();
     begin_difference(message, frame);
     frame_ = std::move(frame);
@@ -121,6 +124,20 @@ void FrameReceiver::add(const v1::MeshBrick& message) {
     --frame.missing_parts;
 }
 
+void FrameReceiver::add(const v1::SprayPoints& message) {
+    if (!frame_) throw ServerError("the server sent spray outside of a frame");
+    std::vector<Point>& spray = frame_->header.spray;
+    const std::string name = frame_name(frame_->header.index);
+    try {
+        conversion::append_points(message, spray);
+    } catch (const InvalidInput& error) {
+        throw ServerError(name + ": " + error.what());
+    }
+    if (spray.size() > frame_->spray_count)
+        throw ServerError(name + " has spray of more than the " + std::to_string(frame_->spray_count) +
+                          " points that were announced");
+}
+
 void FrameReceiver::complete_mesh(const v1::FrameStatistics& message) {
     const std::string name = frame_name(message.frame_index());
     if (!frame_ || frame_->header.index != message.frame_index())
@@ -130,6 +147,10 @@ void FrameReceiver::complete_mesh(const v1::FrameStatistics& message) {
         throw ServerError(name + " ended after " + std::to_string(frame.bricks.size()) + " bricks of " +
                           std::to_string(frame.brick_count) +
                           (frame.missing_parts != 0 ? ", in the middle of one" : ""));
+    // Who has not asked for spray gets none.
+    if (!frame.header.spray.empty() && frame.header.spray.size() != frame.spray_count)
+        throw ServerError(name + " ended after " + std::to_string(frame.header.spray.size()) +
+                          " points of spray; announced were " + std::to_string(frame.spray_count));
     if (frame.has_base) {
         for (const Place& place : frame.vanished) bricks_.erase(place);
         for (auto& [place, brick] : frame.bricks) bricks_.insert_or_assign(place, std::move(brick));

@@ -30,6 +30,9 @@ public:
             case Response::kMeshBrick:
                 add(response.mesh_brick());
                 return std::nullopt;
+            case Response::kSprayPoints:
+                add(response.spray_points());
+                return std::nullopt;
             case Response::kFrameStatistics:
                 return end(response.frame_statistics());
             case Response::kDraining:
@@ -53,6 +56,7 @@ private:
         bool has_base = false;
         std::uint64_t triangles = 0;
         std::uint32_t brick_count = 0;
+        std::uint64_t spray_count = 0;
         std::set<Place> vanished;
         Bricks bricks;
         std::shared_ptr<EncodedBrick> brick;  ///< the one received last
@@ -63,6 +67,7 @@ private:
     void begin(const v1::MeshBegin& message);
     void begin_difference(const v1::MeshBegin& message, Frame& frame) const;
     void add(const v1::MeshBrick& message);
+    void add(const v1::SprayPoints& message);
     ReceivedFrame end(const v1::FrameStatistics& message);
     void complete_mesh(const v1::FrameStatistics& message);
 

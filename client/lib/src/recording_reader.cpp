@@ -14,6 +14,7 @@ RecordingReader::Impl::Impl(std::shared_ptr<Connection> connection, const std::s
     request.set_number(number);
     request.set_position(options.position);
     request.set_count(options.count);
+    request.set_with_spray(options.spray);
     conversion::add_known_codecs(*request.mutable_codecs());
     connection_->add_metadata(context_, session_id);
     reader_ = connection_->recordings->ReadRecording(&context_, request);

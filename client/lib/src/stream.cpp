@@ -60,6 +60,7 @@ v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& 
     open.set_normal_bits(static_cast<std::uint32_t>(options.normal_bits));
     open.set_policy(to_wire(options.policy));
     open.set_nth(options.nth);
+    open.set_with_spray(options.spray);
     open.set_run_id(random_run_id());
     conversion::add_known_codecs(*open.mutable_codecs());
     return open;

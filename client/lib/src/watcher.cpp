@@ -17,6 +17,7 @@ v1::WatchRequest request_of(const std::string& session_id, const WatchOptions& o
     request.set_max_level(static_cast<std::uint32_t>(options.max_level));
     if (options.region) *request.mutable_region() = conversion::to_wire(*options.region);
     request.set_bytes_per_second(options.bytes_per_second);
+    request.set_with_spray(options.spray);
     conversion::add_known_codecs(*request.mutable_codecs());
     if (options.viewpoint) {
         request.mutable_viewpoint()->set_x((*options.viewpoint)[0]);

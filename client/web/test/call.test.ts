@@ -63,7 +63,7 @@ describe('a call', () => {
     });
     const request = toBinary(
       WatchRequestSchema,
-      create(WatchRequestSchema, { sessionId: 'an-id', normalBits: 0, codecs: [Codec.DRACO] }),
+      create(WatchRequestSchema, { sessionId: 'an-id', normalBits: 0, codecs: [Codec.DRACO], withSpray: true }),
     );
     expect(seen!.init.body).toEqual(message(0, request));
   });

@@ -3,7 +3,7 @@ import type { Frame } from '../src/bricks/frame';
 import { FrameReceiver } from '../src/bricks/frame_receiver';
 import type { Codec } from '../src/gen/meniscus/v1/mesh_pb';
 import type { WatchResponse } from '../src/gen/meniscus/v1/surface_service_pb';
-import { begin, brick, frame, statistics, type FrameOptions } from './support/messages';
+import { begin, brick, frame, sprayPoints, statistics, type FrameOptions } from './support/messages';
 
 function take(receiver: FrameReceiver, messages: WatchResponse[]): Frame | undefined {
   let complete: Frame | undefined;
@@ -63,6 +63,16 @@ describe('FrameReceiver', () => {
     expect([...complete.bricks.get('0,0,0')!.data]).toEqual([1, 2, 3, 4]);
   });
 
+  it('joins the messages of the spray, which each frame has anew', () => {
+    const receiver = new FrameReceiver();
+    const spray = [
+      [1, 2, 3, 4.5, 5, 6],
+      [-7, 8, 9],
+    ];
+    expect([...taken(receiver, { ...two, spray }).spray]).toEqual([1, 2, 3, 4.5, 5, 6, -7, 8, 9]);
+    expect(taken(receiver, { index: 2, base: 1, triangles: 3 }).spray.length).toBe(0);
+  });
+
   const refusals: [string, WatchResponse[]][] = [
     ['outside of a frame', [brick([0, 0, 0])]],
     ['without its mesh', [statistics(1)]],
@@ -79,6 +89,11 @@ describe('FrameReceiver', () => {
     ['has the codec 0', [begin(two), brick([0, 0, 0], 1, [1], 0, 1, 0)]],
     ['in place of part 1', [begin(two), brick([0, 0, 0], 1, [1], 0, 2), brick([0, 0, 0], 1, [1], 1, 2, 7 as Codec)]],
     ['announced were 9', frame({ ...two, triangles: 9 })],
+    ['outside of a frame', [sprayPoints([1, 2, 3])]],
+    ['no whole points', [begin({ index: 1, sprayCount: 1 }), sprayPoints([1, 2])]],
+    ['no whole points', [begin({ index: 1, sprayCount: 1 }), sprayPoints([])]],
+    ['more than the 1 points', frame({ index: 1, spray: [[1, 2, 3, 4, 5, 6]], sprayCount: 1 })],
+    ['after 1 of 2 points of spray', frame({ index: 1, spray: [[1, 2, 3]], sprayCount: 2 })],
     ['difference to frame 4', frame({ index: 5, base: 4 })],
     ['vanished without having been', [...frame(two), begin({ index: 2, base: 1, vanished: [[9, 9, 9]] })]],
     ['but no base', [begin({ index: 2, vanished: [[9, 9, 9]] })]],

@@ -15,7 +15,12 @@ function brick(bytes: number): EncodedBrick {
 }
 
 function frame(index: number, ...bricks: EncodedBrick[]): Frame {
-  return { index: BigInt(index), runId: 1n, bricks: new Map(bricks.map((b, i) => [String(i), b])) } as unknown as Frame;
+  return {
+    index: BigInt(index),
+    runId: 1n,
+    bricks: new Map(bricks.map((b, i) => [String(i), b])),
+    spray: new Float32Array(0),
+  } as unknown as Frame;
 }
 
 describe('History', () => {
@@ -35,6 +40,12 @@ describe('History', () => {
     history.add(frame(3, brick(60)));
     expect(history.frames.map((f) => f.index)).toEqual([2n, 3n].slice(1));
     expect(history.bytes).toBe(60);
+  });
+
+  it('counts the spray of each frame', () => {
+    const history = new History({ frames: 2, bytes: 1000 });
+    for (let index = 0; index < 3; ++index) history.add({ ...frame(index, brick(1)), spray: new Float32Array(3) });
+    expect(history.bytes).toBe(2 * 13);
   });
 
   it('never drops the newest, however large', () => {

@@ -43,6 +43,7 @@ struct State : BlockState<Array> {
     Array<std::uint64_t> chosen;                               ///< by a pass, for the next one
     std::array<Array<std::uint64_t>, all_rules.size()> stale;  ///< by rule
     std::uint64_t field_evaluations = 0;
+    std::uint64_t sixfold_volume = 0;  ///< see mesh/volume.hpp
 
     std::uint32_t block_count() const { return grid.members; }
     BlocksView blocks() { return blocks_view(*this, grid.view(), block_count()); }

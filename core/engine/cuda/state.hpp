@@ -57,6 +57,7 @@ struct Counts {
     Counter needed[resource_count];
     Counter field_evaluations;
     Counter triangles[triangle_level_count];
+    Counter sixfold_volume;  ///< see mesh/volume.hpp
     std::uint32_t first_triangle[triangle_level_count];
     std::uint32_t band_cells[3];  ///< by level
     Counter crowd;                ///< see is_crowded()

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "conversion/spray_conversion.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 
 namespace meniscus::client {
@@ -51,6 +52,54 @@ TEST(FrameReceiver, PutsPartsAndBricksTogether) {
     ASSERT_EQ(frame->bricks.size(), 2U);
     EXPECT_EQ(frame->bricks[0]->data, (std::vector<std::byte>{std::byte{'a'}, std::byte{'b'}, std::byte{'c'}}));
     receiver.end_of_stream();
+}
+
+v1::StreamResponse spray(std::initializer_list<Point> points) {
+    v1::StreamResponse response;
+    *response.mutable_spray_points() = conversion::to_wire(std::vector<Point>(points)).at(0);
+    return response;
+}
+
+/// Without bricks.
+v1::StreamResponse begin_with_spray(std::uint64_t count, std::uint64_t index = 3) {
+    v1::StreamResponse response = begin(0, 0, index);
+    response.mutable_mesh_begin()->set_spray_count(count);
+    return response;
+}
+
+TEST(FrameReceiver, HasTheSprayOfTheFrameItself) {
+    FrameReceiver receiver(true, true);
+    receiver.take(begin_with_spray(3));
+    receiver.take(spray({{1, 2, 3}, {4, 5, 6}}));
+    receiver.take(spray({{7, 8, 9}}));
+    const auto frame = receiver.take(statistics(0));
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->spray, (std::vector<Point>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
+    const Mesh mesh = frame->mesh();
+    EXPECT_EQ(std::vector<Point>(mesh.spray.begin(), mesh.spray.end()), frame->spray);
+    receiver.take(begin_with_spray(0, 4));
+    EXPECT_TRUE(receiver.take(statistics(0, 4))->spray.empty());
+}
+
+TEST(FrameReceiver, HasNoSprayThatWasNotAskedFor) {
+    FrameReceiver receiver(true);
+    receiver.take(begin_with_spray(3));
+    EXPECT_TRUE(receiver.take(statistics(0))->spray.empty());
+}
+
+TEST(FrameReceiver, RefusesSprayThatContradictsItsAnnouncement) {
+    FrameReceiver receiver(true, true);
+    EXPECT_THROW(receiver.take(spray({{1, 2, 3}})), ServerError) << "outside of a frame";
+    receiver.take(begin_with_spray(2));
+    receiver.take(spray({{1, 2, 3}}));
+    EXPECT_THROW(receiver.take(statistics(0)), ServerError) << "too little";
+    receiver.take(begin_with_spray(2));
+    EXPECT_THROW(receiver.take(spray({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}})), ServerError) << "too much";
+    receiver.take(begin_with_spray(2));
+    v1::StreamResponse cut;
+    cut.mutable_spray_points()->set_positions("eleven chars");
+    cut.mutable_spray_points()->mutable_positions()->pop_back();
+    EXPECT_THROW(receiver.take(cut), ServerError) << "no whole point";
 }
 
 TEST(FrameReceiver, RefusesMissingBricksAndParts) {

@@ -13,8 +13,10 @@
 #include "formats/recording.hpp"
 #include "meniscus/error.hpp"
 #include "observation/metrics.hpp"
+#include "recording/recording_entries.hpp"
 #include "running_server.hpp"
 #include "sample_files.hpp"
+#include "sessions/frame_encoder.hpp"
 #include "test_folder.hpp"
 
 namespace meniscus::server::test {
@@ -158,6 +160,36 @@ TEST_F(RecordingService, SendsThePartThatIsAskedFor) {
     EXPECT_EQ(read(3, 0), (std::vector<std::uint64_t>{19}));
     EXPECT_EQ(read(2, std::numeric_limits<std::uint64_t>::max()), (std::vector<std::uint64_t>{16, 19}));
     EXPECT_THROW(read(4, 1), InvalidInput);
+}
+
+TEST_F(RecordingService, SendsSprayToThoseWhoAskForIt) {
+    InputFrame input(nullptr);
+    input.index = 7;
+    ReconstructedFrame frame;
+    frame.index = 7;
+    frame.mesh.cell_size = 0.1;
+    frame.mesh.offset_bits = 6;
+    frame.mesh.spray.push_back({1.0F, 2.0F, 3.0F});
+    WorkerPool workers(1);
+    ScratchPool scratch;
+    const auto encoded =
+        encode_frame(frame, {.position_bits = 6, .normal_bits = 8}, nullptr, workers, scratch, nullptr);
+    const std::string id = client::new_session_id();
+    std::filesystem::create_directories(folder_ / id);
+    {
+        const RecordingBytes particles = recorded_particles(input, 1);
+        const RecordingBytes mesh = recorded_mesh(*encoded);
+        std::ofstream(file(id), std::ios::binary) << recording_begin(id, settings(), 1) << particles.entry
+                                                  << particles.messages << mesh.entry << mesh.messages;
+    }
+    RunningServer running(options());
+    const auto read = [&](bool spray) {
+        const auto read_frame = running.client.read_recording(id, 1, {.spray = spray}).next();
+        EXPECT_TRUE(read_frame);
+        return read_frame ? read_frame->spray : std::vector<Point>();
+    };
+    EXPECT_EQ(read(true), (std::vector<Point>{{1.0F, 2.0F, 3.0F}}));
+    EXPECT_TRUE(read(false).empty());
 }
 
 TEST_F(RecordingService, ReadsWhileASessionIsBeingRecorded) {

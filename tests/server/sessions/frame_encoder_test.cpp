@@ -95,6 +95,26 @@ TEST(FrameEncoder, TellsTheDownloadsTimeOfTheMeshThatItSendsAlone) {
     EXPECT_EQ(seconds(2), 0.0);
 }
 
+TEST(FrameEncoder, HasTheSprayAtEveryLevelCapAndSendsItWhereThatIsAskedFor) {
+    FrameOf frame(test::wave(6, 0.0));
+    frame.mesh.spray.push_back({1.0F, 2.0F, 3.0F});
+    Reconstructor(test::settings(), {.threads = 1}).reconstruct(test::wave(3, 0.0).view(), frame.capped_at(2).mesh);
+    frame.capped_at(2).made = true;
+    WorkerPool workers(1);
+    ScratchPool scratch;
+    for (const int max_level : {3, 2})
+        for (const bool asked_for : {false, true}) {
+            std::vector<SharedMessage> sent;
+            const auto encoded = encode_frame(
+                frame, {.max_level = max_level, .normal_bits = 8}, nullptr, workers, scratch,
+                [&](const SharedMessage& m) { sent.push_back(m); }, asked_for);
+            EXPECT_EQ(parsed(encoded->begin).mesh_begin().spray_count(), 1U);
+            ASSERT_EQ(encoded->spray.size(), 1U);
+            EXPECT_EQ(std::ranges::count(sent, encoded->spray[0]), asked_for ? 1 : 0);
+            EXPECT_EQ(sent.back(), encoded->end);
+        }
+}
+
 TEST(FrameEncoder, SendsAnEmptyMesh) {
     WorkerPool workers(1);
     ScratchPool scratch;

@@ -32,6 +32,8 @@ export interface Frame {
   readonly brickCells: number;
   readonly bricks: ReadonlyMap<BrickKey, EncodedBrick>;
   readonly triangleCount: number;
+  /** Particles that the surface leaves out: x y z each, world units. */
+  readonly spray: Float32Array;
   readonly statistics: FrameStatistics;
   /** Received for this frame alone. */
   readonly bytes: number;

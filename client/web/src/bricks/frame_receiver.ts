@@ -1,5 +1,5 @@
 // Puts one call's messages together to whole frames, and believes none of them.
-import type { FrameStatistics, MeshBegin, MeshBrick } from '../gen/meniscus/v1/mesh_pb';
+import type { FrameStatistics, MeshBegin, MeshBrick, SprayPoints } from '../gen/meniscus/v1/mesh_pb';
 import type { WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
 import { isKnownCodec, knownCodecs } from './codecs';
 import { brickKey, type BrickKey, type EncodedBrick, type Frame } from './frame';
@@ -12,12 +12,16 @@ export class ProtocolError extends Error {
 
 /** More than any mesh has that a browser could show. */
 const maxBricks = 1 << 20;
+/** x y z, float32. */
+const sprayPointBytes = 12;
 
 interface Arriving {
   readonly begin: MeshBegin;
   readonly beganAt: number;
   readonly bricks: Map<BrickKey, EncodedBrick>;
   readonly arrived: Set<BrickKey>;
+  readonly spray: Uint8Array[];
+  sprayCount: number;
   bytes: number;
 }
 
@@ -47,6 +51,9 @@ export class FrameReceiver {
       case 'meshBrick':
         this.add(message.value);
         return undefined;
+      case 'sprayPoints':
+        this.addSpray(message.value);
+        return undefined;
       case 'frameStatistics':
         return this.end(message.value, now);
       default:
@@ -69,7 +76,15 @@ export class FrameReceiver {
       throw new ProtocolError(`${name} has cell_size ${begin.cellSize}`);
     if (begin.brickCount > maxBricks)
       throw new ProtocolError(`${name} has ${begin.brickCount} bricks; at most ${maxBricks} are taken`);
-    this.arriving = { begin, beganAt: now, bricks: this.baseBricks(begin, name), arrived: new Set(), bytes };
+    this.arriving = {
+      begin,
+      beganAt: now,
+      bricks: this.baseBricks(begin, name),
+      arrived: new Set(),
+      spray: [],
+      sprayCount: 0,
+      bytes,
+    };
   }
 
   /** What stays of the base. */
@@ -134,6 +149,20 @@ export class FrameReceiver {
     });
   }
 
+  private addSpray({ positions }: SprayPoints): void {
+    const { arriving } = this;
+    if (!arriving) throw new ProtocolError('spray came outside of a frame');
+    const name = `frame ${arriving.begin.frameIndex}`;
+    if (positions.length === 0 || positions.length % sprayPointBytes !== 0)
+      throw new ProtocolError(`${name} has spray of ${positions.length} bytes, which are no whole points`);
+    arriving.spray.push(positions);
+    arriving.sprayCount += positions.length / sprayPointBytes;
+    if (arriving.sprayCount > arriving.begin.sprayCount)
+      throw new ProtocolError(
+        `${name} has spray of more than the ${arriving.begin.sprayCount} points that were announced`,
+      );
+  }
+
   private end(statistics: FrameStatistics, now: number): Frame {
     const { arriving } = this;
     if (arriving?.begin.frameIndex !== statistics.frameIndex)
@@ -149,6 +178,10 @@ export class FrameReceiver {
       throw new ProtocolError(
         `frame ${begin.frameIndex} has bricks of ${triangleCount} triangles; announced were ${begin.triangleCount}`,
       );
+    if (BigInt(arriving.sprayCount) !== begin.sprayCount)
+      throw new ProtocolError(
+        `frame ${begin.frameIndex} ended after ${arriving.sprayCount} of ${begin.sprayCount} points of spray`,
+      );
     this.arriving = undefined;
     this.last = {
       index: begin.frameIndex,
@@ -159,6 +192,7 @@ export class FrameReceiver {
       brickCells: begin.brickCells,
       bricks,
       triangleCount,
+      spray: new Float32Array(concatenate(arriving.spray).buffer),
       statistics,
       bytes: arriving.bytes,
       beganAt: arriving.beganAt,

@@ -3,7 +3,7 @@ import type { EncodedBrick, Frame } from './frame';
 
 export interface HistoryLimits {
   readonly frames: number;
-  /** Of encoded bricks. */
+  /** Of encoded bricks and spray. */
   readonly bytes: number;
 }
 
@@ -18,7 +18,7 @@ export class History {
     return this.kept;
   }
 
-  /** Of the encoded bricks, each counted once however many frames share it. */
+  /** Of the spray and of the encoded bricks, each counted once however many frames share it. */
   get bytes(): number {
     return this.held;
   }
@@ -28,6 +28,7 @@ export class History {
     const last = this.kept.at(-1);
     if (last && last.runId === frame.runId && last.index === frame.index) this.release(this.kept.pop()!);
     this.kept.push(frame);
+    this.held += frame.spray.byteLength;
     for (const brick of frame.bricks.values()) {
       const uses = this.uses.get(brick) ?? 0;
       if (uses === 0) this.held += brick.data.length;
@@ -44,6 +45,7 @@ export class History {
   }
 
   private release(frame: Frame): void {
+    this.held -= frame.spray.byteLength;
     for (const brick of frame.bricks.values()) {
       const uses = this.uses.get(brick)! - 1;
       if (uses > 0) {

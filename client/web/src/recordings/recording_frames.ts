@@ -25,7 +25,7 @@ export interface RecordingFramesLimits {
   readonly ahead: number;
   /** Kept, those used last; more than `ahead`. */
   readonly frames: number;
-  /** Of encoded bricks. */
+  /** Of encoded bricks and spray. */
   readonly bytes: number;
 }
 
@@ -150,7 +150,7 @@ export class RecordingFrames {
 }
 
 function bytesOf(frame: Frame): number {
-  let bytes = 0;
+  let bytes = frame.spray.byteLength;
   for (const brick of frame.bricks.values()) bytes += brick.data.length;
   return bytes;
 }

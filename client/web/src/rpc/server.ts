@@ -61,7 +61,7 @@ export class Server {
     return serverStream(
       this.endpoint,
       SurfaceService.method.watch,
-      { ...request, codecs: [...knownCodecs] },
+      { ...request, codecs: [...knownCodecs], withSpray: true },
       this.options(signal, request.sessionId, opened),
     );
   }
@@ -95,7 +95,7 @@ export class Server {
     return serverStream(
       this.endpoint,
       RecordingService.method.readRecording,
-      { ...request, codecs: [...knownCodecs] },
+      { ...request, codecs: [...knownCodecs], withSpray: true },
       this.options(signal, request.sessionId),
     );
   }

@@ -1,30 +1,12 @@
 // Particles as round sprites of their radius.
-import { BufferAttribute, BufferGeometry, Points, ShaderMaterial } from 'three';
+import { BufferAttribute, BufferGeometry, Points } from 'three';
 import type { Particles } from '../particles/particles';
 import type { Point } from './bounds';
+import { spriteMaterial } from './sprites';
 import { pictureLayer } from './thickness_pass';
 
 export class ParticleCloud {
-  private readonly material = new ShaderMaterial({
-    uniforms: { radius: { value: 0 }, screenHeight: { value: 1 } },
-    vertexShader: /* glsl */ `
-      uniform float radius;
-      uniform float screenHeight;
-      attribute float level;
-      void main() {
-        gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-        gl_PointSize = max(2.0, radius * exp2(level) * projectionMatrix[1][1] * screenHeight / gl_Position.w);
-      }`,
-    fragmentShader: /* glsl */ `
-      void main() {
-        vec2 across = 2.0 * gl_PointCoord - 1.0;
-        float r2 = dot(across, across);
-        if (r2 > 1.0) discard;
-        // Lit from above left; the rim is dark, so that each stands out before its neighbors and before either background.
-        float light = 0.55 * sqrt(1.0 - r2) + 0.45 * max(0.0, dot(vec3(across.x, -across.y, sqrt(1.0 - r2)), vec3(-0.48, 0.64, 0.6)));
-        gl_FragColor = vec4(mix(vec3(0.02, 0.15, 0.32), vec3(0.42, 0.76, 0.98), light), 1.0);
-      }`,
-  });
+  private readonly material = spriteMaterial();
   readonly points = new Points(new BufferGeometry(), this.material);
   private current: Particles | undefined;
 
@@ -50,7 +32,7 @@ export class ParticleCloud {
     const { min, max, radius } = particles;
     this.points.position.set(min[0] - origin[0], min[1] - origin[1], min[2] - origin[2]);
     this.points.scale.set(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
-    this.material.uniforms.radius!.value = radius;
+    this.material.uniforms.radius.value = radius;
   }
 
   moveTo(origin: Point): void {
@@ -59,7 +41,7 @@ export class ParticleCloud {
 
   /** Of the picture, in its own pixels. */
   setScreenHeight(pixels: number): void {
-    this.material.uniforms.screenHeight!.value = pixels;
+    this.material.uniforms.screenHeight.value = pixels;
   }
 }
 

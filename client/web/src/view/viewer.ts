@@ -11,6 +11,7 @@ import { environmentUniforms, setTheme, type Theme } from './environment';
 import { distanceToSee, putInTheMiddle, type Margins } from './fit';
 import { levelLineMaterials, levelSurfaceMaterial } from './level_materials';
 import { ParticleCloud } from './particle_cloud';
+import { SprayCloud } from './spray_cloud';
 import { Sunlight } from './sunlight';
 import { pictureLayer, ThicknessPass, waterLayer } from './thickness_pass';
 import { toScene, toWorld, turnUp, type UpAxis } from './up_axis';
@@ -47,6 +48,7 @@ export class Viewer {
   private readonly sunlight = new Sunlight(this.environment);
   private readonly bricks = new BrickMeshes(this.water, levelLineMaterials());
   private readonly particles = new ParticleCloud();
+  private readonly spray = new SprayCloud();
   private readonly controls: CameraControls;
   /** What the scene's coordinates are relative to, so that they stay small wherever the water is. */
   private origin: Point = [0, 0, 0];
@@ -71,7 +73,7 @@ export class Viewer {
     this.renderer.info.autoReset = false;
     this.water.uniforms.thickness.value = this.thickness.texture;
     this.scene.add(this.background.mesh, this.bricks.group);
-    this.bricks.group.add(this.particles.points);
+    this.bricks.group.add(this.particles.points, this.spray.points);
     this.background.mesh.layers.set(pictureLayer);
     this.controls = new CameraControls(canvas, {
       changed: () => {
@@ -101,6 +103,7 @@ export class Viewer {
     this.shown = undefined;
     this.following = undefined;
     this.bricks.clear();
+    this.showSpray();
     this.waterChanged = true;
     this.draw();
   }
@@ -114,6 +117,7 @@ export class Viewer {
     const box = worldBox(shown);
     if (first) this.adopt(box);
     else this.bricks.show(shown, this.origin);
+    this.showSpray();
     this.waterChanged = true;
     if (box && this.following && !contains(this.following, box)) this.lookAt(union(this.following, box));
     this.draw();
@@ -122,7 +126,13 @@ export class Viewer {
   /** In place of the surface; its wires stay. None: the surface again. */
   showParticles(particles: Particles | undefined): void {
     this.particles.show(particles, this.origin);
+    this.showSpray();
     this.draw();
+  }
+
+  /** Where all particles are shown, it is among them. */
+  private showSpray(): void {
+    this.spray.show(this.particles.shown ? undefined : this.shown?.frame, this.origin);
   }
 
   setLook(look: Look): void {
@@ -183,6 +193,7 @@ export class Viewer {
     this.origin = center(box);
     this.bricks.show(this.shown, this.origin);
     this.particles.moveTo(this.origin);
+    this.showSpray();
     this.waterChanged = true;
     this.controls.place(this.inScene(position), this.inScene(target));
     this.environment.sceneSize.value = size(box);
@@ -207,6 +218,7 @@ export class Viewer {
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.renderer.getDrawingBufferSize(this.water.uniforms.screenSize.value);
     this.particles.setScreenHeight(this.canvas.height);
+    this.spray.setScreenHeight(this.canvas.height);
     this.thickness.setSize(this.canvas.width / thicknessCoarseness, this.canvas.height / thicknessCoarseness);
     putInTheMiddle(this.controls.camera, this.covered(), clientWidth, clientHeight);
     if (this.following) this.lookAt(this.following);

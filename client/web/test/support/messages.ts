@@ -12,10 +12,14 @@ export interface FrameOptions {
   vanished?: Place[];
   /** Of the whole mesh as the receiver then has it. */
   triangles?: number;
+  /** x y z of each point, by message. */
+  spray?: number[][];
+  sprayCount?: number;
   runId?: bigint;
 }
 
-export function begin({ index, bricks = [], base, vanished = [], triangles, runId = 7n }: FrameOptions): WatchResponse {
+export function begin(options: FrameOptions): WatchResponse {
+  const { index, bricks = [], base, vanished = [], triangles, spray = [], runId = 7n } = options;
   return create(WatchResponseSchema, {
     message: {
       case: 'meshBegin',
@@ -30,8 +34,15 @@ export function begin({ index, bricks = [], base, vanished = [], triangles, runI
         vanished: vanished.map(([x, y, z]) => ({ x, y, z })),
         triangleCount: BigInt(triangles ?? bricks.reduce((sum, brick) => sum + (brick.triangles ?? 1), 0)),
         runId,
+        sprayCount: BigInt(options.sprayCount ?? spray.flat().length / 3),
       },
     },
+  });
+}
+
+export function sprayPoints(positions: number[]): WatchResponse {
+  return create(WatchResponseSchema, {
+    message: { case: 'sprayPoints', value: { positions: new Uint8Array(new Float32Array(positions).buffer) } },
   });
 }
 
@@ -75,5 +86,5 @@ export function frame(options: FrameOptions): WatchResponse[] {
   const bricks = (options.bricks ?? []).flatMap(({ place, triangles, parts = [[options.index]] }) =>
     parts.map((bytes, part) => brick(place, triangles, bytes, part, parts.length)),
   );
-  return [begin(options), ...bricks, statistics(options.index)];
+  return [begin(options), ...bricks, ...(options.spray ?? []).map(sprayPoints), statistics(options.index)];
 }

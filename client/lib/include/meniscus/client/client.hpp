@@ -127,6 +127,8 @@ struct ReceivedFrame {
     /// All of them, ordered by coordinate (z, y, x); empty when no meshes were asked for. A watcher's frames share
     /// those that did not change.
     std::vector<std::shared_ptr<const EncodedBrick>> bricks;
+    /// Places of the particles left out of the surface (Spray::points), world units; empty when not asked for.
+    std::vector<Point> spray;
     /// To a watcher: the bricks that are new or were received anew since the frame that next() returned before, and
     /// those of that frame which are there no longer. x y z in bricks.
     std::vector<std::array<std::int32_t, 3>> changed;
@@ -134,13 +136,14 @@ struct ReceivedFrame {
     FrameStatistics statistics;         ///< of the frame as reconstructed, whatever a watcher wishes to have of it
     std::vector<DroppedFrame> dropped;  ///< from a Stream: between the frame received before and this one, in order
 
-    /// Decodes and welds the bricks. Throws InvalidInput if they are not a mesh.
+    /// Decodes and welds the bricks; has the spray, too. Throws InvalidInput if they are not a mesh.
     Mesh mesh() const;
 };
 
 struct StreamOptions {
     bool receive_meshes = true;
     int normal_bits = 8;  ///< 2 to 16, 0 for none
+    bool spray = false;   ///< whether the particles left out of the surface come beside the meshes
     /// Received frames that wait for next() at most; push() waits beyond that many frames in flight or waiting.
     /// 0: no limit, for a caller that pushes everything first; frames then wait encoded, in memory.
     std::size_t waiting_limit = 0;
@@ -191,6 +194,7 @@ struct WatchOptions {
                                          ///< offset_bits; none: as reconstructed
     int max_level = 3;            ///< finest level of grid, 1 to 3: below 3 the surface is coarser, and closed as ever
     std::optional<Box> region{};  ///< world units: only bricks that touch it; the mesh ends where they do
+    bool spray = false;  ///< whether the particles left out of the surface come beside it: all, whatever the region
     std::uint64_t bytes_per_second = 0;                ///< in the mean: frames are skipped to keep it; 0: no limit
     std::optional<std::array<double, 3>> viewpoint{};  ///< world units: nearest bricks are sent first
     /// How long to try again after the connection breaks, the session moves to another server, or the server goes down,
@@ -275,6 +279,7 @@ struct RecordingInfo {
 struct ReadOptions {
     std::uint64_t position = 0;  ///< of the first, less than RecordingInfo::frames
     std::uint64_t count = 0;     ///< at most; 0: all from there on
+    bool spray = false;          ///< whether the particles left out of the surface come beside the meshes
 };
 
 /// Reads frames that were recorded, in order.
