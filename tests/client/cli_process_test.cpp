@@ -247,6 +247,10 @@ TEST_F(Cli, StatisticsHaveEveryFigure) {
     for (const char* key :
          {"vertices", "triangles", "field_evaluations", "total_seconds", "first_seconds", "peak_bytes"})
         EXPECT_GT(s.at(key).get<double>(), 0.0) << key;
+    // Particles of radius 0.5 in two halves far from each other, each in company.
+    EXPECT_DOUBLE_EQ(s.at("particle_volume").get<double>(), 64.0);
+    EXPECT_NEAR(s.at("volume").get<double>(), 64.0, 32.0);
+    EXPECT_EQ(s.at("spray_particles"), 0);
     std::uint64_t triangles = 0;
     for (const char* level : {"level1", "level2", "level3", "crack"})
         triangles += s.at("triangles_by_level").at(level).get<std::uint64_t>();

@@ -50,6 +50,8 @@ TEST(Metrics, CountWhatWasDone) {
     EXPECT_EQ(samples.at("meniscus_triangles_total"), triangles);
     EXPECT_EQ(samples.at("meniscus_upload_bytes_total"), particles * 12);
     EXPECT_EQ(samples.at("meniscus_mesh_bytes_total"), encoded_bytes);
+    EXPECT_GT(mesh_volume, 0.5 * particle_volume);
+    EXPECT_NEAR(particle_volume, particles * 8 * radius * radius * radius, 1e-9 * particle_volume);
     EXPECT_NEAR(samples.at("meniscus_particle_volume_total"), particle_volume, 1e-5 * particle_volume);
     EXPECT_NEAR(samples.at("meniscus_mesh_volume_total"), mesh_volume, 1e-5 * mesh_volume);
     EXPECT_EQ(samples.at("meniscus_spray_particles_total"), spray);
