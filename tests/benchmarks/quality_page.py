@@ -224,6 +224,19 @@ def frame_table(figures):
     return table(["", "", *groups], rows)
 
 
+def motion_of(figures, members, field, mode):
+    """Rms over several subjects; of real frames, over the places that were looked at."""
+    squares, weights = 0.0, 0.0
+    for member in members:
+        motion = figures.mean("motion", member, field, mode, "rms_motion_radii")
+        if motion is None:
+            return None
+        share = figures.mean("motion", member, field, mode, "resting_share")
+        weight = 1.0 if share is None else share
+        squares, weights = squares + weight * motion**2, weights + weight
+    return (squares / weights) ** 0.5 if weights > 0 else None
+
+
 def motion_table(figures):
     subjects = figures.subjects("motion")
     real = frame_groups([subject for subject in subjects if subject.startswith("frame_")])
@@ -231,17 +244,7 @@ def motion_table(figures):
     rows = []
     for field in figures.fields("motion"):
         for mode in figures.modes("motion"):
-            cells = [
-                text(
-                    over(
-                        members,
-                        lambda member: figures.mean("motion", member, field, mode, "rms_motion_radii"),
-                        lambda values: mean([value**2 for value in values]) ** 0.5,
-                    ),
-                    3,
-                )
-                for members in groups.values()
-            ]
+            cells = [text(motion_of(figures, members, field, mode), 3) for members in groups.values()]
             if not all(cell == "–" for cell in cells):
                 rows.append([field, mode, *cells])
     return table(["", "", *groups], rows)
