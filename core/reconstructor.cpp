@@ -177,6 +177,7 @@ private:
             mesh.normals = Array<Normal>(AccountAllocator<Normal>(account_));
             mesh.triangles = Array<Triangle>(AccountAllocator<Triangle>(account_));
             mesh.bricks = Array<MeshBrick>(AccountAllocator<MeshBrick>(account_));
+            mesh.spray = Array<Point>(AccountAllocator<Point>(account_));
         }
         mesh.cell_size = world_cell_size(settings_);
         mesh.offset_bits = offset_bits(settings_);

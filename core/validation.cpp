@@ -48,6 +48,9 @@ void require(const Bisection& bisection) {
                            std::to_string(Bisection::max_steps));
 }
 
+/// Radii, with Field::smooth: beyond it the supports of particles alone are too few units of c/4096.
+constexpr double max_smooth_cell_size = 1024.0;
+
 /// What belongs to one field is refused with another, where it would change nothing.
 void require_field_settings(const Settings& s) {
     if (s.field == Field::smooth) {
@@ -58,6 +61,9 @@ void require_field_settings(const Settings& s) {
         if (s.smoothness && (*s.smoothness < min_smoothness || *s.smoothness > max_smoothness))
             throw InvalidInput("the smoothness is " + std::to_string(*s.smoothness) + ", must be " +
                                std::to_string(min_smoothness) + " to " + std::to_string(max_smoothness));
+        if (s.cell_size > max_smooth_cell_size)
+            throw InvalidInput("the cell size is " + text(s.cell_size) + " radii, must be at most " +
+                               text(max_smooth_cell_size) + " with --field smooth: is the particle radius right?");
         return;
     }
     const std::string field(name_of(s.field));

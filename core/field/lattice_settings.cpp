@@ -38,7 +38,11 @@ void use_smooth_field(LatticeSettings& settings, const Settings& s) {
     SmoothField& f = settings.smooth = SmoothField(smoothness(s), s.cell_size);
     for (unsigned k = 0; k < particle_level_count; ++k)
         settings.company_support[k] = f.company_support * f.units_per_radius[k];
-    settings.deep_inside = static_cast<float>(f.deep_inside / 0.6 * s.iso);
+    // The constants are those for the threshold 0.6: what lies below it must be lifted above another, too.
+    const auto scaled = [&](float constant) { return static_cast<float>(static_cast<double>(constant) / 0.6 * s.iso); };
+    settings.deep_inside = scaled(f.deep_inside);
+    f.least_value = scaled(f.least_value);
+    f.group_lift = scaled(f.group_lift);
     // A particle that can be a drop reaches as far as its share alone is above the threshold, and farther with others.
     const auto reach2 = [](float iso) { return iso < 1.0F ? 1.0F - cube_root(iso) : 0.0F; };
     settings.blob_closest = 1.0F - std::min(0.58F * 0.58F * reach2(settings.iso) / reach2(0.6F), 1.0F);

@@ -16,7 +16,7 @@ struct SmoothField {
     float least_company = 0.25F;   ///< others than itself; below it a particle is alone
     float full_company = 1.75F;    ///< above it a particle is among others
     float shared_drop = 0.3F;      ///< how much company takes from the volume of a particle that counts as alone
-    float least_value = 0.0F;      ///< of the field at a particle's place
+    float least_value = 0.0F;      ///< of the field at a particle's place, at the threshold 0.6
     // A group of few particles nearer to each other than at rest is lifted more, or it would shrink to a few of them.
     float group_size = 2.5F;     ///< particles within the support, from which
     float group_spread = 0.66F;  ///< company for each of them, from which

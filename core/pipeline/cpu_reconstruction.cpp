@@ -51,6 +51,7 @@ public:
         SurfaceSteps steps(state_, *field_, mesh);
         NoClock clock;
         emit_mesh(steps, clock);
+        mesh.spray.assign(particles_.spray.begin(), particles_.spray.end());
     }
 
 private:

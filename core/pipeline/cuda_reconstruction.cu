@@ -37,6 +37,7 @@ public:
         const bool first = !is_capped_;
         is_capped_ = true;
         run_.emit_capped(max_level, first);
+        run_.copy_spray(mesh.spray);
         download(mesh_on_device(), mesh).finish();
     }
 

@@ -9,6 +9,7 @@
 #include "field/cubic_spline.hpp"
 #include "meniscus/mesh.hpp"
 #include "steps/split_cells/curvature.hpp"
+#include "support/mesh_check.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus {
@@ -114,6 +115,31 @@ void expect_nothing_lost(const test::Particles& particles) {
         EXPECT_TRUE(comparison.b.missing(cell_size()).empty());
         EXPECT_TRUE(comparison.a.defects.closed());
     }
+}
+
+/// Groups of some particles, far from each other, in rows.
+TEST(Adaptivity, NoGroupIsLostWhateverTheThreshold) {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<float> spacing(0.0F, 0.06F), offset(0.0F, 0.05F);
+    test::Particles particles;
+    std::size_t groups = 0;
+    for (int size = 2; size <= 5; ++size)
+        for (int i = 0; i < 9; ++i, ++groups) {
+            const float step = spacing(random);
+            const float x = 0.6F * static_cast<float>(i) + offset(random), y = 0.6F * static_cast<float>(size);
+            for (int j = 0; j < size; ++j) particles.add(x + step * static_cast<float>(j), y, offset(random) * 0.2F);
+        }
+    for (const std::uint32_t smoothness : {5U, 6U, 7U})
+        for (const double iso : {0.6, 0.75, 0.9})
+            for (const Mode mode : choices<Mode>) {
+                Settings settings = test::default_settings();
+                settings.smoothness = smoothness;
+                settings.iso = iso;
+                settings.mode = mode;
+                const test::MeshReport report = test::check(test::reconstruct(settings, particles.frame()));
+                EXPECT_TRUE(report.closed_manifold()) << report.text();
+                EXPECT_GE(report.components, groups) << smoothness << ", " << iso << ", " << name_of(mode);
+            }
 }
 
 TEST(Adaptivity, NoPartOfARandomCloudIsLost) {

@@ -66,7 +66,7 @@ private:
         return values;
     }
     void fit_supports() {
-        const SmoothField f(smoothness(settings_));
+        const SmoothField f = LatticeSettings(settings_).smooth;
         for (std::size_t i = 0; i < particles_.count(); ++i) {
             weights_.push_back(1.0);
             supports_.push_back(double{f.company_support} * radius(i));
@@ -167,7 +167,10 @@ TEST(Field, SmoothIsTheSumOverAllParticlesByTheirCompany) {
     Settings settings = test::default_settings();
     for (const std::uint32_t smoothness : {5U, 6U, 7U}) {
         settings.smoothness = smoothness;
-        expect_naive_values(settings, test::splash(24, 10));
+        for (const double iso : {0.6, 0.8}) {
+            settings.iso = iso;
+            expect_naive_values(settings, test::splash(24, 10));
+        }
     }
 }
 

@@ -76,6 +76,19 @@ TEST(Spray, IsListedInOneOrderWhateverThatOfTheFrame) {
     EXPECT_TRUE(std::equal(a.mesh.spray.begin(), a.mesh.spray.end(), b.mesh.spray.begin(), b.mesh.spray.end()));
 }
 
+TEST(Spray, IsPartOfAMeshOfCappedLevelsAndOfTheMemoryThatIsCounted) {
+    const test::Particles particles = splash_with_spray(7);
+    Settings settings = test::default_settings();
+    settings.spray = Spray::points;
+    Reconstructor reconstructor(settings, {Backend::cpu, 1});
+    Mesh mesh, capped;
+    reconstructor.reconstruct(particles.frame(), mesh);
+    reconstructor.emit_capped(1, capped);
+    ASSERT_FALSE(mesh.spray.empty());
+    EXPECT_TRUE(std::equal(mesh.spray.begin(), mesh.spray.end(), capped.spray.begin(), capped.spray.end()));
+    EXPECT_EQ(mesh.spray.get_allocator().account(), mesh.vertices.get_allocator().account());
+}
+
 TEST(Spray, AloneLeavesNothing) {
     test::Particles one;
     one.add(0.25F, 0.5F, -1.0F);

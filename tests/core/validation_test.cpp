@@ -39,6 +39,7 @@ TEST(Validation, RefusesEverySettingOutOfRangeNamingItsValue) {
          "smoothing length is 0"},
         {[](Settings& s) { s.smoothing_length = 2.0; }, "smoothing length is 2, but the field is smooth"},
         {[](Settings& s) { s.smoothing_length = 2.0; }, "use --smoothness, or take --field color"},
+        {[](Settings& s) { s.cell_size = 1e7; }, "cell size is 10000000 radii, must be at most 1024"},
         {[](Settings& s) { s.smoothness = 4; }, "smoothness is 4, must be 5 to 7"},
         {[](Settings& s) { s.smoothness = 8; }, "smoothness is 8, must be 5 to 7"},
         {[](Settings& s) {

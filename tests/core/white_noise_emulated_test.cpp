@@ -21,6 +21,7 @@ namespace {
 /// In the place of cuda::ParticleField.
 struct NoiseField {
     struct Staging {};
+    static constexpr bool has_own_supports = false;
 
     test::NoiseWorld world;
 

@@ -12,6 +12,7 @@ namespace meniscus::cuda {
 template <class Kernel>
 struct ParticleField {
     using Staging = ParticleStaging<Kernel>;
+    static constexpr bool has_own_supports = Kernel::has_own_support;  ///< which takes more registers
 
     /// Values at G points of every lane.
     template <int G>

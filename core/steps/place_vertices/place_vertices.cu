@@ -60,9 +60,14 @@ struct Vertex {
     }
 };
 
+/// Bisection with particles' own supports takes more registers than fit two blocks.
+template <bool bisects, class Field>
+inline constexpr int blocks_of_placing = bisects ? (Field::has_own_supports ? 1 : 2) : 2;
+
 /// One warp for every block with vertices, one lane for every vertex.
 template <bool bisects, class Field>
-__global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_constant__ State f, const Field field) {
+__global__ void __launch_bounds__(block_threads, blocks_of_placing<bisects, Field>)
+    place_listed(const __grid_constant__ State f, const Field field) {
     __shared__ typename Field::Staging staging[block_warps];
     const BlocksView blocks = f.blocks();
     const int bits = static_cast<int>(f.settings.offset_bits);

@@ -8,8 +8,13 @@
 
 namespace meniscus::cuda {
 
+/// Poly6 takes more registers than fit three blocks.
 template <class Kernel>
-__global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const __grid_constant__ State f) {
+inline constexpr int blocks_of_sums = std::is_same_v<Kernel, CubicSpline> ? 3 : 2;
+
+template <class Kernel>
+__global__ void __launch_bounds__(block_threads, blocks_of_sums<Kernel>)
+    sum_at_each_particle(const __grid_constant__ State f) {
     GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
         const unsigned level = key_level(f.keys[i]);
         const ParticleKey key = particle_key(f.keys[i]);

@@ -70,7 +70,7 @@ std::vector<GoldenHashes> golden_hashes() {
         {"slab, smooth 6, cropped", "ca3adb341f5fe17eae2d4d021827cf469da1cf254b7230a7bf3ab564f3fc6bd3", "cfedb55cc049dfbb"},
         {"slab, smooth 5, by count", "d0d8e20242a36ca897e9e74a28eacc74987e157831d261eadf30ed69f3c751a6", "12444f673d4226a5"},
         {"drops, smooth 6, adaptive, 5 bisections", "a749d8bc3dfb53b2acb7dc9b185ffff913556762767ba505a07905330a2e70b6", "9c7ef354a657bc2b"},
-        {"drops, smooth 7, adaptive", "78d5482bf5317afea0edde133b9f9148d2d8da4e2b66e54f5c4caf1ecbee3ec2", "9e517b77af0de93c"},
+        {"drops, smooth 7, adaptive", "4996405ed520eacbca1ff56727082db36aa40bda0e2f7b3e93178e26082683de", "baf1cfa383010f45"},
         {"lone, smooth 6, adaptive", "620a7a00b35fc57347ba64b0357cc676d15e674fa7fd08545da4e7097fc792ed", "075be33024cbfda4"},
         {"lone, smooth 5, uniform", "e5484911b3e81cd8027514bc75be7bfafa806e27f899a5bf09db65370133edc6", "d6b444e50ea4cf21"},
         {"levels, smooth 6, adaptive", "e1b94f6ca5276d7f8a07fde597536b08c512cc991c9b2af513db0de43a65641f", "58251f13ba9118f0"},
