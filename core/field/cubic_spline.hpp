@@ -95,17 +95,7 @@ struct CubicSpline {
         // W'/r, and what W'' has beyond it along the direction to the particle.
         const F first = scale * cubic_spline_derivative(q) * inverse;
         const F second = (scale * F(inverse_support) * cubic_spline_second_derivative(q) - first) * (inverse * inverse);
-        jet.x = fma(first, dx, jet.x);
-        jet.y = fma(first, dy, jet.y);
-        jet.z = fma(first, dz, jet.z);
-        const F sx = second * dx;
-        const F sy = second * dy;
-        jet.xx = fma(sx, dx, jet.xx) + first;
-        jet.yy = fma(sy, dy, jet.yy) + first;
-        jet.zz = fma(second * dz, dz, jet.zz) + first;
-        jet.xy = fma(sx, dy, jet.xy);
-        jet.xz = fma(sx, dz, jet.xz);
-        jet.yz = fma(sy, dz, jet.yz);
+        jet.add_radial(first, second, dx, dy, dz);
     }
 };
 

@@ -89,17 +89,7 @@ struct Poly6 {
         jet.value = fma(a2, a, jet.value);
         const F first = a2 * F(-6.0F * fall);
         const F second = a * F(24.0F * fall * fall);
-        jet.x = fma(first, dx, jet.x);
-        jet.y = fma(first, dy, jet.y);
-        jet.z = fma(first, dz, jet.z);
-        const F sx = second * dx;
-        const F sy = second * dy;
-        jet.xx = fma(sx, dx, jet.xx) + first;
-        jet.yy = fma(sy, dy, jet.yy) + first;
-        jet.zz = fma(second * dz, dz, jet.zz) + first;
-        jet.xy = fma(sx, dy, jet.xy);
-        jet.xz = fma(sx, dz, jet.xz);
-        jet.yz = fma(sy, dz, jet.yz);
+        jet.add_radial(first, second, dx, dy, dz);
     }
 };
 

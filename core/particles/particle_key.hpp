@@ -58,25 +58,27 @@ MENISCUS_HD inline Units3 cell_corner(std::uint64_t cell_key, std::int64_t cell_
             (brick.z * brick_size + place.z) * cell_units};
 }
 
-/// A key's position in the world, in units.
-MENISCUS_HD inline Units3 key_place(const ParticleKey& key, std::int64_t cell_units) {
+/// A key's position, in units from the corner of its support cell.
+MENISCUS_HD inline Units3 place_in_cell(const ParticleKey& key) {
     constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
+    return {static_cast<std::int64_t>(key.place & mask), static_cast<std::int64_t>(key.place >> place_axis_bits & mask),
+            static_cast<std::int64_t>(key.place >> (2 * place_axis_bits))};
+}
+
+/// The same in the world, in units.
+MENISCUS_HD inline Units3 key_place(const ParticleKey& key, std::int64_t cell_units) {
     const Units3 corner = cell_corner(key.cell, cell_units);
-    return {corner.x + static_cast<std::int64_t>(key.place & mask),
-            corner.y + static_cast<std::int64_t>(key.place >> place_axis_bits & mask),
-            corner.z + static_cast<std::int64_t>(key.place >> (2 * place_axis_bits))};
+    const Units3 place = place_in_cell(key);
+    return {corner.x + place.x, corner.y + place.y, corner.z + place.z};
 }
 
 /// A key's position, in units from the corner of its support cell's brick.
 MENISCUS_HD inline void key_position(const ParticleKey& key, std::int64_t cell_units, float& x, float& y, float& z) {
-    constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
     const Int3 cell = place_in_brick(key_index(key.cell));
-    const auto coordinate = [&](int in_brick, std::uint64_t in_cell) {
-        return static_cast<float>(in_brick * cell_units + static_cast<std::int64_t>(in_cell & mask));
-    };
-    x = coordinate(cell.x, key.place);
-    y = coordinate(cell.y, key.place >> place_axis_bits);
-    z = coordinate(cell.z, key.place >> (2 * place_axis_bits));
+    const Units3 place = place_in_cell(key);
+    x = static_cast<float>(cell.x * cell_units + place.x);
+    y = static_cast<float>(cell.y * cell_units + place.y);
+    z = static_cast<float>(cell.z * cell_units + place.z);
 }
 
 }  // namespace meniscus

@@ -250,42 +250,40 @@ def motion_table(figures):
     return table(["", "", *groups], rows)
 
 
-def level_table(figures):
+def comparison_table(figures, part, columns):
+    """A row for each cell size, field and group of frames. columns: of each figure its heading, how those of several
+    frames become one, and digits."""
     rows = []
-    columns = {"triangle_ratio": (mean, 3), "percentile_99_cells": (max, 2), "max_cells": (max, 2)}
-    columns |= {"lost_components": (sum, 0)}
-    for cell_size in figures.cell_sizes("levels"):
-        for field in figures.fields("levels"):
-            for name, frames in frame_groups(figures.subjects("levels")).items():
+    for cell_size in figures.cell_sizes(part):
+        for field in figures.fields(part):
+            for name, frames in frame_groups(figures.subjects(part)).items():
                 cells = []
-                for figure, (combine, digits) in columns.items():
+                for figure, (_, combine, digits) in columns.items():
                     key = (field, "adaptive/uniform", figure, cell_size)
-                    cells.append(
-                        text(over(frames, lambda frame, k=key: figures.mean("levels", frame, *k), combine), digits)
-                    )
+                    value = over(frames, lambda frame, k=key: figures.mean(part, frame, *k), combine)
+                    cells.append(text(value, digits))
                 rows.append([field, str(cell_size), name, *cells])
-    return table(["", "c", "", "triangles (mean)", "99 %, cells (worst)", "max, cells (worst)", "lost (all)"], rows)
+    return table(["", "c", "", *(heading for heading, _, _ in columns.values())], rows)
+
+
+def level_table(figures):
+    columns = {
+        "triangle_ratio": ("triangles (mean)", mean, 3),
+        "percentile_99_cells": ("99 %, cells (worst)", max, 2),
+        "max_cells": ("max, cells (worst)", max, 2),
+        "lost_components": ("lost (all)", sum, 0),
+    }
+    return comparison_table(figures, "levels", columns)
 
 
 def time_table(figures):
-    rows = []
     columns = {
-        "uniform_milliseconds": 1,
-        "adaptive_milliseconds": 1,
-        "adaptive_over_uniform": 2,
-        "adaptive_over_adaptive_color": 2,
+        "uniform_milliseconds": ("uniform, ms", mean, 1),
+        "adaptive_milliseconds": ("adaptive, ms", mean, 1),
+        "adaptive_over_uniform": ("adaptive / uniform", mean, 2),
+        "adaptive_over_adaptive_color": ("adaptive / adaptive color", mean, 2),
     }
-    for cell_size in figures.cell_sizes("times"):
-        for field in figures.fields("times"):
-            for name, frames in frame_groups(figures.subjects("times")).items():
-                cells = []
-                for figure, digits in columns.items():
-                    key = (field, "adaptive/uniform", figure, cell_size)
-                    cells.append(
-                        text(over(frames, lambda frame, k=key: figures.mean("times", frame, *k), mean), digits)
-                    )
-                rows.append([field, str(cell_size), name, *cells])
-    return table(["", "c", "", "uniform, ms", "adaptive, ms", "adaptive / uniform", "adaptive / adaptive color"], rows)
+    return comparison_table(figures, "times", columns)
 
 
 def height_table(figures):

@@ -73,6 +73,7 @@ TEST(Spray, IsListedInOneOrderWhateverThatOfTheFrame) {
     for (std::size_t i = particles.count(); i-- > 0;)
         reversed.add(particles.positions[3 * i], particles.positions[3 * i + 1], particles.positions[3 * i + 2]);
     const Result a = reconstruct(particles, Spray::points), b = reconstruct(reversed, Spray::points);
+    ASSERT_FALSE(a.mesh.spray.empty());
     EXPECT_TRUE(std::equal(a.mesh.spray.begin(), a.mesh.spray.end(), b.mesh.spray.begin(), b.mesh.spray.end()));
 }
 

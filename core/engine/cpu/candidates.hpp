@@ -15,7 +15,7 @@ namespace meniscus::cpu {
 /// Of one particle level.
 class Candidates {
 public:
-    /// has_own_supports: whether particles of this frame may have supports of their own.
+    /// has_own_supports: whether the kernel is Poly6; lists of company have none of them even so.
     Candidates(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports);
 
     /// Searches a set for the particles that may reach into a box relative to `origin`.

@@ -62,7 +62,7 @@ struct Vertex {
 
 /// Bisection with particles' own supports takes more registers than fit two blocks.
 template <bool bisects, class Field>
-inline constexpr int blocks_of_placing = bisects ? (Field::has_own_supports ? 1 : 2) : 2;
+inline constexpr int blocks_of_placing = !bisects || !Field::has_own_supports ? 2 : 1;
 
 /// One warp for every block with vertices, one lane for every vertex.
 template <bool bisects, class Field>

@@ -19,10 +19,9 @@ __global__ void __launch_bounds__(block_threads, blocks_of_sums<Kernel>)
         const unsigned level = key_level(f.keys[i]);
         const ParticleKey key = particle_key(f.keys[i]);
         const Units3 origin = cell_corner(key.cell, f.settings.cell_units[level]);
-        constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
-        const float x[1] = {static_cast<float>(key.place & mask)},
-                    y[1] = {static_cast<float>(key.place >> place_axis_bits & mask)},
-                    z[1] = {static_cast<float>(key.place >> (2 * place_axis_bits))};
+        const Units3 place = place_in_cell(key);
+        const float x[1] = {static_cast<float>(place.x)}, y[1] = {static_cast<float>(place.y)},
+                    z[1] = {static_cast<float>(place.z)};
         float sum[1] = {0.0F};
         for_each_candidate<Kernel>(f, origin, {{x[0], y[0], z[0]}, {x[0], y[0], z[0]}},
                                    [&](const OneCandidate& c) { sum_values<Kernel, 1>(c.view(), x, y, z, sum); });

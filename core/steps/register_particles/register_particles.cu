@@ -261,14 +261,9 @@ __global__ void __launch_bounds__(block_threads) count_particles(const __grid_co
     GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
         if (key_level(f.keys[i]) != 0) return;
         const ParticleKey key = particle_key(f.keys[i]);
-        const Units3 corner = cell_corner(key.cell, f.settings.cell_units[0]);
-        constexpr std::uint64_t mask = (std::uint64_t{1} << place_axis_bits) - 1;
-        const auto cell = [&](std::int64_t low, std::uint64_t in_cell) {
-            return static_cast<std::int32_t>(
-                floor_div(low + static_cast<std::int64_t>(in_cell & mask), units_per_base_cell));
-        };
-        const Int3 at{cell(corner.x, key.place), cell(corner.y, key.place >> place_axis_bits),
-                      cell(corner.z, key.place >> (2 * place_axis_bits))};
+        const Units3 place = key_place(key, f.settings.cell_units[0]);
+        const auto cell = [](std::int64_t p) { return static_cast<std::int32_t>(floor_div(p, units_per_base_cell)); };
+        const Int3 at{cell(place.x), cell(place.y), cell(place.z)};
         const std::uint32_t brick = grid.find(brick_of(at));
         // Cells beyond the domain are not stored.
         if (brick != no_index && grid.bricks[brick].holds(index_in_brick(at)))
