@@ -23,7 +23,7 @@ Session::Session(SessionIdentity identity, const Settings& settings, const Limit
       frame_rate_(limits.frames_per_second),
       encoding_(context_, watchers_,
                 {.upload = [this](const auto& upload, auto error) { finish_upload(upload, std::move(error)); },
-                 .session = [this](auto error) { end(std::move(error)); }}),
+                 .session = [this](const std::exception_ptr& error) { end(error); }}),
       reconstructing_(context_, std::move(functions), received_, inputs_, watchers_, encoding_) {}
 
 Session::~Session() {
@@ -192,7 +192,7 @@ void Session::finish_upload(const std::shared_ptr<Upload>& upload, std::exceptio
     for (const auto& watch : done) watch->finish(std::make_exception_ptr(shutting_down()));
 }
 
-void Session::end(std::exception_ptr error) {
+void Session::end(const std::exception_ptr& error) {
     const Attached attached = detach();
     for (const auto& upload : attached.uploads) upload->output.finish(error);
     for (const auto& watch : attached.watches) watch->finish(error);

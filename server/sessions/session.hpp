@@ -117,7 +117,7 @@ private:
 
     /// All frames of the upload have been answered; without one, only looks whether the session drains.
     void finish_upload(const std::shared_ptr<Upload>& upload, std::exception_ptr error);
-    void end(std::exception_ptr error);
+    void end(const std::exception_ptr& error);
 
     const SessionContext context_;
     InputSlots inputs_;
