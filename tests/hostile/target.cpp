@@ -6,7 +6,10 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <stdexcept>
@@ -46,6 +49,7 @@ Target::Target(const std::string& program, TargetOptions options) {
         ::dup2(ends[1], STDOUT_FILENO);
         ::dup2(ends[1], STDERR_FILENO);
         ::execv(argv.front(), argv.data());
+        ::dprintf(STDERR_FILENO, "cannot run %s: %s\n", argv.front(), std::strerror(errno));
         ::_exit(127);
     }
     ::close(ends[1]);

@@ -26,6 +26,7 @@ std::vector<Point> cube(int edge_particles, double apart) {
 
 std::vector<Point> row(int particles, double apart) {
     std::vector<Point> places;
+    places.reserve(static_cast<std::size_t>(particles));
     for (int i = 0; i < particles; ++i) places.push_back({apart * i, 0.0, 0.0});
     return places;
 }
