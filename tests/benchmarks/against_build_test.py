@@ -96,6 +96,14 @@ def check_measurements(script, build, folder):
     check(len(seconds) == 4 and all(value > 0.0 for value in seconds.values()), "rows of the experiment")
 
 
+def check_service_measurements(script, build):
+    rows = script.measure_load_example(build, 2)
+    check(len(rows) == 3 and all(value > 0.0 for value in rows.values()), "latencies of the load example")
+    check(
+        all(value > 0.0 for value in script.measure_throughput(build, 1).values()), "the time of a frame at full rate"
+    )
+
+
 def main():
     build = Path(sys.argv[1])
     script = load(SCRIPT)
@@ -106,6 +114,7 @@ def main():
             (folder / f"{name}.vtk").touch()
         check_verdicts(folder)
         check_measurements(script, build, folder)
+    check_service_measurements(script, build)
 
 
 if __name__ == "__main__":

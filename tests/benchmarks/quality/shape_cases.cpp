@@ -12,9 +12,10 @@ namespace {
 void refuse_unknown(const std::vector<std::string>& names, const std::vector<Shape>& shapes) {
     std::string known;
     for (const Shape& shape : shapes) known += (known.empty() ? "" : ", ") + shape.name;
-    for (const std::string& name : names)
-        if (std::none_of(shapes.begin(), shapes.end(), [&](const Shape& s) { return s.name == name; }))
-            throw InvalidInput("--shapes is " + name + ", but must be of " + known);
+    const auto unknown = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+        return std::none_of(shapes.begin(), shapes.end(), [&](const Shape& shape) { return shape.name == name; });
+    });
+    if (unknown != names.end()) throw InvalidInput("--shapes is " + *unknown + ", but must be of " + known);
 }
 
 Case make_case(const Shape& shape, Sampling sampling, double radius) {
