@@ -66,9 +66,10 @@ test::Particles two_drops() {
 /// As dense as water.
 test::Particles block() {
     test::Particles particles;
-    for (int i = 0; i < 27; ++i)
-        particles.add(1.0F + 0.25F * static_cast<float>(i % 3), 1.0F + 0.25F * static_cast<float>(i / 3 % 3),
-                      1.0F + 0.25F * static_cast<float>(i / 9));
+    constexpr std::array places{1.0F, 1.25F, 1.5F};
+    for (const float z : places)
+        for (const float y : places)
+            for (const float x : places) particles.add(x, y, z);
     return particles;
 }
 
@@ -128,7 +129,7 @@ ordered_json contents(const DecodedBrick& brick, std::uint32_t offset_bits) {
     for (std::size_t t = 0; t < brick.triangles.size(); ++t) {
         Triangle triangle = brick.triangles[t];
         for (std::uint32_t& v : triangle) v = place[v];
-        std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+        std::rotate(triangle.begin(), std::ranges::min_element(triangle), triangle.end());
         triangles.push_back({triangle[0], triangle[1], triangle[2], level_byte(brick.levels[t])});
     }
     std::ranges::sort(triangles);
