@@ -142,9 +142,11 @@ TEST(Volume, OfABallIsNearThatOfItsParticles) {
 
 TEST(Volume, OfFullWaterWithinADomainIsTheDomains) {
     test::Particles particles;
-    for (int i = 0; i < 14 * 14 * 14; ++i)
-        particles.add(0.05F * static_cast<float>(i % 14), 0.05F * static_cast<float>(i / 14 % 14),
-                      0.05F * static_cast<float>(i / 196));
+    constexpr int edge = 14;
+    const auto at = [](int i) { return 0.05F * static_cast<float>(i); };
+    for (int z = 0; z < edge; ++z)
+        for (int y = 0; y < edge; ++y)
+            for (int x = 0; x < edge; ++x) particles.add(at(x), at(y), at(z));
     Settings settings = test::default_settings();
     settings.domain = Box{{0.25, 0.25, 0.25}, {0.4, 0.4, 0.4}};
     settings.mode = Mode::uniform;

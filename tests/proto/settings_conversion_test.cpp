@@ -167,7 +167,7 @@ std::map<std::string, std::string> documented_presets() {
     const std::regex row(R"(\| `(\w+)` \|(?: `(.*)`)? *\|.*)");
     bool in_section = false;
     for (std::string line; std::getline(file, line);) {
-        if (line.rfind("#", 0) == 0) in_section = line.find("Presets") != std::string::npos;
+        if (line.starts_with('#')) in_section = line.find("Presets") != std::string::npos;
         std::smatch match;
         if (in_section && std::regex_match(line, match, row)) presets[match[1]] = match[2];
     }
