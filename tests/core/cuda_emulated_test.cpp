@@ -119,8 +119,9 @@ TEST(CudaEmulated, GivesTheCpusMeshForOtherSettings) {
 
 TEST(CudaEmulated, GivesTheCpusMeshAndSpray) {
     test::Particles particles = test::splash(6, 6);
-    for (int i = 0; i < 40; ++i)
-        particles.add(1.0F + 0.2F * static_cast<float>(i % 7), 0.3F * static_cast<float>(i / 7), -0.5F);
+    for (int row = 0; row < 6; ++row)
+        for (int i = 0; i < 7; ++i)
+            particles.add(1.0F + 0.2F * static_cast<float>(i), 0.3F * static_cast<float>(row), -0.5F);
     Settings settings = test::default_settings();
     for (const Spray spray : choices<Spray>) {
         SCOPED_TRACE(name_of(spray));
