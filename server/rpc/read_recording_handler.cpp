@@ -53,7 +53,9 @@ public:
                 if (messages_ && messages_->at_end()) messages_.reset();
                 if (!messages_) {
                     if (at_ == meshes_.size()) return nullptr;
-                    const files::ByteRange range = meshes_[at_++].messages;
+                    const files::RecordedRange& range = meshes_[at_++].messages;
+                    // Before its first message leaves: a client does not put a damaged frame together.
+                    if (!files::is_whole(*file_, range)) file_->fail("its messages do not have their checksum");
                     messages_.emplace(*file_, range.first, range.first + range.size);
                 }
                 auto message = messages_->next(files::max_recorded_message_bytes);

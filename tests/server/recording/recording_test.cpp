@@ -174,6 +174,39 @@ TEST_F(RecordedSession, IsListedBesideADamagedOne) {
     EXPECT_NE(testing::internal::GetCapturedStdout().find("5 frames (10 to 22), 4 meshes"), std::string::npos);
 }
 
+TEST_F(RecordedSession, IsNeitherReplayedNorConvertedWhereItIsDamagedAndIsListedWithTheFramesThatAre) {
+    const auto recorded = record();
+    const auto flip = [&](const files::RecordedRange& range) {
+        std::fstream bytes(recorded, std::ios::binary | std::ios::in | std::ios::out);
+        bytes.seekp(static_cast<std::streamoff>(range.first + range.size / 2));
+        bytes << "\x11\x22\x33\x44";
+    };
+    const auto frames = Recording(recorded).frames();
+    flip(frames[1].particles);
+    flip(*frames[4].mesh);
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(meniscus({"recordings", folder("recorded")}), 0);
+    std::string said = testing::internal::GetCapturedStdout();
+    EXPECT_NE(said.find("; damaged: frames [13,22]"), std::string::npos) << said;
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(meniscus({"recordings", folder("recorded"), "--quick"}), 0);
+    said = testing::internal::GetCapturedStdout();
+    EXPECT_EQ(said.find("damaged"), std::string::npos) << said;
+    const auto error_of = [](const std::vector<std::string>& arguments) {
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(meniscus(arguments), 2);
+        return testing::internal::GetCapturedStderr();
+    };
+    said = error_of({"convert", recorded.string(), "-o", folder("meshes"), "--from", "22"});
+    EXPECT_EQ(said, "meniscus: " + recorded.string() +
+                        ": mesh of frame 22: it does not have its checksum: the file is damaged\n");
+    RunningServer other;
+    said = error_of({"replay", recorded.string(), "--server", other.server.address(), "--from", "13", "--to", "13"});
+    EXPECT_NE(said.find(recorded.string() + ": particles of frame 13: they do not have their checksum"),
+              std::string::npos)
+        << said;
+}
+
 TEST_F(RecordedSession, OfTwoStreamsWithTheSameIndicesIsTwoRecordings) {
     std::string id;
     {
