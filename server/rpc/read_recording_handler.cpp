@@ -93,8 +93,7 @@ public:
             const Caller caller = admit(authorizer, context, Action::read_recording);
             reads_ = &require_recorded(reads);
             const std::string session_id = metadata_session_id(context);
-            grpc::ByteBuffer bytes(request);
-            parse(bytes, request_, "ReadRecordingRequest");
+            request_ = parsed<v1::ReadRecordingRequest>(request);
             require_same_session(session_id, request_.session_id());
             conversion::chosen_codec(request_.codecs());  // recorded meshes have the only one that there is
             place_ = reads_->admit();

@@ -1,5 +1,7 @@
 #include "rpc/stream_handler.hpp"
 
+#include <fmt/format.h>
+#include <google/protobuf/unknown_field_set.h>
 #include <grpcpp/support/proto_buffer_reader.h>
 
 #include <exception>
@@ -159,7 +161,14 @@ private:
             case v1::StreamRequest::MESSAGE_NOT_SET:
                 break;
         }
-        throw InvalidInput("a message of a kind that this version does not know");
+        throw InvalidInput(unknown_kind(request_));
+    }
+
+    static std::string unknown_kind(const v1::StreamRequest& message) {
+        const auto& fields = message.GetReflection()->GetUnknownFields(message);
+        if (fields.empty()) return "a message of no kind: it has no field";
+        return fmt::format("a message with the field {}, a kind that this version does not know",
+                           fields.field(0).number());
     }
 
     void read_next() {

@@ -36,9 +36,7 @@ public:
         try {
             const Caller caller = admit(authorizer, context, Action::watch);
             session_id_ = metadata_session_id(context);
-            grpc::ByteBuffer bytes(request);
-            Request message;
-            parse(bytes, message, Request::descriptor()->name());
+            const auto message = parsed<Request>(request);
             require_same_session(session_id_, message.session_id());
             session_ = registry.find(session_id_);
             Authorizer::require_access(caller, Action::watch, session_id_, session_->owner());

@@ -1,13 +1,16 @@
 // Recordings of real sessions, and the commands that read them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "cli/command_line.hpp"
 #include "cli/replay_pace.hpp"
+#include "formats/byte_cursor.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/particles.hpp"
 #include "formats/recording.hpp"
@@ -205,6 +208,28 @@ TEST_F(RecordedSession, IsNeitherReplayedNorConvertedWhereItIsDamagedAndIsListed
     EXPECT_NE(said.find(recorded.string() + ": particles of frame 13: they do not have their checksum"),
               std::string::npos)
         << said;
+}
+
+TEST_F(RecordedSession, OfBeforeChecksumsIsConvertedOrRefusedInALineThatNamesFileAndFrame) {
+    const auto damaged = directory_ / "damaged.recording";
+    const auto path = std::filesystem::path(MENISCUS_GOLDEN_FILES) / "version_2.recording";
+    const std::string bytes = formats::read_file(path);
+    const files::RecordedRange mesh = *Recording(path).frames()[1].mesh;
+    int refused = 0;
+    for (std::uint64_t i = 0; i < mesh.size; ++i) {
+        std::string changed = bytes;
+        changed[mesh.first + i] = static_cast<char>(~changed[mesh.first + i]);
+        std::ofstream(damaged, std::ios::binary) << changed;
+        testing::internal::CaptureStderr();
+        const int code = meniscus({"convert", damaged.string(), "-o", folder("meshes"), "--from", "1"});
+        const std::string said = testing::internal::GetCapturedStderr();
+        EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+        if (code == 0) continue;
+        ++refused;
+        EXPECT_TRUE(said.starts_with("meniscus: " + damaged.string() + ": ")) << said;
+        EXPECT_NE(said.find("frame 1"), std::string::npos) << said;
+    }
+    EXPECT_GT(refused, 100);
 }
 
 TEST_F(RecordedSession, OfTwoStreamsWithTheSameIndicesIsTwoRecordings) {
