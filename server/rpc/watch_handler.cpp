@@ -26,7 +26,7 @@ class WatchReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
                            public std::enable_shared_from_this<WatchReactor> {
 public:
     WatchReactor(Metrics& metrics, ActiveCalls& calls, const grpc::CallbackServerContext& context)
-        : metrics_(metrics), active_(calls), peer_(context.peer()) {}
+        : metrics_(metrics), active_(calls), peer_(peer_of(context)) {}
 
     /// Request: what names the session and the wishes.
     template <class Request>

@@ -327,6 +327,24 @@ TEST_F(RecordingService, RefusesReadersPastTheLimitUntilOneLeaves) {
     EXPECT_TRUE(becomes([&] { return status_of(running, request_for(id)).ok(); }));
 }
 
+TEST_F(RecordingService, EndsAReaderThatStopsReadingAndGivesItsPlaceToAnother) {
+    ServerOptions limited = options();
+    limited.limits.recording_readers = 1;
+    limited.limits.reader_patience = std::chrono::milliseconds(300);
+    RunningServer running(limited);
+    const std::string id = recorded(running, std::vector<Particles>(12, spray(12)));
+    auto stalled = running.client.read_recording(id, 1);
+    ASSERT_TRUE(stalled.next());
+    EXPECT_TRUE(becomes([&] { return status_of(running, request_for(id)).ok(); }));
+    try {
+        while (stalled.next()) {
+        }
+        FAIL() << "ended well";
+    } catch (const client::ServerError& error) {
+        EXPECT_EQ(error.status(), "CANCELLED");
+    }
+}
+
 TEST_F(RecordingService, EndsItsReadersWhenTheServerGoesDown) {
     ServerOptions hasty = options();
     hasty.shutdown_grace = std::chrono::milliseconds(400);
