@@ -17,7 +17,7 @@ struct GrpcWeb {
     AllowedOrigins origins;
     bool needs_certificate = false;  ///< a client's, by TLS
     /// Of a call that ends here, before its handler: so that metrics count it.
-    std::function<void(grpc::StatusCode)> refused;
+    std::function<void(grpc::StatusCode)> refused{};
 
     /// target: as in the request line.
     bool serves(std::string_view target) const;

@@ -119,7 +119,7 @@ TEST(SessionParticlesOfTwo, AreShownWhileAnotherSessionHasItsTurnOnTheDevice) {
         return std::make_unique<Session>(
             SessionIdentity{.id = id}, test::settings(), Limits{},
             ReconstructFunctions{.reconstruct = test::reconstruct_on_the_cpu(), .emit_capped = {}},
-            SharedResources{.turns = turns, .workers = std::make_shared<WorkerPool>(1)}, std::move(observed));
+            SharedResources{.workers = std::make_shared<WorkerPool>(1), .turns = turns}, std::move(observed));
     };
     const auto shown = make(observer);
     const auto other = make(nullptr);
