@@ -93,7 +93,9 @@ void validate(const Settings& s) {
     require_positive("iso value", s.iso);
     require_positive("cell size in world units", world_cell_size(s));
     // In float32 the iso value must remain above zero, or the outside would be inside.
-    require_positive("iso value", static_cast<float>(s.iso));
+    const auto iso = static_cast<float>(s.iso);
+    if (!(std::isfinite(iso) && iso > 0.0F))
+        throw InvalidInput("iso value is " + text(s.iso) + ", must be finite and greater than 0 as a float32, too");
     require_field_settings(s);
     require_support(s, 0);
     std::visit([](const auto& criterion) { require(criterion); }, s.criterion);

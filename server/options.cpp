@@ -46,6 +46,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     server.limits.bytes_per_session = default_memory_limit();
     server.limits.bytes_in_flight = default_memory_limit();
     double idle_seconds = 3600.0;
+    double reader_pause_seconds = 60.0;
     double grace_seconds = std::chrono::duration<double>(server.shutdown_grace).count();
 
     CLI::App app{"meniscusd: adaptive surfaces of simulated fluid particles, live, over gRPC", "meniscusd"};
@@ -106,6 +107,9 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.add_option("--max-watchers", server.limits.watchers_per_session, "Watchers of one session; 0: no limit");
     app.add_option("--max-recording-readers", server.limits.recording_readers,
                    "Calls that read recordings at a time; 0: no limit");
+    app.add_option("--max-reader-pause", reader_pause_seconds,
+                   "Seconds that a client that reads a recording may take for one message; 0: no limit")
+        ->check(CLI::Range(0.0, 1e7));
     app.add_option("--max-particles", server.limits.particles_per_frame, "Particles of one frame; 0: no limit");
     app.add_option("--max-bytes-in-flight", server.limits.bytes_in_flight,
                    "Frames that wait to be reconstructed, over all sessions; 0: no limit. Default: half of the "
@@ -171,6 +175,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     }
     if (print_config) return EarlyExit{.text = settings_file(app), .code = 0};
     server.limits.idle_time = milliseconds(idle_seconds);
+    server.limits.reader_patience = milliseconds(reader_pause_seconds);
     server.shutdown_grace = milliseconds(grace_seconds);
     return std::nullopt;
 }

@@ -121,9 +121,10 @@ Server::Server(const ServerOptions& options)
       recordings_(options.recording.directory.empty() ? nullptr : std::make_unique<RecordingWriter>(options.recording)),
       registry_(options.limits, for_sessions(options.backend, backend_), threads_or_processors(options.backend.threads),
                 options.devices, metrics_, record_with(recordings_.get())),
-      recording_reads_(
-          recordings_ ? std::make_unique<RecordingReads>(options.recording.directory, options.limits.recording_readers)
-                      : nullptr),
+      recording_reads_(recordings_ ? std::make_unique<RecordingReads>(options.recording.directory,
+                                                                      options.limits.recording_readers,
+                                                                      options.limits.reader_patience)
+                                   : nullptr),
       server_service_(access_.authorizer(), backend_, threads_or_processors(options.backend.threads), options.limits),
       session_service_(registry_, access_.authorizer()),
       surface_service_(registry_, access_.authorizer(), calls_),
@@ -187,8 +188,10 @@ void Server::serve_http(const AllowedOrigins& origins) {
     Router router;
     add_viewer_pages(router);
     add_observation(router);
-    const GrpcWeb calls{
-        .channel = grpc_->InProcessChannel({}), .origins = origins, .needs_certificate = tls && tls->mutual()};
+    const GrpcWeb calls{.channel = grpc_->InProcessChannel({}),
+                        .origins = origins,
+                        .needs_certificate = tls && tls->mutual(),
+                        .refused = [metrics = metrics_](grpc::StatusCode code) { metrics->call_ended(name_of(code)); }};
     http_ = std::make_unique<HttpServer>(options_.http, std::move(router), calls, HttpLimits{}, tls);
 }
 
@@ -207,6 +210,11 @@ std::vector<prometheus::MetricFamily> Server::metrics() {
                         draining_ ? 0 : 1));
     add(session_gauges(registry_));
     add(limit_gauges(options_.limits, backend_));
+    const Access::Expiry expiry = access_.expiry();
+    all.push_back(gauges("meniscus_certificate_expires_timestamp_seconds",
+                         "When the first certificate of the file in use expires, seconds since 1970; +Inf: there is "
+                         "none.",
+                         "file", {{"tls_cert", expiry.server}, {"tls_client_ca", expiry.client_ca}}));
     if (recordings_) add(recording_metrics(recordings_->counters(), recording_reads_->readers()));
     add(process_metrics());
     return all;

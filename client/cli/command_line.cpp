@@ -1,5 +1,7 @@
 #include "cli/command_line.hpp"
 
+#include <google/protobuf/stubs/logging.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
@@ -23,6 +25,8 @@ int report(std::string message, ExitCode code) {
 }  // namespace
 
 int run(int argc, const char* const* argv) {
+    // What is wrong is said once, in a line of this program: protobuf has one of its own for bytes that do not parse.
+    google::protobuf::SetLogHandler(nullptr);
     CLI::App app("Adaptive surfaces of simulated fluid particles", "meniscus");
     app.set_version_flag("--version", std::string("meniscus ") + std::string(version()));
     app.require_subcommand(0, 1);  // none is refused below, after anything that is not known

@@ -8,6 +8,7 @@
 #include "cli/recording_files.hpp"
 #include "formats/atomic_file.hpp"
 #include "formats/vtk_writer.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
 
 namespace meniscus::cli {
@@ -27,6 +28,16 @@ void write_particles(const std::filesystem::path& path, const formats::RecordedP
     formats::write_vtk(path, frame);
 }
 
+/// What is wrong with a mesh shows when it is decoded, where nothing is known of the file.
+void require_mesh(const Surface& surface, const std::filesystem::path& recording) {
+    try {
+        surface.mesh();
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(recording.string() + ": mesh of frame " + std::to_string(surface.index()) + ": " +
+                           error.what());
+    }
+}
+
 void convert(const ConvertOptions& options) {
     const formats::Recording recording = options.recording.open();
     const auto frames = recording.frames(options.recording.from, options.recording.to);
@@ -37,7 +48,9 @@ void convert(const ConvertOptions& options) {
             write_particles(path, recording.particles(frame));
         } else if (frame.mesh) {
             const client::ReceivedFrame mesh = recording.mesh(frame);
-            write_surface(path, Surface(mesh));
+            const Surface surface(mesh);
+            if (options.format != name_of(MeshFormat::bricks)) require_mesh(surface, recording.path());
+            write_surface(path, surface);
         } else {
             std::cerr << "frame " << frame.index << ": its mesh was not recorded\n";
             continue;

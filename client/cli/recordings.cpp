@@ -29,7 +29,7 @@ double seconds(const std::vector<formats::RecordedFrame>& frames) {
     return std::chrono::duration<double>(frames.back().arrived_at - frames.front().arrived_at).count();
 }
 
-nlohmann::ordered_json describe(const formats::Recording& recording) {
+nlohmann::ordered_json describe(const formats::Recording& recording, bool verify) {
     const auto& frames = recording.frames();
     nlohmann::ordered_json out;
     out["session"] = recording.session_id();
@@ -44,6 +44,12 @@ nlohmann::ordered_json describe(const formats::Recording& recording) {
     out["seconds"] = seconds(frames);
     out["bytes"] = recording.bytes();
     out["cut_bytes"] = recording.cut_bytes();
+    out["checksums"] = recording.has_checksums();
+    if (verify) {
+        auto& damaged = out["damaged_frames"] = nlohmann::ordered_json::array();
+        for (const formats::RecordedFrame& frame : frames)
+            if (!recording.is_whole(frame)) damaged.push_back(frame.index);
+    }
     out["settings"] = to_json(recording.settings());
     return out;
 }
@@ -63,6 +69,8 @@ void print(const nlohmann::ordered_json& recording) {
               << ", cell size " << settings["cell_size"].get<double>() << ", " << settings["mode"].get<std::string>();
     if (recording["cut_bytes"] != 0)
         std::cout << "; its last " << recording["cut_bytes"] << " bytes are no whole frame";
+    if (recording.contains("damaged_frames") && !recording["damaged_frames"].empty())
+        std::cout << "; damaged: frames " << recording["damaged_frames"].dump();
     std::cout << '\n';
 }
 
@@ -70,6 +78,7 @@ struct RecordingsOptions {
     std::string folder;
     ServerFlags server;
     bool json = false;
+    bool quick = false;
 };
 
 nlohmann::ordered_json describe(const client::RecordingInfo& recording) {
@@ -113,7 +122,7 @@ void list(const RecordingsOptions& options) {
         nlohmann::ordered_json recording{{"file", path.string()}};
         // One bad file does not hide the others.
         try {
-            recording.update(describe(formats::Recording(path)));
+            recording.update(describe(formats::Recording(path), !options.quick));
         } catch (const InvalidInput& e) {
             recording["error"] = e.what();
         }
@@ -133,6 +142,7 @@ void add_recordings(CLI::App& app) {
     CLI::Option* folder = command.add_option("DIR", options->folder, "The folder, or one session's folder in it");
     options->server.add_to(command, "List the recordings of this server instead")->excludes(folder);
     command.add_flag("--json", options->json, "As JSON, with all settings");
+    command.add_flag("--quick", options->quick, "Do not read the frames to verify their checksums");
     command.callback([options] { list(*options); });
 }
 

@@ -37,6 +37,7 @@ public:
             else
                 take(item->entry.mesh(), item->messages);
         }
+        recording_.has_checksums_ = entries_.has_checksums();
         recording_.cut_bytes_ = file_.size() - entries_.position();
     }
 
@@ -53,7 +54,7 @@ private:
         recording_.started_at_ = time(begin.started_at());
     }
 
-    void take(const v1::RecordedParticles& particles, ByteRange messages) {
+    void take(const v1::RecordedParticles& particles, RecordedRange messages) {
         std::vector<RecordedFrame>& frames = recording_.frames_;
         const std::string name = "frame " + std::to_string(particles.frame_index());
         if (!frames.empty() && particles.frame_index() <= frames.back().index)
@@ -71,7 +72,7 @@ private:
                           .mesh = std::nullopt});
     }
 
-    void take(const v1::RecordedMesh& mesh, ByteRange messages) {
+    void take(const v1::RecordedMesh& mesh, RecordedRange messages) {
         const auto frame =
             std::lower_bound(recording_.frames_.begin(), recording_.frames_.end(), mesh.frame_index(),
                              [](const RecordedFrame& f, std::uint64_t index) { return f.index < index; });
@@ -110,7 +111,14 @@ std::vector<RecordedFrame> Recording::frames(std::uint64_t first, std::uint64_t 
                std::to_string(frames_.front().index) + " to " + std::to_string(frames_.back().index));
 }
 
+bool Recording::is_whole(const RecordedFrame& frame) const {
+    return files::is_whole(file_, frame.particles) && (!frame.mesh || files::is_whole(file_, *frame.mesh));
+}
+
 RecordedParticles Recording::particles(const RecordedFrame& frame) const {
+    if (!files::is_whole(file_, frame.particles))
+        file_.fail("particles of frame " + std::to_string(frame.index) +
+                   ": they do not have their checksum: the file is damaged");
     return read_recorded_particles(file_, frame);
 }
 
@@ -120,8 +128,10 @@ client::ReceivedFrame Recording::mesh(const RecordedFrame& frame) const {
     if (frame.mesh->size > limit)
         throw InvalidInput(name + ": " + std::to_string(frame.mesh->size) + " bytes; at most " + std::to_string(limit) +
                            " are read");
-    client::ReceivedFrame mesh =
-        read_brick_messages(name, file_.read(frame.mesh->first, static_cast<std::size_t>(frame.mesh->size)));
+    const std::string messages = file_.read(frame.mesh->first, static_cast<std::size_t>(frame.mesh->size));
+    if (frame.mesh->checksum && *frame.mesh->checksum != files::checksum(messages))
+        throw InvalidInput(name + ": it does not have its checksum: the file is damaged");
+    client::ReceivedFrame mesh = read_brick_messages(name, messages);
     if (mesh.index != frame.index) throw InvalidInput(name + ": it is that of frame " + std::to_string(mesh.index));
     return mesh;
 }

@@ -16,7 +16,7 @@
 
 namespace meniscus::formats {
 
-using files::ByteRange;
+using files::RecordedRange;
 
 /// A frame as the recording announces it. Times are those of the server's wall clock.
 struct RecordedFrame {
@@ -24,8 +24,8 @@ struct RecordedFrame {
     double simulation_time = 0.0;
     std::uint64_t particle_count = 0;
     std::chrono::system_clock::time_point arrived_at;
-    ByteRange particles;
-    std::optional<ByteRange> mesh;
+    RecordedRange particles;
+    std::optional<RecordedRange> mesh;
 };
 
 /// A frame's particles, owned, encoded as they were uploaded.
@@ -61,7 +61,12 @@ public:
     /// Bytes at the end that hold no whole frame: the server was killed, the disk was full, or it is being written.
     std::uint64_t cut_bytes() const noexcept { return cut_bytes_; }
 
-    /// Reads one of this recording's frames. Throws InvalidInput if its messages are not a frame, or another one.
+    /// Whether damage to its frames shows: recordings of before have no checksums.
+    bool has_checksums() const noexcept { return has_checksums_; }
+    /// Reads a frame's particles and mesh, and nothing into memory: whether they have their checksums.
+    bool is_whole(const RecordedFrame& frame) const;
+    /// Reads one of this recording's frames. Throws InvalidInput if its messages do not have their checksum, are not a
+    /// frame, or another one.
     RecordedParticles particles(const RecordedFrame& frame) const;
     /// The same for its mesh, which it has.
     client::ReceivedFrame mesh(const RecordedFrame& frame) const;
@@ -75,6 +80,7 @@ private:
     std::chrono::system_clock::time_point started_at_;
     std::vector<RecordedFrame> frames_;
     std::uint64_t cut_bytes_ = 0;
+    bool has_checksums_ = false;
 };
 
 }  // namespace meniscus::formats

@@ -1,5 +1,5 @@
 // Writes a folder's files as C++: node embed.mjs FOLDER FILE.cpp. Each is compressed once, here.
-import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { extname, join } from 'node:path';
 import { gzipSync } from 'node:zlib';
 
@@ -12,9 +12,8 @@ const types = {
 };
 
 const [folder, output] = process.argv.slice(2);
-const paths = readdirSync(folder, { recursive: true, withFileTypes: true })
-  .filter((entry) => entry.isFile())
-  .map((entry) => join(entry.parentPath ?? entry.path, entry.name).slice(join(folder, '/').length))
+const paths = readdirSync(folder, { recursive: true })
+  .filter((path) => statSync(join(folder, path)).isFile())
   .sort();
 
 let arrays = '';

@@ -21,6 +21,8 @@ RecordingScan::RecordingScan(const RandomAccessFile& file)
         file_.fail("a recording of format version " + std::to_string(begin_.version()) +
                    "; this program reads version " + std::to_string(recording_version) +
                    ": read it with the Meniscus that wrote it");
+    has_checksums_ = entry.has_checksum();
+    require_sealed(*bytes, entry);
 }
 
 std::optional<RecordingScan::Item> RecordingScan::next() {
@@ -36,18 +38,28 @@ std::optional<RecordingScan::Item> RecordingScan::next() {
         // file systems leave them after a crash.
         if (!known && v1::RecordingEntry::GetReflection()->GetUnknownFields(item.entry).empty())
             fail("an entry of no kind");
-        item.messages = {.first = messages_.position(), .size = item.entry.bytes()};
+        require_sealed(*bytes, item.entry);
+        item.messages = {.first = messages_.position(), .size = item.entry.bytes(), .checksum = std::nullopt};
+        if (item.entry.has_messages_checksum()) item.messages.checksum = item.entry.messages_checksum();
         if (item.messages.size > file_.size() - item.messages.first) {
             go_on_at(entry_at_);
             return std::nullopt;
         }
         messages_.skip(item.messages.size);
-        if (known) return item;
+        if (!known) continue;
+        last_frame_ = item.entry.has_mesh() ? item.entry.mesh().frame_index() : item.entry.particles().frame_index();
+        return item;
     }
 }
 
+void RecordingScan::require_sealed(const std::string& bytes, const v1::RecordingEntry& entry) const {
+    if ((has_checksums_ || entry.has_checksum()) && !is_sealed(bytes))
+        fail("an entry that does not have its checksum: the file is damaged");
+}
+
 void RecordingScan::fail(const std::string& what) const {
-    file_.fail("at byte " + std::to_string(entry_at_) + ": " + what);
+    const std::string behind = last_frame_ ? ", behind an entry of frame " + std::to_string(*last_frame_) : "";
+    file_.fail("at byte " + std::to_string(entry_at_) + behind + ": " + what);
 }
 
 }  // namespace meniscus::files

@@ -7,28 +7,25 @@
 
 #include "files/delimited_messages.hpp"
 #include "files/random_access_file.hpp"
+#include "files/recording_checksums.hpp"
 #include "meniscus/v1/recording.pb.h"
 
 namespace meniscus::files {
 
-/// Where a frame's messages are in the file.
-struct ByteRange {
-    std::uint64_t first = 0;
-    std::uint64_t size = 0;
-};
-
-/// Reads entries, and not the messages that follow them. Throws InvalidInput, in one line that names file and byte, for
-/// everything that is wrong.
+/// Reads entries, and not the messages that follow them. Throws InvalidInput, in one line that names file, byte and the
+/// frame before, for everything that is wrong.
 class RecordingScan {
 public:
     /// The file outlives this object. Throws unless it begins as a recording of this version.
     explicit RecordingScan(const RandomAccessFile& file);
 
     const v1::RecordingBegin& begin() const noexcept { return begin_; }
+    /// Whether its entries and frames can be told from damaged ones.
+    bool has_checksums() const noexcept { return has_checksums_; }
 
     struct Item {
         v1::RecordingEntry entry;  ///< particles or mesh
-        ByteRange messages;
+        RecordedRange messages;
     };
     /// The next entry with all of its messages, of a kind that this version knows; none at the end, or where the file
     /// is cut. Throws for what is no entry.
@@ -43,10 +40,15 @@ public:
     [[noreturn]] void fail(const std::string& what) const;
 
 private:
+    /// Of an entry that does not have its checksum, though it should.
+    void require_sealed(const std::string& bytes, const v1::RecordingEntry& entry) const;
+
     const RandomAccessFile& file_;
     DelimitedMessages messages_;
     std::uint64_t entry_at_ = 0;
     v1::RecordingBegin begin_;
+    bool has_checksums_ = false;
+    std::optional<std::uint64_t> last_frame_;  ///< index, of the last good entry
 };
 
 }  // namespace meniscus::files

@@ -24,6 +24,7 @@ std::vector<prometheus::MetricFamily> limit_gauges(const Limits& limits, const B
                    {{"sessions", number(limits.sessions)},
                     {"watchers_per_session", number(limits.watchers_per_session)},
                     {"recording_readers", number(limits.recording_readers)},
+                    {"reader_pause_seconds", std::chrono::duration<double>(limits.reader_patience).count()},
                     {"particles_per_frame", number(limits.particles_per_frame)},
                     {"bytes_per_session", number(limits.bytes_per_session)},
                     {"device_bytes_per_session", number(limits.device_bytes_per_session)},

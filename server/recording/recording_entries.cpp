@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <string_view>
+#include <utility>
 
 #include "conversion/particle_arrays.hpp"
 #include "conversion/settings_conversion.hpp"
+#include "files/recording_checksums.hpp"
 #include "files/recording_format.hpp"
 #include "meniscus/v1/recording.pb.h"
 #include "meniscus/v1/surface_service.pb.h"
@@ -25,6 +27,21 @@ void append_varint(std::string& out, std::uint64_t value) {
 void append_delimited(std::string& out, const google::protobuf::MessageLite& message) {
     append_varint(out, message.ByteSizeLong());
     message.AppendToString(&out);
+}
+
+void append_entry(std::string& out, const v1::RecordingEntry& entry) {
+    const std::string bytes = files::seal(entry);
+    append_varint(out, bytes.size());
+    out += bytes;
+}
+
+/// The entry of these messages, which are complete.
+std::string entry_of(const std::string& messages, v1::RecordingEntry entry) {
+    entry.set_bytes(messages.size());
+    entry.set_messages_checksum(files::checksum(messages));
+    std::string out;
+    append_entry(out, entry);
+    return out;
 }
 
 /// A field that holds `size` bytes, up to them.
@@ -67,7 +84,7 @@ std::string recording_begin(const std::string& session_id, const Settings& setti
     begin.set_started_at(started_at);
     if (owner.size() <= max_owner_bytes) begin.set_owner(owner);
     std::string out(files::recording_magic);
-    append_delimited(out, entry);
+    append_entry(out, entry);
     return out;
 }
 
@@ -93,8 +110,7 @@ RecordingBytes recorded_particles(const InputFrame& frame, std::int64_t arrived_
     particles.set_simulation_time(frame.simulation_time);
     particles.set_particle_count(frame.particle_count);
     particles.set_arrived_at(arrived_at);
-    entry.set_bytes(bytes.messages.size());
-    append_delimited(bytes.entry, entry);
+    bytes.entry = entry_of(bytes.messages, std::move(entry));
     return bytes;
 }
 
@@ -106,8 +122,7 @@ RecordingBytes recorded_mesh(const EncodedFrame& frame) {
     });
     v1::RecordingEntry entry;
     entry.mutable_mesh()->set_frame_index(frame.index);
-    entry.set_bytes(bytes.messages.size());
-    append_delimited(bytes.entry, entry);
+    bytes.entry = entry_of(bytes.messages, std::move(entry));
     return bytes;
 }
 

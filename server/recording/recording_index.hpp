@@ -10,10 +10,10 @@
 
 namespace meniscus::server {
 
-/// 24 bytes for each frame; what is recorded of one takes a kilobyte or more on the disk.
+/// 40 bytes for each frame; what is recorded of one takes a kilobyte or more on the disk.
 struct MeshPlace {
     std::uint64_t frame_index = 0;
-    files::ByteRange messages;
+    files::RecordedRange messages;
 };
 
 class RecordingIndex {

@@ -10,8 +10,9 @@
 
 namespace meniscus::server {
 
-RecordingReads::RecordingReads(std::filesystem::path directory, std::uint32_t readers)
-    : limit_(readers), catalog_(std::move(directory)) {}
+RecordingReads::RecordingReads(std::filesystem::path directory, std::uint32_t readers,
+                               std::chrono::milliseconds patience)
+    : limit_(readers), patience_(patience), catalog_(std::move(directory)) {}
 
 RecordingReads::Place RecordingReads::admit() {
     require_going_on();

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <boost/asio/thread_pool.hpp>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -15,8 +16,11 @@ namespace meniscus::server {
 
 class RecordingReads {
 public:
-    /// readers: the number that may read at a time; 0: no limit.
-    RecordingReads(std::filesystem::path directory, std::uint32_t readers);
+    /// readers: the number that may read at a time; 0: no limit. patience: how long each may take for a message; 0: for
+    /// ever.
+    RecordingReads(std::filesystem::path directory, std::uint32_t readers, std::chrono::milliseconds patience);
+
+    std::chrono::milliseconds patience() const noexcept { return patience_; }
 
     /// Held by a reader for as long as it reads.
     using Place = std::shared_ptr<void>;
@@ -35,6 +39,7 @@ public:
 
 private:
     const std::uint32_t limit_;
+    const std::chrono::milliseconds patience_;
     std::atomic<std::uint32_t> readers_{0};
     std::atomic<bool> ending_{false};
     RecordingCatalog catalog_;  ///< of the thread

@@ -41,6 +41,7 @@ std::uint64_t bytes_of_recordings(const std::filesystem::path& directory) {
 
 RecordingWriter::RecordingWriter(const RecordingOptions& options) : options_(options), queue_(options.waiting_limit) {
     make_directory(options_);
+    lock_.emplace(options_.directory);
     thread_ = std::thread([this] { write_jobs(); });
 }
 

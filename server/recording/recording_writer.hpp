@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "meniscus/settings.hpp"
+#include "recording/folder_lock.hpp"
 #include "recording/recording_entries.hpp"
 #include "recording/recording_file.hpp"
 #include "recording/recording_options.hpp"
@@ -42,7 +43,8 @@ struct RecordedRun {
 
 class RecordingWriter {
 public:
-    /// Creates the directory if it is missing. Throws InvalidInput if it cannot be written to.
+    /// Creates the directory if it is missing. Throws InvalidInput if it cannot be written to, or another server
+    /// records there.
     explicit RecordingWriter(const RecordingOptions& options);
     /// Writes what waits.
     ~RecordingWriter();
@@ -84,6 +86,7 @@ private:
     std::atomic<std::uint64_t> left_out_{0};
     std::atomic<std::uint64_t> stopped_{0};
 
+    std::optional<FolderLock> lock_;
     std::uint64_t used_ = 0;  ///< bytes of all recordings; of the writing thread
     WriteQueue<Job> queue_;
     std::thread thread_;

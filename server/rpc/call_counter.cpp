@@ -6,8 +6,6 @@
 
 namespace meniscus::server {
 
-namespace {
-
 std::string_view name_of(grpc::StatusCode code) {
     static constexpr std::array<std::string_view, 17> names{
         "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
@@ -17,6 +15,8 @@ std::string_view name_of(grpc::StatusCode code) {
     const auto index = static_cast<std::size_t>(code);
     return index < names.size() ? names[index] : "UNKNOWN";
 }
+
+namespace {
 
 class CallCounter final : public grpc::experimental::Interceptor {
 public:

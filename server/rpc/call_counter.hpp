@@ -2,12 +2,17 @@
 #pragma once
 
 #include <grpcpp/support/server_interceptor.h>
+#include <grpcpp/support/status.h>
 
 #include <memory>
+#include <string_view>
 
 #include "sessions/metrics.hpp"
 
 namespace meniscus::server {
+
+/// As gRPC writes it, such as "NOT_FOUND".
+std::string_view name_of(grpc::StatusCode code);
 
 /// Sees every call of every service, whether the server or the client ends it.
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call_counter(

@@ -3,6 +3,8 @@
 #include <string_view>
 #include <vector>
 
+#include "web/web_peer.hpp"
+
 namespace meniscus::server {
 
 Caller admit(const Authorizer& authorizer, const grpc::ServerContextBase& context, Action action) {
@@ -10,6 +12,15 @@ Caller admit(const Authorizer& authorizer, const grpc::ServerContextBase& contex
     const auto [first, last] = context.client_metadata().equal_range("authorization");
     for (auto entry = first; entry != last; ++entry) values.emplace_back(entry->second.data(), entry->second.size());
     return authorizer.admit(values, action);
+}
+
+std::string peer_of(const grpc::ServerContextBase& context) {
+    std::string peer = context.peer();
+    // Nobody else calls from within the process: elsewhere the metadata are a claim of the client's.
+    if (!peer.starts_with("inproc")) return peer;
+    const auto web = context.client_metadata().find(web_peer_key);
+    if (web == context.client_metadata().end()) return peer;
+    return std::string(web->second.data(), web->second.size()) + " (web)";
 }
 
 }  // namespace meniscus::server

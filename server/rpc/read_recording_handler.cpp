@@ -1,12 +1,15 @@
 #include "rpc/read_recording_handler.hpp"
 
 #include <fmt/format.h>
+#include <grpcpp/alarm.h>
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -53,7 +56,9 @@ public:
                 if (messages_ && messages_->at_end()) messages_.reset();
                 if (!messages_) {
                     if (at_ == meshes_.size()) return nullptr;
-                    const files::ByteRange range = meshes_[at_++].messages;
+                    const files::RecordedRange& range = meshes_[at_++].messages;
+                    // Before its first message leaves: a client does not put a damaged frame together.
+                    if (!files::is_whole(*file_, range)) file_->fail("its messages do not have their checksum");
                     messages_.emplace(*file_, range.first, range.first + range.size);
                 }
                 auto message = messages_->next(files::max_recorded_message_bytes);
@@ -82,24 +87,23 @@ private:
 class ReadRecordingReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
                                    public std::enable_shared_from_this<ReadRecordingReactor> {
 public:
-    ReadRecordingReactor(Metrics& metrics, ActiveCalls& calls) : metrics_(metrics), active_(calls) {}
+    ReadRecordingReactor(Metrics& metrics, ActiveCalls& calls, grpc::CallbackServerContext& context)
+        : metrics_(metrics), active_(calls), context_(&context) {}
 
-    void start(RecordingReads* reads, const Authorizer& authorizer, grpc::CallbackServerContext& context,
-               const grpc::ByteBuffer& request) {
+    void start(RecordingReads* reads, const Authorizer& authorizer, const grpc::ByteBuffer& request) {
         self_ = shared_from_this();
         try {
-            const Caller caller = admit(authorizer, context, Action::read_recording);
+            const Caller caller = admit(authorizer, *context_, Action::read_recording);
             reads_ = &require_recorded(reads);
-            const std::string session_id = metadata_session_id(context);
-            grpc::ByteBuffer bytes(request);
-            parse(bytes, request_, "ReadRecordingRequest");
+            const std::string session_id = metadata_session_id(*context_);
+            request_ = parsed<v1::ReadRecordingRequest>(request);
             require_same_session(session_id, request_.session_id());
             conversion::chosen_codec(request_.codecs());  // recorded meshes have the only one that there is
             place_ = reads_->admit();
-            go_on([this, caller, &context](RecordingCatalog& catalog) {
+            go_on([this, caller](RecordingCatalog& catalog) {
                 open(catalog, caller);
                 // With metadata, as a refusal has none.
-                context.AddInitialMetadata("x-session-id", request_.session_id());
+                context_->AddInitialMetadata("x-session-id", request_.session_id());
                 StartSendInitialMetadata();
             });
         } catch (...) {
@@ -108,13 +112,20 @@ public:
     }
 
     void OnWriteDone(bool ok) override {
+        stalled_.reset();
         if (!ok) canceled_ = true;
         go_on([](RecordingCatalog&) {});
     }
 
     void OnCancel() override { canceled_ = true; }
 
-    void OnDone() override { const auto self = std::move(self_); }
+    void OnDone() override {
+        {
+            const std::lock_guard lock(mutex_);
+            context_ = nullptr;
+        }
+        const auto self = std::move(self_);
+    }
 
 private:
     /// On the thread that reads: `first`, then the next message.
@@ -143,7 +154,24 @@ private:
         if (!message) return Finish(grpc::Status::OK);
         metrics_.message_sent(Metrics::Receiver::recording_reader, message->size());
         outgoing_ = to_bytes(message);
+        await_client();
         StartWrite(&outgoing_);
+    }
+
+    /// A client that takes nothing keeps its place from others. What is under way can only be canceled.
+    void await_client() {
+        if (reads_->patience().count() == 0) return;
+        stalled_ = std::make_unique<grpc::Alarm>();
+        stalled_->Set(std::chrono::system_clock::now() + reads_->patience(), [weak = weak_from_this()](bool rang) {
+            const auto self = rang ? weak.lock() : nullptr;
+            if (!self) return;
+            const std::lock_guard lock(self->mutex_);
+            if (self->context_ == nullptr) return;
+            log_info({.session = self->request_.session_id()},
+                     "a reader of its recording from {} has taken nothing for {:.3g} s: its call ends",
+                     peer_of(*self->context_), std::chrono::duration<double>(self->reads_->patience()).count());
+            self->context_->TryCancel();
+        });
     }
 
     Metrics& metrics_;
@@ -154,7 +182,11 @@ private:
     v1::ReadRecordingRequest request_;
     std::optional<RecordedMessages> messages_;
     grpc::ByteBuffer outgoing_;
+    std::unique_ptr<grpc::Alarm> stalled_;  ///< of the write under way
     std::atomic<bool> canceled_{false};
+
+    std::mutex mutex_;
+    grpc::CallbackServerContext* context_;  ///< set to none, with the lock held, when gRPC is done with it
 };
 
 }  // namespace
@@ -169,8 +201,8 @@ grpc::ServerWriteReactor<grpc::ByteBuffer>* start_reading(RecordingReads* reads,
                                                           Metrics& metrics, ActiveCalls& calls,
                                                           grpc::CallbackServerContext& context,
                                                           const grpc::ByteBuffer& request) {
-    const auto reactor = std::make_shared<ReadRecordingReactor>(metrics, calls);
-    reactor->start(reads, authorizer, context, request);
+    const auto reactor = std::make_shared<ReadRecordingReactor>(metrics, calls, context);
+    reactor->start(reads, authorizer, request);
     return reactor.get();
 }
 

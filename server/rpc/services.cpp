@@ -15,18 +15,21 @@
 #include "rpc/status.hpp"
 #include "rpc/stream_handler.hpp"
 #include "rpc/watch_handler.hpp"
+#include "rpc/wire_bytes.hpp"
 
 namespace meniscus::server {
 
 namespace {
 
-/// Finishes a unary call that may be made with what `handle`, given the caller, returns or throws.
-template <class Response, class Handle>
+/// Finishes a unary call that may be made with what `handle`, given the caller and the request, returns or throws. The
+/// request is read here, as bytes that are none would else be refused by gRPC, without a word.
+template <class Request, class Handle>
 grpc::ServerUnaryReactor* answer(const Authorizer& authorizer, grpc::CallbackServerContext& context, Action action,
-                                 Response& response, const Handle& handle) {
+                                 const grpc::ByteBuffer& bytes, grpc::ByteBuffer& response, const Handle& handle) {
     grpc::ServerUnaryReactor* reactor = context.DefaultReactor();
     try {
-        response = handle(admit(authorizer, context, action));
+        const Caller caller = admit(authorizer, context, action);
+        response = serialized(handle(caller, parsed<Request>(bytes)));
         reactor->Finish(grpc::Status::OK);
     } catch (...) {
         reactor->Finish(to_status(std::current_exception()));
@@ -37,13 +40,14 @@ grpc::ServerUnaryReactor* answer(const Authorizer& authorizer, grpc::CallbackSer
 /// The same for a call about one session.
 template <class Request, class Response>
 grpc::ServerUnaryReactor* answer_about_session(const Authorizer& authorizer, grpc::CallbackServerContext& context,
-                                               Action action, SessionRegistry& registry, const Request& request,
-                                               Response& response,
+                                               Action action, SessionRegistry& registry, const grpc::ByteBuffer& bytes,
+                                               grpc::ByteBuffer& response,
                                                Response (&handler)(SessionRegistry&, const Caller&, const Request&)) {
-    return answer(authorizer, context, action, response, [&](const Caller& caller) {
-        require_same_session(metadata_session_id(context), request.id());
-        return handler(registry, caller, request);
-    });
+    return answer<Request>(authorizer, context, action, bytes, response,
+                           [&](const Caller& caller, const Request& request) {
+                               require_same_session(metadata_session_id(context), request.id());
+                               return handler(registry, caller, request);
+                           });
 }
 
 }  // namespace
@@ -53,36 +57,38 @@ ServerServiceImpl::ServerServiceImpl(const Authorizer& authorizer, BackendDescri
     : authorizer_(authorizer), backend_(std::move(backend)), threads_(threads), limits_(limits) {}
 
 grpc::ServerUnaryReactor* ServerServiceImpl::GetServerInfo(grpc::CallbackServerContext* context,
-                                                           const v1::GetServerInfoRequest* /*request*/,
-                                                           v1::GetServerInfoResponse* response) {
-    return answer(authorizer_, *context, Action::describe_server, *response,
-                  [&](const Caller&) { return get_server_info(backend_, threads_, limits_); });
+                                                           const grpc::ByteBuffer* request,
+                                                           grpc::ByteBuffer* response) {
+    return answer<v1::GetServerInfoRequest>(
+        authorizer_, *context, Action::describe_server, *request, *response,
+        [&](const Caller&, const v1::GetServerInfoRequest&) { return get_server_info(backend_, threads_, limits_); });
 }
 
 grpc::ServerUnaryReactor* SessionServiceImpl::CreateSession(grpc::CallbackServerContext* context,
-                                                            const v1::CreateSessionRequest* request,
-                                                            v1::CreateSessionResponse* response) {
+                                                            const grpc::ByteBuffer* request,
+                                                            grpc::ByteBuffer* response) {
     return answer_about_session(authorizer_, *context, Action::create_session, registry_, *request, *response,
                                 create_session);
 }
 
 grpc::ServerUnaryReactor* SessionServiceImpl::GetSession(grpc::CallbackServerContext* context,
-                                                         const v1::GetSessionRequest* request,
-                                                         v1::GetSessionResponse* response) {
+                                                         const grpc::ByteBuffer* request, grpc::ByteBuffer* response) {
     return answer_about_session(authorizer_, *context, Action::get_session, registry_, *request, *response,
                                 get_session);
 }
 
 grpc::ServerUnaryReactor* SessionServiceImpl::ListSessions(grpc::CallbackServerContext* context,
-                                                           const v1::ListSessionsRequest* request,
-                                                           v1::ListSessionsResponse* response) {
-    return answer(authorizer_, *context, Action::list_sessions, *response,
-                  [&](const Caller& caller) { return list_sessions(registry_, caller, *request); });
+                                                           const grpc::ByteBuffer* request,
+                                                           grpc::ByteBuffer* response) {
+    return answer<v1::ListSessionsRequest>(authorizer_, *context, Action::list_sessions, *request, *response,
+                                           [&](const Caller& caller, const v1::ListSessionsRequest& message) {
+                                               return list_sessions(registry_, caller, message);
+                                           });
 }
 
 grpc::ServerUnaryReactor* SessionServiceImpl::DeleteSession(grpc::CallbackServerContext* context,
-                                                            const v1::DeleteSessionRequest* request,
-                                                            v1::DeleteSessionResponse* response) {
+                                                            const grpc::ByteBuffer* request,
+                                                            grpc::ByteBuffer* response) {
     return answer_about_session(authorizer_, *context, Action::delete_session, registry_, *request, *response,
                                 delete_session);
 }
@@ -103,14 +109,15 @@ grpc::ServerWriteReactor<grpc::ByteBuffer>* SurfaceServiceImpl::WatchParticles(g
 }
 
 grpc::ServerUnaryReactor* RecordingServiceImpl::ListRecordings(grpc::CallbackServerContext* context,
-                                                               const v1::ListRecordingsRequest* /*request*/,
-                                                               v1::ListRecordingsResponse* response) {
+                                                               const grpc::ByteBuffer* request,
+                                                               grpc::ByteBuffer* response) {
     grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
     try {
         const Caller caller = admit(authorizer_, *context, Action::list_recordings);
+        parsed<v1::ListRecordingsRequest>(*request);
         require_recorded(reads_).post([reactor, response, caller](RecordingCatalog& catalog) {
             try {
-                *response = list_recordings(catalog, caller);
+                *response = serialized(list_recordings(catalog, caller));
                 reactor->Finish(grpc::Status::OK);
             } catch (...) {
                 reactor->Finish(to_status(std::current_exception()));

@@ -13,13 +13,15 @@
 
 namespace meniscus::server {
 
-class ServerServiceImpl final : public v1::ServerService::CallbackService {
+/// Raw, so that bytes that are no request are refused in words, and after the token.
+using RawServerService = v1::ServerService::WithRawCallbackMethod_GetServerInfo<v1::ServerService::Service>;
+
+class ServerServiceImpl final : public RawServerService {
 public:
     ServerServiceImpl(const Authorizer& authorizer, BackendDescription backend, unsigned threads, const Limits& limits);
 
-    grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
-                                            const v1::GetServerInfoRequest* request,
-                                            v1::GetServerInfoResponse* response) override;
+    grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                            grpc::ByteBuffer* response) override;
 
 private:
     const Authorizer& authorizer_;
@@ -28,21 +30,23 @@ private:
     const Limits limits_;
 };
 
-class SessionServiceImpl final : public v1::SessionService::CallbackService {
+using RawSessionService = v1::SessionService::WithRawCallbackMethod_CreateSession<
+    v1::SessionService::WithRawCallbackMethod_GetSession<v1::SessionService::WithRawCallbackMethod_ListSessions<
+        v1::SessionService::WithRawCallbackMethod_DeleteSession<v1::SessionService::Service>>>>;
+
+class SessionServiceImpl final : public RawSessionService {
 public:
     SessionServiceImpl(SessionRegistry& registry, const Authorizer& authorizer)
         : registry_(registry), authorizer_(authorizer) {}
 
-    grpc::ServerUnaryReactor* CreateSession(grpc::CallbackServerContext* context,
-                                            const v1::CreateSessionRequest* request,
-                                            v1::CreateSessionResponse* response) override;
-    grpc::ServerUnaryReactor* GetSession(grpc::CallbackServerContext* context, const v1::GetSessionRequest* request,
-                                         v1::GetSessionResponse* response) override;
-    grpc::ServerUnaryReactor* ListSessions(grpc::CallbackServerContext* context, const v1::ListSessionsRequest* request,
-                                           v1::ListSessionsResponse* response) override;
-    grpc::ServerUnaryReactor* DeleteSession(grpc::CallbackServerContext* context,
-                                            const v1::DeleteSessionRequest* request,
-                                            v1::DeleteSessionResponse* response) override;
+    grpc::ServerUnaryReactor* CreateSession(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                            grpc::ByteBuffer* response) override;
+    grpc::ServerUnaryReactor* GetSession(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                         grpc::ByteBuffer* response) override;
+    grpc::ServerUnaryReactor* ListSessions(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                           grpc::ByteBuffer* response) override;
+    grpc::ServerUnaryReactor* DeleteSession(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                            grpc::ByteBuffer* response) override;
 
 private:
     SessionRegistry& registry_;
@@ -72,7 +76,7 @@ private:
 };
 
 /// Raw, so that what was recorded is sent as it is.
-using RawRecordingService = v1::RecordingService::WithCallbackMethod_ListRecordings<
+using RawRecordingService = v1::RecordingService::WithRawCallbackMethod_ListRecordings<
     v1::RecordingService::WithRawCallbackMethod_ReadRecording<v1::RecordingService::Service>>;
 
 class RecordingServiceImpl final : public RawRecordingService {
@@ -81,9 +85,8 @@ public:
     RecordingServiceImpl(RecordingReads* reads, const Authorizer& authorizer, Metrics& metrics, ActiveCalls& calls)
         : reads_(reads), authorizer_(authorizer), metrics_(metrics), calls_(calls) {}
 
-    grpc::ServerUnaryReactor* ListRecordings(grpc::CallbackServerContext* context,
-                                             const v1::ListRecordingsRequest* request,
-                                             v1::ListRecordingsResponse* response) override;
+    grpc::ServerUnaryReactor* ListRecordings(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                             grpc::ByteBuffer* response) override;
     grpc::ServerWriteReactor<grpc::ByteBuffer>* ReadRecording(grpc::CallbackServerContext* context,
                                                               const grpc::ByteBuffer* request) override;
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "meniscus/error.hpp"
+#include "rpc/escaped.hpp"
 
 namespace meniscus::server {
 
@@ -19,7 +20,7 @@ void require_session_id(std::string_view name, std::string_view id) {
     constexpr std::size_t shown = 64;
     if (!is_session_id(id))
         throw InvalidInput(fmt::format("{} is \"{}\"; it must be a UUID of 8-4-4-4-12 lower-case hexadecimal digits",
-                                       name, id.substr(0, shown)));
+                                       name, escaped(id.substr(0, shown))));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "rpc/stream_handler.hpp"
 
+#include <fmt/format.h>
+#include <google/protobuf/unknown_field_set.h>
 #include <grpcpp/support/proto_buffer_reader.h>
 
 #include <exception>
@@ -33,14 +35,18 @@ namespace {
 class StreamReactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
                             public std::enable_shared_from_this<StreamReactor> {
 public:
-    StreamReactor(SessionRegistry& registry, ActiveCalls& calls, const grpc::CallbackServerContext& context)
-        : active_(calls), registry_(registry), peer_(context.peer()), assembler_(registry.limits()) {}
+    StreamReactor(SessionRegistry& registry, ActiveCalls& calls, grpc::CallbackServerContext& context)
+        : active_(calls),
+          registry_(registry),
+          context_(context),
+          peer_(context.peer()),
+          assembler_(registry.limits()) {}
 
-    void start(const Authorizer& authorizer, const grpc::CallbackServerContext& context) {
+    void start(const Authorizer& authorizer) {
         self_ = shared_from_this();
         try {
-            caller_ = admit(authorizer, context, Action::stream);
-            session_id_ = metadata_session_id(context);
+            caller_ = admit(authorizer, context_, Action::stream);
+            session_id_ = metadata_session_id(context_);
         } catch (...) {
             refuse(std::current_exception());
             return;
@@ -155,7 +161,14 @@ private:
             case v1::StreamRequest::MESSAGE_NOT_SET:
                 break;
         }
-        throw InvalidInput("a message of a kind that this version does not know");
+        throw InvalidInput(unknown_kind(request_));
+    }
+
+    static std::string unknown_kind(const v1::StreamRequest& message) {
+        const auto& fields = message.GetReflection()->GetUnknownFields(message);
+        if (fields.empty()) return "a message of no kind: it has no field";
+        return fmt::format("a message with the field {}, a kind that this version does not know",
+                           fields.field(0).number());
     }
 
     void read_next() {
@@ -300,8 +313,20 @@ private:
                 writing_ = true;
                 StartWrite(&outgoing_);
             } else if (const auto* end = std::get_if<OutputQueue::End>(&next)) {
+                if (is_idle(end->error)) context_.AddTrailingMetadata("x-stream-end", "idle");
                 finish(to_status(end->error));
             }
+        }
+    }
+
+    static bool is_idle(const std::exception_ptr& error) {
+        if (!error) return false;
+        try {
+            std::rethrow_exception(error);
+        } catch (const IdleStream&) {
+            return true;
+        } catch (...) {
+            return false;
         }
     }
 
@@ -314,6 +339,7 @@ private:
 
     const ActiveCalls::Token active_;
     SessionRegistry& registry_;
+    grpc::CallbackServerContext& context_;  ///< gRPC keeps it until OnDone
     const std::string peer_;
     std::shared_ptr<StreamReactor> self_;  ///< until OnDone
     Caller caller_;
@@ -349,7 +375,7 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* start_stream(Sessio
                                                                           ActiveCalls& calls,
                                                                           grpc::CallbackServerContext& context) {
     const auto reactor = std::make_shared<StreamReactor>(registry, calls, context);
-    reactor->start(authorizer, context);
+    reactor->start(authorizer);
     return reactor.get();
 }
 

@@ -26,7 +26,7 @@ class WatchReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
                            public std::enable_shared_from_this<WatchReactor> {
 public:
     WatchReactor(Metrics& metrics, ActiveCalls& calls, const grpc::CallbackServerContext& context)
-        : metrics_(metrics), active_(calls), peer_(context.peer()) {}
+        : metrics_(metrics), active_(calls), peer_(peer_of(context)) {}
 
     /// Request: what names the session and the wishes.
     template <class Request>
@@ -36,9 +36,7 @@ public:
         try {
             const Caller caller = admit(authorizer, context, Action::watch);
             session_id_ = metadata_session_id(context);
-            grpc::ByteBuffer bytes(request);
-            Request message;
-            parse(bytes, message, Request::descriptor()->name());
+            const auto message = parsed<Request>(request);
             require_same_session(session_id_, message.session_id());
             session_ = registry.find(session_id_);
             Authorizer::require_access(caller, Action::watch, session_id_, session_->owner());

@@ -24,4 +24,8 @@ void parse(grpc::ByteBuffer& bytes, google::protobuf::MessageLite& message, std:
         throw InvalidInput(fmt::format("a message of {} bytes is not a {}", bytes.Length(), name));
 }
 
+grpc::ByteBuffer serialized(const google::protobuf::MessageLite& message) {
+    return to_bytes(std::make_shared<const std::string>(message.SerializeAsString()));
+}
+
 }  // namespace meniscus::server

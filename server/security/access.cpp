@@ -16,6 +16,7 @@ Access::Access(const TlsFiles& tls, const std::string& tokens) : tls_files_(tls)
         certificates_ = load_certificates(tls);
         tls_ = std::make_shared<TlsCredentials>(certificates_);
         http_tls_ = std::make_shared<TlsContext>(certificates_);
+        note_expiry();
         spdlog::info("TLS certificate: {}", describe(certificates_));
     }
     if (!tokens.empty()) {
@@ -53,7 +54,14 @@ void Access::reload_certificates() {
     http_tls_->replace(certificates);
     tls_->replace(certificates);
     certificates_ = std::move(certificates);
+    note_expiry();
     spdlog::info("new TLS certificate: {}", describe(certificates_));
+}
+
+void Access::note_expiry() {
+    server_expiry_ = static_cast<double>(first_expiry(certificates_.chain));
+    client_ca_expiry_ = certificates_.client_ca.empty() ? std::numeric_limits<double>::infinity()
+                                                        : static_cast<double>(first_expiry(certificates_.client_ca));
 }
 
 void Access::reload_tokens() {

@@ -3,6 +3,8 @@
 
 #include <grpcpp/security/server_credentials.h>
 
+#include <atomic>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -25,12 +27,21 @@ public:
     /// For the HTTP port; none without TLS.
     std::shared_ptr<const TlsContext> http_tls() const { return http_tls_; }
 
+    /// Of the files in use, from any thread: when the first certificate in each expires, seconds since 1970-01-01 UTC;
+    /// infinite where there is none.
+    struct Expiry {
+        double server;
+        double client_ca;
+    };
+    Expiry expiry() const noexcept { return {.server = server_expiry_, .client_ca = client_ca_expiry_}; }
+
     /// Takes over what has changed in the files. Logs a file that cannot be used, and keeps what it had before. One
     /// thread at a time.
     void reload();
 
 private:
     void reload_certificates();
+    void note_expiry();
     void reload_tokens();
 
     const TlsFiles tls_files_;
@@ -41,6 +52,8 @@ private:
     std::shared_ptr<TlsCredentials> tls_;   ///< none without TLS
     std::shared_ptr<TlsContext> http_tls_;  ///< none without TLS
     std::string problems_;                  ///< logged already
+    std::atomic<double> server_expiry_{std::numeric_limits<double>::infinity()};
+    std::atomic<double> client_ca_expiry_{std::numeric_limits<double>::infinity()};
 };
 
 }  // namespace meniscus::server

@@ -7,6 +7,9 @@
 #include <openssl/pem.h>
 #include <openssl/x509.h>
 
+#include <algorithm>
+#include <ctime>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -89,6 +92,16 @@ Certificates load_certificates(const TlsFiles& files) {
         parse_certificates(loaded.client_ca, files.client_ca);
     }
     return loaded;
+}
+
+std::int64_t first_expiry(const std::string& pem) {
+    std::int64_t first = std::numeric_limits<std::int64_t>::max();
+    for (const Owned<X509>& certificate : parse_certificates(pem, "the certificate")) {
+        std::tm end{};
+        if (ASN1_TIME_to_tm(X509_get0_notAfter(certificate.get()), &end) == 1)
+            first = std::min<std::int64_t>(first, ::timegm(&end));
+    }
+    return first;
 }
 
 std::string describe(const Certificates& certificates) {

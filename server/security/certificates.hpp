@@ -1,6 +1,7 @@
 // The server's certificate, its key, and the authority whose clients it trusts: PEM files.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace meniscus::server {
@@ -26,6 +27,9 @@ struct Certificates {
 /// Throws InvalidInput that names the file and what is wrong: not PEM, expired or not valid yet, a key of another
 /// certificate or one that asks for a pass phrase.
 Certificates load_certificates(const TlsFiles& files);
+
+/// Of PEM certificates that have been loaded: when the first of them expires, seconds since 1970-01-01 UTC.
+std::int64_t first_expiry(const std::string& pem);
 
 /// "serial 0A1B, valid until Nov 21 08:00:00 2027 GMT", of certificates that have been loaded.
 std::string describe(const Certificates& certificates);

@@ -40,9 +40,9 @@ void ReconstructingThread::run() {
         }
         if (next_mesh_ == nullptr) next_mesh_ = encoding_.wait_for_free_frame();
         if (next_mesh_ == nullptr) return;
-        const Turns::Turn turn = context_.shared.turns->wait();
+        Turns::Turn turn = context_.shared.turns->wait();
         // Only now, so that until its turn a frame can be replaced by a newer one.
-        if (auto frame = received_.take(next); frame && !reconstruct_next(std::move(*frame))) return;
+        if (auto frame = received_.take(next); frame && !reconstruct_next(std::move(*frame), std::move(turn))) return;
     }
 }
 
@@ -57,13 +57,15 @@ void ReconstructingThread::pass_on(Received note) {
         encoding_.put(EncodingThread::EndUpload{.upload = std::move(note.upload), .error = std::move(note.error)});
 }
 
-bool ReconstructingThread::reconstruct_next(Received received) {
+bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn) {
     InputFrame& input = *received.input;
     if (received.upload == failed_) {
         inputs_.give_back(input);
         return true;
     }
     try {
+        // What follows is no work of the device: others have their turn meanwhile.
+        const Turns::Turn ends = std::move(turn);
         reconstruct(received, *next_mesh_);
     } catch (const DeviceError& error) {
         log_error({.session = context_.identity.id, .frame = input.index}, "the session ends: {}", error.what());

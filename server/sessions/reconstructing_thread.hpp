@@ -37,8 +37,8 @@ public:
 private:
     void run();
     void pass_on(Received note);
-    /// Returns whether the session goes on.
-    bool reconstruct_next(Received received);
+    /// The turn ends with the reconstruction. Returns whether the session goes on.
+    bool reconstruct_next(Received received, Turns::Turn turn);
     void reconstruct(const Received& received, ReconstructedFrame& frame);
     /// Adds the meshes of coarser levels that watchers wish for now.
     void cap_levels(ReconstructedFrame& frame);

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "meniscus/error.hpp"
+
 namespace meniscus::server {
 
 class Refusal : public std::runtime_error {
@@ -24,6 +26,12 @@ public:
 
 private:
     Kind kind_;
+};
+
+/// Ends a stream that brings nothing. A client may open it again when it has a frame.
+class IdleStream : public LimitExceeded {
+public:
+    using LimitExceeded::LimitExceeded;
 };
 
 inline Refusal moved() {

@@ -227,7 +227,7 @@ bool Session::end_idle(std::chrono::steady_clock::time_point now) {
         if (idle) set_upload(nullptr);
     }
     if (idle)
-        idle->output.finish(std::make_exception_ptr(LimitExceeded(
+        idle->output.finish(std::make_exception_ptr(IdleStream(
             fmt::format("nothing has arrived for {:.3g} s; the server keeps an idle stream for {:.3g} s: open another "
                         "when there are frames",
                         Seconds(now - idle->last_activity.load()).count(), Seconds(limits().idle_time).count()))));

@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "web/grpc_web_messages.hpp"
+#include "web/web_peer.hpp"
 
 namespace meniscus::server {
 
@@ -101,6 +102,7 @@ void HttpConnection::name_tls() {
 
 void HttpConnection::read() {
     busy_ = false;
+    is_call_ = false;
     if (leaving_) return end_connection();
     call_parser_.reset();
     parser_.emplace();
@@ -130,13 +132,13 @@ void HttpConnection::answer() {
     const AllowedOrigins& origins = content_.grpc_web.origins;
     busy_ = true;
     if (request.count(http::field::host) > 1) return refuse(400, "The request names more than one host.\n");
-    const bool is_call = content_.grpc_web.channel && is_method(path);
-    if ((is_call || content_.router.is_for_browsers(path)) && !origins.knows_host(host))
+    is_call_ = content_.grpc_web.channel && is_method(path);
+    if ((is_call_ || content_.router.is_for_browsers(path)) && !origins.knows_host(host))
         return refuse(
             421,
             fmt::format("This server is not known as {0}; use its address, or start it with --web-origin http://{0}\n",
                         host.substr(0, shown_bytes)));
-    if (is_call) {
+    if (is_call_) {
         const std::string_view origin = view(request[http::field::origin]);
         if (!origins.admits(origin, host))
             return refuse(403, fmt::format("Pages of {} may not call this server; --web-origin allows them.\n",
@@ -199,11 +201,21 @@ void HttpConnection::answer_call(boost::beast::error_code error) {
     BridgedCall::Request call;
     if (const grpc::Status refusal = bridged_request(call_parser_->get(), call); !refusal.ok())
         return refuse_call(refusal);
+    call.metadata.emplace_back(web_peer_key, peer());
     streams_ = is_stream(call.method);
     exchange_ = std::make_shared<GrpcWebExchange>(
         stream_, context_, limits_.patience,
         [self = shared_from_this()](GrpcWebExchange::Ending ending) { self->call_ended(ending); });
     exchange_->start(content_.grpc_web.channel, call_parser_->get(), std::move(call));
+}
+
+std::string HttpConnection::peer() {
+    boost::beast::error_code error;
+    const auto end = stream_.tcp().socket().remote_endpoint(error);
+    if (error) return "unknown";
+    const auto address = end.address();
+    return address.is_v6() ? fmt::format("ipv6:%5B{}%5D:{}", address.to_string(), end.port())
+                           : fmt::format("ipv4:{}:{}", address.to_string(), end.port());
 }
 
 void HttpConnection::call_ended(GrpcWebExchange::Ending ending) {
@@ -216,15 +228,22 @@ void HttpConnection::call_ended(GrpcWebExchange::Ending ending) {
 }
 
 void HttpConnection::refuse(unsigned status, std::string sentence) {
+    if (is_call_)
+        count_refusal(status == 403 ? grpc::StatusCode::PERMISSION_DENIED : grpc::StatusCode::INVALID_ARGUMENT);
     write({.status = status, .body = std::move(sentence)}, false);
 }
 
 void HttpConnection::refuse_call(const grpc::Status& status) {
+    count_refusal(status.error_code());
     const http::fields& request = call_parser_ ? static_cast<const http::fields&>(call_parser_->get()) : parser_->get();
     write({.content_type = "application/grpc-web+proto",
            .body = grpc_web_trailers(status),
            .headers = cross_origin_headers(view(request[http::field::origin]))},
           false);
+}
+
+void HttpConnection::count_refusal(grpc::StatusCode code) const {
+    if (content_.grpc_web.refused) content_.grpc_web.refused(code);
 }
 
 void HttpConnection::write(Page page, bool keep_alive) {

@@ -77,6 +77,10 @@ private:
     void refuse(unsigned status, std::string sentence);
     /// Refuses a gRPC-Web call in the same way, with a status of gRPC.
     void refuse_call(const grpc::Status& status);
+    /// Of a call that no handler sees.
+    void count_refusal(grpc::StatusCode code) const;
+    /// The other end, as gRPC writes those of its connections.
+    std::string peer();
     void write(Page page, bool keep_alive);
     void written(boost::beast::error_code error);
     void end_connection();
@@ -99,7 +103,8 @@ private:
     Page page_;                                  ///< whose body the response shows
     std::optional<Response> response_;
     std::optional<boost::beast::http::response_serializer<boost::beast::http::span_body<const char>>> serializer_;
-    bool busy_ = false;  ///< from a request's last byte to its answer's
+    bool busy_ = false;     ///< from a request's last byte to its answer's
+    bool is_call_ = false;  ///< the request, of gRPC-Web
     bool streams_ = false;
     bool leaving_ = false;
 };

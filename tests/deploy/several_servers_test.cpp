@@ -20,6 +20,7 @@
 #include "played_session.hpp"
 #include "process.hpp"
 #include "proxy.hpp"
+#include "tcp_proxy.hpp"
 
 namespace meniscus::server::test {
 namespace {
@@ -233,6 +234,47 @@ TEST_P(Sessions, GoOnElsewhereWhenTheirServerIsKilledAndComeBackWithItWhileOther
                 EXPECT_EQ(lines_with(log, id, "connected"), 1) << id;
             }
     }
+}
+
+TEST_P(SeveralServers, AreWatchedWhereTheSimulatorGoesThoughItsConnectionBreaksOnceTheRingHasChanged) {
+    TcpProxy way(static_cast<std::uint16_t>(std::stoi(port_of(proxy->address()))));
+    client::Client simulator(way.address(), {.wait = std::chrono::seconds(30)});
+    auto near = connect();
+    std::string id;
+    do {
+        id = client::new_session_id();
+        near.create_session(id, settings());
+    } while (!std::ranges::any_of(servers[0].sessions(), [&](const auto& session) { return session.id == id; }));
+    // It goes where its calls go once its connection is broken, and not before.
+    auto stream =
+        simulator.stream(id, {.reconnect = std::chrono::seconds(60), .route_check = std::chrono::milliseconds(0)});
+    auto watcher = near.watch(id, {.reconnect = std::chrono::seconds(60)});
+    const Particles particles = wave(3, 0.0);
+    const auto is_shown = [&](std::uint64_t index) {
+        auto shown = std::async(std::launch::async, [&] { return watcher.next(); });
+        stream.push(particles.view(), index, 0.0);
+        EXPECT_EQ(stream.next()->index, index);
+        const bool in_time = shown.wait_for(std::chrono::seconds(20)) == std::future_status::ready;
+        if (!in_time) watcher.cancel();
+        const auto frame = shown.get();
+        return in_time && frame && frame->index == index;
+    };
+    ASSERT_TRUE(is_shown(0));
+    servers[0].end(SIGKILL);
+    ASSERT_TRUE(is_shown(1));
+    servers[0].start_again();
+    const auto found = [&] {
+        try {
+            near.session(id);
+            return true;
+        } catch (const client::ServerError&) {
+            return false;
+        }
+    };
+    while (found()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    way.cut();
+    EXPECT_TRUE(is_shown(2));
+    EXPECT_TRUE(has_all(servers[0], {id}));
 }
 
 TEST_P(SeveralServers, AnswerThroughTheProxyInTheirOwnWords) {

@@ -3,6 +3,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "files/recording_format.hpp"
+#include "files/recording_scan.hpp"
 #include "recording/recording_entries.hpp"
 #include "support.hpp"
 
@@ -55,6 +57,28 @@ void recording(Bytes bytes) {
     });
 }
 
+/// Entries of before checksums, so that mutations of them are read instead of refused at once.
+std::string without_checksums(const std::string& bytes) {
+    const MemoryFile memory(bytes);
+    const files::RandomAccessFile file(memory.path());
+    files::RecordingScan scan(file);
+    std::string out(files::recording_magic);
+    const auto append = [&out](v1::RecordingEntry entry, const std::string& messages) {
+        entry.clear_checksum();
+        entry.clear_messages_checksum();
+        const std::string text = entry.SerializeAsString();
+        for (std::size_t size = text.size(); size != 0; size >>= 7U)
+            out += static_cast<char>((size & 0x7fU) | (size >= 0x80 ? 0x80U : 0U));
+        out += text + messages;
+    };
+    v1::RecordingEntry begin;
+    *begin.mutable_begin() = scan.begin();
+    append(begin, {});
+    while (const auto item = scan.next())
+        append(item->entry, file.read(item->messages.first, static_cast<std::size_t>(item->messages.size)));
+    return out;
+}
+
 Seeds recording_seeds() {
     Settings settings;
     settings.particle_radius = 0.1;
@@ -64,7 +88,7 @@ Seeds recording_seeds() {
         const server::RecordingBytes particles = server::recorded_particles(frame(i, i % 2 == 1, i > 1), 0);
         all += particles.entry + particles.messages;
     }
-    return {begin, all};
+    return {begin, all, without_checksums(begin), without_checksums(all)};
 }
 
 }  // namespace meniscus::fuzz

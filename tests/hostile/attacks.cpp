@@ -4,7 +4,11 @@ namespace meniscus::hostile {
 
 std::span<const Attack> attacks() {
     static constexpr Attack all[] = {
+        {"damaged-recording", "four bytes of a recording, changed at 400 places, one after the other",
+         damaged_recording},
         {"gzip-bomb", "512 MiB of zeros, compressed by gzip, without a token", gzip_bomb},
+        {"restarts", "40 servers killed or ended, each back after 0.1 to 5 s", restarts},
+        {"stalled-readers", "readers of a recording that take every place and read nothing", stalled_readers},
     };
     return all;
 }

@@ -5,8 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -30,7 +30,7 @@ std::string word_after(const std::string& line, const std::string& words) {
 }  // namespace
 
 Target::Target(const std::string& program, TargetOptions options) {
-    std::vector<std::string> command{program, "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0"};
+    std::vector<std::string> command{program, "--listen", options.listen, "--http", "127.0.0.1:0"};
     command.insert(command.end(), options.arguments.begin(), options.arguments.end());
     std::vector<char*> argv;
     argv.reserve(command.size() + 1);

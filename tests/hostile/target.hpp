@@ -16,6 +16,7 @@ namespace meniscus::hostile {
 struct TargetOptions {
     std::vector<std::string> arguments;  ///< beside --listen and --http, which are on free ports of loopback
     std::optional<rlim_t> descriptors;   ///< its limit, soft and hard
+    std::string listen = "127.0.0.1:0";  ///< for a server that comes again where one was
 };
 
 /// How a server ended.

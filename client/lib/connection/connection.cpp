@@ -41,7 +41,7 @@ std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const Co
     // A server that has just started is found without gRPC's wait of seconds between attempts, and a new connection
     // does not inherit that wait from an old one.
     arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
-    arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
+    arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 500);
     // What gRPC calls a minimum is the time that one attempt may take: several ways to a server that is far away, and
     // back.
     arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);

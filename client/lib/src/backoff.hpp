@@ -7,8 +7,9 @@
 
 namespace meniscus::client {
 
-/// Doubles from 50 ms to 2 s, each wait cut at random by up to a half, so that the clients of a server that comes back
-/// do not all come at once.
+/// Doubles from 50 ms to half a second, each wait cut at random by up to a half, so that the clients of a server that
+/// comes back do not all come at once. No longer, since a client behind a proxy finds its server by such attempts
+/// alone.
 class Backoff {
 public:
     std::chrono::milliseconds next() {
@@ -22,7 +23,7 @@ public:
 
 private:
     static constexpr std::chrono::milliseconds shortest{50};
-    static constexpr std::chrono::milliseconds longest{2000};
+    static constexpr std::chrono::milliseconds longest{500};
 
     std::chrono::milliseconds wait_ = shortest;
     std::minstd_rand random_{std::random_device{}()};

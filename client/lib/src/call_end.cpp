@@ -6,19 +6,21 @@ namespace meniscus::client {
 
 namespace {
 
-std::string instance_in(const std::multimap<grpc::string_ref, grpc::string_ref>& metadata) {
-    const auto found = metadata.find("x-server-instance");
+using Metadata = std::multimap<grpc::string_ref, grpc::string_ref>;
+
+std::string value_in(const Metadata& metadata, const char* key) {
+    const auto found = metadata.find(key);
     return found == metadata.end() ? std::string() : std::string(found->second.data(), found->second.size());
 }
 
 }  // namespace
 
 std::string accepted_by(const grpc::ClientContext& context) {
-    return instance_in(context.GetServerInitialMetadata());
+    return value_in(context.GetServerInitialMetadata(), "x-server-instance");
 }
 
 std::string ended_by(const grpc::ClientContext& context) {
-    return instance_in(context.GetServerTrailingMetadata());
+    return value_in(context.GetServerTrailingMetadata(), "x-server-instance");
 }
 
 bool may_go_on(const grpc::Status& status, const grpc::ClientContext& context) {
@@ -33,6 +35,10 @@ bool may_go_on(const grpc::Status& status, const grpc::ClientContext& context) {
         default:
             return false;
     }
+}
+
+bool ended_for_idleness(const grpc::ClientContext& context) {
+    return value_in(context.GetServerTrailingMetadata(), "x-stream-end") == "idle";
 }
 
 }  // namespace meniscus::client

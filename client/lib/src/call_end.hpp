@@ -18,4 +18,7 @@ std::string ended_by(const grpc::ClientContext& context);
 /// Whether the call broke, or was ended by a server that goes down or has seen the session move: another one may go on.
 bool may_go_on(const grpc::Status& status, const grpc::ClientContext& context);
 
+/// Whether the server has ended a stream because nothing came over it for too long.
+bool ended_for_idleness(const grpc::ClientContext& context);
+
 }  // namespace meniscus::client

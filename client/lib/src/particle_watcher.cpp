@@ -17,7 +17,7 @@ v1::WatchParticlesRequest request_of(const std::string& session_id, std::uint64_
 
 ParticleWatcher::Impl::Impl(const std::shared_ptr<Connection>& connection, const std::string& session_id,
                             std::uint64_t max_particles, std::chrono::milliseconds reconnect)
-    : call_(connection, session_id, reconnect,
+    : call_(connection, session_id, reconnect, WatchOptions().route_check,
             [surfaces = connection->surfaces.get(), request = request_of(session_id, max_particles)](
                 grpc::ClientContext& context) { return surfaces->WatchParticles(&context, request); }) {}
 

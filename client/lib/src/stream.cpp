@@ -6,15 +6,12 @@
 #include "error_mapping.hpp"
 #include "meniscus/error.hpp"
 #include "receiving/frame_receiver.hpp"
+#include "session_look.hpp"
 #include "stream_impl.hpp"
 
 namespace meniscus::client {
 
 namespace {
-
-/// Of a call that creates the session again, or looks for it: a network that swallows packets must not hold the
-/// attempts up.
-constexpr std::chrono::seconds attempt_time{5};
 
 /// A server that the session is to leave, and that answers nothing for so long, is given up. Long enough for a large
 /// frame on a busy server: watchers there would not hear of the move.
@@ -66,21 +63,13 @@ v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& 
     return open;
 }
 
-grpc::Status get_session(Connection& connection, grpc::ClientContext& context, const std::string& session_id,
-                         v1::GetSessionResponse& response) {
-    connection.add_metadata(context, session_id);
-    v1::GetSessionRequest request;
-    request.set_id(session_id);
-    return connection.sessions->GetSession(&context, request, &response);
-}
-
 v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContext& context,
                                       const std::string& session_id) {
-    v1::GetSessionResponse response;
-    require_ok(get_session(connection, context, session_id, response), connection.address);
+    v1::Session session;
+    require_ok(get_session(connection, context, session_id, session), connection.address);
     v1::CreateSessionRequest create;
     create.set_id(session_id);
-    *create.mutable_settings() = response.session().settings();
+    *create.mutable_settings() = session.settings();
     return create;
 }
 
@@ -208,7 +197,9 @@ void Stream::Impl::receive(std::shared_ptr<UploadCall> call) {
                                       std::to_string(unanswered_.front()->begin.frame_index()) + " was answered");
                 break;
             }
-            if (!is_worth_another_call(status, *call)) require_ok(status, connection_->address);
+            const bool was_idle = ended_for_idleness(call->context());
+            if (!was_idle && !is_worth_another_call(status, *call)) require_ok(status, connection_->address);
+            if (was_idle && !wait_for_use(status)) break;
             call = reopen(status);
         }
         end(nullptr);
@@ -292,6 +283,14 @@ bool Stream::Impl::is_worth_another_call(const grpc::Status& status, const Uploa
     return resumes() && !left_;
 }
 
+bool Stream::Impl::wait_for_use(const grpc::Status& status) {
+    if (!resumes()) require_ok(status, connection_->address);
+    std::unique_lock lock(mutex_);
+    call_.reset();
+    changed_.wait(lock, [&] { return left_ || finished_ || !unanswered_.empty(); });
+    return !left_ && !unanswered_.empty();
+}
+
 std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
     if (!broken_at_) {
         broken_at_ = Clock::now();
@@ -314,9 +313,9 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
         const auto creating = std::make_shared<grpc::ClientContext>();
         creating_ = creating;
         lock.unlock();
-        status = create_session(*creating);
+        grpc::Status created = create_session(*creating, deadline);
         std::shared_ptr<UploadCall> call;
-        if (status.ok()) {
+        if (created.ok()) {
             created_by_ = ended_by(*creating);
             call = open_call();
         }
@@ -337,14 +336,16 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
             return call;
         }
         // A server that is full, of another's sessions perhaps, may have room later.
-        const bool full = status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED;
-        if (!full && !may_go_on(status, *creating)) require_ok(status, connection_->address);
+        const bool full = created.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED;
+        if (!full && !may_go_on(created, *creating)) require_ok(created, connection_->address);
+        // A wait that was in vain says less than what was before.
+        if (created.error_code() != grpc::StatusCode::DEADLINE_EXCEEDED) status = std::move(created);
     }
 }
 
-grpc::Status Stream::Impl::create_session(grpc::ClientContext& context) const {
+grpc::Status Stream::Impl::create_session(grpc::ClientContext& context, Clock::time_point give_up_at) const {
     connection_->add_metadata(context, session_.id());
-    context.set_deadline(std::chrono::system_clock::now() + attempt_time);
+    wait_for_connection(context, give_up_at);
     v1::CreateSessionResponse response;
     return connection_->sessions->CreateSession(&context, session_, &response);
 }
@@ -378,15 +379,16 @@ void Stream::Impl::check_route() {
 
 bool Stream::Impl::is_elsewhere(const std::string& instance, grpc::ClientContext& looking,
                                 grpc::ClientContext& creating) const {
-    looking.set_deadline(std::chrono::system_clock::now() + attempt_time);
-    v1::GetSessionResponse response;
-    const grpc::Status status = get_session(*connection_, looking, session_.id(), response);
+    const auto give_up_at = Clock::now() + options_.reconnect;
+    wait_for_connection(looking, give_up_at);
+    v1::Session session;
+    const grpc::Status status = get_session(*connection_, looking, session_.id(), session);
     const std::string other = ended_by(looking);
     if (other.empty() || other == instance) return false;
     // A session that somebody uploads to is theirs.
-    if (status.ok() ? response.session().uploading() : status.error_code() != grpc::StatusCode::NOT_FOUND) return false;
+    if (status.ok() ? session.uploading() : status.error_code() != grpc::StatusCode::NOT_FOUND) return false;
     // Only a server that has room for the session is worth giving up the stream.
-    return create_session(creating).ok() && ended_by(creating) != instance;
+    return create_session(creating, give_up_at).ok() && ended_by(creating) != instance;
 }
 
 Stream::Stream(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -58,9 +58,12 @@ private:
     /// Forgets the frame, which has been answered. False if it was answered before. With the lock held.
     bool settle(std::uint64_t index);
     bool is_worth_another_call(const grpc::Status& status, const UploadCall& call) const;
+    /// After a call that the server has ended because nothing came: until there is a frame to send. False if none will
+    /// come. Throws the status where the stream does not resume.
+    bool wait_for_use(const grpc::Status& status);
     /// The next call. None once the stream is left. Throws what becomes of the stream without another call.
     std::shared_ptr<UploadCall> reopen(grpc::Status status);
-    grpc::Status create_session(grpc::ClientContext& context) const;
+    grpc::Status create_session(grpc::ClientContext& context, Clock::time_point give_up_at) const;
     void end(std::exception_ptr error);
 
     // The thread that looks.

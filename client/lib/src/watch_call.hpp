@@ -11,12 +11,14 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "backoff.hpp"
 #include "call_end.hpp"
 #include "connection/connection.hpp"
 #include "error_mapping.hpp"
+#include "session_look.hpp"
 
 namespace meniscus::client {
 
@@ -27,18 +29,22 @@ public:
     using Frame = typename decltype(std::declval<Receiver>().take(std::declval<Response>()))::value_type;
     using Reader = std::unique_ptr<grpc::ClientReader<Response>>;
 
-    /// patience: for how long a call that broke is made again. start: makes it.
+    /// patience: for how long a call that broke is made again. route_check: how often to look, then, whether another
+    /// server has the session by now; 0: never. start: makes the call.
     WatchCall(std::shared_ptr<Connection> connection, std::string session_id, std::chrono::milliseconds patience,
-              std::function<Reader(grpc::ClientContext&)> start)
+              std::chrono::milliseconds route_check, std::function<Reader(grpc::ClientContext&)> start)
         : connection_(std::move(connection)),
           session_id_(std::move(session_id)),
           patience_(patience),
           start_(std::move(start)) {
         open();
+        if (patience.count() > 0 && route_check.count() > 0)
+            route_checker_ = std::thread([this, route_check] { check_route(route_check); });
     }
     ~WatchCall() {
-        if (ended_) return;
         cancel();
+        if (route_checker_.joinable()) route_checker_.join();
+        if (ended_) return;
         Response ignored;
         while (call_->reader->Read(&ignored)) {
         }
@@ -53,9 +59,8 @@ public:
         while (!ended_) {
             auto frame = receive();
             if (!frame) {
-                const grpc::Status status = call_->reader->Finish();
-                ended_ = true;
-                if (!try_again(status)) return std::nullopt;
+                grpc::Status status = finish();
+                if (!find_again(std::move(status))) return std::nullopt;
                 open();
                 ended_ = false;
                 continue;
@@ -74,6 +79,8 @@ public:
         const std::lock_guard lock(mutex_);
         canceled_ = true;
         call_->context.TryCancel();
+        for (const auto& look : {finding_, checking_})
+            if (look) look->TryCancel();
         canceled_now_.notify_all();
     }
 
@@ -101,6 +108,16 @@ private:
             return;  // refused; a proxy may add its own
         had_session_ = true;
         broken_since_.reset();
+        const std::lock_guard lock(mutex_);
+        instance_ = accepted_by(call_->context);
+    }
+
+    grpc::Status finish() {
+        grpc::Status status = call_->reader->Finish();
+        ended_ = true;
+        const std::lock_guard lock(mutex_);
+        instance_.clear();
+        return status;
     }
 
     /// The next frame of this call; none when the call has nothing more.
@@ -116,26 +133,61 @@ private:
         return frame.run_id != 0 && shown_index_ && frame.run_id == shown_run_ && frame.index <= *shown_index_;
     }
 
-    /// After a call's end: whether there is another one. Throws what the call ended with, unless that is well.
-    bool try_again(const grpc::Status& status) {
+    /// After a call's end: waits for a server that has the session. False if there is nothing to go on with. Throws
+    /// what the call ended with, unless that is well or another one may go on.
+    bool find_again(grpc::Status status) {
         if (is_canceled()) return false;
         if (status.ok()) {
             call_->receiver.end_of_stream();
             return false;
         }
-        const auto now = Clock::now();
-        if (!broken_since_) broken_since_ = now;
-        const auto wait = backoff_.next();
-        if (!may_come_back(status) || now + wait - *broken_since_ >= patience_)
-            require_ok(status, connection_->address);
-        std::unique_lock lock(mutex_);
-        return !canceled_now_.wait_for(lock, wait, [&] { return canceled_; });
+        if (!broken_since_) broken_since_ = Clock::now();
+        const auto give_up_at = *broken_since_ + patience_;
+        bool may_come_back = this->may_come_back(status, call_->context);
+        for (;;) {
+            const auto attempt_at = Clock::now() + backoff_.next();
+            if (!may_come_back || attempt_at >= give_up_at) require_ok(status, connection_->address);
+            std::unique_lock lock(mutex_);
+            if (canceled_now_.wait_until(lock, attempt_at, [&] { return canceled_; })) return false;
+            const auto finding = finding_ = std::make_shared<grpc::ClientContext>();
+            lock.unlock();
+            wait_for_connection(*finding, give_up_at);
+            v1::Session session;
+            grpc::Status found = get_session(*connection_, *finding, session_id_, session);
+            if (found.ok()) return true;
+            may_come_back = this->may_come_back(found, *finding);
+            // A wait that was in vain says less than what was before.
+            if (found.error_code() != grpc::StatusCode::DEADLINE_EXCEEDED) status = std::move(found);
+        }
     }
 
     /// A server that was restarted, or follows one that has gone, has no session yet: the simulator creates it again.
-    bool may_come_back(const grpc::Status& status) const {
-        return may_go_on(status, call_->context) ||
-               (status.error_code() == grpc::StatusCode::NOT_FOUND && had_session_);
+    bool may_come_back(const grpc::Status& status, const grpc::ClientContext& context) const {
+        return may_go_on(status, context) || (status.error_code() == grpc::StatusCode::NOT_FOUND && had_session_);
+    }
+
+    /// Of the thread that looks. A session whose simulator lost its connection while the servers behind a proxy changed
+    /// goes on with another server, and the one that this call is on does not hear of it.
+    void check_route(std::chrono::milliseconds interval) {
+        std::unique_lock lock(mutex_);
+        while (!canceled_now_.wait_for(lock, interval, [&] { return canceled_; })) {
+            if (instance_.empty()) continue;
+            const std::string instance = instance_;
+            const auto checking = checking_ = std::make_shared<grpc::ClientContext>();
+            lock.unlock();
+            const bool elsewhere = is_elsewhere(instance, *checking);
+            lock.lock();
+            if (elsewhere && instance_ == instance) call_->context.TryCancel();
+        }
+    }
+
+    /// Whether another server than this instance answers for the session, and has frames of it or awaits them.
+    bool is_elsewhere(const std::string& instance, grpc::ClientContext& checking) const {
+        wait_for_connection(checking, Clock::now() + patience_);
+        v1::Session session;
+        const bool there = get_session(*connection_, checking, session_id_, session).ok();
+        const std::string other = ended_by(checking);
+        return there && !other.empty() && other != instance && (session.uploading() || session.has_last_frame_index());
     }
 
     bool is_canceled() {
@@ -157,7 +209,12 @@ private:
     std::mutex mutex_;  ///< for what follows, as cancel() comes from other threads; call_ is changed with it held
     std::condition_variable canceled_now_;
     std::unique_ptr<Call> call_;
+    std::string instance_;  ///< of the server that has accepted it; empty: none, or it has ended
+    std::shared_ptr<grpc::ClientContext> finding_;   ///< of the call that looks for the session
+    std::shared_ptr<grpc::ClientContext> checking_;  ///< likewise, of the other thread
     bool canceled_ = false;
+
+    std::thread route_checker_;
 };
 
 }  // namespace meniscus::client

@@ -31,7 +31,7 @@ v1::WatchRequest request_of(const std::string& session_id, const WatchOptions& o
 
 Watcher::Impl::Impl(const std::shared_ptr<Connection>& connection, const std::string& session_id,
                     const WatchOptions& options)
-    : call_(connection, session_id, options.reconnect,
+    : call_(connection, session_id, options.reconnect, options.route_check,
             [surfaces = connection->surfaces.get(), request = request_of(session_id, options)](
                 grpc::ClientContext& context) { return surfaces->Watch(&context, request); }) {}
 

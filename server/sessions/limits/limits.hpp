@@ -15,6 +15,8 @@ struct Limits {
     std::uint32_t watchers_per_session = 64;
     /// Calls that read recordings at the same time.
     std::uint32_t recording_readers = 16;
+    /// Such a call ends if its client takes no message for so long.
+    std::chrono::milliseconds reader_patience{60'000};
     std::uint64_t particles_per_frame = 0;
     /// For the reconstruction of one session, as much again for its frames on their way in, and for their encoding.
     std::size_t bytes_per_session = 0;

@@ -155,6 +155,29 @@ TEST(ReconnectingStream, CanBeLeftWhileTheServerIsGone) {
     running.reset();
 }
 
+TEST(ReconnectingStream, IsOpenedAgainWithTheNextFrameAfterItsServerEndedItForIdleness) {
+    ServerOptions options = on_tcp();
+    options.http = "127.0.0.1:0";
+    options.limits.idle_time = std::chrono::milliseconds(300);
+    RunningServer running(options);
+    const std::string id = running.session();
+    auto stream = running.client.stream(id, {.reconnect = patient});
+    const auto wait_until_ended = [&](double times) {
+        while (scrape(running.server.http_address())["meniscus_calls_total{code=\"RESOURCE_EXHAUSTED\"}"] < times)
+            std::this_thread::yield();
+    };
+    for (std::uint64_t i = 0; i < 3; ++i) {
+        wait_until_ended(static_cast<double>(i));
+        stream.push(wave(4, 0.0).view(), i, 0.0);
+        EXPECT_EQ(stream.next()->index, i);
+    }
+    wait_until_ended(3);
+    stream.finish();
+    EXPECT_FALSE(stream.next());
+    auto impatient = running.client.stream(running.session());
+    EXPECT_THROW(impatient.next(), LimitExceeded);
+}
+
 TEST(ReconnectingStream, DoesNotTryAgainWhatWasRefused) {
     RunningServer running;
     const std::string id = running.session();

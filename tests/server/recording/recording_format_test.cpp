@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "conversion/particle_arrays.hpp"
+#include "files/recording_checksums.hpp"
 #include "files/recording_format.hpp"
 #include "formats/recording.hpp"
 #include "meniscus/error.hpp"
@@ -71,13 +72,42 @@ std::string beginning() {
     return recording_begin(session_id, settings(), start_time);
 }
 
-/// A message after its length.
-std::string delimited(const google::protobuf::MessageLite& message) {
+/// Bytes after their length.
+std::string delimited(const std::string& bytes) {
     std::string out;
-    std::size_t size = message.ByteSizeLong();
+    std::size_t size = bytes.size();
     for (; size >= 0x80; size >>= 7U) out += static_cast<char>((size & 0x7fU) | 0x80U);
     out += static_cast<char>(size);
-    return out + message.SerializeAsString();
+    return out + bytes;
+}
+
+std::string delimited(const v1::StreamRequest& message) {
+    return delimited(message.SerializeAsString());
+}
+
+/// With its checksum, as a writer has it.
+std::string delimited(const v1::RecordingEntry& entry) {
+    return delimited(files::seal(entry));
+}
+
+/// The same recording as a writer of before checksums left it.
+std::string without_checksums(const std::string& recording) {
+    std::string out(files::recording_magic);
+    std::string rest = recording.substr(files::recording_magic.size());
+    while (!rest.empty()) {
+        std::size_t size = 0;
+        std::size_t used = 0;
+        do size |= (static_cast<unsigned char>(rest[used]) & 0x7fU) << 7 * used;
+        while ((static_cast<unsigned char>(rest[used++]) & 0x80U) != 0);
+        v1::RecordingEntry entry;
+        EXPECT_TRUE(entry.ParseFromString(rest.substr(used, size)));
+        const std::string messages = rest.substr(used + size, entry.bytes());
+        rest.erase(0, used + size + messages.size());
+        entry.clear_checksum();
+        entry.clear_messages_checksum();
+        out += delimited(entry.SerializeAsString()) + messages;
+    }
+    return out;
 }
 
 std::string particles_entry(std::uint64_t index, std::uint64_t count, std::uint64_t bytes,
@@ -165,8 +195,9 @@ TEST_F(RecordingFormat, RefusesABeginningThatIsCut) {
     EXPECT_EQ(refused(bytes), "");
 }
 
-TEST_F(RecordingFormat, SurvivesAnyByteThatIsNotItsOwn) {
-    const std::string bytes = beginning() + particles_bytes(0, wave(1, 0.0)) + mesh_bytes(0, wave(1, 0.0));
+TEST_F(RecordingFormat, SurvivesAnyByteThatIsNotItsOwnThoughNoChecksumShowsIt) {
+    const std::string bytes =
+        without_checksums(beginning() + particles_bytes(0, wave(1, 0.0)) + mesh_bytes(0, wave(1, 0.0)));
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         std::string damaged = bytes;
         damaged[i] = static_cast<char>(damaged[i] ^ "\x01\x80\xff"[i % 3]);
@@ -175,6 +206,32 @@ TEST_F(RecordingFormat, SurvivesAnyByteThatIsNotItsOwn) {
         } catch (const InvalidInput&) {
         }
     }
+}
+
+TEST_F(RecordingFormat, NoticesEveryByteThatHasChanged) {
+    const std::string bytes = beginning() + particles_bytes(0, wave(1, 0.0)) + mesh_bytes(0, wave(1, 0.0));
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        std::string damaged = bytes;
+        damaged[i] = static_cast<char>(damaged[i] ^ "\x01\x80\xff"[i % 3]);
+        try {
+            const Recording recording = open(damaged);
+            read_all(recording);
+            // A length of an entry that leads past the end of the file.
+            EXPECT_GT(recording.cut_bytes(), 0U) << "byte " << i;
+        } catch (const InvalidInput&) {
+        }
+    }
+}
+
+TEST_F(RecordingFormat, ReadsWhatWasRecordedBeforeThereWereChecksums) {
+    const std::string bytes =
+        without_checksums(beginning() + particles_bytes(0, wave(2, 0.0)) + mesh_bytes(0, wave(2, 0.0)));
+    const Recording recording = open(bytes);
+    EXPECT_FALSE(recording.has_checksums());
+    ASSERT_EQ(recording.frames().size(), 1U);
+    EXPECT_TRUE(recording.is_whole(recording.frames()[0])) << "as far as can be told";
+    EXPECT_EQ(recording.particles(recording.frames()[0]).positions, wave(2, 0.0).positions);
+    EXPECT_EQ(mesh_sha256(recording.mesh(recording.frames()[0]).mesh()), local_sha256(wave(2, 0.0)));
 }
 
 TEST_F(RecordingFormat, TreatsALengthBeyondTheFileAsItsCutEnd) {

@@ -49,6 +49,21 @@ TEST(RecordingProcess, LeavesWholeFramesWhenItIsKilled) {
     }
 }
 
+TEST(RecordingProcess, IsAloneInItsFolderUntilItEndsHoweverItEnds) {
+    const TemporaryDirectory directory;
+    const auto arguments = on_free_port({"--record", directory.path().string()});
+    Process process(arguments);
+    process.address();
+    Process second(arguments);
+    const std::string said = second.rest();
+    EXPECT_NE(said.find("records there: give each server a folder of its own"), std::string::npos) << said;
+    EXPECT_NE(second.exit_code(), 0);
+    process.signal(SIGKILL);
+    process.exit_code();
+    Process third(arguments);
+    EXPECT_NO_THROW(third.address());
+}
+
 /// Files of the processes started meanwhile may not grow further: to them it is a full disk.
 class SmallFiles {
 public:

@@ -253,6 +253,29 @@ TEST_F(RecordingService, EndsWithDataLossWithinAFrameThatIsDamaged) {
     EXPECT_EQ(status.error_message().find(folder_.path().string()), std::string::npos) << "a path of the server";
 }
 
+TEST_F(RecordingService, SendsNothingOfAFrameWhoseBytesHaveChanged) {
+    RunningServer running(options());
+    const std::string id = recorded(running, frames_);
+    const files::RecordedRange mesh = *formats::Recording(file(id)).frames()[1].mesh;
+    std::fstream bytes(file(id), std::ios::binary | std::ios::in | std::ios::out);
+    const auto middle = static_cast<std::streamoff>(mesh.first + mesh.size / 2);
+    bytes.seekg(middle);
+    std::string four(4, '\0');
+    bytes.read(four.data(), 4);
+    for (char& byte : four) byte = static_cast<char>(~byte);
+    bytes.seekp(middle);
+    bytes << four;
+    bytes.close();
+    auto reader = running.client.read_recording(id, 1);
+    EXPECT_EQ(reader.next()->index, 10U);
+    EXPECT_THROW(reader.next(), client::ServerError);
+    const grpc::Status status = status_of(running, request_for(id));
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::DATA_LOSS);
+    EXPECT_NE(status.error_message().find("is damaged at frame 13"), std::string::npos) << status.error_message();
+    EXPECT_EQ(indices(running.client.read_recording(id, 1, {.position = 2})), (std::vector<std::uint64_t>{16, 19}))
+        << "the frames behind it are whole";
+}
+
 TEST_F(RecordingService, DoesNotFindWhatHasGoneOrIsNoRecording) {
     RunningServer running(options());
     const std::string id = recorded(running, frames_);
@@ -302,6 +325,24 @@ TEST_F(RecordingService, RefusesReadersPastTheLimitUntilOneLeaves) {
         EXPECT_EQ(running.client.recordings().size(), 1U);
     }
     EXPECT_TRUE(becomes([&] { return status_of(running, request_for(id)).ok(); }));
+}
+
+TEST_F(RecordingService, EndsAReaderThatStopsReadingAndGivesItsPlaceToAnother) {
+    ServerOptions limited = options();
+    limited.limits.recording_readers = 1;
+    limited.limits.reader_patience = std::chrono::milliseconds(300);
+    RunningServer running(limited);
+    const std::string id = recorded(running, std::vector<Particles>(12, spray(12)));
+    auto stalled = running.client.read_recording(id, 1);
+    ASSERT_TRUE(stalled.next());
+    EXPECT_TRUE(becomes([&] { return status_of(running, request_for(id)).ok(); }));
+    try {
+        while (stalled.next()) {
+        }
+        FAIL() << "ended well";
+    } catch (const client::ServerError& error) {
+        EXPECT_EQ(error.status(), "CANCELLED");
+    }
 }
 
 TEST_F(RecordingService, EndsItsReadersWhenTheServerGoesDown) {

@@ -1,13 +1,16 @@
 // Recordings of real sessions, and the commands that read them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "cli/command_line.hpp"
 #include "cli/replay_pace.hpp"
+#include "formats/byte_cursor.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/particles.hpp"
 #include "formats/recording.hpp"
@@ -172,6 +175,61 @@ TEST_F(RecordedSession, IsListedBesideADamagedOne) {
     testing::internal::CaptureStdout();
     EXPECT_EQ(meniscus({"recordings", folder("recorded")}), 0);
     EXPECT_NE(testing::internal::GetCapturedStdout().find("5 frames (10 to 22), 4 meshes"), std::string::npos);
+}
+
+TEST_F(RecordedSession, IsNeitherReplayedNorConvertedWhereItIsDamagedAndIsListedWithTheFramesThatAre) {
+    const auto recorded = record();
+    const auto flip = [&](const files::RecordedRange& range) {
+        std::fstream bytes(recorded, std::ios::binary | std::ios::in | std::ios::out);
+        bytes.seekp(static_cast<std::streamoff>(range.first + range.size / 2));
+        bytes << "\x11\x22\x33\x44";
+    };
+    const auto frames = Recording(recorded).frames();
+    flip(frames[1].particles);
+    flip(*frames[4].mesh);
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(meniscus({"recordings", folder("recorded")}), 0);
+    std::string said = testing::internal::GetCapturedStdout();
+    EXPECT_NE(said.find("; damaged: frames [13,22]"), std::string::npos) << said;
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(meniscus({"recordings", folder("recorded"), "--quick"}), 0);
+    said = testing::internal::GetCapturedStdout();
+    EXPECT_EQ(said.find("damaged"), std::string::npos) << said;
+    const auto error_of = [](const std::vector<std::string>& arguments) {
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(meniscus(arguments), 2);
+        return testing::internal::GetCapturedStderr();
+    };
+    said = error_of({"convert", recorded.string(), "-o", folder("meshes"), "--from", "22"});
+    EXPECT_EQ(said, "meniscus: " + recorded.string() +
+                        ": mesh of frame 22: it does not have its checksum: the file is damaged\n");
+    RunningServer other;
+    said = error_of({"replay", recorded.string(), "--server", other.server.address(), "--from", "13", "--to", "13"});
+    EXPECT_NE(said.find(recorded.string() + ": particles of frame 13: they do not have their checksum"),
+              std::string::npos)
+        << said;
+}
+
+TEST_F(RecordedSession, OfBeforeChecksumsIsConvertedOrRefusedInALineThatNamesFileAndFrame) {
+    const auto damaged = directory_ / "damaged.recording";
+    const auto path = std::filesystem::path(MENISCUS_GOLDEN_FILES) / "version_2.recording";
+    const std::string bytes = formats::read_file(path);
+    const files::RecordedRange mesh = *Recording(path).frames()[1].mesh;
+    int refused = 0;
+    for (std::uint64_t i = 0; i < mesh.size; ++i) {
+        std::string changed = bytes;
+        changed[mesh.first + i] = static_cast<char>(~changed[mesh.first + i]);
+        std::ofstream(damaged, std::ios::binary) << changed;
+        testing::internal::CaptureStderr();
+        const int code = meniscus({"convert", damaged.string(), "-o", folder("meshes"), "--from", "1"});
+        const std::string said = testing::internal::GetCapturedStderr();
+        EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+        if (code == 0) continue;
+        ++refused;
+        EXPECT_TRUE(said.starts_with("meniscus: " + damaged.string() + ": ")) << said;
+        EXPECT_NE(said.find("frame 1"), std::string::npos) << said;
+    }
+    EXPECT_GT(refused, 100);
 }
 
 TEST_F(RecordedSession, OfTwoStreamsWithTheSameIndicesIsTwoRecordings) {

@@ -31,7 +31,7 @@ protected:
     std::uint64_t bytes() const {
         std::uint64_t sum = 0;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(directory_))
-            if (entry.is_regular_file()) sum += entry.file_size();
+            if (entry.path().extension() == ".recording") sum += entry.file_size();
         return sum;
     }
 
@@ -206,6 +206,22 @@ TEST_F(RecordingWriterTest, AFileThatCannotBeCreatedStopsThatSessionsRecordingAl
     }
     EXPECT_EQ(writer.counters().stopped, 1U);
     EXPECT_EQ(writer.counters().frames, 1U);
+}
+
+TEST_F(RecordingWriterTest, RefusesAFolderThatAnotherRecordsIn) {
+    {
+        const RecordingWriter writer(options());
+        try {
+            const RecordingWriter another(options());
+            FAIL() << "two record in one folder";
+        } catch (const InvalidInput& error) {
+            const std::string expected = "--record " + directory_.string() + ": another meniscusd, process " +
+                                         std::to_string(::getpid()) +
+                                         ", records there: give each server a folder of its own";
+            EXPECT_EQ(error.what(), expected);
+        }
+    }
+    EXPECT_NO_THROW(RecordingWriter{options()});
 }
 
 TEST_F(RecordingWriterTest, RefusesAFolderThatCannotBe) {

@@ -3,10 +3,14 @@
 #include <grpcpp/security/credentials.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "meniscus/error.hpp"
 #include "running_server.hpp"
+#include "security/access.hpp"
 #include "test_certificates.hpp"
 
 namespace meniscus::server::test {
@@ -146,6 +150,30 @@ TEST(Tls, KeepsTheCertificateWhenTheNewOneCannotBeUsed) {
     server.reload();
     EXPECT_EQ(served_serial(server.address()), serial);
     EXPECT_NO_THROW(client::Client(server.address(), {.ca_file = certificates.file("ca")}));
+}
+
+TEST(Certificates, TellWhenTheFirstOfThemExpires) {
+    const TestCertificates certificates;
+    certificates.issue("soon", "ca", 1);
+    certificates.issue("late", "ca", 900);
+    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    constexpr std::int64_t day = 86400;
+    EXPECT_NEAR(static_cast<double>(first_expiry(certificates.pem("late")) - now), 900.0 * day, 600.0);
+    EXPECT_NEAR(static_cast<double>(first_expiry(certificates.pem("late") + certificates.pem("soon")) - now), 1.0 * day,
+                600.0);
+}
+
+TEST(Access, TellsWhenTheFilesInUseExpire) {
+    const TestCertificates certificates;
+    const auto expected = [&](const char* name) { return static_cast<double>(first_expiry(certificates.pem(name))); };
+    Access access(certificates.mutual_files(), "");
+    EXPECT_EQ(access.expiry().server, expected("server"));
+    EXPECT_EQ(access.expiry().client_ca, expected("ca"));
+    certificates.issue("next", "ca", 7);
+    certificates.replace("server", "next");
+    access.reload();
+    EXPECT_EQ(access.expiry().server, expected("server"));
+    EXPECT_EQ(Access({}, "").expiry().server, std::numeric_limits<double>::infinity());
 }
 
 TEST(Certificates, AreRefusedWithTheFileAndTheReason) {

@@ -1,6 +1,9 @@
 // A session's particles as its watchers find them, without sockets.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <memory>
 #include <semaphore>
 
 #include "meniscus/v1/surface_service.pb.h"
@@ -94,6 +97,43 @@ TEST_F(SessionParticles, OfAResumedRunAreShownOnce) {
     send_one(4, {.run_id = 9});
     spectator.receive();
     EXPECT_EQ(spectator.index, 4U);
+}
+
+/// Waits in the midst of showing a frame's particles.
+struct WaitingObserver : SessionObserver {
+    void reconstructed(const InputFrame& /*frame*/) noexcept override {
+        showing.release();
+        in_time = go_on.try_acquire_for(std::chrono::seconds(20));
+    }
+    void encoded(std::shared_ptr<const EncodedFrame> /*frame*/) noexcept override {}
+
+    std::binary_semaphore showing{0};
+    std::binary_semaphore go_on{0};
+    std::atomic<bool> in_time{false};
+};
+
+TEST(SessionParticlesOfTwo, AreShownWhileAnotherSessionHasItsTurnOnTheDevice) {
+    const auto observer = std::make_shared<WaitingObserver>();
+    const auto turns = std::make_shared<Turns>();
+    const auto make = [&](std::shared_ptr<SessionObserver> observed) {
+        return std::make_unique<Session>(
+            SessionIdentity{.id = id}, test::settings(), Limits{},
+            ReconstructFunctions{.reconstruct = test::reconstruct_on_the_cpu(), .emit_capped = {}},
+            SharedResources{.workers = std::make_shared<WorkerPool>(1), .turns = turns}, std::move(observed));
+    };
+    const auto shown = make(observer);
+    const auto other = make(nullptr);
+    Simulator simulator(*shown, {});
+    simulator.send(0, test::wave(4, 0.0));
+    observer->showing.acquire();
+    Simulator another(*other, {});
+    another.send(0, test::wave(4, 0.0));
+    another.end();
+    another.receive_all();
+    observer->go_on.release();
+    simulator.end();
+    simulator.receive_all();
+    EXPECT_TRUE(observer->in_time) << "the other session waited for the particles";
 }
 
 TEST_F(SessionParticles, OfAWatcherThatDoesNotReadAreTheNewestAlone) {

@@ -2,10 +2,17 @@
 #include <grpcpp/create_channel.h>
 #include <gtest/gtest.h>
 
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <map>
+#include <memory>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <thread>
 
 #include "meniscus/error.hpp"
@@ -14,6 +21,7 @@
 #include "meniscus/v1/server_service.pb.h"
 #include "meniscus/v1/session_service.pb.h"
 #include "meniscus/v1/surface_service.pb.h"
+#include "observation/metrics.hpp"
 #include "running_server.hpp"
 #include "test_certificates.hpp"
 #include "test_folder.hpp"
@@ -374,6 +382,61 @@ TEST_F(GrpcWebCalls, AreRefusedInWordsWhenTheyAreWrongAndHarmNobody) {
     }
     push_one(running.client, id, wave(6, 0.0));
     EXPECT_GT(web_frame(healthy).size(), 2U);
+}
+
+TEST_F(GrpcWebCalls, ThatAreRefusedBeforeTheirHandlerAreCountedToo) {
+    const auto calls = [&] {
+        std::map<std::string, double> counts;
+        for (const auto& [name, value] : scrape(http))
+            if (name.starts_with("meniscus_calls_total{")) counts[name] = value;
+        return counts;
+    };
+    const auto rises = [&](const std::string& code, const std::string& request) {
+        const std::string name = "meniscus_calls_total{code=\"" + code + "\"}";
+        const double before = calls()[name];
+        HttpClient client(http);
+        client.send(request);
+        client.receive();
+        EXPECT_EQ(calls()[name], before + 1) << request;
+    };
+    const std::string head = " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/grpc-web+proto\r\n";
+    const std::string body = "Content-Length: 5\r\n\r\n" + web_message("");
+    rises("PERMISSION_DENIED", "POST " + info + head + "Origin: https://evil.example\r\n" + body);
+    rises("UNIMPLEMENTED", "POST /meniscus.v1.SessionService/DeleteSession" + head + body);
+    rises("RESOURCE_EXHAUSTED", "POST " + info + head + "Content-Length: 65537\r\n\r\n");
+    rises("INVALID_ARGUMENT", "POST " + info + head + "Content-Length: 3\r\n\r\n" + std::string(3, '\0'));
+    rises("INVALID_ARGUMENT", "GET " + info + head + "\r\n");
+    rises("INVALID_ARGUMENT", "POST " + info + " HTTP/1.1\r\nHost: elsewhere.example\r\n\r\n");
+}
+
+TEST(GrpcWeb, NamesTheBrowserInTheLogAndBelievesNoOther) {
+    std::ostringstream out;
+    const auto before = spdlog::default_logger();
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out)));
+    {
+        RunningServer running(web_options());
+        const std::string id = running.session();
+        {
+            WebCall call(running.server.http_address(), watch, watch_request(id),
+                         {{"x-session-id", id}, {"x-web-peer", "somebody"}});
+        }
+        const client::Connection connection(running.server.address());
+        grpc::ClientContext context;
+        client::add_session_id(context, id);
+        context.AddMetadata("x-web-peer", "ipv4:1.2.3.4:5");
+        const auto native = connection.surfaces->Watch(&context, watch_request(id));
+        native->WaitForInitialMetadata();
+        context.TryCancel();
+        native->Finish();
+    }
+    spdlog::set_default_logger(before);
+    const std::string log = out.str();
+    EXPECT_TRUE(std::regex_search(log, std::regex("watcher from ipv4:127\\.0\\.0\\.1:[0-9]+ \\(web\\) connected")))
+        << log;
+    EXPECT_TRUE(std::regex_search(log, std::regex("watcher from unix:[^\n]* connected"))) << log;
+    EXPECT_EQ(log.find("1.2.3.4"), std::string::npos) << log;
+    EXPECT_EQ(log.find("somebody"), std::string::npos) << log;
 }
 
 TEST_F(GrpcWebCalls, AreTakenInChunks) {

@@ -44,9 +44,9 @@ std::vector<BadInputCase> message_order_cases() {
              request.mutable_open();
              s.call->Write(request);
          })},
-        {"AMessageWithoutAKind", invalid, "a message of a kind that this version does not know",
+        {"AMessageWithoutAKind", invalid, "a message of no kind: it has no field",
          after_a_good_frame([](RawStream& s) { s.call->Write({}); })},
-        {"AMessageOfAKindOfTheFuture", invalid, "a message of a kind that this version does not know",
+        {"AMessageOfAKindOfTheFuture", invalid, "a message with the field 99, a kind that this version does not know",
          after_a_good_frame([](RawStream& s) { s.call->Write(with_raw_field<v1::StreamRequest>(99, "?")); })},
         {"AChunkOutsideOfAFrame", invalid, "a chunk outside of a frame; frame_begin comes first",
          after_a_good_frame([](RawStream& s) { s.send_chunk(12); })},

@@ -1,4 +1,7 @@
 // Sessions that cannot be created, found or deleted.
+#include <grpcpp/impl/codegen/client_unary_call.h>
+#include <grpcpp/support/byte_buffer.h>
+
 #include <limits>
 #include <utility>
 
@@ -53,6 +56,22 @@ std::function<grpc::Status(RunningServer&)> id(std::string in_message) {
         request.set_id(in_message);
         *request.mutable_settings() = conversion::to_wire(settings());
         return create(running, client::new_session_id(), request);
+    };
+}
+
+/// A unary call with these bytes for its request.
+std::function<grpc::Status(RunningServer&)> bytes_to(const char* method, std::string bytes) {
+    return [=](RunningServer& running) {
+        const client::Connection connection = connect(running);
+        grpc::ClientContext context;
+        client::add_session_id(context, no_session);
+        const grpc::Slice slice(bytes);
+        const grpc::ByteBuffer request(&slice, 1);
+        grpc::ByteBuffer response;
+        return grpc::internal::BlockingUnaryCall(
+            connection.channel.get(),
+            grpc::internal::RpcMethod(method, grpc::internal::RpcMethod::NORMAL_RPC, connection.channel), &context,
+            request, &response);
     };
 }
 
@@ -150,7 +169,10 @@ std::vector<BadInputCase> session_cases() {
         {"ACellSizeTooSmallForItsSupport", invalid,
          "spans 266.666667 cells, at most 256 are possible: use a larger cell size", cell_size(0.015)},
         {"AnIsoValueOfZero", invalid, "iso value is 0, must be finite and greater than 0", iso(0.0)},
-        {"AnIsoValueThatFloat32DoesNotHold", invalid, "iso value is 0, must be finite and greater than 0", iso(1e-60)},
+        {"AnIsoValueThatIsZeroAsFloat32", invalid, "iso value is 1e-50, must be finite and greater than 0 as a float32",
+         iso(1e-50)},
+        {"AnIsoValueThatIsInfiniteAsFloat32", invalid,
+         "iso value is 1e+300, must be finite and greater than 0 as a float32", iso(1e300)},
         {"AToleranceBelowZero", invalid, "tolerance is -0.1, must be finite and greater than 0",
          settings_with([](v1::Settings& s) { s.mutable_curvature()->set_tolerance(-0.1); })},
         {"ACountThresholdOfZero", invalid, "count threshold is 0, must be at least 1",
@@ -176,6 +198,21 @@ std::vector<BadInputCase> session_cases() {
              count.GetReflection()->MutableUnknownFields(&count)->AddVarint(2, 1);
          })},
         {"ACreatedSessionWithoutId", invalid, "the message's session id is \"\"; it must be a UUID", id("")},
+        {"ACreatedSessionWithAnIdThatMovesTheCursor", invalid,
+         "the message's session id is \"a\\x0a\\x1b[2J\\x00b\\xc2\\x9b\\\\\"; it must be a UUID",
+         id(std::string("a\n\x1b[2J\0b\xc2\x9b\\", 11))},
+        {"BytesThatAreNoCreateSessionRequest", invalid, "a message of 3 bytes is not a CreateSessionRequest",
+         bytes_to("/meniscus.v1.SessionService/CreateSession", "\x0a\x7f!")},
+        {"BytesThatAreNoGetSessionRequest", invalid, "a message of 3 bytes is not a GetSessionRequest",
+         bytes_to("/meniscus.v1.SessionService/GetSession", "\x0a\x7f!")},
+        {"BytesThatAreNoDeleteSessionRequest", invalid, "a message of 3 bytes is not a DeleteSessionRequest",
+         bytes_to("/meniscus.v1.SessionService/DeleteSession", "\x0a\x7f!")},
+        {"BytesThatAreNoListSessionsRequest", invalid, "a message of 1 bytes is not a ListSessionsRequest",
+         bytes_to("/meniscus.v1.SessionService/ListSessions", "\x0a")},
+        {"BytesThatAreNoGetServerInfoRequest", invalid, "a message of 1 bytes is not a GetServerInfoRequest",
+         bytes_to("/meniscus.v1.ServerService/GetServerInfo", "\x0a")},
+        {"BytesThatAreNoListRecordingsRequest", invalid, "a message of 1 bytes is not a ListRecordingsRequest",
+         bytes_to("/meniscus.v1.RecordingService/ListRecordings", "\x0a")},
         {"ACreatedSessionThatIsNotTheMetadatas", invalid, "but the message's session id is " + no_session,
          id(no_session)},
         {"AsManySessionsAsTheLimit", ok, "", beside(2)},

@@ -152,7 +152,8 @@ struct StreamOptions {
     /// For how long the server may be out of reach. A connection that breaks, or a server that goes down, is then tried
     /// again; the session is created again if the server has lost it, and frames without an answer are sent again:
     /// next() returns every frame once, in order. For this their particles are kept here, no more frames than the
-    /// server itself has taken and not answered, and one. 0: a broken connection ends the stream, and no frame is kept.
+    /// server itself has taken and not answered, and one. A stream that the server has ended since nothing came is
+    /// opened again with the next frame. 0: a broken connection ends the stream, and no frame is kept.
     std::chrono::milliseconds reconnect{0};
     /// Where a proxy spreads sessions over several servers: how often to look whether calls about this session still go
     /// to the server that the stream is on. If not, because a server came or came back, the stream moves there between
@@ -201,6 +202,8 @@ struct WatchOptions {
     /// or comes back without the session, which its simulator then creates again. next() goes on with the first frame
     /// of a run that it has not returned before. 0: not at all.
     std::chrono::milliseconds reconnect{0};
+    /// As in StreamOptions: how often to look whether the session goes on with another server. Only with `reconnect`.
+    std::chrono::milliseconds route_check{2000};
 };
 
 /// Receives a session's meshes, always the newest; frames that came while the caller was busy are skipped by the

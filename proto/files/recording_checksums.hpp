@@ -1,0 +1,31 @@
+// The checksums of a recording: of each entry, and of the messages that follow it. XXH3, 64 bits.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "files/random_access_file.hpp"
+#include "meniscus/v1/recording.pb.h"
+
+namespace meniscus::files {
+
+/// Where a frame's messages are in the file.
+struct RecordedRange {
+    std::uint64_t first = 0;                ///< byte
+    std::uint64_t size = 0;                 ///< bytes
+    std::optional<std::uint64_t> checksum;  ///< of these bytes; none in recordings of before
+};
+
+std::uint64_t checksum(std::string_view bytes);
+
+/// The bytes of an entry, ending with its checksum.
+std::string seal(v1::RecordingEntry entry);
+/// Whether the bytes end with the checksum of those before it.
+bool is_sealed(std::string_view entry);
+
+/// Reads the range, a piece at a time. False if its bytes are not those that were written; true where nothing tells.
+bool is_whole(const RandomAccessFile& file, const RecordedRange& range);
+
+}  // namespace meniscus::files
