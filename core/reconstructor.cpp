@@ -114,14 +114,14 @@ private:
 
     void make_backend() {
         backend_ = options_.backend == Backend::cuda
-                       ? cuda::make_reconstruction(settings_, options_.device, account_, device_account_)
-                       : cpu::make_reconstruction(settings_, options_.threads, account_);
+                       ? cuda::make_reconstruction(settings_, options_, account_, device_account_)
+                       : cpu::make_reconstruction(settings_, options_, account_);
     }
 
     void begin(const ParticleFrame& frame) {
+        validate(frame, settings_);  // before the last surface is forgotten: a frame that is refused changes nothing
         statistics_ = {};
         has_surface_ = false;
-        validate(frame, settings_);
         if (!backend_) make_backend();
     }
 
@@ -149,6 +149,8 @@ private:
         const auto start = std::chrono::steady_clock::now();
         try {
             call();
+        } catch (const Stopped&) {
+            throw;  // giving back much memory would take long
         } catch (...) {
             // The arrays may have grown up to the limit, or a device may have failed: the next frame begins afresh.
             backend_.reset();

@@ -25,6 +25,22 @@ void require_positive(const char* name, double value) {
         throw InvalidInput(std::string(name) + " is " + text(value) + ", must be finite and greater than 0");
 }
 
+/// Limits far beyond any fluid, within which no quotient, product or sum leaves its type: lengths in the world
+/// (squared, cubed, and divided into units, in float64), kernels of their length and thresholds (in float32).
+struct Range {
+    double least, most;
+};
+constexpr Range world_lengths{1e-60, 1e60};
+constexpr Range smoothing_lengths{1e-6, 1e6};
+constexpr Range cell_sizes{1e-9, 1e9};
+constexpr double greatest_iso = 1e30;
+
+void require_range(const char* name, double value, const Range& range, const char* advice) {
+    if (value < range.least || value > range.most)
+        throw InvalidInput(std::string(name) + " is " + text(value) + ", must be " + text(range.least) + " to " +
+                           text(range.most) + ": " + advice);
+}
+
 void require_box(const char* name, const Box& box, bool may_be_flat) {
     constexpr const char* axes[] = {"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -67,7 +83,10 @@ void require_field_settings(const Settings& s) {
         return;
     }
     const std::string field(name_of(s.field));
-    if (s.smoothing_length) require_positive("smoothing length", *s.smoothing_length);
+    if (s.smoothing_length) {
+        require_positive("smoothing length", *s.smoothing_length);
+        require_range("smoothing length", *s.smoothing_length, smoothing_lengths, "it is in particle radii");
+    }
     if (s.smoothness)
         throw InvalidInput("the smoothness is " + std::to_string(*s.smoothness) + ", but the field is " + field +
                            ", which has none: leave it out and use --smoothing-length, or take --field smooth");
@@ -92,6 +111,12 @@ void validate(const Settings& s) {
     require_positive("cell size", s.cell_size);
     require_positive("iso value", s.iso);
     require_positive("cell size in world units", world_cell_size(s));
+    require_range("particle radius", s.particle_radius, world_lengths, "take another unit of length");
+    require_range("cell size", s.cell_size, cell_sizes, "it is in particle radii");
+    require_range("cell size in world units", world_cell_size(s), world_lengths, "take another unit of length");
+    if (s.iso > greatest_iso)
+        throw InvalidInput("iso value is " + text(s.iso) + ", must be at most " + text(greatest_iso) +
+                           ": inside a fluid the field is about 1");
     // In float32 the iso value must remain above zero, or the outside would be inside.
     const auto iso = static_cast<float>(s.iso);
     if (!(std::isfinite(iso) && iso > 0.0F))

@@ -67,6 +67,7 @@ void use(LatticeSettings& settings, const Bisection& bisection) {
 LatticeSettings::LatticeSettings(const Settings& s) {
     cell_size = world_cell_size(s);
     units_per_length = units_per_cell / cell_size;
+    rest_distance = 2.0 * units_per_cell / s.cell_size;
     const double support_units = meniscus::support(s) / s.cell_size * units_per_cell;
     for (unsigned k = 0; k < particle_level_count; ++k) {
         support[k] = static_cast<float>(std::ldexp(support_units, static_cast<int>(k)));

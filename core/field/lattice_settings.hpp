@@ -18,6 +18,8 @@ inline constexpr unsigned particle_level_count = max_particle_level + 1;
 struct LatticeSettings {
     double cell_size = 0.0;         ///< c, world units
     double units_per_length = 0.0;  ///< 4096 / c
+    double rest_distance = 0.0;     ///< of particles of level 0 in water, two radii; units
+    double work_limit = 0.0;        ///< see BackendOptions
 
     // Of each particle level.
     std::array<float, particle_level_count> support{};            ///< h, units

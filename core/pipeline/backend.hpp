@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "meniscus/backend_options.hpp"
 #include "meniscus/device_mesh.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
@@ -16,8 +17,9 @@ namespace meniscus {
 class BackendReconstruction {
 public:
     virtual ~BackendReconstruction() = default;
-    /// The frame is valid. Fills every figure of the statistics but memory and times of the whole. The mesh has its
-    /// final sizes, bricks aside; its content is there once it has been downloaded.
+    /// The frame is valid. Throws Stopped where BackendOptions::stop is raised; after that, and after a refusal for its
+    /// work, the next frame may follow. Fills every figure of the statistics but memory and times of the whole. The
+    /// mesh has its final sizes, bricks aside; its content is there once it has been downloaded.
     virtual MeshDownload reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) = 0;
     /// The surface of the last frame once more, with no cell finer than max_level (1 to 3).
     virtual void emit_capped(int max_level, Mesh& mesh) = 0;
@@ -28,14 +30,14 @@ public:
 };
 
 namespace cpu {
-/// threads: 0 for one per processor. Throws InvalidInput on a processor without what the kernels need.
-std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, unsigned threads,
+/// Throws InvalidInput on a processor without what the kernels need.
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, const BackendOptions& options,
                                                            const std::shared_ptr<MemoryAccount>& account);
 }  // namespace cpu
 
 namespace cuda {
 /// device_account: of the memory on the GPU. Throws DeviceError if the device does not answer.
-std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, int device,
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, const BackendOptions& options,
                                                            const std::shared_ptr<MemoryAccount>& account,
                                                            const std::shared_ptr<MemoryAccount>& device_account);
 }  // namespace cuda

@@ -19,14 +19,17 @@ std::unique_ptr<FieldSource> make_field(const LatticeSettings& settings, Neighbo
 
 class Reconstruction final : public BackendReconstruction {
 public:
-    Reconstruction(const Settings& user, unsigned threads, const std::shared_ptr<MemoryAccount>& account)
+    Reconstruction(const Settings& user, const BackendOptions& options, const std::shared_ptr<MemoryAccount>& account)
         : settings_(user),
-          workers_(threads),
+          stop_(options.stop),
+          workers_(options.threads, stop_.get()),
           state_(account, workers_, settings_),
           particles_(account, workers_, settings_),
           near_(account, workers_.count(), particles_),
           field_(make_field(settings_, near_)),
-          found_levels_(make_array<std::uint8_t>(account)) {}
+          found_levels_(make_array<std::uint8_t>(account)) {
+        settings_.work_limit = options.work_limit;
+    }
 
     MeshDownload reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) override {
         StageClock clock(statistics);
@@ -56,6 +59,7 @@ public:
 
 private:
     LatticeSettings settings_;
+    std::shared_ptr<const StopFlag> stop_;
     Workers workers_;
     State state_;
     ParticleSets particles_;
@@ -67,10 +71,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, unsigned threads,
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, const BackendOptions& options,
                                                            const std::shared_ptr<MemoryAccount>& account) {
     require_supported_processor();
-    return std::make_unique<Reconstruction>(settings, threads, account);
+    return std::make_unique<Reconstruction>(settings, options, account);
 }
 
 }  // namespace meniscus::cpu

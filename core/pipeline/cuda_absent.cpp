@@ -5,10 +5,10 @@
 
 namespace meniscus::cuda {
 
-std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings&, int device,
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings&, const BackendOptions& options,
                                                            const std::shared_ptr<MemoryAccount>&,
                                                            const std::shared_ptr<MemoryAccount>&) {
-    throw InvalidInput("the CUDA backend cannot be used: " + why_unavailable(device));
+    throw InvalidInput("the CUDA backend cannot be used: " + why_unavailable(options.device));
 }
 
 }  // namespace meniscus::cuda

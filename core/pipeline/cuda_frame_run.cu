@@ -28,21 +28,25 @@
 #include "pipeline/pipeline.hpp"
 #include "pipeline/stage_clock.hpp"
 #include "steps/register_particles/crowd.hpp"
+#include "steps/register_particles/work.hpp"
 
 namespace meniscus::cuda {
 
-FrameRun::FrameRun(const LatticeSettings& settings, int device, MeshSets& sets,
+FrameRun::FrameRun(const LatticeSettings& settings, const BackendOptions& options, MeshSets& sets,
                    const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account)
-    : device_(device),
+    : device_(options.device),
+      stop_(options.stop),
       sets_(sets),
       upload_(account),
       host_counts_(account),
-      memory_(device, stream_.get(), device_account),
+      memory_(device_, stream_.get(), device_account),
       state_(settings) {
     int processors = 0;
-    check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "cudaDeviceGetAttribute");
+    check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device_), "cudaDeviceGetAttribute");
     launcher_ = {stream_.get(), 8 * static_cast<unsigned>(processors)};
     host_counts_.reserve(sizeof(Counts));
+    state_.settings.work_limit = options.work_limit;
+    state_.stop_word = stop_.word();
 }
 
 void FrameRun::run(const ParticleFrame& particles) {
@@ -58,6 +62,7 @@ void FrameRun::run(const ParticleFrame& particles) {
     bool grown = make_room({}, payload_bytes);
     sets_.take(state_);
     for (;;) {
+        if (stop_.is_raised()) throw Stopped();
         clock_.start(stream_.get());
         upload_.start(particles, state_, stream_.get());
         CapturedRun& captured = current_graph();
@@ -69,7 +74,7 @@ void FrameRun::run(const ParticleFrame& particles) {
             enqueue(false);
         stream_.synchronize();
         if (counts().stop == Stop::none) break;
-        if (counts().stop == Stop::crowded) throw_crowded(counts().crowd, particles_);
+        require_no_refusal();
         make_more_room();
         grown = true;
     }
@@ -88,7 +93,30 @@ void FrameRun::emit_capped(int max_level, bool first) {
         fetch_counts();
         stream_.synchronize();
         if (counts().stop == Stop::none) break;
+        require_no_refusal();
         make_more_room();
+    }
+}
+
+void FrameRun::require_no_refusal() const {
+    const LatticeSettings& settings = state_.settings;
+    const auto even = [&]<class EvenNear>(std::uint64_t places, EvenNear) {
+        return even_work<EvenNear>(settings, places, [&](unsigned k) { return counts().has_level(k); });
+    };
+    switch (counts().stop) {
+        case Stop::none:
+        case Stop::too_little_room:
+            return;
+        case Stop::crowded:
+            throw_crowded(counts().crowd, particles_);
+        case Stop::too_much_at_particles:
+            throw_too_much_work("the particles' places", work_at_particles(counts().neighbors, particles_),
+                                even(particles_, EvenNeighbors{}), settings);
+        case Stop::too_much_at_base_cells:
+            throw_too_much_work("the base cells", static_cast<double>(counts().pairs),
+                                even(needed(Resource::blocks), EvenNearBaseCell{}), settings);
+        case Stop::asked_for:
+            throw Stopped();
     }
 }
 

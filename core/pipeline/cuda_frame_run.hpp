@@ -17,10 +17,12 @@
 #include "engine/cuda/event_clock.hpp"
 #include "engine/cuda/graph.hpp"
 #include "engine/cuda/launch.hpp"
+#include "engine/cuda/mapped_stop.hpp"
 #include "engine/cuda/mesh_sets.hpp"
 #include "engine/cuda/pinned_memory.hpp"
 #include "engine/cuda/state.hpp"
 #include "engine/cuda/upload.hpp"
+#include "meniscus/backend_options.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "pipeline/cuda_pipeline.hpp"
 
@@ -28,11 +30,12 @@ namespace meniscus::cuda {
 
 class FrameRun {
 public:
-    FrameRun(const LatticeSettings& settings, int device, MeshSets& sets, const std::shared_ptr<MemoryAccount>& account,
-             const std::shared_ptr<MemoryAccount>& device_account);
+    FrameRun(const LatticeSettings& settings, const BackendOptions& options, MeshSets& sets,
+             const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account);
 
-    /// A valid frame, up to its mesh on the device. Throws LimitExceeded for one that crowds, after which the next
-    /// frame may follow, and for one that needs more than can be numbered or held, after which nothing may.
+    /// A valid frame, up to its mesh on the device. Throws LimitExceeded for one that crowds or is too much work, and
+    /// Stopped, after which the next frame may follow; and LimitExceeded for one that needs more than can be numbered
+    /// or held, after which nothing may.
     void run(const ParticleFrame& particles);
     /// The mesh of the last frame once more, with no cell finer than max_level. first: whether the levels on the device
     /// are still those that the frame found.
@@ -69,8 +72,11 @@ private:
     /// stays.
     void make_more_room();
     void require_indexable_counts() const;
+    /// Throws for the reason for which the last run has stopped, unless that is too little room.
+    void require_no_refusal() const;
 
     int device_;
+    MappedStop stop_;
     MeshSets& sets_;
     // A frame that failed may have left copies under way: pinned memory outlives the stream, whose end waits for them.
     Upload upload_;

@@ -11,11 +11,11 @@ namespace {
 
 class Reconstruction final : public BackendReconstruction {
 public:
-    Reconstruction(const Settings& settings, int device, const std::shared_ptr<MemoryAccount>& account,
-                   const std::shared_ptr<MemoryAccount>& device_account)
-        : device_(device),
-          sets_(device, account, device_account),
-          run_(LatticeSettings(settings), device, sets_, account, device_account) {}
+    Reconstruction(const Settings& settings, const BackendOptions& options,
+                   const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account)
+        : device_(options.device),
+          sets_(device_, account, device_account),
+          run_(LatticeSettings(settings), options, sets_, account, device_account) {}
 
     ~Reconstruction() override {
         try {
@@ -88,11 +88,11 @@ private:
 
 }  // namespace
 
-std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, int device,
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, const BackendOptions& options,
                                                            const std::shared_ptr<MemoryAccount>& account,
                                                            const std::shared_ptr<MemoryAccount>& device_account) {
-    const CurrentDevice current(device);
-    return std::make_unique<Reconstruction>(settings, device, account, device_account);
+    const CurrentDevice current(options.device);
+    return std::make_unique<Reconstruction>(settings, options, account, device_account);
 }
 
 }  // namespace meniscus::cuda

@@ -16,7 +16,7 @@
 namespace meniscus::cpu {
 
 /// Step 1: sorts a valid frame's particles, and stores the base cells that they reach. Throws LimitExceeded where the
-/// particles crowd.
+/// particles crowd, or bring too much work.
 void register_particles(State& state, ParticleSets& sets, Neighborhoods& near, const ParticleFrame& frame);
 /// Gives every particle a support that fits its neighborhood, and the volume that it stands for: the smooth field.
 void fit_supports(ParticleSets& sets, Neighborhoods& near);

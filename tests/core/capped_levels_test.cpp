@@ -104,7 +104,7 @@ TEST(CappedLevels, NeedASurfaceAndALevel) {
     test::Particles bad = test::splash(1, 4);
     bad.positions[0] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_THROW(reconstructor.reconstruct(bad.frame(), mesh), InvalidInput);
-    EXPECT_THROW(reconstructor.emit_capped(2, mesh), InvalidInput);
+    EXPECT_NO_THROW(reconstructor.emit_capped(2, mesh)) << "the surface before a frame that is refused";
 }
 
 }  // namespace

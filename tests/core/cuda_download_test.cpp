@@ -53,12 +53,12 @@ protected:
 
     void make_device(std::size_t limit = 0, const Settings& settings = test::default_settings()) {
         device_account = std::make_shared<MemoryAccount>(limit, "on the GPU");
-        device = cuda::make_reconstruction(settings, 0, account, device_account);
+        device = cuda::make_reconstruction(settings, BackendOptions{}, account, device_account);
     }
     /// As a reconstructor does after a failure.
     void make_device_again() {
         device.reset();
-        device = cuda::make_reconstruction(test::default_settings(), 0, account, device_account);
+        device = cuda::make_reconstruction(test::default_settings(), BackendOptions{}, account, device_account);
     }
     void begin(Frame& frame) {
         Statistics statistics;

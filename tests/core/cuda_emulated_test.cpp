@@ -21,7 +21,8 @@ public:
     explicit EmulatedDevice(const Settings& settings, std::size_t limit = 0)
         : settings_(settings),
           device_account_(std::make_shared<MemoryAccount>(limit, "on the GPU")),
-          backend_(cuda::make_reconstruction(settings, 0, std::make_shared<MemoryAccount>(), device_account_)) {}
+          backend_(cuda::make_reconstruction(settings, BackendOptions{}, std::make_shared<MemoryAccount>(),
+                                             device_account_)) {}
 
     void expect_the_cpus_mesh(const ParticleFrame& frame) {
         const Mesh expected = test::reconstruct(settings_, frame);

@@ -85,7 +85,8 @@ private:
     void begin() {
         backend_.reset();
         account_ = std::make_shared<MemoryAccount>(device_limit_, "on the GPU");
-        backend_ = cuda::make_reconstruction(test::default_settings(), 0, std::make_shared<MemoryAccount>(), account_);
+        backend_ = cuda::make_reconstruction(test::default_settings(), BackendOptions{},
+                                             std::make_shared<MemoryAccount>(), account_);
     }
 
     void reconstruct(const Scene& scene) {

@@ -15,7 +15,7 @@ namespace {
 
 /// On the software device, whose backend the Reconstructor cannot be asked for.
 Mesh reconstruct(const Settings& settings, const ParticleFrame& frame, int max_level) {
-    const auto backend = cuda::make_reconstruction(settings, 0, std::make_shared<MemoryAccount>(),
+    const auto backend = cuda::make_reconstruction(settings, BackendOptions{}, std::make_shared<MemoryAccount>(),
                                                    std::make_shared<MemoryAccount>(0, "on the GPU"));
     Mesh mesh;
     mesh.cell_size = world_cell_size(settings);

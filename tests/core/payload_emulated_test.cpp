@@ -37,7 +37,7 @@ private:
     std::shared_ptr<MemoryAccount> account_ = std::make_shared<MemoryAccount>();
     std::shared_ptr<MemoryAccount> device_account_ = std::make_shared<MemoryAccount>();
     cuda::MeshSets sets_{0, account_, device_account_};
-    cuda::FrameRun run_{LatticeSettings(test::default_settings()), 0, sets_, account_, device_account_};
+    cuda::FrameRun run_{LatticeSettings(test::default_settings()), BackendOptions{}, sets_, account_, device_account_};
 };
 
 /// The same on the CPU.
@@ -131,7 +131,7 @@ TEST(PayloadEmulated, LeavesTheSurfaceAsItIs) {
     test::ParticlesWithPayload particles = test::crowded_places(true);
     const Mesh expected = test::reconstruct(test::default_settings(), particles.particles.frame());
     const auto account = std::make_shared<MemoryAccount>();
-    const auto backend = cuda::make_reconstruction(test::default_settings(), 0, account, account);
+    const auto backend = cuda::make_reconstruction(test::default_settings(), BackendOptions{}, account, account);
     Statistics statistics;
     for (int round = 0; round < 4; ++round) {
         Mesh mesh;

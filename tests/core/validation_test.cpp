@@ -1,6 +1,7 @@
 // Bad input is refused with the value and the limit, and leaves the reconstructor usable.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -77,6 +78,29 @@ TEST(Validation, RefusesEverySettingOutOfRangeNamingItsValue) {
              s.smoothing_length = 1e-50;
          },
          "cell size in world units is 0"},
+        // Arithmetic that would leave its type: 4096 / c, c cubed, 16 / l^3, the iso value's multiples.
+        {[](Settings& s) { s.particle_radius = 1e-310; }, "particle radius is 1e-310, must be 1e-60 to 1e+60"},
+        {[](Settings& s) { s.particle_radius = 1e-320; }, "must be 1e-60 to 1e+60"},
+        {[](Settings& s) { s.particle_radius = 1e300; }, "particle radius is 1e+300, must be 1e-60 to 1e+60"},
+        {[](Settings& s) {
+             s.particle_radius = 1e-59;
+             s.field = Field::color;
+             s.cell_size = 0.01;
+             s.smoothing_length = 0.01;
+         },
+         "cell size in world units is 1e-61, must be 1e-60 to 1e+60"},
+        {[](Settings& s) {
+             s.field = Field::color;
+             s.cell_size = 1e10;
+         },
+         "cell size is 1e+10, must be 1e-09 to 1e+09"},
+        {[](Settings& s) {
+             s.field = Field::color;
+             s.smoothing_length = 1e-14;
+         },
+         "smoothing length is 1e-14, must be 1e-06 to 1000000"},
+        {[](Settings& s) { s.iso = 3e38; }, "iso value is 3e+38, must be at most 1e+30"},
+        {[](Settings& s) { s.iso = 1e300; }, "iso value is 1e+300, must be at most 1e+30"},
     };
     for (const Case& c : cases) {
         Settings settings = test::default_settings();
@@ -125,6 +149,35 @@ TEST(Validation, RefusesEveryBadFrameNamingTheParticleAndGoesOn) {
     }
 }
 
+TEST(Validation, AFrameThatIsRefusedLeavesTheSurfaceBeforeIt) {
+    const test::Particles good = test::splash(71, 6);
+    Reconstructor reconstructor(test::default_settings(), {Backend::cpu, 1, 0});
+    Mesh mesh, expected, coarse;
+    reconstructor.reconstruct(good.frame(), mesh);
+    reconstructor.emit_capped(1, expected);
+    const std::uint64_t triangles = reconstructor.statistics().triangles;
+    test::Particles bad = good;
+    bad.positions[4] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(reconstructor.reconstruct(bad.frame(), mesh), InvalidInput);
+    EXPECT_TRUE(mesh.triangles.empty());
+    reconstructor.emit_capped(1, coarse);
+    EXPECT_EQ(mesh_sha256(coarse), mesh_sha256(expected));
+    EXPECT_EQ(reconstructor.statistics().triangles, triangles);
+}
+
+TEST(Validation, SettingsAtTheEndsOfTheirRangesStillGiveASurface) {
+    const test::Particles good = test::splash(71, 6);
+    for (const double scale : {1e-30, 1e-6, 1e30}) {
+        test::Particles scaled = good;
+        for (float& p : scaled.positions) p = static_cast<float>(static_cast<double>(p) * scale);
+        Settings settings = test::default_settings();
+        settings.particle_radius *= scale;
+        const Mesh mesh = test::reconstruct(settings, scaled.frame());
+        EXPECT_FALSE(mesh.triangles.empty()) << scale;
+        EXPECT_TRUE(std::isfinite(mesh.cell_size)) << scale;
+    }
+}
+
 TEST(Validation, AcceptsTheFarthestPositionAndRefusesTheNext) {
     Settings settings;
     settings.particle_radius = 2.0;
@@ -152,6 +205,10 @@ TEST(Validation, RefusesAQuantizationBoxThatIsNotOne) {
         refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("quantization box runs from 0 to -1 along y"),
         std::string::npos);
     frame.quantization_box = {{0, 0, 0}, {1, 1e12, 1}};
+    EXPECT_NE(refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("farther from the origin"),
+              std::string::npos);
+    // The difference of its corners is no number.
+    frame.quantization_box = {{-1.7e308, 0, 0}, {1.7e308, 1, 1}};
     EXPECT_NE(refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("farther from the origin"),
               std::string::npos);
     frame.quantization_box = {{0, 0, 0}, {1, 0, 1}};  // flat is fine

@@ -20,6 +20,7 @@ void Neighborhoods::forget() {
 }
 
 const CandidateLists::Levels& Neighborhoods::near_cluster(const Int3& base_cell, unsigned worker) {
+    sets_.workers.go_on();
     CandidateLists& lists = lists_[worker];
     const Int3 corner{base_cell.x & ~1, base_cell.y & ~1, base_cell.z & ~1};
     if (!lists.has_cluster || !(lists.corner == corner)) {
@@ -44,6 +45,7 @@ const CandidateLists::Levels& Neighborhoods::near_box(const Int3& base_cell, con
 }
 
 const CandidateLists::Levels& Neighborhoods::near_box(const Units3& origin, const UnitBox& box, unsigned worker) {
+    sets_.workers.go_on();
     CandidateLists& lists = lists_[worker];
     for (std::size_t k = 0; k < particle_level_count; ++k) lists.near[k].gather(sets_[k].view(), origin, box);
     return lists.near;
@@ -51,6 +53,7 @@ const CandidateLists::Levels& Neighborhoods::near_box(const Units3& origin, cons
 
 const CandidateLists::Levels& Neighborhoods::company_near_box(const Units3& origin, const UnitBox& box,
                                                               unsigned worker) {
+    sets_.workers.go_on();
     CandidateLists& lists = lists_[worker];
     for (std::size_t k = 0; k < particle_level_count; ++k) lists.near[k].gather(sets_[k].company_view(), origin, box);
     return lists.near;

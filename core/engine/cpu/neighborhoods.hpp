@@ -9,7 +9,8 @@
 
 namespace meniscus::cpu {
 
-/// Each worker has lists of its own, valid until it asks again.
+/// Each worker has lists of its own, valid until it asks again. Every search asks Workers::go_on(): one and the sums
+/// over what it finds are the longest piece of work.
 class Neighborhoods {
 public:
     Neighborhoods(const std::shared_ptr<MemoryAccount>& account, unsigned workers, ParticleSets& sets);

@@ -7,6 +7,9 @@
 #include <memory>
 #include <thread>
 
+#include "meniscus/error.hpp"
+#include "meniscus/stop_flag.hpp"
+
 #ifdef MENISCUS_STD_THREADS
 #include <atomic>
 #include <exception>
@@ -50,9 +53,10 @@ private:
 
 class Workers {
 public:
-    /// threads: 0 for one per processor.
-    explicit Workers(unsigned threads)
-        : count_(threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency()))
+    /// threads: 0 for one per processor. stop: outlives the workers; none: nothing stops them.
+    explicit Workers(unsigned threads, const StopFlag* stop = nullptr)
+        : count_(threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency())),
+          stop_(stop)
 #ifndef MENISCUS_STD_THREADS
           ,
           more_than_processors_(
@@ -68,14 +72,22 @@ public:
         return count_;
     }
 
+    /// Throws Stopped once that is wanted. Loops ask at least every 0.1 s.
+    void go_on() const {
+        if (stop_ != nullptr && stop_->is_raised()) throw Stopped();
+    }
+
     /// Calls body(begin, end, worker) for pieces of [0, n) of about `grain`; worker < count() names the thread, so that
-    /// a body can use scratch memory of its own.
+    /// a body can use scratch memory of its own. Asks go_on() before each piece.
     template <class Body>
     void for_ranges(std::size_t n, std::size_t grain, const Body& body) {
         if (n == 0) return;
         if (count_ == 1 || n <= grain) {
             const ExactFloats exact;
-            for (std::size_t begin = 0; begin < n; begin += grain) body(begin, std::min(n, begin + grain), 0U);
+            for (std::size_t begin = 0; begin < n; begin += grain) {
+                go_on();
+                body(begin, std::min(n, begin + grain), 0U);
+            }
             return;
         }
         run(n, grain, body);
@@ -84,6 +96,18 @@ public:
     /// Sorts in place; `before` must be a strict order that leaves no two different elements equal.
     template <class T, class Before>
     void sort(T* begin, T* end, const Before& before) {
+        if (stop_ != nullptr)
+            sort_to_the_end(begin, end, [this, &before](const T& a, const T& b) {
+                go_on();
+                return before(a, b);
+            });
+        else
+            sort_to_the_end(begin, end, before);
+    }
+
+private:
+    template <class T, class Before>
+    void sort_to_the_end(T* begin, T* end, const Before& before) {
 #ifdef MENISCUS_STD_THREADS
         std::sort(begin, end, before);
 #else
@@ -94,7 +118,6 @@ public:
 #endif
     }
 
-private:
 #ifdef MENISCUS_STD_THREADS
     template <class Body>
     void run(std::size_t n, std::size_t grain, const Body& body) {
@@ -107,6 +130,7 @@ private:
                 for (;;) {
                     const std::size_t begin = next.fetch_add(grain);
                     if (begin >= n) return;
+                    go_on();
                     body(begin, std::min(n, begin + grain), worker);
                 }
             } catch (...) {
@@ -130,14 +154,17 @@ private:
                                   const ExactFloats exact;
                                   const auto worker =
                                       static_cast<unsigned>(tbb::this_task_arena::current_thread_index());
-                                  for (std::size_t piece = pieces.begin(); piece != pieces.end(); ++piece)
+                                  for (std::size_t piece = pieces.begin(); piece != pieces.end(); ++piece) {
+                                      go_on();
                                       body(piece * grain, std::min(n, (piece + 1) * grain), worker);
+                                  }
                               });
         });
     }
 #endif
 
     unsigned count_;
+    const StopFlag* stop_;
 #ifndef MENISCUS_STD_THREADS
     std::unique_ptr<tbb::global_control> more_than_processors_;
     tbb::task_arena arena_;

@@ -48,8 +48,11 @@ inline constexpr std::size_t list_count = 8;
 /// Why the kernels of a frame do nothing more.
 enum class Stop : std::uint32_t {
     none,
-    too_little_room,  ///< an array is too small: Counts::needed tells
-    crowded,          ///< the particles lie too densely, see is_crowded()
+    too_little_room,         ///< an array is too small: Counts::needed tells
+    crowded,                 ///< the particles lie too densely, see is_crowded()
+    too_much_at_particles,   ///< the sums at the particles' places, see work.hpp
+    too_much_at_base_cells,  ///< and those at the base cells
+    asked_for,               ///< by the host, see LongLoop
 };
 
 /// Zero at a frame's begin.
@@ -61,12 +64,18 @@ struct Counts {
     std::uint32_t first_triangle[triangle_level_count];
     std::uint32_t band_cells[3];  ///< by level
     Counter crowd;                ///< see is_crowded()
+    Counter probe_seed;           ///< see probed_particle()
+    Counter neighbors;            ///< of all probed particles
+    Counter pairs;                ///< of base cells and particles near them
     Counter spray_particles;
     std::uint32_t particle_cells;
     std::uint32_t first_particle_brick[particle_level_count + 1];
     std::uint32_t listed[list_count];
     std::uint32_t changed[3];  ///< see Sweeps
     Stop stop;
+
+    /// Whether there are particles of a level.
+    MENISCUS_HD bool has_level(unsigned k) const { return first_particle_brick[k + 1] != first_particle_brick[k]; }
 };
 
 /// Places arrays one after the other.
@@ -92,6 +101,7 @@ struct State : BlockState<Pointer> {
     std::uint64_t payload_bytes = 0;  ///< room in the upload for all arrays of a frame's payload
     FrameInput* input = nullptr;
     Counts* counts = nullptr;
+    const volatile std::uint32_t* stop_word = nullptr;  ///< see LongLoop; none: nobody stops the frame
     const CubeCase* cube_table = nullptr;
     const CrackCase* crack_table = nullptr;
     std::byte* scratch = nullptr;

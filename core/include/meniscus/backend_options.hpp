@@ -3,7 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string_view>
+
+#include "meniscus/stop_flag.hpp"
 
 namespace meniscus {
 
@@ -30,6 +33,10 @@ struct BackendOptions {
     std::size_t memory_limit = 0;         ///< bytes one reconstructor may hold; 0: no limit of its own
     int device = 0;                       ///< which GPU, see devices.hpp
     std::size_t device_memory_limit = 0;  ///< bytes one reconstructor may hold on the GPU; 0: no limit of its own
+    /// How much more work a frame may be than one of as many particles that are evenly spread
+    /// (core/README.md#work-20-and-1024); a frame beyond it is refused with LimitExceeded. 0: no limit.
+    double work_limit = 0.0;
+    std::shared_ptr<const StopFlag> stop = {};  ///< ends a reconstruction with Stopped; none: nothing does
 };
 
 }  // namespace meniscus

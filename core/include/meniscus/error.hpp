@@ -1,4 +1,5 @@
-// The two ways in which a request can be refused, and a GPU that fails. Any other exception is a defect.
+// The two ways in which a request can be refused, a request that was asked to end, and a GPU that fails. Any other
+// exception is a defect.
 #pragma once
 
 #include <stdexcept>
@@ -16,6 +17,12 @@ public:
 class LimitExceeded : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
+};
+
+/// The reconstruction ended early because its StopFlag was raised. The reconstructor may be used on.
+class Stopped : public std::runtime_error {
+public:
+    Stopped() : std::runtime_error("the reconstruction was stopped") {}
 };
 
 /// A call to CUDA failed. Results on that device are lost. The reconstructor that threw this may be destroyed; it may

@@ -15,3 +15,4 @@
 #include "meniscus/reconstructor.hpp"
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
+#include "meniscus/stop_flag.hpp"

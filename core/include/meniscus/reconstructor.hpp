@@ -27,7 +27,9 @@ public:
 
     /// Replaces `mesh`, reusing its memory. Its memory is charged to this reconstructor's account from the first call
     /// on. Throws InvalidInput (non-finite or too distant positions, lengths that do not match, levels above 3) or
-    /// LimitExceeded (memory); the mesh is then empty and the reconstructor remains usable. On a GPU also DeviceError.
+    /// LimitExceeded (memory, work), or Stopped (BackendOptions::stop); the mesh is then empty and the reconstructor
+    /// remains usable. On a GPU also DeviceError. After InvalidInput the surface and the statistics of the frame before
+    /// are there still.
     void reconstruct(const ParticleFrame& frame, Mesh& mesh);
 
     /// As reconstruct(), but returns once the mesh is finished in the memory in which it was made. From a GPU the
@@ -42,8 +44,8 @@ public:
     /// Emits the last frame's surface once more with no cell finer than max_level (1 to 3). The result is coarser, has
     /// fewer triangles, and is closed as well. The call is cheap: nothing is sampled, and only the steps from
     /// count_triangles on run. The statistics do not change. Throws InvalidInput for another max_level, and if the last
-    /// call did not end with a surface; else as reconstruct() does. The last frame's own mesh may still be downloaded
-    /// to another Mesh; an earlier mesh that waits on the GPU is then downloaded first.
+    /// valid frame did not end with a surface; else as reconstruct() does. The last frame's own mesh may still be
+    /// downloaded to another Mesh; an earlier mesh that waits on the GPU is then downloaded first.
     void emit_capped(int max_level, Mesh& mesh);
 
     /// The statistics of the last frame.

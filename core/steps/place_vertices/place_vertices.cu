@@ -1,6 +1,7 @@
 // Step 6 on the GPU: a warp for every block with vertices.
 #include "steps/place_vertices/place_vertices.hpp"
 
+#include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/particle_field.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
@@ -74,7 +75,9 @@ __global__ void __launch_bounds__(block_threads, blocks_of_placing<bisects, Fiel
     const float iso = f.settings.iso;
     const auto units_per_step = static_cast<float>(units_per_cell >> bits);
     Counter evaluations = 0;
+    LongLoop loop(f);
     each_by_warp(f.listed(List::vertices), [&](std::uint32_t entry) {
+        if (!loop.goes_on_together()) return;
         const std::uint32_t block = f.chosen[entry];
         const EdgeMasks edges = blocks.edges[block];
         const Int3 at = blocks.coordinate(block);

@@ -3,6 +3,7 @@
 
 #include "engine/cuda/candidates.hpp"
 #include "engine/cuda/launch.hpp"
+#include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/sort_key.hpp"
 #include "engine/cuda/warp.hpp"
 
@@ -15,7 +16,9 @@ inline constexpr int blocks_of_sums = std::is_same_v<Kernel, CubicSpline> ? 3 : 
 template <class Kernel>
 __global__ void __launch_bounds__(block_threads, blocks_of_sums<Kernel>)
     sum_at_each_particle(const __grid_constant__ State f) {
+    LongLoop loop(f);
     GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
+        if (!loop.goes_on()) return;
         const unsigned level = key_level(f.keys[i]);
         const ParticleKey key = particle_key(f.keys[i]);
         const Units3 origin = cell_corner(key.cell, f.settings.cell_units[level]);

@@ -2,6 +2,7 @@
 #include "steps/register_particles/register_particles.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "engine/cpu/words.hpp"
 #include "engine/index_limit.hpp"
@@ -9,6 +10,7 @@
 #include "particles/positions.hpp"
 #include "steps/cpu_steps.hpp"
 #include "steps/register_particles/crowd.hpp"
+#include "steps/register_particles/work.hpp"
 
 namespace meniscus::cpu {
 namespace {
@@ -109,6 +111,7 @@ void store_support_cells(ParticleSets& sets, ParticleSet& set) {
     set.cells.bricks.clear();
     set.cells.keys.clear();
     for (std::size_t i = 0; i < cells; ++i) {
+        if (i % 65536 == 0) sets.workers.go_on();
         if (starts_brick(i)) {
             Brick& brick = set.cells.bricks.emplace_back();
             brick.coordinate = key_brick(set.cell_keys[i]);
@@ -136,14 +139,78 @@ void require_uncrowded(const ParticleSets& sets, std::uint64_t particles) {
     if (is_crowded(crowd, particles, sets.settings)) throw_crowded(crowd, particles);
 }
 
-/// Fills `grid` with the base cells that a particle's support reaches; numbers stay to be given.
-void mark_reached_cells(ParticleSets& sets, BrickGrid& grid) {
+/// Of all levels together, in the order in which they are summed.
+const ParticleKey& key_of(const ParticleSets& sets, std::uint64_t rank, unsigned& level) {
+    for (level = 0; rank >= sets[level].count(); ++level) rank -= sets[level].count();
+    return sets[level].keys[rank];
+}
+
+/// How many particles lie within their level's support of a particle's place, itself included.
+std::uint64_t count_neighbors(const ParticleSets& sets, std::uint64_t rank) {
+    unsigned level = 0;
+    const ParticleKey& key = key_of(sets, rank, level);
+    const Units3 place = place_in_cell(key);
+    const float px = static_cast<float>(place.x), py = static_cast<float>(place.y), pz = static_cast<float>(place.z);
+    std::uint64_t neighbors = 0;
+    for (const ParticleSet& of_level : sets.of_level) {
+        if (of_level.count() == 0) continue;
+        const ParticleSetView set = of_level.view();
+        BrickHints hints;
+        set.for_each_run_near(cell_corner(key.cell, sets[level].cell_units), {{px, py, pz}, {px, py, pz}}, hints,
+                              [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+                                  sets.workers.go_on();
+                                  std::uint32_t near = 0;
+                                  for (std::uint32_t i = begin; i < end; ++i)
+                                      near += is_neighbor(set.x[i] + shift[0] - px, set.y[i] + shift[1] - py,
+                                                          set.z[i] + shift[2] - pz, set.support);
+                                  neighbors += near;
+                              });
+    }
+    return neighbors;
+}
+
+/// Refuses a frame for the work of its particles' sums over each other, before it is done.
+void require_bearable_sums(const ParticleSets& sets) {
+    std::uint64_t particles = 0;
+    for (const ParticleSet& set : sets.of_level) particles += set.count();
+    const std::uint32_t probes = probe_count(particles);
+    if (probes == 0) return;
+    std::uint64_t seed = 0;
+    for (std::uint32_t i = 0; i < probes; ++i) {
+        unsigned level = 0;
+        seed += key_bits(key_of(sets, std::uint64_t{i} * particles_per_probe, level));
+    }
+    const double even =
+        even_work<EvenNeighbors>(sets.settings, particles, [&](unsigned k) { return sets[k].count() != 0; });
+    const double most = most_work(sets.settings, even);
+    std::atomic<std::uint64_t> neighbors{0};
+    const auto work = [&] { return work_at_particles(neighbors.load(std::memory_order_relaxed), particles); };
+    sets.workers.for_ranges(probes, 4, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end && work() <= most; ++i)
+            neighbors.fetch_add(count_neighbors(sets, probed_particle(static_cast<std::uint32_t>(i), seed, particles)),
+                                std::memory_order_relaxed);
+    });
+    if (work() > most) throw_too_much_work("the particles' places", work(), even, sets.settings);
+}
+
+/// The same for the sums at the base cells. pairs: of a base cell and a particle near it.
+void require_bearable_base_cells(const ParticleSets& sets, std::uint64_t pairs, std::uint32_t base_cells) {
+    const double even =
+        even_work<EvenNearBaseCell>(sets.settings, base_cells, [&](unsigned k) { return sets[k].count() != 0; });
+    if (static_cast<double>(pairs) > most_work(sets.settings, even))
+        throw_too_much_work("the base cells", static_cast<double>(pairs), even, sets.settings);
+}
+
+/// Fills `grid` with the base cells that a particle's support reaches; numbers stay to be given. Returns the pairs of a
+/// base cell and a particle near it, about.
+std::uint64_t mark_reached_cells(ParticleSets& sets, BrickGrid& grid) {
     // Every brick that a support cell's particles may reach, each once.
     constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
     sets.reached_bricks.clear();
     for (const ParticleSet& set : sets.of_level) {
         ReachedBricks last;
         for (std::size_t i = 0; i < set.cell_keys.size(); ++i) {
+            if (i % 1024 == 0) sets.workers.go_on();
             const ReachedBricks reached = reached_bricks(set.cell_keys[i], set.cell_units, set.support);
             if (i > 0 && reached == last) continue;
             last = reached;
@@ -154,12 +221,14 @@ void mark_reached_cells(ParticleSets& sets, BrickGrid& grid) {
                     for (c.x = low.x; c.x <= high.x; ++c.x) sets.reached_bricks.push_back(brick_key(c));
         }
     }
-    std::sort(sets.reached_bricks.begin(), sets.reached_bricks.end());
+    sets.workers.sort(sets.reached_bricks.data(), sets.reached_bricks.data() + sets.reached_bricks.size(),
+                      std::less<>());
     sets.reached_bricks.erase(std::unique(sets.reached_bricks.begin(), sets.reached_bricks.end()),
                               sets.reached_bricks.end());
 
     resize_for_overwrite(grid.bricks, sets.reached_bricks.size());
     resize_for_overwrite(grid.keys, sets.reached_bricks.size());
+    std::atomic<std::uint64_t> pairs{0};
     sets.workers.for_ranges(sets.reached_bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {
             Brick& brick = grid.bricks[i];
@@ -168,17 +237,23 @@ void mark_reached_cells(ParticleSets& sets, BrickGrid& grid) {
             brick.clear();
             const Units3 origin{brick.coordinate.x * edge, brick.coordinate.y * edge, brick.coordinate.z * edge};
             const auto size = static_cast<float>(edge);
+            std::uint64_t marked = 0;
             for (const ParticleSet& set : sets.of_level)
                 set.view().for_each_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
                                          [&, view = set.view()](float x, float y, float z, std::uint32_t particle) {
-                                             mark_reached(BrickMarks{brick}, x, y, z, view.support_of(particle));
+                                             if (particle % 16384 == 0) sets.workers.go_on();
+                                             marked +=
+                                                 mark_reached(BrickMarks{brick}, x, y, z, view.support_of(particle));
                                          });
-            if (!sets.settings.has_domain) continue;
-            for (int w = 0; w < Brick::words; ++w)
+            const bool has_domain = sets.settings.has_domain;
+            for (int w = 0; w < Brick::words && has_domain; ++w)
                 brick.occupied[w] &=
                     word_in_domain(brick.coordinate, w, sets.settings.domain_low, sets.settings.domain_high);
+            pairs.fetch_add(pairs_in_brick(marked, has_domain ? brick.count() : 0, has_domain),
+                            std::memory_order_relaxed);
         }
     });
+    return pairs.load(std::memory_order_relaxed);
 }
 
 /// Particles of level 0 in every stored base cell.
@@ -197,7 +272,9 @@ void count_particles(State& s, const ParticleSets& sets) {
             const auto size = static_cast<float>(edge);
             // Wider than needed by the support; particles of other bricks are passed over.
             set.view().for_each_near(
-                origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, [&](float x, float y, float z, std::uint32_t) {
+                origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
+                [&](float x, float y, float z, std::uint32_t particle) {
+                    if (particle % 16384 == 0) s.workers.go_on();
                     if (x < 0.0F || y < 0.0F || z < 0.0F || x >= size || y >= size || z >= size) return;
                     constexpr float cell = units_per_base_cell;
                     const Int3 at{static_cast<int>(x / cell), static_cast<int>(y / cell), static_cast<int>(z / cell)};
@@ -266,11 +343,14 @@ void register_particles(State& s, ParticleSets& sets, Neighborhoods& near, const
         sort_particles(sets, frame, k);
         store_support_cells(sets, sets[k]);
     }
+    const bool has_work_limit = s.settings.work_limit != 0.0;
+    if (has_work_limit) require_bearable_sums(sets);
     require_uncrowded(sets, frame.count());
     near.forget();
     if (s.settings.has_own_supports) fit_supports(sets, near);
-    mark_reached_cells(sets, s.grid);
+    const std::uint64_t pairs = mark_reached_cells(sets, s.grid);
     number_members(s.grid, s.workers);
+    if (has_work_limit) require_bearable_base_cells(sets, pairs, s.grid.members);
     store_blocks(s);
     if (s.settings.counts_particles) count_particles(s, sets);
     if (s.settings.divides_by_density) divide_weights_by_density(sets, near);

@@ -3,10 +3,12 @@
 
 #include <utility>
 
+#include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/sort_key.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/register_particles/crowd.hpp"
+#include "steps/register_particles/work.hpp"
 
 namespace meniscus::cuda {
 namespace {
@@ -29,7 +31,9 @@ __global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant
 /// the root of 1024 n particles: a heap sort of these by one thread may still take long on a GPU.
 __global__ void __launch_bounds__(block_threads, 4) order_by_payload(const __grid_constant__ State f) {
     const std::uint32_t n = f.particle_count();
+    LongLoop loop(f);
     GridLoop{}.each(n, [&](std::uint32_t i) {
+        if (!loop.goes_on()) return;
         const SortKey key = f.keys[i];
         if (i > 0 && f.keys[i - 1] == key) return;
         std::uint32_t end = i + 1;
@@ -107,8 +111,72 @@ __global__ void __launch_bounds__(block_threads) measure_crowd(const __grid_cons
 
 /// One thread: a crowded frame ends here, before it takes long.
 __global__ void stop_if_crowded(const __grid_constant__ State f) {
-    if (blockIdx.x == 0 && threadIdx.x == 0 && is_crowded(f.counts->crowd, f.input->particles, f.settings))
+    if (blockIdx.x == 0 && threadIdx.x == 0 && f.goes_on() &&
+        is_crowded(f.counts->crowd, f.input->particles, f.settings))
         f.counts->stop = Stop::crowded;
+}
+
+__global__ void __launch_bounds__(block_threads) seed_probes(const __grid_constant__ State f) {
+    Counter seed = 0;
+    GridLoop{}.each_together(probe_count(f.particle_count()), [&](std::uint32_t i, bool exists) {
+        if (exists) seed += key_bits(particle_key(f.keys[std::uint64_t{i} * particles_per_probe]));
+    });
+    add_of_lanes(&f.counts->probe_seed, seed);
+}
+
+/// Whether what has been found near the probed particles is too much.
+__device__ bool sums_are_too_much(const State& f) {
+    const std::uint32_t particles = f.input->particles;
+    const double even =
+        even_work<EvenNeighbors>(f.settings, particles, [&](unsigned k) { return f.counts->has_level(k); });
+    // Other warps are adding.
+    const Counter neighbors = *const_cast<volatile Counter*>(&f.counts->neighbors);
+    return work_at_particles(neighbors, particles) > most_work(f.settings, even);
+}
+
+/// One warp for every probe.
+__global__ void __launch_bounds__(block_threads) count_neighbors(const __grid_constant__ State f) {
+    const std::uint32_t particles = f.particle_count();
+    LongLoop loop(f);
+    each_by_warp(probe_count(particles), [&](std::uint32_t probe) {
+        if (!loop.goes_on_together()) return;
+        if (same_in_all_lanes(sums_are_too_much(f) ? 1 : 0) != 0) return;
+        const SortKey key = f.keys[probed_particle(probe, f.counts->probe_seed, particles)];
+        const Units3 place = place_in_cell(particle_key(key));
+        const float px = static_cast<float>(place.x), py = static_cast<float>(place.y),
+                    pz = static_cast<float>(place.z);
+        Counter neighbors = 0;
+        for (unsigned k = 0; k < particle_level_count; ++k) {
+            const ParticleSetView set = f.set(k);
+            if (set.cells.brick_count == 0) continue;
+            NoBrickHints hints;
+            set.for_each_run_near(
+                cell_corner(particle_key(key).cell, f.settings.cell_units[key_level(key)]),
+                {{px, py, pz}, {px, py, pz}}, hints, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+                    for (std::uint32_t i = begin + lane_index(); i < end; i += warp_threads) {
+                        const float4 p = f.particles[i];
+                        if (is_neighbor(p.x + shift[0] - px, p.y + shift[1] - py, p.z + shift[2] - pz, set.support))
+                            ++neighbors;
+                    }
+                });
+        }
+        add_of_lanes(&f.counts->neighbors, neighbors);
+    });
+}
+
+/// One thread: ends a frame whose sums at the particles' places are too much work.
+__global__ void stop_if_sums_are_too_much(const __grid_constant__ State f) {
+    if (blockIdx.x != 0 || threadIdx.x != 0 || probe_count(f.particle_count()) == 0) return;
+    if (sums_are_too_much(f)) f.counts->stop = Stop::too_much_at_particles;
+}
+
+/// One thread: the same for those at the base cells.
+__global__ void stop_if_base_cells_are_too_much(const __grid_constant__ State f) {
+    if (blockIdx.x != 0 || threadIdx.x != 0 || !f.goes_on()) return;
+    const double even = even_work<EvenNearBaseCell>(f.settings, f.count(Resource::blocks),
+                                                    [&](unsigned k) { return f.counts->has_level(k); });
+    if (static_cast<double>(f.counts->pairs) > most_work(f.settings, even))
+        f.counts->stop = Stop::too_much_at_base_cells;
 }
 
 __global__ void __launch_bounds__(block_threads) list_reached_bricks(const __grid_constant__ State f) {
@@ -182,13 +250,25 @@ struct SharedMarks {
 /// A block of threads for every brick: its warps share the runs of particles near it.
 __global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __grid_constant__ State f) {
     __shared__ unsigned halves[2 * Brick::words];
+    __shared__ Counter marked_in_brick;
+    __shared__ std::uint32_t bricks;
+    __shared__ bool goes_on;
     const SharedMarks marks{halves};
-    const std::uint32_t bricks = f.count(Resource::bricks);
+    // Another block may stop the frame meanwhile, which must not part the threads of this one.
+    if (threadIdx.x == 0) bricks = f.count(Resource::bricks);
+    __syncthreads();
     constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
     const auto size = static_cast<float>(edge);
+    LongLoop loop(f);
     for (std::uint32_t b = blockIdx.x; b < bricks; b += gridDim.x) {
         if (threadIdx.x < 2 * Brick::words) halves[threadIdx.x] = 0;
+        if (threadIdx.x == 0) {
+            marked_in_brick = 0;
+            goes_on = loop.goes_on();
+        }
         __syncthreads();
+        if (!goes_on) return;
+        Counter marked = 0;
         const Int3 at = f.bricks[b].coordinate;
         const Units3 origin{at.x * edge, at.y * edge, at.z * edge};
         unsigned run = 0;
@@ -202,11 +282,13 @@ __global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __g
                     if (run++ % block_warps != warp_in_block()) return;
                     for (std::uint32_t i = begin + lane_index(); i < end; i += warp_threads) {
                         const float4 p = f.particles[i];
-                        mark_reached(marks, p.x + shift[0], p.y + shift[1], p.z + shift[2],
-                                     f.settings.has_own_supports ? Poly6{p.w, f.falls[i]}.support() : set.support);
+                        marked +=
+                            mark_reached(marks, p.x + shift[0], p.y + shift[1], p.z + shift[2],
+                                         f.settings.has_own_supports ? Poly6{p.w, f.falls[i]}.support() : set.support);
                     }
                 });
         }
+        add_of_lanes(&marked_in_brick, marked);
         __syncthreads();
         if (threadIdx.x < Brick::words) {
             const int w = static_cast<int>(threadIdx.x);
@@ -216,7 +298,10 @@ __global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __g
             f.bricks[b].occupied[w] = cells;
         }
         __syncthreads();
-        if (threadIdx.x == 0) f.members_before[b] = f.bricks[b].count();
+        if (threadIdx.x != 0) continue;
+        const std::uint32_t members = f.bricks[b].count();
+        f.members_before[b] = members;
+        atomicAdd(&f.counts->pairs, Counter{pairs_in_brick(marked_in_brick, members, f.settings.has_domain)});
     }
 }
 
@@ -284,6 +369,12 @@ void sort_particles(State& f, bool has_payload, const Launcher& launch) {
           "cudaMemsetAsync");
     launch(n, block_threads, store_particles, f);
     launch(f.capacity[Resource::particle_bricks], block_threads, count_support_cells, f);
+    if (f.settings.work_limit != 0.0) {
+        const std::uint64_t probes = probe_count(n);
+        launch(probes, block_threads, seed_probes, f);
+        launch(probes, block_warps, count_neighbors, f);
+        launch(1, block_threads, stop_if_sums_are_too_much, f);
+    }
     launch(n, block_threads, measure_crowd, f);
     launch(1, block_threads, stop_if_crowded, f);
     if (has_payload) launch(n, block_threads, order_by_payload, f);
@@ -309,6 +400,7 @@ void store_blocks(const State& state, const Launcher& launch) {
     const std::uint64_t bricks = state.capacity[Resource::bricks];
     exclusive_sum(state.scratch_memory(), state.members_before, bricks + 1, launch.stream);
     launch(bricks, block_threads, number_members, state);
+    if (state.settings.work_limit != 0.0) launch(1, block_threads, stop_if_base_cells_are_too_much, state);
     launch(neighbor_slots * bricks, block_threads, find_neighbors, state);
     launch(Brick::words * bricks, block_threads, make_blocks, state);
 }

@@ -47,8 +47,9 @@ struct BrickMarks {
 /// relative to the brick's corner; rounded outward by 16 units, more than float32 can be off
 /// (core/README.md#margins-of-registration-16-32-1). marks: word(w) reads a word of Brick::occupied, add(w, cells) adds
 /// to it.
+/// Returns how many there are at most: those of the brick that the cube around the support meets.
 template <class Marks>
-MENISCUS_HD inline void mark_reached(const Marks& marks, float x, float y, float z, float support) {
+MENISCUS_HD inline std::uint32_t mark_reached(const Marks& marks, float x, float y, float z, float support) {
     constexpr float edge = units_per_base_cell;
     const float reach = support + 16.0F;
     const auto first = [&](float p) {
@@ -64,14 +65,14 @@ MENISCUS_HD inline void mark_reached(const Marks& marks, float x, float y, float
         const float low = static_cast<float>(i) * edge;
         return max(max(low - p, p - (low + edge)), 0.0F);
     };
-    if (z + reach < 0.0F || y + reach < 0.0F || x + reach < 0.0F) return;
+    if (z + reach < 0.0F || y + reach < 0.0F || x + reach < 0.0F) return 0;
     const int z0 = first(z - reach - 1.0F);
     const int z1 = last(z + reach);
     const int y0 = first(y - reach - 1.0F);
     const int y1 = last(y + reach);
     const int x_low = first(x - (reach + 16.0F));
     const int x_high = last(x + (reach + 16.0F));
-    if (x_low > x_high) return;
+    if (x_low > x_high || y0 > y1 || z0 > z1) return 0;
     // Most particles lie among others: rows that those have marked are passed over, four at a time.
     const std::uint64_t widest = ((std::uint64_t{2} << x_high) - (std::uint64_t{1} << x_low)) * first_of_rows;
     for (int cz = z0; cz <= z1; ++cz) {
@@ -98,6 +99,13 @@ MENISCUS_HD inline void mark_reached(const Marks& marks, float x, float y, float
             marks.add(w, reached);
         }
     }
+    return static_cast<std::uint32_t>((x_high - x_low + 1) * (y1 - y0 + 1) * (z1 - z0 + 1));
+}
+
+/// Pairs of a brick's base cells and particles near them, where only `members` of its cells are stored, by the sum of
+/// what mark_reached() returned. A domain leaves cells out however near particles are.
+MENISCUS_HD inline std::uint64_t pairs_in_brick(std::uint64_t marked, std::uint32_t members, bool has_domain) {
+    return has_domain ? marked / brick_volume * members + marked % brick_volume * members / brick_volume : marked;
 }
 
 /// The base cells, as bits, of a row of a brick (y + 16 z) whose closed box touches the closed domain [low, high], in

@@ -1,5 +1,6 @@
 // Base vertices are sampled for all stored cells, before the band is known.
 #include "engine/cuda/candidates.hpp"
+#include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/sample_field/sample_field.hpp"
@@ -17,7 +18,9 @@ __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_con
         f.counts->field_evaluations = blocks.count;
     }
     const std::uint32_t count = blocks.count <= f.capacity[Resource::samples] ? blocks.count : 0;
+    LongLoop loop(f);
     GridLoop{}.each(count, [&](std::uint32_t b) {
+        if (!loop.goes_on()) return;
         const Int3 at = blocks.coordinate(b);
         constexpr float edge = units_per_base_cell;
         const float zero[1] = {0.0F};

@@ -1,6 +1,7 @@
 // Step 4 on the GPU: a warp for every block.
 #include "steps/sample_field/sample_field.hpp"
 
+#include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/particle_field.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/adjust_levels/sweeps.hpp"
@@ -113,7 +114,9 @@ __device__ void sample_listed(const State& f, const Field& field, List list,
                               BlockSampling<Field> (&shared)[block_warps]) {
     const BlocksView blocks = f.blocks();
     Counter evaluations = 0;
+    LongLoop loop(f);
     each_by_warp(f.listed(list), [&](std::uint32_t i) {
+        if (!loop.goes_on_together()) return;
         evaluations += static_cast<Counter>(sample_block(f, field, blocks, f.chosen[i], shared[warp_in_block()]));
     });
     if (lane_index() == 0 && evaluations != 0) atomicAdd(&f.counts->field_evaluations, evaluations);

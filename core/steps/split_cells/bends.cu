@@ -1,5 +1,6 @@
 // Curvature at a point of the surface in every cell of the band, a thread for every cell.
 #include "engine/cuda/candidates.hpp"
+#include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/split_cells/curvature.hpp"
@@ -14,7 +15,9 @@ __global__ void __launch_bounds__(block_threads, 2) measure_listed(const __grid_
     const BlobRule blobs{f.settings.blob_closest, f.settings.blob_level};
     const float iso = f.settings.iso;
     const std::uint32_t cells = f.listed(List::bends);
+    LongLoop loop(f);
     GridLoop{}.each(cells, [&](std::uint32_t i) {
+        if (!loop.goes_on()) return;
         const std::uint32_t block = f.chosen[i];
         const ClosedCell cell(blocks, block);
         CellCorners<float> corners;

@@ -41,6 +41,8 @@ const std::uint64_t* exchange(std::uint64_t value, int place);
 
 /// Into the stream, or the graph that it is being captured into.
 void submit(cudaStream_t stream, const std::function<void()>& work);
+/// Called, if there, whenever a thread asks the clock.
+extern std::function<void()> on_clock;
 void run_kernel(unsigned blocks, unsigned threads, const std::function<void()>& kernel);
 
 template <class T>
@@ -60,6 +62,12 @@ inline emulated_device::Index& blockIdx = emulated_device::block_index;
 inline emulated_device::Index& blockDim = emulated_device::block_size;
 inline emulated_device::Index& gridDim = emulated_device::grid_size;
 
+/// A clock that ticks in long steps: whoever asks something every few milliseconds asks it every time.
+inline long long clock64() {
+    static long long now = 0;
+    if (emulated_device::on_clock) emulated_device::on_clock();
+    return now += 1LL << 30;
+}
 inline int __popc(unsigned bits) {
     return __builtin_popcount(bits);
 }
@@ -117,6 +125,7 @@ enum cudaMemLocationType { cudaMemLocationTypeDevice };
 enum cudaLaunchAttributeID { cudaLaunchAttributeCooperative };
 constexpr unsigned cudaStreamNonBlocking = 1;
 constexpr unsigned cudaEventRecordExternal = 1;
+constexpr unsigned cudaHostRegisterMapped = 2;
 constexpr unsigned long long cudaEnableDefault = 0;
 
 using cudaMemPool_t = struct EmulatedPool*;
@@ -172,6 +181,9 @@ cudaError_t cudaMemPoolDestroy(cudaMemPool_t);
 cudaError_t cudaMallocFromPoolAsync(void** memory, std::size_t bytes, cudaMemPool_t, cudaStream_t);
 cudaError_t cudaFreeAsync(void* memory, cudaStream_t);
 cudaError_t cudaMallocHost(void** memory, std::size_t bytes);
+cudaError_t cudaHostRegister(void* memory, std::size_t bytes, unsigned);
+cudaError_t cudaHostUnregister(void* memory);
+cudaError_t cudaHostGetDevicePointer(void** mapped, void* memory, unsigned);
 cudaError_t cudaFreeHost(void* memory);
 cudaError_t cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStream_t);
 cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaMemcpyKind, cudaStream_t);

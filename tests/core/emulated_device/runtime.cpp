@@ -157,6 +157,15 @@ cudaError_t cudaMallocHost(void** memory, std::size_t bytes) {
     *memory = std::aligned_alloc(256, (bytes + 255) / 256 * 256);
     return *memory != nullptr ? cudaSuccess : cudaErrorMemoryAllocation;
 }
+cudaError_t cudaHostRegister(void*, std::size_t, unsigned) {
+    return cudaSuccess;
+}
+cudaError_t cudaHostUnregister(void*) {
+    return cudaSuccess;
+}
+cudaError_t cudaHostGetDevicePointer(void** mapped, void* memory, unsigned) {
+    return *mapped = memory, cudaSuccess;
+}
 cudaError_t cudaFreeHost(void* memory) {
     return std::free(memory), cudaSuccess;
 }

@@ -12,6 +12,7 @@
 namespace emulated_device {
 
 Index thread_index, block_index, block_size, grid_size;
+std::function<void()> on_clock;
 
 namespace {
 
