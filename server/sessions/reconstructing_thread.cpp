@@ -65,10 +65,10 @@ bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn)
         inputs_.give_back(input);
         return true;
     }
-    const FrameStop::UnderWay under_way(stop_, received.upload.get());
     try {
         // What follows is no work of the device: others have their turn meanwhile.
         const Turns::Turn ends = std::move(turn);
+        const FrameStop::UnderWay under_way(stop_, received.upload.get());
         reconstruct(received, *next_mesh_);
     } catch (const DeviceError& error) {
         log_error({.session = context_.identity.id, .frame = input.index}, "the session ends: {}", error.what());
