@@ -46,7 +46,11 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     server.limits.bytes_per_session = default_memory_limit();
     server.limits.bytes_in_flight = default_memory_limit();
     double idle_seconds = 3600.0;
+<<<<<<< HEAD
     double reader_pause_seconds = 60.0;
+=======
+    double frame_seconds = std::chrono::duration<double>(server.limits.frame_time).count();
+>>>>>>> 5fc189d (The server limits a frame's work and time, and stops what nobody wants any more)
     double grace_seconds = std::chrono::duration<double>(server.shutdown_grace).count();
 
     CLI::App app{"meniscusd: adaptive surfaces of simulated fluid particles, live, over gRPC", "meniscusd"};
@@ -111,6 +115,14 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
                    "Seconds that a client that reads a recording may take for one message; 0: no limit")
         ->check(CLI::Range(0.0, 1e7));
     app.add_option("--max-particles", server.limits.particles_per_frame, "Particles of one frame; 0: no limit");
+    app.add_option(
+           "--max-frame-work", server.limits.work_per_frame,
+           "Times the work that as many evenly spread particles are at that cell size: a frame that is estimated "
+           "to be more is refused; 0: no limit")
+        ->check(CLI::Range(0.0, 1e9));
+    app.add_option("--max-frame-seconds", frame_seconds,
+                   "Seconds for which one frame may have the device, after which it is stopped; 0: no limit")
+        ->check(CLI::Range(0.0, 1e7));
     app.add_option("--max-bytes-in-flight", server.limits.bytes_in_flight,
                    "Frames that wait to be reconstructed, over all sessions; 0: no limit. Default: half of the "
                    "machine's memory, or of the container's")
@@ -175,7 +187,11 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     }
     if (print_config) return EarlyExit{.text = settings_file(app), .code = 0};
     server.limits.idle_time = milliseconds(idle_seconds);
+<<<<<<< HEAD
     server.limits.reader_patience = milliseconds(reader_pause_seconds);
+=======
+    server.limits.frame_time = milliseconds(frame_seconds);
+>>>>>>> 5fc189d (The server limits a frame's work and time, and stops what nobody wants any more)
     server.shutdown_grace = milliseconds(grace_seconds);
     return std::nullopt;
 }

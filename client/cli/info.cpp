@@ -51,6 +51,8 @@ void print_server(const ServerFlags& server) {
               << "sessions               " << limit(info.max_sessions) << '\n'
               << "watchers per session   " << limit(info.max_watchers_per_session) << '\n'
               << "particles per frame    " << limit(info.max_particles_per_frame) << '\n'
+              << "work per frame         " << seconds_limit(info.max_frame_work) << '\n'
+              << "seconds per frame      " << seconds_limit(info.max_frame_seconds) << '\n'
               << "bytes per session      " << limit(info.max_bytes_per_session) << '\n'
               << "GPU bytes per session  " << limit(info.max_device_bytes_per_session) << '\n'
               << "bytes in flight        " << limit(info.max_bytes_in_flight) << '\n'

@@ -115,6 +115,12 @@ void FrameRun::require_no_refusal() const {
         case Stop::too_much_at_base_cells:
             throw_too_much_work("the base cells", static_cast<double>(counts().pairs),
                                 even(needed(Resource::blocks), EvenNearBaseCell{}), settings);
+        case Stop::too_many_base_cells: {
+            double even_cells = 0.0;
+            for (unsigned k = 0; k < particle_level_count; ++k)
+                even_cells += even_base_cells(settings, k, counts().level_particles[k]);
+            throw_too_many_base_cells(needed(Resource::blocks), even_cells, settings);
+        }
         case Stop::asked_for:
             throw Stopped();
     }

@@ -26,6 +26,8 @@ std::vector<prometheus::MetricFamily> limit_gauges(const Limits& limits, const B
                     {"recording_readers", number(limits.recording_readers)},
                     {"reader_pause_seconds", std::chrono::duration<double>(limits.reader_patience).count()},
                     {"particles_per_frame", number(limits.particles_per_frame)},
+                    {"frame_work", limits.work_per_frame},
+                    {"frame_seconds", std::chrono::duration<double>(limits.frame_time).count()},
                     {"bytes_per_session", number(limits.bytes_per_session)},
                     {"device_bytes_per_session", number(limits.device_bytes_per_session)},
                     {"chunk_bytes", number(chunk_bytes)},

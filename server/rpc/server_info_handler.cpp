@@ -18,6 +18,8 @@ v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, uns
     wire.set_sessions(limits.sessions);
     wire.set_watchers_per_session(limits.watchers_per_session);
     wire.set_particles_per_frame(limits.particles_per_frame);
+    wire.set_frame_work(limits.work_per_frame);
+    wire.set_frame_seconds(std::chrono::duration<double>(limits.frame_time).count());
     wire.set_bytes_per_session(limits.bytes_per_session);
     wire.set_device_bytes_per_session(limits.device_bytes_per_session);
     wire.set_chunk_bytes(chunk_bytes);

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <utility>
 
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/statistics.hpp"
+#include "meniscus/stop_flag.hpp"
 
 namespace meniscus::server {
 
@@ -27,6 +29,8 @@ struct ReconstructFunctions {
     /// Replaces the mesh by the last frame's surface with its levels capped; throws what Reconstructor::emit_capped
     /// throws. None if no watcher will wish for a level cap.
     std::function<void(int max_level, Mesh& mesh)> emit_capped{};
+    /// Once it is raised, both throw Stopped soon. None: nothing stops them.
+    std::shared_ptr<StopFlag> stop{};
 };
 
 }  // namespace meniscus::server

@@ -6,18 +6,20 @@
 
 #include "log.hpp"
 #include "meniscus/error.hpp"
+#include "sessions/refusal.hpp"
 
 namespace meniscus::server {
 
 ReconstructingThread::ReconstructingThread(const SessionContext& context, ReconstructFunctions functions,
                                            FrameQueue& received, InputSlots& inputs, Watchers& watchers,
-                                           EncodingThread& encoding)
+                                           EncodingThread& encoding, FrameStop& stop)
     : context_(context),
       functions_(std::move(functions)),
       received_(received),
       inputs_(inputs),
       watchers_(watchers),
       encoding_(encoding),
+      stop_(stop),
       particles_(context.identity.id, context.settings.particle_radius, inputs, watchers, context.observer),
       thread_([this] { run(); }) {}
 
@@ -66,6 +68,7 @@ bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn)
     try {
         // What follows is no work of the device: others have their turn meanwhile.
         const Turns::Turn ends = std::move(turn);
+        const FrameStop::UnderWay under_way(stop_, received.upload.get());
         reconstruct(received, *next_mesh_);
     } catch (const DeviceError& error) {
         log_error({.session = context_.identity.id, .frame = input.index}, "the session ends: {}", error.what());
@@ -86,14 +89,19 @@ bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn)
 
 void ReconstructingThread::reconstruct(const Received& received, ReconstructedFrame& frame) {
     const InputFrame& input = *received.input;
+    const bool had_surface = std::exchange(has_surface_, false);
     try {
         Reconstructed reconstructed = functions_.reconstruct(input.view(), frame.mesh);
         frame.statistics = std::move(reconstructed.statistics);
         frame.download = std::move(reconstructed.download);
+        has_surface_ = true;
     } catch (const InvalidInput& error) {
+        has_surface_ = had_surface;  // the one before
         throw InvalidInput(fmt::format("frame {}: {}", input.index, error.what()));
     } catch (const LimitExceeded& error) {
         throw LimitExceeded(fmt::format("frame {}: {}", input.index, error.what()));
+    } catch (const Stopped&) {
+        throw_stopped(input.index);
     }
     frame.index = input.index;
     frame.run_id = received.upload->run->id;
@@ -105,6 +113,27 @@ void ReconstructingThread::reconstruct(const Received& received, ReconstructedFr
     progress_ = {.frames = frame.number, .last_frame_index = input.index};
 }
 
+void ReconstructingThread::throw_stopped(std::uint64_t index) const {
+    const std::string& id = context_.identity.id;
+    switch (stop_.reason()) {
+        case FrameStop::Reason::too_long: {
+            const double seconds = std::chrono::duration<double>(context_.limits.frame_time).count();
+            log_warning({.session = id, .frame = index}, "stopped: it had the device for {:.3g} s", seconds);
+            throw LimitExceeded(fmt::format(
+                "frame {}: it has had the device for {:.3g} s, as long as the server gives to one frame: use "
+                "a larger cell size or fewer particles",
+                index, seconds));
+        }
+        case FrameStop::Reason::closed:
+            throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id));
+        case FrameStop::Reason::canceled:
+        case FrameStop::Reason::none:
+            break;
+    }
+    log_info({.session = id, .frame = index}, "stopped: its stream was canceled");
+    throw Refusal(Refusal::Kind::unavailable, fmt::format("frame {}: its stream was canceled", index));
+}
+
 void ReconstructingThread::cap_levels(ReconstructedFrame& frame) {
     for (const int max_level : {1, 2}) {
         auto& capped = frame.capped_at(max_level);
@@ -114,8 +143,9 @@ void ReconstructingThread::cap_levels(ReconstructedFrame& frame) {
 }
 
 void ReconstructingThread::cap_levels_again(int max_level) {
-    if (progress_.frames == 0) return;
+    if (!has_surface_) return;
     const Turns::Turn turn = context_.shared.turns->wait();
+    const FrameStop::UnderWay under_way(stop_, nullptr);
     EncodingThread::AddCapped task{.frame_number = progress_.frames, .max_level = max_level, .mesh = {}};
     try {
         if (emit_capped(max_level, task.mesh)) encoding_.put(std::move(task));
@@ -132,6 +162,7 @@ bool ReconstructingThread::emit_capped(int max_level, Mesh& mesh) {
     } catch (const DeviceError&) {
         throw;
     } catch (const std::exception& error) {
+        has_surface_ = false;
         log_error({.session = context_.identity.id},
                   "no mesh of levels up to {} for its watchers, who keep the one before: {}", max_level, error.what());
         return false;

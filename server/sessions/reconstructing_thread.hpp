@@ -9,6 +9,7 @@
 
 #include "sessions/encoding_thread.hpp"
 #include "sessions/frame_queue.hpp"
+#include "sessions/frame_stop.hpp"
 #include "sessions/input_slots.hpp"
 #include "sessions/reconstruct_functions.hpp"
 #include "sessions/session_context.hpp"
@@ -27,7 +28,7 @@ public:
 
     /// All that is passed by reference outlives the thread.
     ReconstructingThread(const SessionContext& context, ReconstructFunctions functions, FrameQueue& received,
-                         InputSlots& inputs, Watchers& watchers, EncodingThread& encoding);
+                         InputSlots& inputs, Watchers& watchers, EncodingThread& encoding, FrameStop& stop);
 
     /// Thread-safe.
     Progress progress() const;
@@ -40,6 +41,8 @@ private:
     /// The turn ends with the reconstruction. Returns whether the session goes on.
     bool reconstruct_next(Received received, Turns::Turn turn);
     void reconstruct(const Received& received, ReconstructedFrame& frame);
+    /// Why a frame was stopped, for its stream.
+    [[noreturn]] void throw_stopped(std::uint64_t index) const;
     /// Adds the meshes of coarser levels that watchers wish for now.
     void cap_levels(ReconstructedFrame& frame);
     /// Makes such a mesh of the last frame, for a watcher that has come since.
@@ -52,9 +55,11 @@ private:
     InputSlots& inputs_;
     Watchers& watchers_;
     EncodingThread& encoding_;
+    FrameStop& stop_;
 
     ShownParticles particles_;
     ReconstructedFrame* next_mesh_ = nullptr;  ///< taken before it is needed
+    bool has_surface_ = false;                 ///< of a frame, so that it can be emitted again
     std::shared_ptr<Upload> failed_;           ///< its frames that follow are dropped
 
     mutable std::mutex mutex_;  ///< for what follows

@@ -20,11 +20,17 @@ Session::Session(SessionIdentity identity, const Settings& settings, const Limit
                .shared = std::move(shared),
                .observer = std::move(observer)},
       inputs_(std::make_shared<MemoryAccount>(limits.bytes_per_session), context_.shared.bytes_in_flight),
+      frame_stop_(functions.stop, context_.shared.deadlines, limits.frame_time),
       frame_rate_(limits.frames_per_second),
       encoding_(context_, watchers_,
                 {.upload = [this](const auto& upload, auto error) { finish_upload(upload, std::move(error)); },
+<<<<<<< HEAD
                  .session = [this](const std::exception_ptr& error) { end(error); }}),
       reconstructing_(context_, std::move(functions), received_, inputs_, watchers_, encoding_) {}
+=======
+                 .session = [this](auto error) { end(std::move(error)); }}),
+      reconstructing_(context_, std::move(functions), received_, inputs_, watchers_, encoding_, frame_stop_) {}
+>>>>>>> 5fc189d (The server limits a frame's work and time, and stops what nobody wants any more)
 
 Session::~Session() {
     close();
@@ -142,6 +148,7 @@ void Session::end_upload(std::shared_ptr<Upload> upload, std::exception_ptr erro
 void Session::cancel_upload(const std::shared_ptr<Upload>& upload) {
     upload->output.close();
     for (InputFrame* input : received_.withdraw(*upload)) inputs_.give_back(*input);
+    frame_stop_.cancel(*upload);
     end_upload(upload, nullptr);
 }
 
@@ -259,6 +266,7 @@ Session::Attached Session::detach() {
     inputs_.close();
     received_.close();
     encoding_.close();
+    frame_stop_.close();
     return attached;
 }
 

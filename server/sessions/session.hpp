@@ -16,6 +16,7 @@
 #include "sessions/encoding_thread.hpp"
 #include "sessions/frame_queue.hpp"
 #include "sessions/frame_statistics.hpp"
+#include "sessions/frame_stop.hpp"
 #include "sessions/input_slots.hpp"
 #include "sessions/limits/frame_rate.hpp"
 #include "sessions/reconstruct_functions.hpp"
@@ -123,6 +124,7 @@ private:
     InputSlots inputs_;
     FrameQueue received_;
     Watchers watchers_;
+    FrameStop frame_stop_;
 
     mutable std::mutex mutex_;  ///< for what follows; taken before the lock of `watchers_`
     FrameRate frame_rate_;

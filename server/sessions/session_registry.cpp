@@ -17,9 +17,10 @@ namespace meniscus::server {
 
 namespace {
 
-BackendOptions with_memory_limits(BackendOptions backend, const Limits& limits) {
+BackendOptions with_limits(BackendOptions backend, const Limits& limits) {
     backend.memory_limit = limits.bytes_per_session;
     backend.device_memory_limit = limits.device_bytes_per_session;
+    backend.work_limit = limits.work_per_frame;
     return backend;
 }
 
@@ -35,20 +36,24 @@ std::string place_name(const BackendOptions& backend) {
 }  // namespace
 
 ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOptions& backend) {
-    const auto reconstructor = std::make_shared<Reconstructor>(settings, backend);
+    const auto stop = std::make_shared<StopFlag>();
+    BackendOptions stoppable = backend;
+    stoppable.stop = stop;
+    const auto reconstructor = std::make_shared<Reconstructor>(settings, stoppable);
     return {.reconstruct =
                 [reconstructor](const ParticleFrame& frame, Mesh& mesh) {
                     MeshDownload download = reconstructor->reconstruct_for_download(frame, mesh);
                     return Reconstructed(reconstructor->statistics(), std::move(download));
                 },
-            .emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); }};
+            .emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); },
+            .stop = stop};
 }
 
 SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
                                  std::vector<int> devices, std::shared_ptr<Metrics> metrics, Observe observe,
                                  MakeReconstruct make)
     : limits_(limits),
-      backend_(with_memory_limits(backend, limits)),
+      backend_(with_limits(backend, limits)),
       devices_(std::move(devices)),
       observe_(std::move(observe)),
       make_reconstruct_(std::move(make)),
@@ -146,7 +151,11 @@ SharedResources SessionRegistry::shared_on(const BackendOptions& place) {
     constexpr int cpu = -1;
     auto& turns = turns_[place.backend == Backend::cuda ? place.device : cpu];
     if (!turns) turns = std::make_shared<Turns>();
-    return {.workers = workers_, .metrics = metrics_, .turns = turns, .bytes_in_flight = bytes_in_flight_};
+    return {.workers = workers_,
+            .metrics = metrics_,
+            .turns = turns,
+            .bytes_in_flight = bytes_in_flight_,
+            .deadlines = deadlines_};
 }
 
 std::chrono::duration<double> SessionRegistry::busy_time() {

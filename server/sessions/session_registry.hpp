@@ -81,6 +81,7 @@ private:
     const std::shared_ptr<WorkerPool> workers_;
     const std::shared_ptr<Metrics> metrics_;
     const std::shared_ptr<BytesInFlight> bytes_in_flight_;
+    const std::shared_ptr<Deadlines> deadlines_ = std::make_shared<Deadlines>();
 
     std::mutex mutex_;
     std::map<std::string, std::shared_ptr<Session>> sessions_;

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "sessions/handover/deadlines.hpp"
 #include "sessions/handover/turns.hpp"
 #include "sessions/handover/worker_pool.hpp"
 #include "sessions/limits/bytes_in_flight.hpp"
@@ -15,6 +16,7 @@ struct SharedResources {
     std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>();
     std::shared_ptr<Turns> turns = std::make_shared<Turns>();  ///< on the device that the session reconstructs on
     std::shared_ptr<BytesInFlight> bytes_in_flight = std::make_shared<BytesInFlight>();
+    std::shared_ptr<Deadlines> deadlines = std::make_shared<Deadlines>();  ///< of frames on the device
 };
 
 }  // namespace meniscus::server

@@ -54,6 +54,7 @@ struct Upload {
     UnreportedDrops unreported_drops;
     std::atomic<std::uint64_t> owed{0};  ///< frames submitted and not yet answered
     std::atomic<Clock::time_point> last_activity{Clock::now()};
+    std::atomic<bool> canceled{false};  ///< nobody reads its answers any more
     std::atomic<bool> moves{
         false};  ///< its simulator goes on with another server: the session ends after its last frame
 };

@@ -175,6 +175,23 @@ TEST(Work, WaterSprayAndMixedLevelsPassAtAnyCellSize) {
     EXPECT_EQ(refusal_of(reconstructor, all[1]), "") << "a domain leaves cells out, not particles";
 }
 
+TEST(Work, ParticlesAllAloneAreRefusedOnlyWhereTheyAreMany) {
+    const auto alone = [](int side) {
+        test::Particles particles;
+        for (int i = 0; i < side * side * side; ++i)
+            particles.add(13.0F * static_cast<float>(i % side), 13.0F * static_cast<float>(i / side % side),
+                          13.0F * static_cast<float>(i / side / side));
+        return particles;
+    };
+    Reconstructor reconstructor(settings_of(Field::smooth, 0.5), limited());
+    EXPECT_EQ(refusal_of(reconstructor, alone(20)), "");
+    const auto start = Clock::now();
+    const std::string refusal = refusal_of(reconstructor, alone(44));
+    EXPECT_LT(seconds_since(start), 10.0);
+    EXPECT_NE(refusal.find("the particles reach "), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find(" base cells, at most "), std::string::npos) << refusal;
+}
+
 TEST(Work, IsNotLimitedUnlessThatIsAskedFor) {
     Reconstructor reconstructor(settings_of(Field::color, 0.5), {Backend::cpu, 2, 0});
     EXPECT_EQ(refusal_of(reconstructor, clumps(20, 1000, 0.0F)), "");

@@ -4,6 +4,7 @@ namespace meniscus::hostile {
 
 std::span<const Attack> attacks() {
     static constexpr Attack all[] = {
+        {"crowded-frames", "frames of a megabyte or less with all their particles in few places", crowded_frames},
         {"damaged-recording", "four bytes of a recording, changed at 400 places, one after the other",
          damaged_recording},
         {"gzip-bomb", "512 MiB of zeros, compressed by gzip, without a token", gzip_bomb},

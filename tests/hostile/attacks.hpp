@@ -10,6 +10,7 @@ namespace meniscus::hostile {
 std::span<const Attack> attacks();
 
 /// One function for each file of the folder attacks.
+std::vector<Figure> crowded_frames(const std::string& program);
 std::vector<Figure> damaged_recording(const std::string& program);
 std::vector<Figure> gzip_bomb(const std::string& program);
 std::vector<Figure> restarts(const std::string& program);

@@ -167,6 +167,10 @@ TEST(Meniscusd, TakesLimitsWithUnits) {
                                   "6",
                                   "--max-particles",
                                   "7",
+                                  "--max-frame-work",
+                                  "12.5",
+                                  "--max-frame-seconds",
+                                  "13.5",
                                   "--max-bytes-in-flight",
                                   "8M",
                                   "--max-frames-per-second",
@@ -184,6 +188,8 @@ TEST(Meniscusd, TakesLimitsWithUnits) {
     EXPECT_EQ(info.max_sessions, 5U);
     EXPECT_EQ(info.max_watchers_per_session, 6U);
     EXPECT_EQ(info.max_particles_per_frame, 7U);
+    EXPECT_EQ(info.max_frame_work, 12.5);
+    EXPECT_EQ(info.max_frame_seconds, 13.5);
     EXPECT_EQ(info.max_bytes_in_flight, std::uint64_t{8} << 20U);
     EXPECT_EQ(info.max_frames_per_second, 9U);
     EXPECT_EQ(info.max_chunks_per_frame, 10U);

@@ -89,6 +89,8 @@ ServerInfo Client::server_info() {
     info.max_sessions = response.limits().sessions();
     info.max_watchers_per_session = response.limits().watchers_per_session();
     info.max_particles_per_frame = response.limits().particles_per_frame();
+    info.max_frame_work = response.limits().frame_work();
+    info.max_frame_seconds = response.limits().frame_seconds();
     info.max_bytes_per_session = response.limits().bytes_per_session();
     info.max_device_bytes_per_session = response.limits().device_bytes_per_session();
     info.max_bytes_in_flight = response.limits().bytes_in_flight();

@@ -52,7 +52,8 @@ enum class Stop : std::uint32_t {
     crowded,                 ///< the particles lie too densely, see is_crowded()
     too_much_at_particles,   ///< the sums at the particles' places, see work.hpp
     too_much_at_base_cells,  ///< and those at the base cells
-    asked_for,               ///< by the host, see LongLoop
+    too_many_base_cells,
+    asked_for,  ///< by the host, see LongLoop
 };
 
 /// Zero at a frame's begin.
@@ -70,6 +71,7 @@ struct Counts {
     Counter spray_particles;
     std::uint32_t particle_cells;
     std::uint32_t first_particle_brick[particle_level_count + 1];
+    std::uint32_t level_particles[particle_level_count];  ///< where work is limited
     std::uint32_t listed[list_count];
     std::uint32_t changed[3];  ///< see Sweeps
     Stop stop;

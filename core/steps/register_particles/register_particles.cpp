@@ -195,6 +195,11 @@ void require_bearable_sums(const ParticleSets& sets) {
 
 /// The same for the sums at the base cells. pairs: of a base cell and a particle near it.
 void require_bearable_base_cells(const ParticleSets& sets, std::uint64_t pairs, std::uint32_t base_cells) {
+    double even_cells = 0.0;
+    for (unsigned k = 0; k < particle_level_count; ++k)
+        even_cells += even_base_cells(sets.settings, k, sets[k].count());
+    if (base_cells > most_base_cells(sets.settings, even_cells))
+        throw_too_many_base_cells(base_cells, even_cells, sets.settings);
     const double even =
         even_work<EvenNearBaseCell>(sets.settings, base_cells, [&](unsigned k) { return sets[k].count() != 0; });
     if (static_cast<double>(pairs) > most_work(sets.settings, even))

@@ -175,7 +175,18 @@ __global__ void stop_if_base_cells_are_too_much(const __grid_constant__ State f)
     if (blockIdx.x != 0 || threadIdx.x != 0 || !f.goes_on()) return;
     const double even = even_work<EvenNearBaseCell>(f.settings, f.count(Resource::blocks),
                                                     [&](unsigned k) { return f.counts->has_level(k); });
-    if (static_cast<double>(f.counts->pairs) > most_work(f.settings, even))
+    double even_cells = 0.0;
+    for (unsigned k = 0; k < particle_level_count; ++k) {
+        const std::uint32_t begin = f.counts->first_particle_brick[k], end = f.counts->first_particle_brick[k + 1];
+        if (begin == end) continue;
+        const std::uint32_t last_cell =
+            end < f.count(Resource::particle_bricks) ? f.particle_bricks[end].first : f.counts->particle_cells;
+        f.counts->level_particles[k] = f.first_particle[last_cell] - f.first_particle[f.particle_bricks[begin].first];
+        even_cells += even_base_cells(f.settings, k, f.counts->level_particles[k]);
+    }
+    if (f.count(Resource::blocks) > most_base_cells(f.settings, even_cells))
+        f.counts->stop = Stop::too_many_base_cells;
+    else if (static_cast<double>(f.counts->pairs) > most_work(f.settings, even))
         f.counts->stop = Stop::too_much_at_base_cells;
 }
 

@@ -2,6 +2,7 @@
 // (core/README.md#work-20-and-1024).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -68,6 +69,23 @@ struct EvenNearBaseCell {
     }
 };
 
+/// So many base cells are never too many, about a second's work: each costs some, however few particles are near it.
+inline constexpr double always_bearable_cells = 1'048'576.0;
+
+/// The number of base cells that a cube of particles of a level reaches, where they are at rest.
+MENISCUS_HD inline double even_base_cells(const LatticeSettings& s, unsigned level, std::uint64_t particles) {
+    if (particles == 0) return 0.0;
+    const double edge = cbrt(static_cast<double>(particles)) * s.rest_distance * (1U << level) +
+                        2.0 * static_cast<double>(s.support[level]);
+    const double cells = edge / units_per_base_cell + 1.0;
+    return cells * cells * cells;
+}
+
+MENISCUS_HD inline double most_base_cells(const LatticeSettings& s, double even_cells) {
+    const double most = s.work_limit * even_cells;
+    return most > always_bearable_cells ? most : always_bearable_cells;
+}
+
 /// The work at so many places where particles are at rest. EvenNear: those near a place. has_level(k): whether there
 /// are particles of a level.
 template <class EvenNear, class HasLevel>
@@ -88,9 +106,19 @@ MENISCUS_HD inline double most_work(const LatticeSettings& s, double even_work) 
     return most > always_bearable ? most : always_bearable;
 }
 
+inline std::string rounded(double v) {
+    return std::to_string(static_cast<std::uint64_t>(v));
+}
+
+[[noreturn]] inline void throw_too_many_base_cells(std::uint64_t cells, double even_cells, const LatticeSettings& s) {
+    throw LimitExceeded("the particles reach " + std::to_string(cells) + " base cells, at most " +
+                        rounded(most_base_cells(s, even_cells)) +
+                        " are sampled (as many particles, evenly spread, reach " + rounded(even_cells) +
+                        "): use a larger cell size, or leave particles out that are far from all others");
+}
+
 [[noreturn]] inline void throw_too_much_work(const char* places, double work, double even_work,
                                              const LatticeSettings& s) {
-    const auto rounded = [](double v) { return std::to_string(static_cast<std::uint64_t>(v)); };
     throw LimitExceeded("the field at " + std::string(places) + " is a sum over about " + rounded(work) +
                         " particles near them, at most " + rounded(most_work(s, even_work)) +
                         " are summed over (as many particles, evenly spread, take " + rounded(even_work) +

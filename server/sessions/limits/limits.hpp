@@ -18,6 +18,10 @@ struct Limits {
     /// Such a call ends if its client takes no message for so long.
     std::chrono::milliseconds reader_patience{60'000};
     std::uint64_t particles_per_frame = 0;
+    /// How much more work a frame may be than one of as many particles that are evenly spread, see BackendOptions.
+    double work_per_frame = 20.0;
+    /// Of a frame on the device; not that for which it waits for its turn.
+    std::chrono::milliseconds frame_time{60'000};
     /// For the reconstruction of one session, as much again for its frames on their way in, and for their encoding.
     std::size_t bytes_per_session = 0;
     /// For the reconstruction of one session on its GPU.

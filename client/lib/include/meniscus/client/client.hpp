@@ -58,6 +58,8 @@ struct ServerInfo {
     std::uint32_t max_sessions = 0;  ///< 0: no limit, here and below
     std::uint32_t max_watchers_per_session = 0;
     std::uint64_t max_particles_per_frame = 0;
+    double max_frame_work = 0.0;     ///< times that of as many evenly spread particles
+    double max_frame_seconds = 0.0;  ///< on the device
     std::uint64_t max_bytes_per_session = 0;
     std::uint64_t max_device_bytes_per_session = 0;
     std::uint64_t max_bytes_in_flight = 0;    ///< of all sessions' frames
