@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 #include <google/protobuf/unknown_field_set.h>
+#include <grpcpp/alarm.h>
 #include <grpcpp/support/proto_buffer_reader.h>
 
+#include <chrono>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -28,10 +30,10 @@ namespace meniscus::server {
 namespace {
 
 /// Two sides run side by side. The reading side is one thread at a time: a read is under way, or a free input slot is
-/// waited for, or reading has ended. It owns the input slot while it works on a message; otherwise whoever holds the
-/// lock does, so that a call that ends gives its slot back however dead its connection is. The writing side sends what
-/// the upload's output holds and finishes the call after its end. It also finishes after a cancellation, as soon as no
-/// write is under way, so that no call outlives its client.
+/// waited for, or the session before that, or reading has ended. It owns the input slot while it works on a message;
+/// otherwise whoever holds the lock does, so that a call that ends gives its slot back however dead its connection is.
+/// The writing side sends what the upload's output holds and finishes the call after its end. It also finishes after a
+/// cancellation, as soon as no write is under way, so that no call outlives its client.
 class StreamReactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
                             public std::enable_shared_from_this<StreamReactor> {
 public:
@@ -112,8 +114,7 @@ private:
         if (!upload_) {
             parse(incoming_, request_, "StreamRequest");
             if (!request_.has_open()) throw InvalidInput("the first message of a stream must be open");
-            open(request_.open());
-            request_input();
+            open_or_wait();
             return;
         }
         upload_->last_activity = Upload::Clock::now();
@@ -187,6 +188,40 @@ private:
     void start_read() {
         incoming_.Clear();
         StartRead(&incoming_);
+    }
+
+    /// A session that another stream uploads to is asked for again, for a moment: the client of a stream that gRPC has
+    /// ended, for a message that is too large, knows of its end before the session does.
+    void open_or_wait() {
+        constexpr auto patience = std::chrono::milliseconds(100);
+        try {
+            open(request_.open());
+        } catch (const Refusal& refusal) {
+            const auto now = Upload::Clock::now();
+            if (!open_until_) open_until_ = now + patience;
+            if (refusal.kind() != Refusal::Kind::failed_precondition || now >= *open_until_) throw;
+            open_again_soon();
+            return;
+        }
+        request_input();
+    }
+
+    void open_again_soon() {
+        constexpr auto pause = std::chrono::milliseconds(5);
+        {
+            const std::lock_guard lock(mutex_);
+            working_ = false;
+        }
+        alarm_ = std::make_unique<grpc::Alarm>();
+        alarm_->Set(std::chrono::system_clock::now() + pause, [weak = weak_from_this()](bool rang) {
+            const auto self = rang ? weak.lock() : nullptr;
+            if (!self || !self->begin_work()) return;
+            try {
+                self->open_or_wait();
+            } catch (...) {
+                self->end_reading(std::current_exception());
+            }
+        });
     }
 
     void open(const v1::StreamOpen& message) {
@@ -350,6 +385,8 @@ private:
     v1::StreamRequest request_;
     FrameAssembler assembler_;
     InputFrame* input_ = nullptr;
+    std::optional<Upload::Clock::time_point> open_until_;  ///< none: the session was free at once
+    std::unique_ptr<grpc::Alarm> alarm_;                   ///< for the next attempt
 
     // Set once, by the reading side, with the lock held.
     std::shared_ptr<Session> session_;

@@ -1,5 +1,6 @@
 // Recordings and files of bricks that earlier builds wrote: one of each version, which is read, or refused with a line
-// that says so. All hold five particles; version 2 was written by the first build that knew it.
+// that says so. All hold five particles; version 2 was written by the first build that knew it, and again by the first
+// that gave recordings checksums.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -33,14 +34,15 @@ TEST(GoldenFiles, OfVersion1AreRefusedInALineThatNamesBothVersions) {
                   "Meniscus that wrote it");
 }
 
-TEST(GoldenFiles, OfVersion2AreRead) {
-    const formats::Recording recording(folder / "version_2.recording");
+void expect_golden_frames(const std::filesystem::path& path) {
+    const formats::Recording recording(path);
     EXPECT_EQ(recording.cut_bytes(), 0U);
     EXPECT_EQ(recording.settings().particle_radius, 0.125);
     ASSERT_EQ(recording.frames().size(), 2U);
     for (std::uint64_t i = 0; i < 2; ++i) {
         const formats::RecordedFrame& frame = recording.frames()[i];
         EXPECT_EQ(frame.index, i);
+        EXPECT_TRUE(recording.is_whole(frame));
         const auto particles = recording.particles(frame);
         ASSERT_EQ(particles.positions.size(), 15U);
         EXPECT_EQ(particles.positions[3], 0.125F);
@@ -48,7 +50,19 @@ TEST(GoldenFiles, OfVersion2AreRead) {
         ASSERT_TRUE(frame.mesh);
         EXPECT_EQ(recording.mesh(frame).mesh().triangles.size(), triangles);
     }
+}
+
+TEST(GoldenFiles, OfVersion2AreRead) {
+    const auto recording = folder / "version_2.recording";
+    EXPECT_FALSE(formats::Recording(recording).has_checksums());
+    expect_golden_frames(recording);
     EXPECT_EQ(formats::read_mesh(folder / "version_2.bricks").triangles.size(), triangles);
+}
+
+TEST(GoldenFiles, OfVersion2WithChecksumsAreRead) {
+    const auto recording = folder / "version_2_checksums.recording";
+    EXPECT_TRUE(formats::Recording(recording).has_checksums());
+    expect_golden_frames(recording);
 }
 
 TEST(GoldenFiles, ARecordingOfBeforeTheSmoothFieldGivesItsColorMeshesAgain) {

@@ -144,6 +144,7 @@ private:
         if (!broken_since_) broken_since_ = Clock::now();
         const auto give_up_at = *broken_since_ + patience_;
         bool may_come_back = this->may_come_back(status, call_->context);
+        bool reached = false;
         for (;;) {
             const auto attempt_at = Clock::now() + backoff_.next();
             if (!may_come_back || attempt_at >= give_up_at) require_ok(status, connection_->address);
@@ -156,6 +157,8 @@ private:
             grpc::Status found = get_session(*connection_, *finding, session_id_, session);
             if (found.ok()) return true;
             may_come_back = this->may_come_back(found, *finding);
+            // The server is back, and its simulator will be in a moment.
+            if (found.error_code() == grpc::StatusCode::NOT_FOUND && !std::exchange(reached, true)) backoff_.reset();
             // A wait that was in vain says less than what was before.
             if (found.error_code() != grpc::StatusCode::DEADLINE_EXCEEDED) status = std::move(found);
         }

@@ -142,5 +142,34 @@ TEST_F(UploadLimits, AreWhatTheServerSays) {
     EXPECT_EQ(response.limits().message_bytes(), 5'000'000U);
 }
 
+TEST_F(UploadLimits, OfAMessageLeaveTheSessionFreeForTheNextStreamAtOnce) {
+    RunningServer running;
+    const std::string id = running.session();
+    for (int i = 0; i < 50; ++i) {
+        RawStream large(running.server.address(), id);
+        large.send_begin(0, 1'000'000);
+        large.send_chunk(std::size_t{5} << 20U);
+        const grpc::Status refused = large.finish();
+        EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED) << refused.error_message();
+        RawStream next(running.server.address(), id);
+        next.call->WritesDone();
+        const grpc::Status status = next.finish();
+        ASSERT_TRUE(status.ok()) << "attempt " << i << ": " << status.error_message();
+    }
+}
+
+TEST_F(UploadLimits, OfOneStreamForEachSessionAreKept) {
+    RunningServer running;
+    const std::string id = running.session();
+    RawStream first(running.server.address(), id);
+    first.call->WaitForInitialMetadata();
+    RawStream second(running.server.address(), id);
+    const grpc::Status refused = second.finish();
+    EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+    EXPECT_NE(refused.error_message().find("another stream uploads to session " + id), std::string::npos);
+    first.call->WritesDone();
+    EXPECT_TRUE(first.finish().ok());
+}
+
 }  // namespace
 }  // namespace meniscus::server::test

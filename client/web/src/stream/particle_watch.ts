@@ -4,7 +4,7 @@ import { ParticleReceiver } from '../particles/particle_receiver';
 import type { Particles } from '../particles/particles';
 import type { Received } from '../rpc/call';
 import { Code, explain, RpcError } from '../rpc/status';
-import { Backoff } from './backoff';
+import { Backoff, reconnecting } from './backoff';
 
 /** More would draw slowly, and come slowly. */
 export const maxParticles = 100_000n;
@@ -32,7 +32,7 @@ const toldElsewhere: ReadonlySet<Code> = new Set([
 ]);
 
 export class ParticleWatch {
-  private readonly backoff = new Backoff({ first: 500, longest: 8000 });
+  private readonly backoff = new Backoff(reconnecting);
   private call: AbortController | undefined;
   private retry: ReturnType<typeof setTimeout> | undefined;
 

@@ -5,7 +5,7 @@ import { Code, explain, RpcError } from '../rpc/status';
 import type { Received } from '../rpc/call';
 import type { WatchRequestInit } from '../rpc/server';
 import type { WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
-import { Backoff } from './backoff';
+import { Backoff, reconnecting, resting } from './backoff';
 import { FrameOrder } from './frame_order';
 import type { WatchState } from './watch_state';
 
@@ -38,7 +38,8 @@ const passing: ReadonlySet<Code> = new Set([
 ]);
 
 export class SessionWatch {
-  private readonly backoff = new Backoff({ first: 500, longest: 8000 });
+  private readonly backoff = new Backoff(reconnecting);
+  private readonly longBackoff = new Backoff(resting);
   private readonly order = new FrameOrder();
   private call: AbortController | undefined;
   private retry: ReturnType<typeof setTimeout> | undefined;
@@ -127,6 +128,7 @@ export class SessionWatch {
     const frame = receiver.take(message, bytes, performance.now());
     if (!frame) return;
     this.backoff.reset();
+    this.longBackoff.reset();
     if (this.order.admits(frame)) this.events.frame(frame);
   }
 
@@ -147,7 +149,7 @@ export class SessionWatch {
   /** When: on the page's clock, ms. */
   private scheduleRetry(): number {
     this.call = undefined;
-    const wait = this.backoff.next();
+    const wait = (this.ended ? this.longBackoff : this.backoff).next();
     this.retry = setTimeout(() => {
       this.start();
     }, wait);
