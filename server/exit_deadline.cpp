@@ -3,6 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdlib>
+#include <string>
+
+#include "open_work.hpp"
 
 namespace meniscus::server {
 
@@ -21,8 +24,10 @@ void ExitDeadline::start(std::chrono::milliseconds time) {
     watching_ = std::thread([this, deadline, time] {
         std::unique_lock lock(mutex_);
         if (met_.wait_until(lock, deadline, [this] { return is_met_; })) return;
-        spdlog::warn("stopped at the end of the {:.3g} s of grace: a reconstruction was left unfinished",
-                     std::chrono::duration<double>(time).count());
+        const std::string unfinished = open_work().text();
+        spdlog::warn("stopped at the end of the {:.3g} s of grace: {} left unfinished",
+                     std::chrono::duration<double>(time).count(),
+                     unfinished.empty() ? "the release of its memory was" : unfinished + " was");
         // Nobody is owed anything any more, and threads that still work use what an orderly exit would destroy.
         std::_Exit(EXIT_SUCCESS);
     });

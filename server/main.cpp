@@ -10,10 +10,15 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "connections/descriptors.hpp"
 #include "exit_deadline.hpp"
+#include "line_limit.hpp"
+#include "listen_address.hpp"
 #include "log.hpp"
 #include "meniscus/error.hpp"
 #include "options.hpp"
@@ -56,10 +61,16 @@ void log_grpc_for_debugging(gpr_log_func_args* message) {
     spdlog::debug("gRPC: {}", message->message);
 }
 
-/// Once the server listens, an operator wants to know which handshakes fail.
+/// Once the server listens, an operator wants to know which handshakes fail. But any stranger can make them fail, again
+/// and again.
 void log_grpc(gpr_log_func_args* message) {
-    const bool is_error = message->severity == GPR_LOG_SEVERITY_ERROR;
-    spdlog::log(is_error ? spdlog::level::warn : spdlog::level::debug, "gRPC: {}", message->message);
+    static meniscus::server::LineLimit warnings(10);
+    const std::string_view text(message->message);
+    // A refusal, which its client is told.
+    const bool is_refusal = text.find("ompression algorithm") != std::string_view::npos;
+    const auto left = message->severity == GPR_LOG_SEVERITY_ERROR && !is_refusal ? warnings.pass() : std::nullopt;
+    spdlog::log(left ? spdlog::level::warn : spdlog::level::debug, "gRPC: {}{}", text,
+                meniscus::server::left_out(left.value_or(0)));
 }
 
 int run(const meniscus::server::CommandLine& command_line) {
@@ -69,6 +80,7 @@ int run(const meniscus::server::CommandLine& command_line) {
     use_log_level(command_line.log_level);
     spdlog::flush_on(spdlog::level::debug);
     gpr_set_log_function(log_grpc_for_debugging);
+    meniscus::server::raise_descriptor_limit();
     // protobuf prints parts of messages that do not parse: text that any sender could put into the log.
     google::protobuf::SetLogHandler(nullptr);
 
@@ -105,6 +117,9 @@ int main(int argc, char** argv) {
     } catch (const meniscus::InvalidInput& error) {
         std::fprintf(stderr, "meniscusd: %s\n", error.what());
         return 2;
+    } catch (const meniscus::server::AddressUnavailable& error) {
+        std::fprintf(stderr, "meniscusd: %s\n", error.what());
+        return 1;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "meniscusd: internal error: %s\n", error.what());
         return 1;

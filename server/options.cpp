@@ -4,9 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cstdint>
 #include <iterator>
 #include <limits>
+#include <system_error>
 
 #include "available_memory.hpp"
 #include "meniscus/names.hpp"
@@ -30,6 +33,31 @@ std::chrono::milliseconds milliseconds(double seconds) {
     return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(seconds));
 }
 
+/// Of a number that may have a unit, before the unit is looked at: CLI11 takes "-5" for a large number, and one that is
+/// too large for the largest.
+CLI::Validator whole_number() {
+    return {[](std::string& text) -> std::string {
+                std::uint64_t number = 0;
+                const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+                if (error == std::errc::result_out_of_range)
+                    return fmt::format("{} is more than {}", text, std::numeric_limits<std::uint64_t>::max());
+                return error == std::errc{} ? "" : fmt::format("{} is no number from 0 on", text);
+            },
+            "", "whole number"};
+}
+
+/// CLI11's own range takes "nan".
+CLI::Validator seconds_up_to(double most) {
+    return {[most](std::string& text) -> std::string {
+                double seconds = 0.0;
+                const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+                if (error == std::errc{} && rest == text.data() + text.size() && seconds >= 0.0 && seconds <= most)
+                    return "";
+                return fmt::format("{} is no number of seconds from 0 to {}", text, most);
+            },
+            "", "seconds"};
+}
+
 /// A line for each; of a message its first line: CLI11 adds a hint on a second one.
 EarlyExit refuse(const std::vector<std::string>& problems) {
     EarlyExit exit{.text = {}, .code = 2};
@@ -46,11 +74,8 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     server.limits.bytes_per_session = default_memory_limit();
     server.limits.bytes_in_flight = default_memory_limit();
     double idle_seconds = 3600.0;
-<<<<<<< HEAD
     double reader_pause_seconds = 60.0;
-=======
     double frame_seconds = std::chrono::duration<double>(server.limits.frame_time).count();
->>>>>>> 5fc189d (The server limits a frame's work and time, and stops what nobody wants any more)
     double grace_seconds = std::chrono::duration<double>(server.shutdown_grace).count();
 
     CLI::App app{"meniscusd: adaptive surfaces of simulated fluid particles, live, over gRPC", "meniscusd"};
@@ -82,6 +107,13 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.add_option("--probes", server.probes,
                    "HOST:PORT of /metrics, /healthz and /readyz alone, always without TLS, also for other machines: "
                    "they tell numbers only");
+    app.add_option("--trusted-proxies", server.trusted_proxies,
+                   "Addresses and networks, as 192.0.2.7,10.0.0.0/8, of proxies through which others come: limits for "
+                   "each peer address do not hold for them, nor for loopback and Unix sockets")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("LIST")
+        ->default_str("");
     app.add_option("--web-origin", server.web_origins,
                    "Page, as https://example.org, that may call over the HTTP port; those of this machine may")
         ->allow_extra_args(false)
@@ -109,12 +141,19 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->check(CLI::Range(0U, 1024U));
     app.add_option("--max-sessions", server.limits.sessions, "Sessions at a time; 0: no limit");
     app.add_option("--max-watchers", server.limits.watchers_per_session, "Watchers of one session; 0: no limit");
+    app.add_option(
+        "--max-connections", server.limits.connections,
+        "Connections to the gRPC port, as far as the limit of descriptors (ulimit -n) is enough; 0: as many");
+    app.add_option("--max-connections-per-peer", server.limits.connections_per_peer,
+                   "Connections from one address to one port, but for loopback, Unix sockets and --trusted-proxies; 0: "
+                   "no limit");
     app.add_option("--max-recording-readers", server.limits.recording_readers,
                    "Calls that read recordings at a time; 0: no limit");
     app.add_option("--max-reader-pause", reader_pause_seconds,
                    "Seconds that a client that reads a recording may take for one message; 0: no limit")
-        ->check(CLI::Range(0.0, 1e7));
-    app.add_option("--max-particles", server.limits.particles_per_frame, "Particles of one frame; 0: no limit");
+        ->check(seconds_up_to(1e7));
+    app.add_option("--max-particles", server.limits.particles_per_frame, "Particles of one frame; 0: no limit")
+        ->check(whole_number());
     app.add_option(
            "--max-frame-work", server.limits.work_per_frame,
            "Times the work that as many evenly spread particles are at that cell size: a frame that is estimated "
@@ -122,34 +161,38 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->check(CLI::Range(0.0, 1e9));
     app.add_option("--max-frame-seconds", frame_seconds,
                    "Seconds for which one frame may have the device, after which it is stopped; 0: no limit")
-        ->check(CLI::Range(0.0, 1e7));
+        ->check(seconds_up_to(1e7));
     app.add_option("--max-bytes-in-flight", server.limits.bytes_in_flight,
                    "Frames that wait to be reconstructed, over all sessions; 0: no limit. Default: half of the "
                    "machine's memory, or of the container's")
         ->transform(CLI::AsSizeValue(false))
+        ->transform(whole_number())
         ->type_name("BYTES");
     app.add_option("--max-frames-per-second", server.limits.frames_per_second, "Frames of one session; 0: no limit");
     app.add_option("--max-chunks", server.limits.chunks_per_frame, "Chunk messages of one frame; 0: no limit");
     app.add_option("--max-message-bytes", server.limits.message_bytes, "Size of one message, as 4M")
         ->transform(CLI::AsSizeValue(false))
+        ->transform(whole_number())
         ->check(CLI::Range(min_message_bytes, max_message_bytes))
         ->type_name("BYTES");
     app.add_option(
            "--max-idle", idle_seconds,
            "Seconds that a stream, or a session without streams, watchers and calls, is kept without use; 0: no limit")
-        ->check(CLI::Range(0.0, 1e7));
+        ->check(seconds_up_to(1e7));
     app.add_option("--memory-limit", server.limits.bytes_per_session,
                    "Memory of one session's reconstruction, as 4G or 500M; 0: no limit. Default: half of the "
                    "machine's, or of the container's")
         ->transform(CLI::AsSizeValue(false))
+        ->transform(whole_number())
         ->type_name("BYTES");
     app.add_option("--device-memory-limit", server.limits.device_bytes_per_session,
                    "Memory of one session's reconstruction on its GPU; 0: no limit")
         ->transform(CLI::AsSizeValue(false))
+        ->transform(whole_number())
         ->type_name("BYTES");
     app.add_option("--shutdown-grace", grace_seconds,
                    "Seconds that clients get after SIGTERM to take the frames they are owed")
-        ->check(CLI::Range(0.0, 3600.0));
+        ->check(seconds_up_to(3600.0));
     app.add_option("--record", server.recording.directory,
                    "Folder to keep every session's particles and meshes in; see meniscus recordings, replay, convert")
         ->type_name("DIR")
@@ -157,6 +200,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.add_option("--record-limit", server.recording.limit,
                    "Bytes of all recordings in that folder, as 100G; 0: no limit. Nothing is deleted: recording stops")
         ->transform(CLI::AsSizeValue(false))
+        ->transform(whole_number())
         ->type_name("BYTES");
     app.add_option_function<std::string>(
            "--log-level",
@@ -187,11 +231,8 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     }
     if (print_config) return EarlyExit{.text = settings_file(app), .code = 0};
     server.limits.idle_time = milliseconds(idle_seconds);
-<<<<<<< HEAD
     server.limits.reader_patience = milliseconds(reader_pause_seconds);
-=======
     server.limits.frame_time = milliseconds(frame_seconds);
->>>>>>> 5fc189d (The server limits a frame's work and time, and stops what nobody wants any more)
     server.shutdown_grace = milliseconds(grace_seconds);
     return std::nullopt;
 }

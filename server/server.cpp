@@ -12,14 +12,17 @@
 #include "listen_address.hpp"
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
+#include "metrics/connection_metrics.hpp"
 #include "metrics/gauge_family.hpp"
 #include "metrics/limit_gauges.hpp"
 #include "metrics/process_metrics.hpp"
 #include "metrics/recording_metrics.hpp"
 #include "metrics/session_gauges.hpp"
+#include "open_work.hpp"
 #include "recording/session_recording.hpp"
 #include "rpc/call_counter.hpp"
 #include "rpc/server_instance.hpp"
+#include "security/trusted_peers.hpp"
 #include "web/observation_pages.hpp"
 #include "web/viewer_pages.hpp"
 
@@ -27,12 +30,12 @@ namespace meniscus::server {
 
 namespace {
 
-/// For clients to confirm that the connection ends.
-constexpr auto goodbye_time = std::chrono::milliseconds(500);
+/// For clients to take something that they are sent, or to confirm that the connection ends.
+constexpr auto goodbye_time = std::chrono::milliseconds(250);
 
 /// The part of the grace period that is kept for canceling the calls of clients that never read, hundreds of them.
 std::chrono::milliseconds canceling_time(std::chrono::milliseconds grace) {
-    return std::min(goodbye_time, grace / 4);
+    return std::min(2 * goodbye_time, grace / 4);
 }
 
 unsigned threads_or_processors(unsigned threads) {
@@ -81,9 +84,41 @@ void require_closed_to_others(const ServerOptions& options) {
                                        services.reflection ? "--reflection" : "--channelz"));
 }
 
-std::string with_port(const std::string& listen, int port) {
-    if (listen.starts_with("unix:")) return listen;
-    return fmt::format("{}:{}", listen.substr(0, listen.rfind(':')), port);
+/// What clients cannot do to gRPC itself. (That of keep_alive() is for both ends.)
+void bound_connections(grpc::ServerBuilder& builder) {
+    // A few bytes would become gigabytes, before the call's token is known.
+    builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_DEFLATE, false);
+    builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_GZIP, false);
+    // More than the shipped proxies pass on: gRPC ends a connection for what is larger, with all of its calls.
+    constexpr int metadata_bytes = 64 << 10;
+    builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, metadata_bytes);
+    constexpr int streams = 1000;
+    builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, streams);
+    // Who connects and says nothing has a place for so long.
+    constexpr int handshake_milliseconds = 20'000;
+    builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, handshake_milliseconds);
+}
+
+/// Descriptors of the server itself: libraries, devices, recordings.
+std::size_t own_descriptors(const ServerOptions& options, const BackendDescription& backend) {
+    constexpr std::size_t always = 64;
+    constexpr std::size_t devices = 128;
+    constexpr std::size_t where_unlimited = 256;
+    std::size_t own = always;
+    if (backend.backend == Backend::cuda) own += devices;
+    if (!options.recording.directory.empty())
+        for (const std::size_t files : {options.limits.sessions, options.limits.recording_readers})
+            own += files != 0 ? files : where_unlimited;
+    return own;
+}
+
+ConnectionShares shares_of(const ServerOptions& options, const BackendDescription& backend) {
+    const std::size_t descriptors = descriptor_limit();
+    const ConnectionShares shares =
+        share_descriptors(descriptors, own_descriptors(options, backend), options.limits.connections);
+    spdlog::info("connections: {} to the gRPC port, {} to the HTTP port, of {} descriptors", shares.grpc, shares.http,
+                 descriptors);
+    return shares;
 }
 
 }  // namespace
@@ -92,7 +127,12 @@ std::vector<std::string> problems_of(const ServerOptions& options) {
     const std::vector<std::function<void()>> steps{
         [&] { require_closed_to_others(options); },
         [&] { AllowedOrigins(options.web_origins, options.http); },
-        [&] { require_unused_unix_socket(options.listen); },
+        [&] { TrustedPeers{options.trusted_proxies}; },
+        [&] { require_listen_address(options.listen); },
+        [&] {
+            if (!options.http.empty()) parse_host_port("--http", options.http);
+            if (!options.probes.empty()) parse_host_port("--probes", options.probes);
+        },
         [&] {
             if (options.tls.any()) load_certificates(options.tls);
         },
@@ -114,7 +154,7 @@ std::vector<std::string> problems_of(const ServerOptions& options) {
 }
 
 Server::Server(const ServerOptions& options)
-    : options_(options),
+    : options_((require_closed_to_others(options), options)),
       access_(options.tls, options.tokens),
       backend_(describe(options)),
       metrics_(std::make_shared<PrometheusMetrics>()),
@@ -127,19 +167,19 @@ Server::Server(const ServerOptions& options)
                                    : nullptr),
       server_service_(access_.authorizer(), backend_, threads_or_processors(options.backend.threads), options.limits),
       session_service_(registry_, access_.authorizer()),
-      surface_service_(registry_, access_.authorizer(), calls_),
-      recording_service_(recording_reads_.get(), access_.authorizer(), *metrics_, calls_) {
-    require_closed_to_others(options);
+      surface_service_(registry_, access_.authorizer(), streams_, receivers_),
+      recording_service_(recording_reads_.get(), access_.authorizer(), *metrics_, receivers_),
+      shares_(shares_of(options, backend_)),
+      port_(options.listen, {.all = shares_.grpc, .for_each_peer = options.limits.connections_per_peer},
+            TrustedPeers(options.trusted_proxies)) {
     const AllowedOrigins origins(options.web_origins, options.http);
-    require_unused_unix_socket(options.listen);
-    int port = 0;
     load_standard_services();
     grpc::ServerBuilder builder;
-    // Otherwise a second server on the same port would silently get half of the calls.
-    builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+    bound_connections(builder);
     builder.SetMaxReceiveMessageSize(static_cast<int>(options.limits.message_bytes));
     keep_alive(builder);
-    builder.AddListeningPort(options.listen, access_.credentials(), &port);
+    auto connections = builder.experimental().AddExternalConnectionAcceptor(
+        grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, access_.credentials());
     builder.RegisterService(&server_service_);
     builder.RegisterService(&session_service_);
     builder.RegisterService(&surface_service_);
@@ -150,11 +190,12 @@ Server::Server(const ServerOptions& options)
     interceptors.push_back(make_instance_marker());
     builder.experimental().SetInterceptorCreators(std::move(interceptors));
     grpc_ = builder.BuildAndStart();
-    if (!grpc_ || port == 0)
-        throw InvalidInput(
-            fmt::format("cannot listen on {}: the address is in use or not one of this machine", options.listen));
-    address_ = with_port(options.listen, port);
+    if (!grpc_) throw InvalidInput(fmt::format("gRPC cannot serve {}", options.listen));
     set_serving(*grpc_, true);
+    port_.start(std::move(connections));
+    check_ = std::make_unique<PortCheck>(port_.sockets(),
+                                         options.tls.any() ? PortCheck::Protocol::tls : PortCheck::Protocol::http2,
+                                         port_.own_connections());
     if (!options.http.empty()) serve_http(origins);
     if (!options.probes.empty()) serve_probes();
 }
@@ -174,11 +215,22 @@ void Server::shutdown() {
     // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection
     // once the client has confirmed the goodbye, or loses what the client has not read. Idle clients confirm late or
     // never.
-    calls_.wait_until_none(deadline);
+    {
+        const OpenWork::Entry working(open_work(), "the answers to streams");
+        streams_.wait_until_none(deadline);
+    }
+    // The frames are done. Who only receives, and may have stopped reading long ago, holds nobody up.
+    const auto at_most = [&](std::chrono::milliseconds wait) {
+        return std::min(deadline, std::chrono::system_clock::now() + wait);
+    };
+    const OpenWork::Entry working(open_work(), "the connections of its clients");
+    receivers_.wait_while_they_progress(deadline, goodbye_time);
     // First: its calls go to the server in this process, and what they ended with is still to be taken.
-    if (http_) http_->finish(deadline);
+    if (http_) http_->finish(at_most(goodbye_time));
     http_.reset();
-    grpc_->Shutdown(std::min(deadline, std::chrono::system_clock::now() + goodbye_time));
+    check_->stop();
+    port_.stop();
+    grpc_->Shutdown(at_most(goodbye_time));
     grpc_.reset();
     probes_.reset();
 }
@@ -192,13 +244,21 @@ void Server::serve_http(const AllowedOrigins& origins) {
                         .origins = origins,
                         .needs_certificate = tls && tls->mutual(),
                         .refused = [metrics = metrics_](grpc::StatusCode code) { metrics->call_ended(name_of(code)); }};
-    http_ = std::make_unique<HttpServer>(options_.http, std::move(router), calls, HttpLimits{}, tls);
+    HttpLimits limits;
+    limits.connections = shares_.http;
+    limits.streams = shares_.http * 3 / 4;
+    limits.connections_per_peer = std::min<std::size_t>(options_.limits.connections_per_peer, shares_.http / 4);
+    http_ = std::make_unique<HttpServer>(options_.http, std::move(router), calls, limits, tls,
+                                         TrustedPeers(options_.trusted_proxies));
 }
 
 void Server::serve_probes() {
     Router router;
     add_observation(router);
-    probes_ = std::make_unique<HttpServer>(options_.probes, std::move(router));
+    HttpLimits limits;
+    limits.connections = shares_.probes;
+    limits.streams = 0;
+    probes_ = std::make_unique<HttpServer>(options_.probes, std::move(router), GrpcWeb{}, limits);
 }
 
 std::vector<prometheus::MetricFamily> Server::metrics() {
@@ -208,8 +268,11 @@ std::vector<prometheus::MetricFamily> Server::metrics() {
     };
     all.push_back(gauge("meniscus_ready", "1; 0 once it shuts down, while the frames in flight are finished.",
                         draining_ ? 0 : 1));
+    add(connection_metrics(port_.counts()));
     add(session_gauges(registry_));
-    add(limit_gauges(options_.limits, backend_));
+    Limits limits = options_.limits;
+    limits.connections = static_cast<std::uint32_t>(shares_.grpc);  // as far as there are descriptors
+    add(limit_gauges(limits, backend_));
     const Access::Expiry expiry = access_.expiry();
     all.push_back(gauges("meniscus_certificate_expires_timestamp_seconds",
                          "When the first certificate of the file in use expires, seconds since 1970; +Inf: there is "
@@ -222,7 +285,7 @@ std::vector<prometheus::MetricFamily> Server::metrics() {
 
 void Server::add_observation(Router& router) {
     add_observation_pages(
-        router, [this] { return metrics(); }, [this] { return !draining_; });
+        router, [this] { return metrics(); }, [this] { return check_->answers(); }, [this] { return !draining_; });
 }
 
 }  // namespace meniscus::server

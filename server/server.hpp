@@ -9,6 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "connections/descriptors.hpp"
+#include "connections/grpc_port.hpp"
+#include "connections/port_check.hpp"
 #include "meniscus/reconstructor.hpp"
 #include "metrics/prometheus_metrics.hpp"
 #include "recording/recording_reads.hpp"
@@ -29,7 +32,8 @@ struct ServerOptions {
     bool insecure = false;                   ///< whether other machines may connect without TLS
     std::string http;    ///< "HOST:PORT" for viewer, metrics and probes, port 0 for a free one; empty: none
     std::string probes;  ///< "HOST:PORT" for metrics and probes alone, without TLS; empty: none
-    std::vector<std::string> web_origins;  ///< pages of other machines that may call over the HTTP port
+    std::vector<std::string> trusted_proxies;  ///< addresses and networks without limits for each peer address
+    std::vector<std::string> web_origins;      ///< pages of other machines that may call over the HTTP port
     StandardServices standard_services;
     BackendOptions backend;    ///< backend and threads alone; the rest comes from `limits` and `devices`
     std::vector<int> devices;  ///< the GPUs to use; empty: all that can reconstruct
@@ -45,14 +49,15 @@ std::vector<std::string> problems_of(const ServerOptions& options);
 
 class Server {
 public:
-    /// Listens when it returns. Throws InvalidInput if the backend or the address cannot be used.
+    /// Listens when it returns. Throws InvalidInput if the backend or the address cannot be used, AddressUnavailable if
+    /// another program has the address or this machine has not.
     explicit Server(const ServerOptions& options);
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
     /// In the form that clients use, with the port that was chosen.
-    const std::string& address() const noexcept { return address_; }
+    const std::string& address() const noexcept { return port_.address(); }
     /// The address of the HTTP port; empty if there is none.
     std::string http_address() const { return http_ ? http_->address() : std::string(); }
     /// The address of the port for metrics and probes alone; empty if there is none.
@@ -82,13 +87,16 @@ private:
     const std::unique_ptr<RecordingWriter> recordings_;  ///< none: nothing is recorded
     SessionRegistry registry_;
     const std::unique_ptr<RecordingReads> recording_reads_;  ///< none: nothing is recorded
-    ActiveCalls calls_;
+    ActiveCalls streams_;
+    ActiveCalls receivers_;  ///< calls of watchers and readers
     ServerServiceImpl server_service_;
     SessionServiceImpl session_service_;
     SurfaceServiceImpl surface_service_;
     RecordingServiceImpl recording_service_;
+    const ConnectionShares shares_;
+    GrpcPort port_;
     std::unique_ptr<grpc::Server> grpc_;
-    std::string address_;
+    std::unique_ptr<PortCheck> check_;
     std::atomic<bool> draining_{false};
     std::unique_ptr<HttpServer> http_;  ///< these last: their pages read the rest
     std::unique_ptr<HttpServer> probes_;

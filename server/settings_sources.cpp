@@ -9,6 +9,7 @@
 #include <fstream>
 #include <numeric>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -88,22 +89,30 @@ std::vector<Setting> environment_settings(const char* const* environment) {
 }
 
 std::vector<Setting> file_settings(const std::string& path) {
-    std::ifstream file(path);
+    // A pipe will do, but not one without an end.
+    constexpr std::size_t limit = std::size_t{1} << 20;
+    std::ifstream stream(path, std::ios::binary);
+    std::string text(limit + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     // A folder can be opened, but not read.
-    if (!file || (file.peek() == std::ifstream::traits_type::eof() && !file.eof()))
+    if (!stream.is_open() || stream.bad())
         throw InvalidInput(fmt::format("--config {}: no such file, or it cannot be read", path));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > limit)
+        throw InvalidInput(fmt::format("--config {} has more than {} bytes: it is no file of settings", path, limit));
+    std::istringstream file(text);
     std::vector<Setting> settings;
     std::string line;
     for (int number = 1; std::getline(file, line); ++number) {
-        const std::string text = CLI::detail::trim_copy(line);
-        if (text.empty() || text.starts_with('#')) continue;
-        const std::size_t equals = text.find('=');
+        const std::string setting = CLI::detail::trim_copy(line);
+        if (setting.empty() || setting.starts_with('#')) continue;
+        const std::size_t equals = setting.find('=');
         if (equals == std::string::npos)
             throw InvalidInput(fmt::format("{}:{}: \"{}\" is no setting; a line is FLAG = VALUE, or begins with #",
-                                           path, number, text.substr(0, 64)));
-        const std::string name = CLI::detail::trim_copy(text.substr(0, equals));
+                                           path, number, setting.substr(0, 64)));
+        const std::string name = CLI::detail::trim_copy(setting.substr(0, equals));
         settings.push_back({.name = name,
-                            .value = CLI::detail::trim_copy(text.substr(equals + 1)),
+                            .value = CLI::detail::trim_copy(setting.substr(equals + 1)),
                             .where = fmt::format("{}:{}: {}", path, number, name)});
     }
     return settings;

@@ -23,6 +23,8 @@ std::vector<prometheus::MetricFamily> limit_gauges(const Limits& limits, const B
             gauges("meniscus_limit", "What the server refuses to exceed, in the unit of the name; 0: no limit.", "name",
                    {{"sessions", number(limits.sessions)},
                     {"watchers_per_session", number(limits.watchers_per_session)},
+                    {"connections", number(limits.connections)},
+                    {"connections_per_peer", number(limits.connections_per_peer)},
                     {"recording_readers", number(limits.recording_readers)},
                     {"reader_pause_seconds", std::chrono::duration<double>(limits.reader_patience).count()},
                     {"particles_per_frame", number(limits.particles_per_frame)},

@@ -1,9 +1,12 @@
 // The long calls that run now: a server that stops waits for them.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 
 namespace meniscus::server {
@@ -24,6 +27,9 @@ public:
         Token(const Token&) = delete;
         Token& operator=(const Token&) = delete;
 
+        /// The call's client has taken something.
+        void progress() const { ++calls_.progress_; }
+
     private:
         ActiveCalls& calls_;
     };
@@ -34,8 +40,19 @@ public:
         return none_.wait_until(lock, deadline, [&] { return count_ == 0; });
     }
 
+    /// The same, and returns false also if no call makes progress for so long.
+    bool wait_while_they_progress(std::chrono::system_clock::time_point deadline, std::chrono::milliseconds patience) {
+        for (;;) {
+            const std::uint64_t before = progress_;
+            const auto patient_until = std::chrono::system_clock::now() + patience;
+            if (wait_until_none(std::min(deadline, patient_until))) return true;
+            if (patient_until >= deadline || progress_ == before) return false;
+        }
+    }
+
 private:
-    std::mutex mutex_;
+    std::atomic<std::uint64_t> progress_{0};
+    std::mutex mutex_;  ///< for what follows
     std::condition_variable none_;
     std::size_t count_ = 0;
 };

@@ -95,17 +95,17 @@ grpc::ServerUnaryReactor* SessionServiceImpl::DeleteSession(grpc::CallbackServer
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* SurfaceServiceImpl::Stream(
     grpc::CallbackServerContext* context) {
-    return start_stream(registry_, authorizer_, calls_, *context);
+    return start_stream(registry_, authorizer_, streams_, *context);
 }
 
 grpc::ServerWriteReactor<grpc::ByteBuffer>* SurfaceServiceImpl::Watch(grpc::CallbackServerContext* context,
                                                                       const grpc::ByteBuffer* request) {
-    return start_watch<v1::WatchRequest>(registry_, authorizer_, calls_, *context, *request);
+    return start_watch<v1::WatchRequest>(registry_, authorizer_, watchers_, *context, *request);
 }
 
 grpc::ServerWriteReactor<grpc::ByteBuffer>* SurfaceServiceImpl::WatchParticles(grpc::CallbackServerContext* context,
                                                                                const grpc::ByteBuffer* request) {
-    return start_watch<v1::WatchParticlesRequest>(registry_, authorizer_, calls_, *context, *request);
+    return start_watch<v1::WatchParticlesRequest>(registry_, authorizer_, watchers_, *context, *request);
 }
 
 grpc::ServerUnaryReactor* RecordingServiceImpl::ListRecordings(grpc::CallbackServerContext* context,

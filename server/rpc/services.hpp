@@ -60,8 +60,9 @@ using RawSurfaceService =
 
 class SurfaceServiceImpl final : public RawSurfaceService {
 public:
-    SurfaceServiceImpl(SessionRegistry& registry, const Authorizer& authorizer, ActiveCalls& calls)
-        : registry_(registry), authorizer_(authorizer), calls_(calls) {}
+    SurfaceServiceImpl(SessionRegistry& registry, const Authorizer& authorizer, ActiveCalls& streams,
+                       ActiveCalls& watchers)
+        : registry_(registry), authorizer_(authorizer), streams_(streams), watchers_(watchers) {}
 
     grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* Stream(grpc::CallbackServerContext* context) override;
     grpc::ServerWriteReactor<grpc::ByteBuffer>* Watch(grpc::CallbackServerContext* context,
@@ -72,7 +73,8 @@ public:
 private:
     SessionRegistry& registry_;
     const Authorizer& authorizer_;
-    ActiveCalls& calls_;
+    ActiveCalls& streams_;
+    ActiveCalls& watchers_;
 };
 
 /// Raw, so that what was recorded is sent as it is.

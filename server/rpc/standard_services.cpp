@@ -1,5 +1,6 @@
 #include "rpc/standard_services.hpp"
 
+#include <grpc/grpc.h>
 #include <grpcpp/ext/channelz_service_plugin.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -42,6 +43,9 @@ private:
 
 void load_standard_services() {
     static const bool once = [] {
+        // Never undone: the last object's end would shut gRPC down, and wait for its threads, which look up from some
+        // of their waits after ten seconds.
+        grpc_init();
         grpc::EnableDefaultHealthCheckService(true);
         grpc::reflection::InitProtoReflectionServerBuilderPlugin();
         grpc::channelz::experimental::InitChannelzService();

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <new>
+#include <system_error>
 
 #include "meniscus/error.hpp"
 #include "sessions/refusal.hpp"
@@ -49,6 +50,14 @@ grpc::Status to_status(const std::exception_ptr& error) {
         return {grpc::StatusCode::INTERNAL, e.what()};
     } catch (const std::bad_alloc&) {
         return {grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory"};
+    } catch (const std::system_error& e) {
+        if (e.code() == std::errc::resource_unavailable_try_again)
+            return {
+                grpc::StatusCode::RESOURCE_EXHAUSTED,
+                "the server cannot start another thread: it needs a higher limit of threads (ulimit -u, TasksMax of "
+                "systemd, pids of a container) or fewer sessions"};
+        spdlog::error("internal error: {}", e.what());
+        return {grpc::StatusCode::INTERNAL, e.what()};
     } catch (const std::exception& e) {
         spdlog::error("internal error: {}", e.what());
         return {grpc::StatusCode::INTERNAL, e.what()};

@@ -56,6 +56,7 @@ public:
     }
 
     void OnWriteDone(bool ok) override {
+        if (ok) active_.progress();
         {
             const std::lock_guard lock(mutex_);
             writing_ = false;

@@ -1,9 +1,12 @@
 #include "sessions/encoding_thread.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "log.hpp"
 #include "meniscus/error.hpp"
+#include "sessions/handover/start_thread.hpp"
 #include "sessions/stream_notices.hpp"
 
 namespace meniscus::server {
@@ -26,7 +29,8 @@ EncodingThread::EncodingThread(const SessionContext& context, Watchers& watchers
       ends_(std::move(ends)),
       scratch_(std::make_shared<MemoryAccount>(context.limits.bytes_per_session, "to encode its mesh")) {
     for (ReconstructedFrame& frame : frames_) free_frames_.put(&frame);
-    thread_ = std::thread([this] { run(); });
+    thread_ =
+        start_thread(fmt::format("that encodes the meshes of session {}", context.identity.id), [this] { run(); });
 }
 
 EncodingThread::~EncodingThread() {

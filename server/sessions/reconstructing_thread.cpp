@@ -6,6 +6,8 @@
 
 #include "log.hpp"
 #include "meniscus/error.hpp"
+#include "open_work.hpp"
+#include "sessions/handover/start_thread.hpp"
 #include "sessions/refusal.hpp"
 
 namespace meniscus::server {
@@ -21,7 +23,7 @@ ReconstructingThread::ReconstructingThread(const SessionContext& context, Recons
       encoding_(encoding),
       stop_(stop),
       particles_(context.identity.id, context.settings.particle_radius, inputs, watchers, context.observer),
-      thread_([this] { run(); }) {}
+      thread_(start_thread(fmt::format("that reconstructs session {}", context.identity.id), [this] { run(); })) {}
 
 ReconstructingThread::Progress ReconstructingThread::progress() const {
     const std::lock_guard lock(mutex_);
@@ -69,6 +71,8 @@ bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn)
         // What follows is no work of the device: others have their turn meanwhile.
         const Turns::Turn ends = std::move(turn);
         const FrameStop::UnderWay under_way(stop_, received.upload.get());
+        const OpenWork::Entry working(open_work(), fmt::format("the reconstruction of frame {} of session {}",
+                                                               input.index, context_.identity.id));
         reconstruct(received, *next_mesh_);
     } catch (const DeviceError& error) {
         log_error({.session = context_.identity.id, .frame = input.index}, "the session ends: {}", error.what());

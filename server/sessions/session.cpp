@@ -24,13 +24,8 @@ Session::Session(SessionIdentity identity, const Settings& settings, const Limit
       frame_rate_(limits.frames_per_second),
       encoding_(context_, watchers_,
                 {.upload = [this](const auto& upload, auto error) { finish_upload(upload, std::move(error)); },
-<<<<<<< HEAD
                  .session = [this](const std::exception_ptr& error) { end(error); }}),
-      reconstructing_(context_, std::move(functions), received_, inputs_, watchers_, encoding_) {}
-=======
-                 .session = [this](auto error) { end(std::move(error)); }}),
       reconstructing_(context_, std::move(functions), received_, inputs_, watchers_, encoding_, frame_stop_) {}
->>>>>>> 5fc189d (The server limits a frame's work and time, and stops what nobody wants any more)
 
 Session::~Session() {
     close();

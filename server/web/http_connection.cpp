@@ -52,10 +52,12 @@ Page preflight_page(std::string_view origin) {
 
 }  // namespace
 
-HttpConnection::HttpConnection(boost::asio::ip::tcp::socket socket, std::shared_ptr<boost::asio::ssl::context> tls,
+HttpConnection::HttpConnection(boost::asio::ip::tcp::socket socket, const PeerAddress& share,
+                               std::shared_ptr<boost::asio::ssl::context> tls,
                                std::shared_ptr<boost::asio::io_context> context, Content content,
                                const HttpLimits& limits, Observer observer)
     : stream_(std::move(socket), std::move(tls)),
+      share_(share),
       context_(std::move(context)),
       content_(content),
       limits_(limits),

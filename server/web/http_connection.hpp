@@ -17,6 +17,7 @@
 #include <optional>
 #include <string>
 
+#include "security/peer_address.hpp"
 #include "web/grpc_web.hpp"
 #include "web/grpc_web_exchange.hpp"
 #include "web/http_limits.hpp"
@@ -40,10 +41,10 @@ public:
         const GrpcWeb& grpc_web;
     };
 
-    /// tls: none for HTTP alone.
-    HttpConnection(boost::asio::ip::tcp::socket socket, std::shared_ptr<boost::asio::ssl::context> tls,
-                   std::shared_ptr<boost::asio::io_context> context, Content content, const HttpLimits& limits,
-                   Observer observer);
+    /// share: of the client's address. tls: none for HTTP alone.
+    HttpConnection(boost::asio::ip::tcp::socket socket, const PeerAddress& share,
+                   std::shared_ptr<boost::asio::ssl::context> tls, std::shared_ptr<boost::asio::io_context> context,
+                   Content content, const HttpLimits& limits, Observer observer);
     ~HttpConnection();
     HttpConnection(const HttpConnection&) = delete;
     HttpConnection& operator=(const HttpConnection&) = delete;
@@ -53,6 +54,7 @@ public:
     void leave();
     /// Ends what is under way; gone() follows.
     void close();
+    const PeerAddress& share() const noexcept { return share_; }
     /// Whether a stream is under way.
     bool streams() const noexcept { return streams_; }
 
@@ -88,6 +90,7 @@ private:
     void linger();
 
     HttpStream stream_;
+    const PeerAddress share_;
     const std::shared_ptr<boost::asio::io_context> context_;
     const Content content_;
     const HttpLimits limits_;

@@ -10,6 +10,8 @@ namespace meniscus::server {
 struct HttpLimits {
     /// Beyond it, a new connection takes the place of the one that has been silent longest and carries no stream.
     std::size_t connections = 512;
+    /// Of one address, beyond which its own make room in the same way; 0: no such limit.
+    std::size_t connections_per_peer = 0;
     std::size_t streams = 384;          ///< fewer than connections, so that there is always room for probes
     std::uint32_t header_bytes = 8192;  ///< of the request line, and of all fields
     std::uint32_t body_bytes = 65536;   ///< of a gRPC-Web request, in at most body_chunks chunks

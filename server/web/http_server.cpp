@@ -11,6 +11,7 @@
 #include <exception>
 #include <utility>
 
+#include "listen_address.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::server {
@@ -44,13 +45,10 @@ void set_options(int socket) {
 
 /// Of "HOST:PORT" or "[IPv6]:PORT".
 tcp::endpoint resolve(boost::asio::io_context& context, const std::string& listen) {
-    const std::size_t colon = listen.rfind(':');
-    if (colon == std::string::npos || colon == 0 || colon + 1 == listen.size())
-        throw InvalidInput(fmt::format("cannot serve HTTP on {}: give HOST:PORT", listen));
-    std::string host = listen.substr(0, colon);
-    if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+    const HostPort address = parse_host_port("--http", listen);
     boost::system::error_code error;
-    const auto found = tcp::resolver(context).resolve(host, listen.substr(colon + 1), tcp::resolver::passive, error);
+    const auto found =
+        tcp::resolver(context).resolve(address.host, std::to_string(address.port), tcp::resolver::passive, error);
     if (error) throw InvalidInput(fmt::format("cannot serve HTTP on {}: {}", listen, error.message()));
     return *found.begin();
 }
@@ -58,8 +56,12 @@ tcp::endpoint resolve(boost::asio::io_context& context, const std::string& liste
 }  // namespace
 
 HttpServer::HttpServer(const std::string& listen, Router router, GrpcWeb grpc_web, const HttpLimits& limits,
-                       std::shared_ptr<const TlsContext> tls)
-    : router_(std::move(router)), grpc_web_(std::move(grpc_web)), limits_(limits), tls_(std::move(tls)) {
+                       std::shared_ptr<const TlsContext> tls, TrustedPeers trusted)
+    : router_(std::move(router)),
+      grpc_web_(std::move(grpc_web)),
+      limits_(limits),
+      tls_(std::move(tls)),
+      trusted_(std::move(trusted)) {
     const tcp::endpoint endpoint = resolve(*context_, listen);
     try {
         acceptor_.open(endpoint.protocol());
@@ -67,7 +69,7 @@ HttpServer::HttpServer(const std::string& listen, Router router, GrpcWeb grpc_we
         acceptor_.bind(endpoint);
         acceptor_.listen();
     } catch (const boost::system::system_error& error) {
-        throw InvalidInput(fmt::format("cannot serve HTTP on {}: {}", listen, error.code().message()));
+        throw AddressUnavailable(fmt::format("cannot serve HTTP on {}: {}", listen, error.code().message()));
     }
     address_ = fmt::format("{}:{}", listen.substr(0, listen.rfind(':')), acceptor_.local_endpoint().port());
     accept();
@@ -114,7 +116,8 @@ void HttpServer::accept() {
 void HttpServer::accepted(boost::beast::error_code error, tcp::socket socket) {
     if (!acceptor_.is_open()) return;
     if (error) {
-        spdlog::warn("an HTTP connection was not accepted: {}", error.message());
+        if (const auto left = failures_.pass())
+            spdlog::warn("an HTTP connection was not accepted: {}{}", error.message(), left_out(*left));
         retry_.expires_after(accept_pause);
         retry_.async_wait([this](boost::beast::error_code canceled) {
             if (!canceled && acceptor_.is_open()) accept();
@@ -127,16 +130,14 @@ void HttpServer::accepted(boost::beast::error_code error, tcp::socket socket) {
 
 void HttpServer::welcome(tcp::socket socket) {
     set_options(socket.native_handle());
-    if (connections_.size() >= limits_.connections) {
-        const auto silent = std::ranges::find_if_not(connections_, &HttpConnection::streams);
-        if (silent == connections_.end()) return;  // there are fewer streams than connections
-        HttpConnection& closed = **silent;
-        connections_.erase(silent);
-        closed.close();
-    }
+    boost::system::error_code gone;
+    const auto remote = socket.remote_endpoint(gone);
+    if (gone) return;
+    const PeerAddress peer(*remote.data());
+    if (!make_room(peer)) return;
     const auto connection = std::make_shared<HttpConnection>(
-        std::move(socket), tls_ ? tls_->current() : nullptr, context_, HttpConnection::Content{router_, grpc_web_},
-        limits_,
+        std::move(socket), peer.share(), tls_ ? tls_->current() : nullptr, context_,
+        HttpConnection::Content{router_, grpc_web_}, limits_,
         HttpConnection::Observer{.answered =
                                      [this](HttpConnection& active) {
                                          connections_.remove(&active);
@@ -151,6 +152,26 @@ void HttpServer::welcome(tcp::socket socket) {
                                      }});
     connections_.push_back(connection.get());
     connection->start();
+}
+
+bool HttpServer::make_room(const PeerAddress& peer) {
+    const PeerAddress share = peer.share();
+    const auto is_of_peer = [&share](const HttpConnection* each) { return each->share() == share; };
+    if (limits_.connections_per_peer != 0 && !trusted_.is_exempt(peer) &&
+        std::cmp_greater_equal(std::ranges::count_if(connections_, is_of_peer), limits_.connections_per_peer))
+        return close_silent(&share);
+    return connections_.size() < limits_.connections || close_silent(nullptr);
+}
+
+bool HttpServer::close_silent(const PeerAddress* share) {
+    const auto silent = std::ranges::find_if(connections_, [share](const HttpConnection* each) {
+        return !each->streams() && (share == nullptr || each->share() == *share);
+    });
+    if (silent == connections_.end()) return false;
+    HttpConnection& closed = **silent;
+    connections_.erase(silent);
+    closed.close();
+    return true;
 }
 
 void HttpServer::remove(HttpConnection& connection) {

@@ -11,7 +11,9 @@
 #include <string>
 #include <thread>
 
+#include "line_limit.hpp"
 #include "security/tls_context.hpp"
+#include "security/trusted_peers.hpp"
 #include "web/grpc_web.hpp"
 #include "web/http_connection.hpp"
 #include "web/http_limits.hpp"
@@ -21,10 +23,10 @@ namespace meniscus::server {
 
 class HttpServer {
 public:
-    /// listen: "HOST:PORT", port 0 for a free one. tls: none for HTTP alone. Listens when it returns. Throws
-    /// InvalidInput if it cannot.
+    /// listen: "HOST:PORT", port 0 for a free one. tls: none for HTTP alone. trusted: without limits for each peer.
+    /// Listens when it returns. Throws InvalidInput if it cannot.
     HttpServer(const std::string& listen, Router router, GrpcWeb grpc_web = {}, const HttpLimits& limits = {},
-               std::shared_ptr<const TlsContext> tls = nullptr);
+               std::shared_ptr<const TlsContext> tls = nullptr, TrustedPeers trusted = TrustedPeers());
     /// Cuts the connections off.
     ~HttpServer();
     HttpServer(const HttpServer&) = delete;
@@ -41,6 +43,10 @@ private:
     void accept();
     void accepted(boost::beast::error_code error, boost::asio::ip::tcp::socket socket);
     void welcome(boost::asio::ip::tcp::socket socket);
+    /// Makes room for one more connection. False if there is none.
+    bool make_room(const PeerAddress& peer);
+    /// The connection of this share that has been silent longest, and carries no stream, makes room. False if all do.
+    bool close_silent(const PeerAddress* share);
 
     void remove(HttpConnection& connection);
 
@@ -48,6 +54,7 @@ private:
     const GrpcWeb grpc_web_;
     const HttpLimits limits_;
     const std::shared_ptr<const TlsContext> tls_;
+    const TrustedPeers trusted_;
     std::list<HttpConnection*> connections_;  ///< the one that has been silent longest first
     bool finishing_ = false;
     std::promise<void> none_;  ///< kept once no connection is left
@@ -55,6 +62,7 @@ private:
     std::shared_ptr<boost::asio::io_context> context_ = std::make_shared<boost::asio::io_context>(1);
     boost::asio::ip::tcp::acceptor acceptor_{*context_};
     boost::asio::steady_timer retry_{*context_};
+    LineLimit failures_;  ///< to accept
     std::string address_;
     std::thread thread_;
 };

@@ -7,13 +7,14 @@
 namespace meniscus::server {
 
 void add_observation_pages(Router& router, std::function<std::vector<prometheus::MetricFamily>()> collect,
-                           std::function<bool()> ready) {
+                           std::function<bool()> alive, std::function<bool()> ready) {
     router.add("/metrics", [collect = std::move(collect)] {
         return Page{.content_type = "text/plain; version=0.0.4; charset=utf-8",
                     .body = prometheus::TextSerializer().Serialize(collect())};
     });
-    // That it is answered is the answer.
-    router.add("/healthz", [] { return Page{.body = "alive\n"}; });
+    router.add("/healthz", [alive = std::move(alive)] {
+        return alive() ? Page{.body = "alive\n"} : Page{.status = 503, .body = "the gRPC port does not answer\n"};
+    });
     router.add("/readyz", [ready = std::move(ready)] {
         return ready() ? Page{.body = "ready\n"} : Page{.status = 503, .body = "shutting down\n"};
     });

@@ -5,11 +5,15 @@ namespace meniscus::hostile {
 std::span<const Attack> attacks() {
     static constexpr Attack all[] = {
         {"crowded-frames", "frames of a megabyte or less with all their particles in few places", crowded_frames},
+        {"connections", "1100 and 5000 connections at 1024 descriptors, twenty times", connections},
         {"damaged-recording", "four bytes of a recording, changed at 400 places, one after the other",
          damaged_recording},
         {"gzip-bomb", "512 MiB of zeros, compressed by gzip, without a token", gzip_bomb},
+        {"proxied-strangers", "600,000 resets, and headers without an end, through the shipped proxies",
+         proxied_strangers},
         {"restarts", "40 servers killed or ended, each back after 0.1 to 5 s", restarts},
         {"stalled-readers", "readers of a recording that take every place and read nothing", stalled_readers},
+        {"stops", "200 ends after watchers that were stalled, killed, or have vanished", stops},
     };
     return all;
 }

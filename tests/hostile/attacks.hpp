@@ -11,9 +11,12 @@ std::span<const Attack> attacks();
 
 /// One function for each file of the folder attacks.
 std::vector<Figure> crowded_frames(const std::string& program);
+std::vector<Figure> connections(const std::string& program);
 std::vector<Figure> damaged_recording(const std::string& program);
 std::vector<Figure> gzip_bomb(const std::string& program);
+std::vector<Figure> proxied_strangers(const std::string& program);
 std::vector<Figure> restarts(const std::string& program);
 std::vector<Figure> stalled_readers(const std::string& program);
+std::vector<Figure> stops(const std::string& program);
 
 }  // namespace meniscus::hostile

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,7 +19,8 @@ namespace meniscus::server::test {
 /// meniscusd in a process of its own; what it prints is read here.
 class Process {
 public:
-    explicit Process(std::vector<std::string> arguments) {
+    /// descriptors: the most that it may have, soft and hard limit; 0: as many as the test.
+    explicit Process(std::vector<std::string> arguments, rlim_t descriptors = 0) {
         int ends[2];
         if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("pipe");
         arguments.insert(arguments.begin(), MENISCUSD_PATH);
@@ -28,6 +30,8 @@ public:
         argv.push_back(nullptr);
         pid_ = ::fork();
         if (pid_ == 0) {
+            const rlimit limit{.rlim_cur = descriptors, .rlim_max = descriptors};
+            if (descriptors != 0) ::setrlimit(RLIMIT_NOFILE, &limit);
             ::dup2(ends[1], STDOUT_FILENO);
             ::dup2(ends[1], STDERR_FILENO);
             ::execv(MENISCUSD_PATH, argv.data());
@@ -76,6 +80,7 @@ public:
         }
         throw std::runtime_error("meniscusd has created no session");
     }
+    pid_t pid() const noexcept { return pid_; }
     void signal(int number) const { ::kill(pid_, number); }
     /// Until SIGCONT. Returns once all threads stand still, which they may not do yet when the signal has been sent.
     void stop() const {

@@ -13,6 +13,10 @@ inline constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 struct Limits {
     std::uint32_t sessions = 16;
     std::uint32_t watchers_per_session = 64;
+    /// Connections to the gRPC port, as far as the process's descriptors are enough.
+    std::uint32_t connections = 4096;
+    /// Connections from one address to one port; not of loopback, Unix sockets and trusted proxies.
+    std::uint32_t connections_per_peer = 512;
     /// Calls that read recordings at the same time.
     std::uint32_t recording_readers = 16;
     /// Such a call ends if its client takes no message for so long.

@@ -42,6 +42,18 @@ TEST(HttpServer, AnswersWhatItHasAndSaysWhatItHasNot) {
     EXPECT_EQ(client.get("/one").status, 200);
 }
 
+TEST(HttpServer, HasNoLimitForEachPeerOnLoopback) {
+    HttpLimits limits = impatient();
+    limits.patience = std::chrono::seconds(30);
+    limits.connections_per_peer = 1;
+    const HttpServer server("127.0.0.1:0", router(), {}, limits);
+    HttpClient first(server.address());
+    EXPECT_EQ(first.get("/one").status, 200);
+    HttpClient second(server.address());
+    EXPECT_EQ(second.get("/one").status, 200);
+    EXPECT_EQ(first.get("/one").status, 200);
+}
+
 TEST(HttpServer, AnswersHeadWithTheHeaderAlone) {
     const HttpServer server("127.0.0.1:0", router());
     HttpClient client(server.address());

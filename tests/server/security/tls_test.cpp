@@ -2,6 +2,7 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include "meniscus/error.hpp"
 #include "running_server.hpp"
 #include "security/access.hpp"
+#include "security/small_file.hpp"
 #include "test_certificates.hpp"
 
 namespace meniscus::server::test {
@@ -174,6 +176,19 @@ TEST(Access, TellsWhenTheFilesInUseExpire) {
     access.reload();
     EXPECT_EQ(access.expiry().server, expected("server"));
     EXPECT_EQ(Access({}, "").expiry().server, std::numeric_limits<double>::infinity());
+}
+
+/// Nobody writes into it: who waits for that, waits for ever.
+TEST(Tls, DoesNotWaitForAPipeInTheCertificatesPlace) {
+    const TestCertificates certificates;
+    Server server(tls_options(certificates.server_files()));
+    const std::string serial = certificates.serial("server");
+    std::filesystem::remove(certificates.file("server"));
+    ASSERT_EQ(::mkfifo(certificates.file("server").c_str(), 0600), 0);
+    server.reload();
+    EXPECT_EQ(served_serial(server.address()), serial);
+    EXPECT_THROW(load_certificates(certificates.server_files()), InvalidInput);
+    EXPECT_THROW(read_small_file("/dev/zero"), InvalidInput);
 }
 
 TEST(Certificates, AreRefusedWithTheFileAndTheReason) {

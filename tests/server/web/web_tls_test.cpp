@@ -40,6 +40,19 @@ TEST_F(WebTls, AnswersPagesAndCalls) {
     EXPECT_EQ(answer(server, probe, "-tls1_1"), "");
 }
 
+TEST_F(WebTls, TakesNoSuiteWithoutForwardSecrecyOrWithoutAuthenticatedEncryption) {
+    const Server server(tls_options(certificates.server_files()));
+    const auto with = [&](const std::string& suites) {
+        return answer(server, probe, "-tls1_2 -cipher '" + suites + ":@SECLEVEL=0'").find("alive") != std::string::npos;
+    };
+    for (const char* good :
+         {"ECDHE-ECDSA-AES128-GCM-SHA256", "ECDHE-ECDSA-AES256-GCM-SHA384", "ECDHE-ECDSA-CHACHA20-POLY1305"})
+        EXPECT_TRUE(with(good)) << good;
+    for (const char* bad : {"ECDHE-ECDSA-AES128-SHA", "ECDHE-ECDSA-AES256-SHA384", "AES128-SHA", "AES256-GCM-SHA384",
+                            "ALL:!ECDHE", "ECDHE:!AESGCM:!CHACHA20"})
+        EXPECT_FALSE(with(bad)) << bad;
+}
+
 TEST_F(WebTls, TellsWhoSpeaksHttpThatTheAddressIsAnother) {
     const Server server(tls_options(certificates.server_files()));
     const HttpAnswer plain = http_get(server.http_address(), "/");
