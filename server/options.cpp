@@ -78,6 +78,13 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.add_option("--probes", server.probes,
                    "HOST:PORT of /metrics, /healthz and /readyz alone, always without TLS, also for other machines: "
                    "they tell numbers only");
+    app.add_option("--trusted-proxies", server.trusted_proxies,
+                   "Addresses and networks, as 192.0.2.7,10.0.0.0/8, of proxies through which others come: limits for "
+                   "each peer address do not hold for them, nor for loopback and Unix sockets")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("LIST")
+        ->default_str("");
     app.add_option("--web-origin", server.web_origins,
                    "Page, as https://example.org, that may call over the HTTP port; those of this machine may")
         ->allow_extra_args(false)

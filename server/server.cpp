@@ -20,6 +20,7 @@
 #include "recording/session_recording.hpp"
 #include "rpc/call_counter.hpp"
 #include "rpc/server_instance.hpp"
+#include "security/trusted_peers.hpp"
 #include "web/observation_pages.hpp"
 #include "web/viewer_pages.hpp"
 
@@ -92,6 +93,7 @@ std::vector<std::string> problems_of(const ServerOptions& options) {
     const std::vector<std::function<void()>> steps{
         [&] { require_closed_to_others(options); },
         [&] { AllowedOrigins(options.web_origins, options.http); },
+        [&] { TrustedPeers{options.trusted_proxies}; },
         [&] { require_unused_unix_socket(options.listen); },
         [&] {
             if (options.tls.any()) load_certificates(options.tls);

@@ -1,0 +1,69 @@
+#include "security/trusted_peers.hpp"
+
+#include <gtest/gtest.h>
+
+#include "meniscus/error.hpp"
+
+namespace meniscus::server::test {
+namespace {
+
+PeerAddress address(const std::string& text) {
+    return PeerAddress::parse(text).value();
+}
+
+TEST(PeerAddress, IsTheSameHoweverAConnectionNamesIt) {
+    EXPECT_EQ(PeerAddress::of_grpc("ipv4:192.0.2.7:50000"), address("192.0.2.7"));
+    EXPECT_EQ(PeerAddress::of_grpc("ipv6:%5B::ffff:192.0.2.7%5D:50000"), address("192.0.2.7"));
+    EXPECT_EQ(PeerAddress::of_grpc("ipv6:[2001:db8::1]:50000"), address("2001:db8::1"));
+    EXPECT_EQ(PeerAddress::of_grpc("ipv6:%5Bfe80::1%25eth0%5D:50000"), address("fe80::1"));
+    EXPECT_EQ(address("::ffff:192.0.2.7").text(), "192.0.2.7");
+    EXPECT_EQ(address("2001:db8::1").text(), "2001:db8::1");
+}
+
+TEST(PeerAddress, IsThisMachineForLoopbackAndForUnixSocketsAndForThisProcess) {
+    for (const char* peer : {"unix:", "unix:/run/meniscus", "inproc", "ipv4:127.8.9.1:5", "ipv6:%5B::1%5D:5"})
+        EXPECT_TRUE(PeerAddress::of_grpc(peer).is_this_machine()) << peer;
+    for (const char* peer : {"ipv4:128.0.0.1:5", "ipv6:%5B::2%5D:5", "ipv6:%5B2001:db8::1%5D:5"})
+        EXPECT_FALSE(PeerAddress::of_grpc(peer).is_this_machine()) << peer;
+}
+
+TEST(PeerAddress, SharesItsLimitWithItsNetworkOf64BitsIfItIsIpv6) {
+    EXPECT_EQ(address("2001:db8:0:1::1").share(), address("2001:db8:0:1:ffff::2").share());
+    EXPECT_NE(address("2001:db8:0:1::1").share(), address("2001:db8:0:2::1").share());
+    EXPECT_NE(address("192.0.2.7").share(), address("192.0.2.8").share());
+}
+
+TEST(TrustedPeers, AreLoopbackAndUnixSocketsAlways) {
+    EXPECT_TRUE(TrustedPeers().is_exempt(PeerAddress{}));
+    EXPECT_TRUE(TrustedPeers().is_exempt(address("127.0.0.1")));
+    EXPECT_TRUE(TrustedPeers().is_exempt(address("::1")));
+    EXPECT_FALSE(TrustedPeers().is_exempt(address("192.0.2.7")));
+}
+
+TEST(TrustedPeers, AreTheAddressesAndNetworksThatAreNamed) {
+    const TrustedPeers trusted({"192.0.2.7", "10.16.0.0/12", "2001:db8::/33"});
+    EXPECT_TRUE(trusted.is_exempt(address("192.0.2.7")));
+    EXPECT_FALSE(trusted.is_exempt(address("192.0.2.6")));
+    EXPECT_TRUE(trusted.is_exempt(address("10.31.255.255")));
+    EXPECT_TRUE(trusted.is_exempt(address("::ffff:10.16.0.1")));
+    EXPECT_FALSE(trusted.is_exempt(address("10.32.0.0")));
+    EXPECT_TRUE(trusted.is_exempt(address("2001:db8:7fff::1")));
+    EXPECT_FALSE(trusted.is_exempt(address("2001:db8:8000::1")));
+    EXPECT_TRUE(TrustedPeers({"0.0.0.0/0"}).is_exempt(address("8.8.8.8")));
+    EXPECT_FALSE(TrustedPeers({"0.0.0.0/0"}).is_exempt(address("2001:db8::1")));
+}
+
+TEST(TrustedPeers, RefuseWhatIsNoAddressByItsName) {
+    for (const char* wrong : {"", "localhost", "192.0.2.7:80", "192.0.2.0/33", "10.0.0.0/", "10.0.0.0/8x", "::/129",
+                              "300.0.0.1", "10.0.0.0/-1"}) {
+        try {
+            TrustedPeers({wrong});
+            ADD_FAILURE() << wrong;
+        } catch (const InvalidInput& error) {
+            EXPECT_NE(std::string(error.what()).find(wrong), std::string::npos) << error.what();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace meniscus::server::test
