@@ -117,7 +117,7 @@ std::vector<std::string> problems_of(const ServerOptions& options) {
 
 Server::Server(const ServerOptions& options)
     : options_(options),
-      access_(options.tls, options.tokens),
+      access_(options.tls, options.tokens, options.trusted_proxies),
       backend_(describe(options)),
       metrics_(std::make_shared<PrometheusMetrics>()),
       recordings_(options.recording.directory.empty() ? nullptr : std::make_unique<RecordingWriter>(options.recording)),
@@ -127,9 +127,11 @@ Server::Server(const ServerOptions& options)
                                                                       options.limits.recording_readers,
                                                                       options.limits.reader_patience)
                                    : nullptr),
-      server_service_(access_.authorizer(), backend_, threads_or_processors(options.backend.threads), options.limits),
-      session_service_(registry_, access_.authorizer()),
-      surface_service_(registry_, access_.authorizer(), calls_),
+      refusals_(metrics_),
+      server_service_(access_.authorizer(), refusals_, backend_, threads_or_processors(options.backend.threads),
+                      options.limits),
+      session_service_(registry_, access_.authorizer(), refusals_),
+      surface_service_(registry_, access_.authorizer(), refusals_, calls_),
       recording_service_(recording_reads_.get(), access_.authorizer(), *metrics_, calls_) {
     require_closed_to_others(options);
     const AllowedOrigins origins(options.web_origins, options.http);

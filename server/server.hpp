@@ -84,6 +84,7 @@ private:
     SessionRegistry registry_;
     const std::unique_ptr<RecordingReads> recording_reads_;  ///< none: nothing is recorded
     ActiveCalls calls_;
+    Refusals refusals_;
     ServerServiceImpl server_service_;
     SessionServiceImpl session_service_;
     SurfaceServiceImpl surface_service_;

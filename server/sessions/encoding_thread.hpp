@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -48,7 +49,18 @@ public:
         int max_level = 0;
         Mesh mesh;
     };
-    using Task = std::variant<Encode, ReportDrop, EndUpload, EndSession, EncodeForWatchers, AddCapped>;
+    /// The newest frame, made again after release_meshes().
+    struct ShowAgain {
+        ReconstructedFrame* frame = nullptr;  ///< of wait_for_free_frame()
+    };
+    enum class Newest : std::uint8_t { release, keep };
+    /// Of release_meshes().
+    struct ReleaseMeshes {
+        std::shared_ptr<std::promise<void>> done;
+        Newest newest = Newest::release;
+    };
+    using Task =
+        std::variant<Encode, ReportDrop, EndUpload, EndSession, EncodeForWatchers, AddCapped, ShowAgain, ReleaseMeshes>;
 
     /// The thread calls these of its session, in the order of the tasks.
     struct Ends {
@@ -69,6 +81,9 @@ public:
     ReconstructedFrame* wait_for_free_frame();
     /// Dropped once the thread is closed.
     void put(Task task) { tasks_.put(std::move(task)); }
+    /// Frees the meshes and the memory that they are encoded in, once the tasks before are done. What is encoded stays.
+    /// Only while no frame is lent. Returns false if the thread is closed.
+    bool release_meshes(Newest newest);
     /// Of the frame answered last.
     std::optional<FrameStatistics> last_frame() const;
     /// Drops the tasks that wait. Returns at once.
@@ -84,6 +99,8 @@ private:
     void perform(EndSession& task);
     void perform(EncodeForWatchers& task);
     void perform(AddCapped& task);
+    void perform(ShowAgain& task);
+    void perform(ReleaseMeshes& task);
 
     /// Answers a frame of a resumed run that was finished before: for the simulator alone.
     void answer_again(Encode& task);

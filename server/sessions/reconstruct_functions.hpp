@@ -27,6 +27,8 @@ struct ReconstructFunctions {
     /// Replaces the mesh by the last frame's surface with its levels capped; throws what Reconstructor::emit_capped
     /// throws. None if no watcher will wish for a level cap.
     std::function<void(int max_level, Mesh& mesh)> emit_capped{};
+    /// Gives the buffers back until the next frame. May be none.
+    std::function<void()> release_memory{};
 };
 
 }  // namespace meniscus::server
