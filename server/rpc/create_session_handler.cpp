@@ -18,7 +18,7 @@ v1::CreateSessionResponse create_session(SessionRegistry& registry, const Caller
         {.name = caller.name, .account = account_of(caller, registry), .may_see = [&](const std::string& owner) {
              return Authorizer::may_see(caller, owner);
          }});
-    *response.mutable_session() = session_message(*session);
+    *response.mutable_session() = session_message(*session, caller);
     return response;
 }
 

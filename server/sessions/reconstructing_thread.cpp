@@ -142,7 +142,10 @@ std::optional<Turns::Turn> ReconstructingThread::begin_work() {
         const std::lock_guard lock(mutex_);
         resting_since_.reset();
     }
-    return context_.shared.turns->wait(context_.closing);
+    waits_for_turn_ = true;
+    auto turn = context_.shared.turns->wait(context_.closing, context_.identity.id);
+    waits_for_turn_ = false;
+    return turn;
 }
 
 void ReconstructingThread::rest() {

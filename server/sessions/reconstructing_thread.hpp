@@ -1,6 +1,7 @@
 // A session's first thread: frames, in their order and turn, become meshes.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -34,6 +35,8 @@ public:
 
     /// Thread-safe.
     Progress progress() const;
+    /// Whether a frame waits for its turn on the device. Thread-safe.
+    bool waits_for_turn() const noexcept { return waits_for_turn_; }
     /// Since when it has had no frame and no watcher to work for, and may give its buffers back; none: it works, or has
     /// given them back. Thread-safe.
     std::optional<Clock::time_point> resting_since() const;
@@ -79,6 +82,7 @@ private:
     ReconstructedFrame* next_mesh_ = nullptr;  ///< taken before it is needed
     std::shared_ptr<Upload> failed_;           ///< its frames that follow are dropped
 
+    std::atomic<bool> waits_for_turn_{false};
     mutable std::mutex mutex_;  ///< for what follows
     Progress progress_;         ///< written by the thread alone
     std::optional<Clock::time_point> resting_since_;

@@ -47,6 +47,12 @@ SessionState Session::state() const {
     state.watcher_lag = watchers.lag;
     const std::lock_guard lock(mutex_);
     state.uploading = upload_ != nullptr;
+    if (reconstructing_.waits_for_turn()) {
+        state.wait = SessionWait::device;
+        state.waits_for = context_.shared.turns->holder();
+    } else if (upload_ && upload_->pace.paused()) {
+        state.wait = SessionWait::bytes_in_flight;
+    }
     state.frames_dropped_replaced = dropped_replaced_;
     state.frames_dropped_not_nth = dropped_not_nth_;
     return state;

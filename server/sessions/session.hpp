@@ -28,8 +28,13 @@
 
 namespace meniscus::server {
 
+/// What a session's next frame waits for.
+enum class SessionWait : std::uint8_t { nothing, device, bytes_in_flight };
+
 struct SessionState {
     bool uploading = false;
+    SessionWait wait = SessionWait::nothing;
+    std::string waits_for;  ///< id of the session that has the device; empty: none any more, or several
     std::uint32_t watchers = 0;
     std::uint64_t frames = 0;
     std::optional<std::uint64_t> last_frame_index;

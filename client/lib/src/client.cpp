@@ -28,6 +28,12 @@ SessionInfo from_wire(const v1::Session& wire) {
     info.owner = wire.owner();
     info.frames_dropped = wire.frames_dropped();
     info.frames_skipped = wire.frames_skipped();
+    if (wire.has_wait()) {
+        info.waits_for = wire.wait().reason() == v1::WAIT_REASON_DEVICE            ? SessionWait::device
+                         : wire.wait().reason() == v1::WAIT_REASON_BYTES_IN_FLIGHT ? SessionWait::bytes_in_flight
+                                                                                   : SessionWait::something_else;
+        info.waits_for_session = wire.wait().session_id();
+    }
     if (wire.has_last_frame()) info.last_frame = frame_statistics(wire.last_frame());
     return info;
 }

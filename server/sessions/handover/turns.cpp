@@ -2,7 +2,7 @@
 
 namespace meniscus::server {
 
-std::optional<Turns::Turn> Turns::wait(const std::stop_token& stop) {
+std::optional<Turns::Turn> Turns::wait(const std::stop_token& stop, const std::string& who) {
     std::unique_lock lock(mutex_);
     const std::uint64_t mine = asked_++;
     waiting_.push_back(mine);
@@ -15,7 +15,13 @@ std::optional<Turns::Turn> Turns::wait(const std::stop_token& stop) {
         return std::nullopt;
     }
     began_ = Clock::now();
+    holder_ = who;
     return std::optional<Turn>(std::in_place, *this);
+}
+
+std::string Turns::holder() {
+    const std::lock_guard lock(mutex_);
+    return holder_;
 }
 
 std::uint64_t Turns::waiting() {
@@ -33,6 +39,7 @@ void Turns::end() {
         const std::lock_guard lock(mutex_);
         taken_ += Clock::now() - *began_;
         began_.reset();
+        holder_.clear();
     }
     changed_.notify_all();
 }

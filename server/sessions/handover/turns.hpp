@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <utility>
 
 namespace meniscus::server {
@@ -33,8 +34,10 @@ public:
     };
 
     /// Waits until all turns that were asked for before have ended or been given up. None if the turn is given up: stop
-    /// was requested before it began.
-    std::optional<Turn> wait(const std::stop_token& stop);
+    /// was requested before it began. who: a name for holder().
+    std::optional<Turn> wait(const std::stop_token& stop, const std::string& who = {});
+    /// Who has the present turn; empty: nobody.
+    std::string holder();
     /// The number of threads that wait.
     std::uint64_t waiting();
     /// The time of all turns so far, the present one included.
@@ -50,6 +53,7 @@ private:
     std::uint64_t asked_ = 0;
     std::deque<std::uint64_t> waiting_;       ///< the numbers of the turns that were asked for, the next one first
     std::optional<Clock::time_point> began_;  ///< the present turn; none: there is none
+    std::string holder_;                      ///< of the present turn
     Clock::duration taken_{};                 ///< by the turns that have ended
 };
 

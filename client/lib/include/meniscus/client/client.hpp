@@ -85,12 +85,22 @@ struct FrameStatistics : Statistics {
     std::uint64_t encoded_bytes = 0;
 };
 
+/// What a session's next frame waits for.
+enum class SessionWait {
+    nothing,
+    device,           ///< its turn
+    bytes_in_flight,  ///< room among those of all sessions
+    something_else,   ///< that this version does not know
+};
+
 struct SessionInfo {
     std::string id;
     std::string owner;  ///< who made it; empty where nobody is asked
     Settings settings;  ///< as in_force() has them
     bool uploading = false;
     unsigned watchers = 0;
+    SessionWait waits_for = SessionWait::nothing;
+    std::string waits_for_session;  ///< that has the device; told to admins alone
     std::uint64_t frames = 0;
     std::uint64_t frames_dropped = 0;  ///< by the policies of its streams
     std::uint64_t frames_skipped = 0;  ///< replaced before a watcher had taken them, over all watchers
