@@ -60,6 +60,7 @@ void EncodingThread::run() {
             log_error({.session = context_.identity.id}, "the session ends: {}", error.what());
             ends_.session(std::current_exception());
         }
+        --pending_;
     }
 }
 
@@ -168,7 +169,7 @@ void EncodingThread::perform(ReleaseMeshes& task) {
 bool EncodingThread::release_meshes(Newest newest) {
     auto done = std::make_shared<std::promise<void>>();
     std::future<void> released = done->get_future();
-    tasks_.put(ReleaseMeshes{.done = std::move(done), .newest = newest});
+    put(ReleaseMeshes{.done = std::move(done), .newest = newest});
     try {
         released.get();
         return true;

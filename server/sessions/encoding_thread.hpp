@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -80,7 +81,12 @@ public:
     /// Waits for a mesh to reconstruct into; none once the thread is closed.
     ReconstructedFrame* wait_for_free_frame();
     /// Dropped once the thread is closed.
-    void put(Task task) { tasks_.put(std::move(task)); }
+    void put(Task task) {
+        ++pending_;
+        tasks_.put(std::move(task));
+    }
+    /// Whether it has nothing to do.
+    bool idle() const noexcept { return pending_ == 0; }
     /// Frees the meshes and the memory that they are encoded in, once the tasks before are done. What is encoded stays.
     /// Only while no frame is lent. Returns false if the thread is closed.
     bool release_meshes(Newest newest);
@@ -122,6 +128,7 @@ private:
     std::array<ReconstructedFrame, 2> frames_;
     Channel<ReconstructedFrame*> free_frames_;
     Channel<Task> tasks_;
+    std::atomic<int> pending_{0};  ///< tasks that were put and are not done
     ReconstructedFrame* newest_ = nullptr;
     ScratchPool scratch_;
     Encodings before_;  ///< of the frame before the newest, whose bricks may serve again

@@ -27,9 +27,10 @@ void IdleBuffers::make_room(const std::function<bool()>& is_room) {
         }
     }
     std::ranges::sort(idle, {}, &Idle::since);
+    const auto deadline = std::chrono::steady_clock::now() + patience;
     for (const Idle& each : idle) {
         if (is_room()) return;
-        each.session->release_buffers().wait_for(patience);
+        each.session->release_buffers().wait_until(deadline);
     }
 }
 

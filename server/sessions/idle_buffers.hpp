@@ -21,7 +21,7 @@ public:
     void make_room(const std::function<bool()>& is_room);
 
 private:
-    /// For a session to give its buffers back.
+    /// For sessions to give their buffers back.
     static constexpr auto patience = std::chrono::seconds(2);
 
     std::mutex mutex_;

@@ -103,7 +103,7 @@ public:
     bool end_idle(std::chrono::steady_clock::time_point now);
     /// Since when it has had nothing to reconstruct, and may give its buffers back; none: it has, or it works.
     std::optional<std::chrono::steady_clock::time_point> resting_since() const {
-        return reconstructing_.resting_since();
+        return encoding_.idle() ? reconstructing_.resting_since() : std::nullopt;
     }
     /// Gives the buffers back, all but the newest particles and what is encoded, unless a frame comes before. Returns
     /// at once. The future is ready when it is done, or given up.
