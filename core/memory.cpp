@@ -3,12 +3,31 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
 #include "meniscus/error.hpp"
 
 namespace meniscus {
+
+std::size_t SharedMemory::try_charge(std::size_t bytes) noexcept {
+    std::size_t before = bytes_.load(std::memory_order_relaxed);
+    do {
+        if (limit_ == 0) continue;
+        const std::size_t room = limit_ - std::min(limit_, before);
+        if (bytes > room) return bytes - room;
+    } while (!bytes_.compare_exchange_weak(before, before + bytes, std::memory_order_relaxed));
+    return 0;
+}
+
+bool SharedMemory::charge(std::size_t bytes) {
+    const std::size_t missing = try_charge(bytes);
+    if (missing == 0) return true;
+    if (!make_room_ || bytes > limit_) return false;
+    make_room_(missing);
+    return try_charge(bytes) == 0;
+}
 
 void MemoryAccount::charge(std::size_t bytes) {
     const std::size_t now = bytes_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
@@ -18,6 +37,12 @@ void MemoryAccount::charge(std::size_t bytes) {
                             ", more than its limit of " + std::to_string(limit_) +
                             ": use a larger cell size, fewer particles or a higher memory limit");
     }
+    if (shared_ && !shared_->charge(bytes)) {
+        bytes_.fetch_sub(bytes, std::memory_order_relaxed);
+        throw LimitExceeded("the reconstruction would hold " + std::to_string(now) + " bytes " + place_ +
+                            ", and all together more than their limit of " + std::to_string(shared_->limit()) +
+                            ": try again later, or use a larger cell size, fewer particles or a higher memory limit");
+    }
     allocations_.fetch_add(1, std::memory_order_relaxed);
     std::size_t peak = peak_.load(std::memory_order_relaxed);
     while (now > peak && !peak_.compare_exchange_weak(peak, now, std::memory_order_relaxed)) {
@@ -26,6 +51,7 @@ void MemoryAccount::charge(std::size_t bytes) {
 
 void MemoryAccount::release(std::size_t bytes) noexcept {
     bytes_.fetch_sub(bytes, std::memory_order_relaxed);
+    if (shared_) shared_->release(bytes);
 }
 
 void* allocate_aligned(std::size_t bytes) noexcept {

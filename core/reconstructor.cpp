@@ -58,8 +58,9 @@ public:
     Impl(const Settings& settings, const BackendOptions& options)
         : settings_(checked(settings)),
           options_(options),
-          account_(std::make_shared<MemoryAccount>(options.memory_limit)),
-          device_account_(std::make_shared<MemoryAccount>(options.device_memory_limit, "on the GPU")) {
+          account_(std::make_shared<MemoryAccount>(options.memory_limit, "in memory", options.shared_memory)),
+          device_account_(std::make_shared<MemoryAccount>(options.device_memory_limit, "on the GPU",
+                                                          options.shared_device_memory)) {
         options_.backend = describe_backend(options.backend, options.device).backend;
         make_backend();
     }
@@ -101,6 +102,11 @@ public:
         statistics_.vertices = mesh.vertex_count;
         count(mesh.triangle_count, mesh.levels);
         return mesh;
+    }
+
+    void release_memory() {
+        has_surface_ = false;
+        backend_.reset();
     }
 
     const Statistics& statistics() const { return statistics_; }
@@ -212,6 +218,10 @@ void Reconstructor::emit_capped(int max_level, Mesh& mesh) {
 DeviceMesh Reconstructor::reconstruct_on_device(const ParticleFrame& frame) {
     return impl_->reconstruct_on_device(frame);
 }
+void Reconstructor::release_memory() {
+    impl_->release_memory();
+}
+
 const Statistics& Reconstructor::statistics() const {
     return impl_->statistics();
 }

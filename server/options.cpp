@@ -29,6 +29,14 @@ constexpr std::size_t min_message_bytes = chunk_bytes + 1024;
 /// What gRPC can be told.
 constexpr std::size_t max_message_bytes = std::numeric_limits<int>::max();
 
+/// What one caller may have where nothing else is said: others find room beside it.
+NameShares default_shares(const Limits& limits) {
+    const auto most_of = [](std::uint32_t limit) { return limit > 1 ? limit - std::max(limit / 8, 1U) : limit; };
+    return {.sessions = most_of(limits.sessions),
+            .watchers = most_of(limits.watchers_per_session),
+            .bytes_in_flight = limits.bytes_in_flight - limits.bytes_in_flight / 4};
+}
+
 std::chrono::milliseconds milliseconds(double seconds) {
     return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(seconds));
 }
@@ -73,9 +81,15 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     server.limits.particles_per_frame = 100'000'000;
     server.limits.bytes_per_session = default_memory_limit();
     server.limits.bytes_in_flight = default_memory_limit();
+    server.limits.least_pace.bytes_per_second = 100'000;
     double idle_seconds = 3600.0;
     double reader_pause_seconds = 60.0;
     double frame_seconds = std::chrono::duration<double>(server.limits.frame_time).count();
+    double upload_seconds = 30.0;
+    double orphan_seconds = 120.0;
+    double idle_buffers_seconds = 60.0;
+    server.limits.total_bytes = default_memory_limit();
+    OwnShares shares;
     double grace_seconds = std::chrono::duration<double>(server.shutdown_grace).count();
 
     CLI::App app{"meniscusd: adaptive surfaces of simulated fluid particles, live, over gRPC", "meniscusd"};
@@ -147,6 +161,15 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     app.add_option("--max-connections-per-peer", server.limits.connections_per_peer,
                    "Connections from one address to one port, but for loopback, Unix sockets and --trusted-proxies; 0: "
                    "no limit");
+    const auto share_of = [](const char* what, const char* rest) {
+        return fmt::format("{} of one token's name, or without tokens of one peer address{}", what, rest);
+    };
+    app.add_option("--max-sessions-per-name", shares.sessions,
+                   share_of("Sessions", "; 0: no limit. Default: all but an eighth of --max-sessions"))
+        ->default_str("");
+    app.add_option("--max-watchers-per-name", shares.watchers,
+                   share_of("Watchers of one session", "; 0: no limit. Default: all but an eighth of --max-watchers"))
+        ->default_str("");
     app.add_option("--max-recording-readers", server.limits.recording_readers,
                    "Calls that read recordings at a time; 0: no limit");
     app.add_option("--max-reader-pause", reader_pause_seconds,
@@ -169,15 +192,35 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->transform(whole_number())
         ->type_name("BYTES");
     app.add_option("--max-frames-per-second", server.limits.frames_per_second, "Frames of one session; 0: no limit");
+    app.add_option("--max-frames-per-second-per-name", shares.frames_per_second,
+                   share_of("Frames over all sessions", "; 0, the default: no limit"))
+        ->default_str("");
+    app.add_option("--max-bytes-in-flight-per-name", shares.bytes_in_flight,
+                   share_of("Frames that wait to be reconstructed",
+                            "; 0: no limit. Default: three quarters of --max-bytes-in-flight"))
+        ->transform(CLI::AsSizeValue(false))
+        ->type_name("BYTES")
+        ->default_str("");
     app.add_option("--max-chunks", server.limits.chunks_per_frame, "Chunk messages of one frame; 0: no limit");
     app.add_option("--max-message-bytes", server.limits.message_bytes, "Size of one message, as 4M")
         ->transform(CLI::AsSizeValue(false))
         ->transform(whole_number())
         ->check(CLI::Range(min_message_bytes, max_message_bytes))
         ->type_name("BYTES");
+    app.add_option("--max-upload-seconds", upload_seconds,
+                   "Seconds in which a frame must have arrived, unless it comes with --min-upload-rate; 0: no limit")
+        ->check(CLI::Range(0.0, 1e7));
+    app.add_option("--min-upload-rate", server.limits.least_pace.bytes_per_second,
+                   "Bytes a second with which a frame must come after --max-upload-seconds; 0: none may take longer")
+        ->transform(CLI::AsSizeValue(false))
+        ->type_name("BYTES");
     app.add_option(
            "--max-idle", idle_seconds,
            "Seconds that a stream, or a session without streams, watchers and calls, is kept without use; 0: no limit")
+        ->check(seconds_up_to(1e7));
+    app.add_option("--orphan-seconds", orphan_seconds,
+                   "Seconds that a session is kept whose simulator has vanished without a word, unless it is watched "
+                   "or resumed; 0: as any other")
         ->check(seconds_up_to(1e7));
     app.add_option("--memory-limit", server.limits.bytes_per_session,
                    "Memory of one session's reconstruction, as 4G or 500M; 0: no limit. Default: half of the "
@@ -185,6 +228,20 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->transform(CLI::AsSizeValue(false))
         ->transform(whole_number())
         ->type_name("BYTES");
+    app.add_option("--total-memory-limit", server.limits.total_bytes,
+                   "Memory of all sessions' reconstructions; 0: no limit. Default: half of the machine's, or of the "
+                   "container's")
+        ->transform(CLI::AsSizeValue(false))
+        ->type_name("BYTES");
+    app.add_option("--total-device-memory-limit", server.limits.total_device_bytes,
+                   "Memory of all sessions' reconstructions on one GPU; 0: no limit")
+        ->transform(CLI::AsSizeValue(false))
+        ->type_name("BYTES");
+    app.add_option(
+           "--idle-buffers", idle_buffers_seconds,
+           "Seconds after which a session without frames gives the memory of its reconstruction back, and takes "
+           "it again when it needs it; 0: only where others need it")
+        ->check(CLI::Range(0.0, 1e7));
     app.add_option("--device-memory-limit", server.limits.device_bytes_per_session,
                    "Memory of one session's reconstruction on its GPU; 0: no limit")
         ->transform(CLI::AsSizeValue(false))
@@ -233,6 +290,10 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     server.limits.idle_time = milliseconds(idle_seconds);
     server.limits.reader_patience = milliseconds(reader_pause_seconds);
     server.limits.frame_time = milliseconds(frame_seconds);
+    server.limits.least_pace.time = milliseconds(upload_seconds);
+    server.limits.orphan_time = milliseconds(orphan_seconds);
+    server.limits.idle_buffers_time = milliseconds(idle_buffers_seconds);
+    server.limits.per_name = shares.over(default_shares(server.limits));
     server.shutdown_grace = milliseconds(grace_seconds);
     return std::nullopt;
 }

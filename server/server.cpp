@@ -155,7 +155,7 @@ std::vector<std::string> problems_of(const ServerOptions& options) {
 
 Server::Server(const ServerOptions& options)
     : options_((require_closed_to_others(options), options)),
-      access_(options.tls, options.tokens),
+      access_(options.tls, options.tokens, options.trusted_proxies),
       backend_(describe(options)),
       metrics_(std::make_shared<PrometheusMetrics>()),
       recordings_(options.recording.directory.empty() ? nullptr : std::make_unique<RecordingWriter>(options.recording)),
@@ -165,9 +165,11 @@ Server::Server(const ServerOptions& options)
                                                                       options.limits.recording_readers,
                                                                       options.limits.reader_patience)
                                    : nullptr),
-      server_service_(access_.authorizer(), backend_, threads_or_processors(options.backend.threads), options.limits),
-      session_service_(registry_, access_.authorizer()),
-      surface_service_(registry_, access_.authorizer(), streams_, receivers_),
+      refusals_(metrics_),
+      server_service_(access_.authorizer(), refusals_, backend_, threads_or_processors(options.backend.threads),
+                      options.limits),
+      session_service_(registry_, access_.authorizer(), refusals_),
+      surface_service_(registry_, access_.authorizer(), refusals_, streams_, receivers_),
       recording_service_(recording_reads_.get(), access_.authorizer(), *metrics_, receivers_),
       shares_(shares_of(options, backend_)),
       port_(options.listen, {.all = shares_.grpc, .for_each_peer = options.limits.connections_per_peer},

@@ -89,6 +89,7 @@ private:
     const std::unique_ptr<RecordingReads> recording_reads_;  ///< none: nothing is recorded
     ActiveCalls streams_;
     ActiveCalls receivers_;  ///< calls of watchers and readers
+    Refusals refusals_;
     ServerServiceImpl server_service_;
     SessionServiceImpl session_service_;
     SurfaceServiceImpl surface_service_;

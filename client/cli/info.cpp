@@ -59,7 +59,18 @@ void print_server(const ServerFlags& server) {
               << "frames per second      " << limit(info.max_frames_per_second) << '\n'
               << "chunks per frame       " << limit(info.max_chunks_per_frame) << '\n'
               << "bytes per message      " << info.max_message_bytes << '\n'
-              << "idle seconds           " << seconds_limit(info.max_idle_seconds) << '\n';
+              << "idle seconds           " << seconds_limit(info.max_idle_seconds) << '\n'
+              << "upload seconds         " << seconds_limit(info.max_upload_seconds) << '\n'
+              << "upload bytes/second    " << limit(info.min_upload_bytes_per_second) << '\n'
+              << "orphan seconds         " << seconds_limit(info.max_orphan_seconds) << '\n'
+              << "bytes of all sessions  " << limit(info.max_total_bytes) << '\n'
+              << "  on one GPU           " << limit(info.max_total_device_bytes) << '\n'
+              << "idle buffers seconds   " << seconds_limit(info.max_idle_buffers_seconds) << '\n'
+              << "of one name, or of one address where the server asks for no tokens:\n"
+              << "  sessions             " << limit(info.max_sessions_per_name) << '\n'
+              << "  watchers per session " << limit(info.max_watchers_per_name) << '\n'
+              << "  frames per second    " << limit(info.max_frames_per_second_per_name) << '\n'
+              << "  bytes in flight      " << limit(info.max_bytes_in_flight_per_name) << '\n';
 }
 
 void print_this_process(Backend choice) {

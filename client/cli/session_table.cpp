@@ -7,7 +7,7 @@
 namespace meniscus::cli {
 namespace {
 
-constexpr std::size_t column_count = 12;
+constexpr std::size_t column_count = 13;
 using Line = std::array<std::string, column_count>;
 
 std::string fixed(double value, int digits) {
@@ -16,25 +16,39 @@ std::string fixed(double value, int digits) {
     return text.data();
 }
 
-const Line header{"SESSION",   "OWNER",     "STATE",    "FRAMES",  "FRAMES/S", "LATENCY MS",
-                  "PARTICLES", "TRIANGLES", "WATCHERS", "DROPPED", "SKIPPED",  "GPU BYTES"};
+const Line header{"SESSION",   "OWNER",     "STATE",    "WAITS FOR", "FRAMES",  "FRAMES/S", "LATENCY MS",
+                  "PARTICLES", "TRIANGLES", "WATCHERS", "DROPPED",   "SKIPPED", "GPU BYTES"};
 
 /// Columns of words; the others are numbers, and end where their column ends.
-constexpr std::size_t words = 3;
+constexpr std::size_t words = 4;
+
+std::string wait_of(const client::SessionInfo& session) {
+    switch (session.waits_for) {
+        case client::SessionWait::nothing:
+            return "-";
+        case client::SessionWait::device:
+            return "device: " + (session.waits_for_session.empty() ? "another session" : session.waits_for_session);
+        case client::SessionWait::bytes_in_flight:
+            return "bytes in flight";
+        case client::SessionWait::something_else:
+            break;
+    }
+    return "?";
+}
 
 Line line_of(const SessionRow& row) {
     const client::SessionInfo& session = row.session;
     Line line{session.id, session.owner.empty() ? "-" : session.owner, session.uploading ? "uploading" : "idle",
-              short_count(session.frames)};
-    line[4] = row.frames_per_second ? fixed(*row.frames_per_second, 1) : "-";
+              wait_of(session), short_count(session.frames)};
+    line[5] = row.frames_per_second ? fixed(*row.frames_per_second, 1) : "-";
     const auto& last = session.last_frame;
-    line[5] = last ? fixed(last->latency_seconds * 1e3, 1) : "-";
-    line[6] = last ? short_count(last->particles) : "-";
-    line[7] = last ? short_count(last->triangles) : "-";
-    line[8] = short_count(session.watchers);
-    line[9] = short_count(session.frames_dropped);
-    line[10] = short_count(session.frames_skipped);
-    line[11] = last ? short_count(last->device_bytes) : "-";
+    line[6] = last ? fixed(last->latency_seconds * 1e3, 1) : "-";
+    line[7] = last ? short_count(last->particles) : "-";
+    line[8] = last ? short_count(last->triangles) : "-";
+    line[9] = short_count(session.watchers);
+    line[10] = short_count(session.frames_dropped);
+    line[11] = short_count(session.frames_skipped);
+    line[12] = last ? short_count(last->device_bytes) : "-";
     return line;
 }
 

@@ -37,7 +37,17 @@ std::vector<prometheus::MetricFamily> limit_gauges(const Limits& limits, const B
                     {"frames_per_second", number(limits.frames_per_second)},
                     {"chunks_per_frame", number(limits.chunks_per_frame)},
                     {"idle_seconds", std::chrono::duration<double>(limits.idle_time).count()},
-                    {"message_bytes", number(limits.message_bytes)}})};
+                    {"message_bytes", number(limits.message_bytes)},
+                    {"upload_seconds", limits.least_pace.time.count()},
+                    {"upload_bytes_per_second", number(limits.least_pace.bytes_per_second)},
+                    {"orphan_seconds", std::chrono::duration<double>(limits.orphan_time).count()},
+                    {"total_bytes", number(limits.total_bytes)},
+                    {"total_device_bytes", number(limits.total_device_bytes)},
+                    {"idle_buffers_seconds", std::chrono::duration<double>(limits.idle_buffers_time).count()},
+                    {"sessions_per_name", number(limits.per_name.sessions)},
+                    {"watchers_per_name", number(limits.per_name.watchers)},
+                    {"frames_per_second_per_name", number(limits.per_name.frames_per_second)},
+                    {"bytes_in_flight_per_name", number(limits.per_name.bytes_in_flight)}})};
 }
 
 }  // namespace meniscus::server

@@ -92,6 +92,11 @@ struct PrometheusMetrics::Instruments {
                                                          .Name("meniscus_calls_total")
                                                          .Help("gRPC calls that have ended, by status code.")
                                                          .Register(registry);
+    prometheus::Family<prometheus::Counter>& refusals =
+        prometheus::BuildCounter()
+            .Name("meniscus_refusals_total")
+            .Help("Calls refused, by reason (a limit's name, or what was wrong) and by the name of the caller's token.")
+            .Register(registry);
 };
 
 PrometheusMetrics::PrometheusMetrics() : instruments_(std::make_unique<Instruments>()) {}
@@ -135,6 +140,10 @@ void PrometheusMetrics::watcher_lag(double seconds) {
 
 void PrometheusMetrics::call_ended(std::string_view code) {
     instruments_->calls.Add({{"code", std::string(code)}}).Increment();
+}
+
+void PrometheusMetrics::refused(std::string_view reason, std::string_view name) {
+    instruments_->refusals.Add({{"reason", std::string(reason)}, {"name", std::string(name)}}).Increment();
 }
 
 std::vector<prometheus::MetricFamily> PrometheusMetrics::collect() const {

@@ -22,6 +22,7 @@ public:
     void frame_skipped() override;
     void watcher_lag(double seconds) override;
     void call_ended(std::string_view code) override;
+    void refused(std::string_view reason, std::string_view name) override;
 
     /// The values of this moment.
     std::vector<prometheus::MetricFamily> collect() const;

@@ -27,7 +27,9 @@ std::vector<prometheus::MetricFamily> session_gauges(SessionRegistry& registry) 
         gauge("meniscus_watchers", "Watchers of all sessions.", watchers),
         gauges("meniscus_host_bytes",
                "Host memory of all sessions, by what it is for; of reconstructions the most that each held.", "pool",
-               {{"reconstruction", host_bytes}, {"frames_in_flight", static_cast<double>(registry.bytes_in_flight())}}),
+               {{"reconstruction", host_bytes},
+                {"reconstruction_now", static_cast<double>(registry.reconstruction_bytes())},
+                {"frames_in_flight", static_cast<double>(registry.bytes_in_flight())}}),
         gauges("meniscus_device_bytes", "GPU memory of all sessions, by what it is for.", "pool",
                {{"reconstruction", device_bytes}})};
 }

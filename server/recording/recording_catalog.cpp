@@ -54,10 +54,12 @@ void RecordingCatalog::look_into(const std::filesystem::path& session_folder) {
     }
 }
 
-RecordingCatalog::Opened RecordingCatalog::open(const RecordingName& name) {
+RecordingCatalog::Opened RecordingCatalog::open(const RecordingName& name,
+                                                const std::function<bool(const std::string& owner)>& may_see) {
     if (!entries_.contains(name)) list();
     if (entries_.contains(name))
-        if (auto file = refresh(name)) return {.file = std::move(file), .index = entries_.at(name).index};
+        if (auto file = refresh(name); file && may_see(entries_.at(name).index.begin().owner()))
+            return {.file = std::move(file), .index = entries_.at(name).index};
     throw Refusal(Refusal::Kind::not_found,
                   fmt::format("no recording {} of session {}; ListRecordings tells which there are", name.number,
                               name.session_id));

@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -37,8 +38,9 @@ public:
         std::shared_ptr<const files::RandomAccessFile> file;
         const RecordingIndex& index;  ///< as the file is now; until the next call
     };
-    /// Throws Refusal, not_found, if there is no such recording.
-    Opened open(const RecordingName& name);
+    /// may_see: whether the recordings of this owner exist for the caller. Throws Refusal, not_found, if there is no
+    /// such recording for it.
+    Opened open(const RecordingName& name, const std::function<bool(const std::string& owner)>& may_see);
 
 private:
     void look_into(const std::filesystem::path& session_folder);

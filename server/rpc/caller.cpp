@@ -11,7 +11,16 @@ Caller admit(const Authorizer& authorizer, const grpc::ServerContextBase& contex
     std::vector<std::string_view> values;
     const auto [first, last] = context.client_metadata().equal_range("authorization");
     for (auto entry = first; entry != last; ++entry) values.emplace_back(entry->second.data(), entry->second.size());
-    return authorizer.admit(values, action);
+    return authorizer.admit(values, PeerAddress::of_grpc(peer_of(context)), action);
+}
+
+std::shared_ptr<NameAccount> account_of(const Caller& caller, SessionRegistry& registry) {
+    if (caller.account.empty()) return nullptr;
+    return registry.account(caller.account, caller.shares);
+}
+
+std::shared_ptr<Session> find_session(const Caller& caller, SessionRegistry& registry, const std::string& id) {
+    return registry.find(id, [&](const std::string& owner) { return Authorizer::may_see(caller, owner); });
 }
 
 std::string peer_of(const grpc::ServerContextBase& context) {

@@ -3,9 +3,11 @@
 
 #include <grpcpp/server_context.h>
 
+#include <memory>
 #include <string>
 
 #include "security/authorizer.hpp"
+#include "sessions/session_registry.hpp"
 
 namespace meniscus::server {
 
@@ -16,5 +18,11 @@ Caller admit(const Authorizer& authorizer, const grpc::ServerContextBase& contex
 /// with
 /// "(web)" behind it.
 std::string peer_of(const grpc::ServerContextBase& context);
+
+/// What callers share of which this one has its part; none if it has no limits of its own.
+std::shared_ptr<NameAccount> account_of(const Caller& caller, SessionRegistry& registry);
+
+/// The session, if it exists for the caller. Throws Refusal, not_found, otherwise.
+std::shared_ptr<Session> find_session(const Caller& caller, SessionRegistry& registry, const std::string& id);
 
 }  // namespace meniscus::server

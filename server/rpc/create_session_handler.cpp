@@ -2,6 +2,7 @@
 
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
+#include "rpc/caller.hpp"
 #include "rpc/session_message.hpp"
 
 namespace meniscus::server {
@@ -12,9 +13,12 @@ v1::CreateSessionResponse create_session(SessionRegistry& registry, const Caller
     const Settings settings = conversion::from_wire(request.settings());
     validate(settings);
     v1::CreateSessionResponse response;
-    const auto session = registry.create(request.id(), settings, caller.name);
-    Authorizer::require_access(caller, Action::create_session, session->id(), session->owner());
-    *response.mutable_session() = session_message(*session);
+    const auto session = registry.create(
+        request.id(), settings,
+        {.name = caller.name, .account = account_of(caller, registry), .may_see = [&](const std::string& owner) {
+             return Authorizer::may_see(caller, owner);
+         }});
+    *response.mutable_session() = session_message(*session, caller);
     return response;
 }
 

@@ -1,12 +1,12 @@
 #include "rpc/delete_session_handler.hpp"
 
+#include "rpc/caller.hpp"
+
 namespace meniscus::server {
 
 v1::DeleteSessionResponse delete_session(SessionRegistry& registry, const Caller& caller,
                                          const v1::DeleteSessionRequest& request) {
-    const auto session = registry.find(request.id());
-    Authorizer::require_access(caller, Action::delete_session, request.id(), session->owner());
-    registry.remove(session);
+    registry.remove(find_session(caller, registry, request.id()));
     return {};
 }
 

@@ -1,5 +1,6 @@
 #include "rpc/get_session_handler.hpp"
 
+#include "rpc/caller.hpp"
 #include "rpc/session_message.hpp"
 
 namespace meniscus::server {
@@ -7,9 +8,7 @@ namespace meniscus::server {
 v1::GetSessionResponse get_session(SessionRegistry& registry, const Caller& caller,
                                    const v1::GetSessionRequest& request) {
     v1::GetSessionResponse response;
-    const auto session = registry.find(request.id());
-    Authorizer::require_access(caller, Action::get_session, session->id(), session->owner());
-    *response.mutable_session() = session_message(*session);
+    *response.mutable_session() = session_message(*find_session(caller, registry, request.id()), caller);
     return response;
 }
 

@@ -8,7 +8,7 @@ v1::ListSessionsResponse list_sessions(SessionRegistry& registry, const Caller& 
                                        const v1::ListSessionsRequest& /*request*/) {
     v1::ListSessionsResponse response;
     for (const auto& session : registry.list())
-        if (Authorizer::may_see(caller, session->owner())) *response.add_sessions() = session_message(*session);
+        if (Authorizer::may_see(caller, session->owner())) *response.add_sessions() = session_message(*session, caller);
     return response;
 }
 

@@ -142,8 +142,8 @@ private:
     }
 
     void open(RecordingCatalog& catalog, const Caller& caller) {
-        const auto opened = catalog.open({.session_id = request_.session_id(), .number = request_.number()});
-        Authorizer::require_access(caller, Action::read_recording, request_.session_id(), opened.index.begin().owner());
+        const auto opened = catalog.open({.session_id = request_.session_id(), .number = request_.number()},
+                                         [&](const std::string& owner) { return Authorizer::may_see(caller, owner); });
         messages_.emplace(opened, request_);
     }
 

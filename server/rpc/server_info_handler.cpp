@@ -28,6 +28,16 @@ v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, uns
     wire.set_chunks_per_frame(limits.chunks_per_frame);
     wire.set_idle_seconds(std::chrono::duration<double>(limits.idle_time).count());
     wire.set_message_bytes(limits.message_bytes);
+    wire.set_upload_seconds(limits.least_pace.time.count());
+    wire.set_upload_bytes_per_second(limits.least_pace.bytes_per_second);
+    wire.set_orphan_seconds(std::chrono::duration<double>(limits.orphan_time).count());
+    wire.set_total_bytes(limits.total_bytes);
+    wire.set_total_device_bytes(limits.total_device_bytes);
+    wire.set_idle_buffers_seconds(std::chrono::duration<double>(limits.idle_buffers_time).count());
+    wire.set_sessions_per_name(limits.per_name.sessions);
+    wire.set_watchers_per_name(limits.per_name.watchers);
+    wire.set_frames_per_second_per_name(limits.per_name.frames_per_second);
+    wire.set_bytes_in_flight_per_name(limits.per_name.bytes_in_flight);
     return response;
 }
 

@@ -8,6 +8,7 @@
 #include "meniscus/v1/surface_service.grpc.pb.h"
 #include "recording/recording_reads.hpp"
 #include "rpc/active_calls.hpp"
+#include "rpc/refusals.hpp"
 #include "security/authorizer.hpp"
 #include "sessions/session_registry.hpp"
 
@@ -18,13 +19,15 @@ using RawServerService = v1::ServerService::WithRawCallbackMethod_GetServerInfo<
 
 class ServerServiceImpl final : public RawServerService {
 public:
-    ServerServiceImpl(const Authorizer& authorizer, BackendDescription backend, unsigned threads, const Limits& limits);
+    ServerServiceImpl(const Authorizer& authorizer, Refusals& refusals, BackendDescription backend, unsigned threads,
+                      const Limits& limits);
 
     grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                             grpc::ByteBuffer* response) override;
 
 private:
     const Authorizer& authorizer_;
+    Refusals& refusals_;
     const BackendDescription backend_;
     const unsigned threads_;
     const Limits limits_;
@@ -36,8 +39,8 @@ using RawSessionService = v1::SessionService::WithRawCallbackMethod_CreateSessio
 
 class SessionServiceImpl final : public RawSessionService {
 public:
-    SessionServiceImpl(SessionRegistry& registry, const Authorizer& authorizer)
-        : registry_(registry), authorizer_(authorizer) {}
+    SessionServiceImpl(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals)
+        : registry_(registry), authorizer_(authorizer), refusals_(refusals) {}
 
     grpc::ServerUnaryReactor* CreateSession(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                             grpc::ByteBuffer* response) override;
@@ -51,6 +54,7 @@ public:
 private:
     SessionRegistry& registry_;
     const Authorizer& authorizer_;
+    Refusals& refusals_;
 };
 
 /// Raw, so that all receivers share one encoded message.
@@ -60,9 +64,9 @@ using RawSurfaceService =
 
 class SurfaceServiceImpl final : public RawSurfaceService {
 public:
-    SurfaceServiceImpl(SessionRegistry& registry, const Authorizer& authorizer, ActiveCalls& streams,
-                       ActiveCalls& watchers)
-        : registry_(registry), authorizer_(authorizer), streams_(streams), watchers_(watchers) {}
+    SurfaceServiceImpl(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,
+                       ActiveCalls& streams, ActiveCalls& watchers)
+        : registry_(registry), authorizer_(authorizer), refusals_(refusals), streams_(streams), watchers_(watchers) {}
 
     grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* Stream(grpc::CallbackServerContext* context) override;
     grpc::ServerWriteReactor<grpc::ByteBuffer>* Watch(grpc::CallbackServerContext* context,
@@ -73,6 +77,7 @@ public:
 private:
     SessionRegistry& registry_;
     const Authorizer& authorizer_;
+    Refusals& refusals_;
     ActiveCalls& streams_;
     ActiveCalls& watchers_;
 };

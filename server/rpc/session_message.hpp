@@ -2,10 +2,12 @@
 #pragma once
 
 #include "meniscus/v1/session_service.pb.h"
+#include "security/tokens.hpp"
 #include "sessions/session.hpp"
 
 namespace meniscus::server {
 
-v1::Session session_message(const Session& session);
+/// Which session it waits for is told to admins alone.
+v1::Session session_message(const Session& session, const Caller& caller);
 
 }  // namespace meniscus::server

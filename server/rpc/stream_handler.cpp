@@ -37,9 +37,11 @@ namespace {
 class StreamReactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
                             public std::enable_shared_from_this<StreamReactor> {
 public:
-    StreamReactor(SessionRegistry& registry, ActiveCalls& calls, grpc::CallbackServerContext& context)
+    StreamReactor(SessionRegistry& registry, Refusals& refusals, ActiveCalls& calls,
+                  grpc::CallbackServerContext& context)
         : active_(calls),
           registry_(registry),
+          refusals_(refusals),
           context_(context),
           peer_(context.peer()),
           assembler_(registry.limits()) {}
@@ -97,7 +99,7 @@ public:
         const auto self = std::move(self_);
         if (!upload_) return;
         // For a call that ended before its upload: nobody reads, and the session is free for the next stream.
-        session_->cancel_upload(upload_);
+        session_->cancel_upload(upload_, vanished_);
         log_info({.session = session_id_}, "stream from {} closed: {}", peer_, outcome_);
     }
 
@@ -119,7 +121,7 @@ private:
         }
         upload_->last_activity = Upload::Clock::now();
         if (!receive_chunk() && !receive_message()) return;
-        read_next();
+        read_once_booked();
     }
 
     /// False if it is another message.
@@ -129,6 +131,7 @@ private:
         FrameChunkReader chunk(bytes, incoming_.Length());
         if (!chunk.bytes()) return false;
         chunk.copy_to(assembler_.append(*chunk.bytes(), *input_));
+        upload_->pace.arrived(*chunk.bytes());
         return true;
     }
 
@@ -141,13 +144,16 @@ private:
             case v1::StreamRequest::kFrameBegin:
                 session_->admit_frame(request_.frame_begin().frame_index());
                 assembler_.begin(request_.frame_begin(), *input_);
+                upload_->pace.begin(request_.frame_begin().frame_index(), assembler_.expected());
                 enter_frame(true);
                 return true;
             case v1::StreamRequest::kFrameChunk:
                 assembler_.append(request_.frame_chunk(), *input_);
+                upload_->pace.arrived(request_.frame_chunk().data().size());
                 return true;
             case v1::StreamRequest::kFrameEnd:
                 assembler_.end(*input_);
+                upload_->pace.end();
                 session_->submit(upload_, *std::exchange(input_, nullptr));
                 if (enter_frame(false))
                     request_input();
@@ -172,17 +178,36 @@ private:
                            fields.field(0).number());
     }
 
-    void read_next() {
+    /// The next read starts once what has arrived is booked: until then gRPC's flow control slows the simulator down.
+    void read_once_booked() {
+        const bool booked = input_->book(assembler_.arrived(), [self = weak_from_this()] {
+            if (const auto reactor = self.lock()) reactor->booked();
+        });
         InputFrame* unused = nullptr;
         {
             const std::lock_guard lock(mutex_);
             working_ = false;
-            if (reading_ended_ || canceled_)
+            if (reading_ended_ || canceled_) {
                 unused = std::exchange(input_, nullptr);
-            else
+            } else if (booked || std::exchange(booked_already_, false)) {
                 start_read();
+            } else {
+                waits_for_room_ = true;
+                upload_->pace.pause();
+            }
         }
         if (unused != nullptr) session_->return_input(*unused);
+    }
+
+    /// From another thread, which may be faster than the one that asked.
+    void booked() {
+        const std::lock_guard lock(mutex_);
+        if (!std::exchange(waits_for_room_, false)) {
+            booked_already_ = true;
+            return;
+        }
+        upload_->pace.resume();
+        if (!reading_ended_ && !canceled_) start_read();
     }
 
     void start_read() {
@@ -227,15 +252,17 @@ private:
     void open(const v1::StreamOpen& message) {
         require_same_session(session_id_, message.session_id());
         const UploadOptions options = upload_options(message);
-        const auto session = registry_.find(session_id_);
-        Authorizer::require_access(caller_, Action::stream, session_id_, session->owner());
+        const auto session = find_session(caller_, registry_, session_id_);
         const auto wake = [self = weak_from_this()] {
             if (const auto reactor = self.lock()) reactor->write();
         };
         const auto drain = [self = weak_from_this()] {
             if (const auto reactor = self.lock()) reactor->drain();
         };
-        auto upload = session->open_upload(options, wake, drain);
+        const auto stop = [self = weak_from_this()](std::exception_ptr error) {
+            if (const auto reactor = self.lock()) reactor->stop_reading(std::move(error));
+        };
+        auto upload = session->open_upload(options, wake, drain, stop);
         log_info({.session = session_id_}, "stream from {} opened", peer_);
         {
             const std::lock_guard lock(mutex_);
@@ -292,11 +319,15 @@ private:
 
     void stop_reading(std::exception_ptr error) {
         std::shared_ptr<Upload> upload;
+        InputFrame* unused = nullptr;
         {
             const std::lock_guard lock(mutex_);
             if (std::exchange(reading_ended_, true)) return;
             upload = upload_;
+            // Now, and not with the call's end: a simulator that reads nothing could hold it back.
+            if (!working_) unused = std::exchange(input_, nullptr);
         }
+        if (unused != nullptr) session_->return_input(*unused);
         if (upload)
             session_->end_upload(std::move(upload), std::move(error));
         else
@@ -337,9 +368,10 @@ private:
 
     void write_next() {
         if (canceled_) {
+            vanished_ = !reading_ended_;
             finish({grpc::StatusCode::CANCELLED, "the client has gone"});
         } else if (refusal_) {
-            finish(to_status(*refusal_));
+            finish_with(*refusal_);
         } else if (upload_) {
             auto next = upload_->output.take();
             if (const auto* message = std::get_if<SharedMessage>(&next)) {
@@ -349,7 +381,7 @@ private:
                 StartWrite(&outgoing_);
             } else if (const auto* end = std::get_if<OutputQueue::End>(&next)) {
                 if (is_idle(end->error)) context_.AddTrailingMetadata("x-stream-end", "idle");
-                finish(to_status(end->error));
+                finish_with(end->error);
             }
         }
     }
@@ -365,6 +397,11 @@ private:
         }
     }
 
+    void finish_with(const std::exception_ptr& error) {
+        refusals_.report(error, caller_.name, peer_);
+        finish(to_status(error));
+    }
+
     void finish(const grpc::Status& status) {
         finished_ = true;
         reading_ended_ = true;
@@ -374,6 +411,7 @@ private:
 
     const ActiveCalls::Token active_;
     SessionRegistry& registry_;
+    Refusals& refusals_;
     grpc::CallbackServerContext& context_;  ///< gRPC keeps it until OnDone
     const std::string peer_;
     std::shared_ptr<StreamReactor> self_;  ///< until OnDone
@@ -396,12 +434,15 @@ private:
     grpc::ByteBuffer outgoing_;
     std::optional<std::exception_ptr> refusal_;
     std::string outcome_;
-    bool working_ = false;  ///< the reading side, on a message
+    bool working_ = false;         ///< the reading side, on a message
+    bool waits_for_room_ = false;  ///< the reading side
+    bool booked_already_ = false;  ///< before it waited
     bool in_frame_ = false;
     bool draining_ = false;
     bool reading_ended_ = false;
     bool writing_ = false;
     bool canceled_ = false;
+    bool vanished_ = false;  ///< canceled while more was to come
     bool finished_ = false;
 };
 
@@ -409,9 +450,9 @@ private:
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* start_stream(SessionRegistry& registry,
                                                                           const Authorizer& authorizer,
-                                                                          ActiveCalls& calls,
+                                                                          Refusals& refusals, ActiveCalls& calls,
                                                                           grpc::CallbackServerContext& context) {
-    const auto reactor = std::make_shared<StreamReactor>(registry, calls, context);
+    const auto reactor = std::make_shared<StreamReactor>(registry, refusals, calls, context);
     reactor->start(authorizer);
     return reactor.get();
 }

@@ -6,6 +6,7 @@
 #include <grpcpp/support/server_callback.h>
 
 #include "rpc/active_calls.hpp"
+#include "rpc/refusals.hpp"
 #include "security/authorizer.hpp"
 #include "sessions/session_registry.hpp"
 
@@ -14,7 +15,7 @@ namespace meniscus::server {
 /// The call's reactor, which owns itself until the call is done.
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* start_stream(SessionRegistry& registry,
                                                                           const Authorizer& authorizer,
-                                                                          ActiveCalls& calls,
+                                                                          Refusals& refusals, ActiveCalls& calls,
                                                                           grpc::CallbackServerContext& context);
 
 }  // namespace meniscus::server

@@ -30,20 +30,23 @@ public:
 
     /// Request: what names the session and the wishes.
     template <class Request>
-    void start(SessionRegistry& registry, const Authorizer& authorizer, grpc::CallbackServerContext& context,
-               const grpc::ByteBuffer& request) {
+    void start(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,
+               grpc::CallbackServerContext& context, const grpc::ByteBuffer& request) {
         self_ = shared_from_this();
+        Caller caller;
         try {
-            const Caller caller = admit(authorizer, context, Action::watch);
+            caller = admit(authorizer, context, Action::watch);
             session_id_ = metadata_session_id(context);
             const auto message = parsed<Request>(request);
             require_same_session(session_id_, message.session_id());
-            session_ = registry.find(session_id_);
-            Authorizer::require_access(caller, Action::watch, session_id_, session_->owner());
-            watch_ = session_->open_watch(watch_wishes_of(message, session_->settings()), [self = weak_from_this()] {
+            session_ = find_session(caller, registry, session_id_);
+            const auto wake = [self = weak_from_this()] {
                 if (const auto reactor = self.lock()) reactor->write();
-            });
+            };
+            watch_ = session_->open_watch(watch_wishes_of(message, session_->settings()), wake,
+                                          account_of(caller, registry));
         } catch (...) {
+            refusals.report(std::current_exception(), caller.name, peer_);
             const std::lock_guard lock(mutex_);
             finish(to_status(std::current_exception()));
             return;
@@ -137,18 +140,20 @@ private:
 
 template <class Request>
 grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, const Authorizer& authorizer,
-                                                        ActiveCalls& calls, grpc::CallbackServerContext& context,
+                                                        Refusals& refusals, ActiveCalls& calls,
+                                                        grpc::CallbackServerContext& context,
                                                         const grpc::ByteBuffer& request) {
     const auto reactor = std::make_shared<WatchReactor>(registry.metrics(), calls, context);
-    reactor->start<Request>(registry, authorizer, context, request);
+    reactor->start<Request>(registry, authorizer, refusals, context, request);
     return reactor.get();
 }
 
 template grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch<v1::WatchRequest>(SessionRegistry&, const Authorizer&,
-                                                                                   ActiveCalls&,
+                                                                                   Refusals&, ActiveCalls&,
                                                                                    grpc::CallbackServerContext&,
                                                                                    const grpc::ByteBuffer&);
 template grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch<v1::WatchParticlesRequest>(
-    SessionRegistry&, const Authorizer&, ActiveCalls&, grpc::CallbackServerContext&, const grpc::ByteBuffer&);
+    SessionRegistry&, const Authorizer&, Refusals&, ActiveCalls&, grpc::CallbackServerContext&,
+    const grpc::ByteBuffer&);
 
 }  // namespace meniscus::server

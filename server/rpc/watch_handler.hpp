@@ -6,6 +6,7 @@
 #include <grpcpp/support/server_callback.h>
 
 #include "rpc/active_calls.hpp"
+#include "rpc/refusals.hpp"
 #include "security/authorizer.hpp"
 #include "sessions/session_registry.hpp"
 
@@ -15,7 +16,8 @@ namespace meniscus::server {
 /// v1::WatchParticlesRequest.
 template <class Request>
 grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, const Authorizer& authorizer,
-                                                        ActiveCalls& calls, grpc::CallbackServerContext& context,
+                                                        Refusals& refusals, ActiveCalls& calls,
+                                                        grpc::CallbackServerContext& context,
                                                         const grpc::ByteBuffer& request);
 
 }  // namespace meniscus::server

@@ -11,7 +11,8 @@
 
 namespace meniscus::server {
 
-Access::Access(const TlsFiles& tls, const std::string& tokens) : tls_files_(tls), tokens_file_(tokens) {
+Access::Access(const TlsFiles& tls, const std::string& tokens, const std::vector<std::string>& trusted_proxies)
+    : tls_files_(tls), tokens_file_(tokens), authorizer_(TrustedPeers(trusted_proxies)) {
     if (tls.any()) {
         certificates_ = load_certificates(tls);
         tls_ = std::make_shared<TlsCredentials>(certificates_);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "security/authorizer.hpp"
 #include "security/certificates.hpp"
@@ -18,8 +19,9 @@ namespace meniscus::server {
 
 class Access {
 public:
-    /// tokens: a file; empty: every client may do everything. Throws InvalidInput if a file cannot be used.
-    Access(const TlsFiles& tls, const std::string& tokens);
+    /// tokens: a file; empty: every client may do everything. trusted_proxies: peers through which others come. Throws
+    /// InvalidInput if one of these cannot be used.
+    Access(const TlsFiles& tls, const std::string& tokens, const std::vector<std::string>& trusted_proxies = {});
 
     const Authorizer& authorizer() const noexcept { return authorizer_; }
     /// For the gRPC port.

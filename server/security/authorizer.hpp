@@ -6,8 +6,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "security/peer_address.hpp"
 #include "security/tokens.hpp"
+#include "security/trusted_peers.hpp"
 
 namespace meniscus::server {
 
@@ -28,20 +31,21 @@ enum class Action {
 /// uploader does everything with sessions of its own, and sees no others. An admin does everything. Thread-safe.
 class Authorizer {
 public:
+    /// trusted: peers through which others come.
+    explicit Authorizer(TrustedPeers trusted = TrustedPeers()) : trusted_(std::move(trusted)) {}
+
     /// For calls from now on. Before the first call of it every client may do everything.
     void replace(Tokens tokens);
 
     /// authorization: the values of the call's header of that name. Throws Refusal: unauthenticated without one token
     /// that is known, permission_denied if its role is not enough.
-    Caller admit(std::span<const std::string_view> authorization, Action action) const;
+    Caller admit(std::span<const std::string_view> authorization, const PeerAddress& peer, Action action) const;
 
     /// Whether sessions of this owner exist for this caller.
     static bool may_see(const Caller& caller, std::string_view owner);
-    /// Throws Refusal, permission_denied, unless the caller may do this with the session. admit() has let the action
-    /// pass.
-    static void require_access(const Caller& caller, Action action, const std::string& session, std::string_view owner);
 
 private:
+    const TrustedPeers trusted_;
     mutable std::mutex mutex_;  ///< for the pointer
     std::shared_ptr<const Tokens> tokens_;
 };

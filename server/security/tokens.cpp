@@ -5,6 +5,8 @@
 #include <openssl/sha.h>
 
 #include <algorithm>
+#include <charconv>
+#include <limits>
 #include <sstream>
 
 #include "meniscus/error.hpp"
@@ -17,6 +19,48 @@ namespace {
 
 /// Of a token: 128 bits as hexadecimal digits have twice as many.
 constexpr std::size_t shortest_token = 16;
+
+constexpr const char* line_format =
+    "a line must be: ROLE NAME TOKEN, then any of sessions=N watchers=N frames-per-second=N bytes-in-flight=BYTES";
+
+/// Of "12", and with a unit of "4M"; none for anything else.
+std::optional<std::uint64_t> number_of(std::string_view text, bool with_unit) {
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc()) return std::nullopt;
+    const std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+    if (unit.empty()) return number;
+    constexpr std::string_view units = "KMGT";
+    const std::size_t power = units.find(unit);
+    if (!with_unit || unit.size() != 1 || power == std::string_view::npos) return std::nullopt;
+    const unsigned shift = 10 * (static_cast<unsigned>(power) + 1);
+    if (number > (std::numeric_limits<std::uint64_t>::max() >> shift)) return std::nullopt;
+    return number << shift;
+}
+
+/// Returns false if the word is none.
+bool add_share(std::string_view word, OwnShares& shares) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string_view::npos) return false;
+    const std::string_view key = word.substr(0, equals);
+    const auto number = number_of(word.substr(equals + 1), key == "bytes-in-flight");
+    if (!number) return false;
+    if (key == "bytes-in-flight") {
+        shares.bytes_in_flight = *number;
+        return true;
+    }
+    if (*number > std::numeric_limits<std::uint32_t>::max()) return false;
+    const auto count = static_cast<std::uint32_t>(*number);
+    if (key == "sessions")
+        shares.sessions = count;
+    else if (key == "watchers")
+        shares.watchers = count;
+    else if (key == "frames-per-second")
+        shares.frames_per_second = count;
+    else
+        return false;
+    return true;
+}
 
 }  // namespace
 
@@ -40,11 +84,12 @@ Tokens Tokens::load(const std::string& path) {
         std::string role_name;
         std::string name;
         std::string token;
-        std::string more;
         words >> role_name;
         if (role_name.empty() || role_name.starts_with('#')) continue;
-        if (!(words >> name >> token) || words >> more)
-            throw InvalidInput(fmt::format("{}:{}: a line must be: ROLE NAME TOKEN", path, number));
+        if (!(words >> name >> token)) throw InvalidInput(fmt::format("{}:{}: {}", path, number, line_format));
+        OwnShares shares;
+        for (std::string word; words >> word;)
+            if (!add_share(word, shares)) throw InvalidInput(fmt::format("{}:{}: {}", path, number, line_format));
         // What stands there may be a token.
         const auto role = find_by_name<Role>(role_name);
         if (!role) throw InvalidInput(fmt::format("{}:{}: the role must be {}", path, number, listed(names<Role>)));
@@ -54,7 +99,20 @@ Tokens Tokens::load(const std::string& path) {
                             "openssl rand -hex 32)",
                             path, number, token.size(), shortest_token));
         if (tokens.find(token)) throw InvalidInput(fmt::format("{}:{}: the token is there twice", path, number));
-        tokens.entries_.push_back({digest_of(token), {std::move(name), *role}});
+        const bool has_shares = shares != OwnShares{};
+        for (Entry& entry : tokens.entries_) {
+            if (entry.caller.name != name) continue;
+            if (!has_shares)
+                shares = entry.caller.shares;
+            else if (entry.caller.shares == OwnShares{})
+                entry.caller.shares = shares;
+            else if (entry.caller.shares != shares)
+                throw InvalidInput(
+                    fmt::format("{}:{}: the shares of {} differ from those on a line above", path, number, name));
+        }
+        const std::string account = name;
+        tokens.entries_.push_back(
+            {digest_of(token), {.name = std::move(name), .role = *role, .shares = shares, .account = account}});
     }
     if (tokens.entries_.empty()) throw InvalidInput(fmt::format("{} has no tokens: nobody could call", path));
     return tokens;
@@ -73,7 +131,7 @@ bool Tokens::operator==(const Tokens& other) const {
     return std::equal(entries_.begin(), entries_.end(), other.entries_.begin(), other.entries_.end(),
                       [](const Entry& a, const Entry& b) {
                           return a.digest == b.digest && a.caller.name == b.caller.name &&
-                                 a.caller.role == b.caller.role;
+                                 a.caller.role == b.caller.role && a.caller.shares == b.caller.shares;
                       });
 }
 

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sessions/limits/name_shares.hpp"
+
 namespace meniscus::server {
 
 enum class Role { uploader, watcher, admin };
@@ -26,6 +28,8 @@ constexpr std::string_view name_of(Role role) {
 struct Caller {
     std::string name;
     Role role = Role::admin;
+    OwnShares shares{};     ///< what the tokens file says of this name
+    std::string account{};  ///< the name, or without tokens the peer's address; empty: it has no limits of its own
 };
 
 /// SHA-256. Tokens are kept and compared as digests, which are all of one length.
@@ -37,8 +41,8 @@ bool equal(const TokenDigest& a, const TokenDigest& b);
 
 class Tokens {
 public:
-    /// Lines `role name token`; those that begin with # are comments. Throws InvalidInput that names file and line,
-    /// never a token.
+    /// Lines `role name token`, then shares of that name such as `sessions=4`; those that begin with # are comments. A
+    /// name's shares hold for all of its tokens. Throws InvalidInput that names file and line, never a token.
     static Tokens load(const std::string& path);
 
     /// Takes a time that depends on the number of tokens, not on which one it is.

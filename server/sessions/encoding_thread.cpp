@@ -64,6 +64,7 @@ void EncodingThread::run() {
             log_error({.session = context_.identity.id}, "the session ends: {}", error.what());
             ends_.session(std::current_exception());
         }
+        --pending_;
     }
 }
 
@@ -152,6 +153,33 @@ void EncodingThread::perform(AddCapped& task) {
     if (!capped.made) capped.mesh = std::move(task.mesh);
     capped.made = true;
     encode_for_watchers();
+}
+
+void EncodingThread::perform(ShowAgain& task) {
+    if (newest_ != nullptr) return give_back(*task.frame);
+    newest_ = task.frame;
+    encode_for_watchers();
+}
+
+void EncodingThread::perform(ReleaseMeshes& task) {
+    if (newest_ != nullptr && task.newest == Newest::keep) newest_->download.finish();
+    if (newest_ != nullptr && task.newest == Newest::release) give_back(*std::exchange(newest_, nullptr));
+    for (ReconstructedFrame& frame : frames_)
+        if (&frame != newest_) frame.release_memory();
+    scratch_.release_memory();
+    task.done->set_value();
+}
+
+bool EncodingThread::release_meshes(Newest newest) {
+    auto done = std::make_shared<std::promise<void>>();
+    std::future<void> released = done->get_future();
+    put(ReleaseMeshes{.done = std::move(done), .newest = newest});
+    try {
+        released.get();
+        return true;
+    } catch (const std::future_error&) {  // the promise was dropped with the tasks
+        return false;
+    }
 }
 
 void EncodingThread::answered(Upload& upload) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -48,7 +50,18 @@ public:
         int max_level = 0;
         Mesh mesh;
     };
-    using Task = std::variant<Encode, ReportDrop, EndUpload, EndSession, EncodeForWatchers, AddCapped>;
+    /// The newest frame, made again after release_meshes().
+    struct ShowAgain {
+        ReconstructedFrame* frame = nullptr;  ///< of wait_for_free_frame()
+    };
+    enum class Newest : std::uint8_t { release, keep };
+    /// Of release_meshes().
+    struct ReleaseMeshes {
+        std::shared_ptr<std::promise<void>> done;
+        Newest newest = Newest::release;
+    };
+    using Task =
+        std::variant<Encode, ReportDrop, EndUpload, EndSession, EncodeForWatchers, AddCapped, ShowAgain, ReleaseMeshes>;
 
     /// The thread calls these of its session, in the order of the tasks.
     struct Ends {
@@ -68,7 +81,15 @@ public:
     /// Waits for a mesh to reconstruct into; none once the thread is closed.
     ReconstructedFrame* wait_for_free_frame();
     /// Dropped once the thread is closed.
-    void put(Task task) { tasks_.put(std::move(task)); }
+    void put(Task task) {
+        ++pending_;
+        tasks_.put(std::move(task));
+    }
+    /// Whether it has nothing to do.
+    bool idle() const noexcept { return pending_ == 0; }
+    /// Frees the meshes and the memory that they are encoded in, once the tasks before are done. What is encoded stays.
+    /// Only while no frame is lent. Returns false if the thread is closed.
+    bool release_meshes(Newest newest);
     /// Of the frame answered last.
     std::optional<FrameStatistics> last_frame() const;
     /// Drops the tasks that wait. Returns at once.
@@ -84,6 +105,8 @@ private:
     void perform(EndSession& task);
     void perform(EncodeForWatchers& task);
     void perform(AddCapped& task);
+    void perform(ShowAgain& task);
+    void perform(ReleaseMeshes& task);
 
     /// Answers a frame of a resumed run that was finished before: for the simulator alone.
     void answer_again(Encode& task);
@@ -105,6 +128,7 @@ private:
     std::array<ReconstructedFrame, 2> frames_;
     Channel<ReconstructedFrame*> free_frames_;
     Channel<Task> tasks_;
+    std::atomic<int> pending_{0};  ///< tasks that were put and are not done
     ReconstructedFrame* newest_ = nullptr;
     ScratchPool scratch_;
     Encodings before_;  ///< of the frame before the newest, whose bricks may serve again

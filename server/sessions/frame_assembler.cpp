@@ -9,6 +9,7 @@
 #include "conversion/particle_arrays.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
+#include "sessions/limits/limit_reached.hpp"
 
 namespace meniscus::server {
 
@@ -73,6 +74,8 @@ void FrameAssembler::begin(const v1::FrameBegin& message, InputFrame& frame) {
 
     try {
         frame.allocate(expected_);
+    } catch (const LimitReached& error) {
+        throw LimitReached(error.limit(), fmt::format("frame {}: {}", message.frame_index(), error.what()));
     } catch (const LimitExceeded& error) {
         throw LimitExceeded(fmt::format("frame {}: {}", message.frame_index(), error.what()));
     }

@@ -27,6 +27,9 @@ public:
     void end_of_stream() const;
 
     bool in_frame() const noexcept { return in_frame_; }
+    /// Bytes of the frame begun last: announced, and arrived.
+    std::size_t expected() const noexcept { return expected_; }
+    std::size_t arrived() const noexcept { return filled_; }
 
 private:
     /// Of the whole frame. Throws LimitExceeded.

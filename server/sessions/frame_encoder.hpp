@@ -37,6 +37,12 @@ struct ReconstructedFrame {
     std::array<CappedMesh, 2> capped;  ///< at levels 1 and 2
     Statistics statistics;
 
+    /// Gives up the meshes.
+    void release_memory() {
+        download = {};
+        mesh = {};
+        capped = {};
+    }
     CappedMesh& capped_at(int max_level) { return capped.at(static_cast<std::size_t>(max_level - 1)); }
     /// Null if it was not made.
     const Mesh* mesh_at(int max_level) const {

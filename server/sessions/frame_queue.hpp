@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <exception>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -23,7 +24,10 @@ struct Received {
     std::optional<DroppedFrame> dropped = {};  ///< a note of a dropped frame
     int max_level = 0;                         ///< or, if not 0, of a new watcher that wishes for this level cap
     bool particles = false;                    ///< or of a new watcher that wishes for particles
-    std::exception_ptr error = nullptr;        ///< or that the upload ends, with this
+    bool meshes = false;                       ///< or of one that wishes for meshes
+    std::shared_ptr<std::promise<void>> release =
+        nullptr;                         ///< or that the buffers are to be given back: dropped when that is done
+    std::exception_ptr error = nullptr;  ///< or that the upload ends, with this
 };
 
 /// A frame can be replaced or withdrawn until it is taken. Therefore the one thread that takes frames first waits for

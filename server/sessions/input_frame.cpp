@@ -1,21 +1,13 @@
 #include "sessions/input_frame.hpp"
 
-#include <fmt/format.h>
-
 #include <bit>
-
-#include "meniscus/error.hpp"
 
 namespace meniscus::server {
 
 static_assert(std::endian::native == std::endian::little, "the wire's numbers are used in place");
 
 void InputFrame::allocate(std::size_t size) {
-    if (!in_flight_.take(size))
-        throw LimitExceeded(fmt::format(
-            "a frame of {} bytes beside the {} bytes of frames in flight; the server takes at most {} bytes "
-            "over all sessions: try again later, or with fewer particles",
-            size, in_flight_.all().bytes(), in_flight_.all().limit()));
+    in_flight_.announce(size);
     shown_in_run.reset();
     if (bytes.capacity() < size) {
         // A fresh array: growing the old one would hold both for a moment, and copy what nobody needs.

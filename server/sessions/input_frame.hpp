@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -16,14 +17,32 @@ namespace meniscus::server {
 
 struct InputFrame {
     explicit InputFrame(const std::shared_ptr<MemoryAccount>& account,
-                        std::shared_ptr<BytesInFlight> all_sessions = std::make_shared<BytesInFlight>())
-        : bytes(AccountAllocator<std::byte>(account)), in_flight_(std::move(all_sessions)) {}
+                        std::shared_ptr<BytesInFlight> all_sessions = std::make_shared<BytesInFlight>(),
+                        std::shared_ptr<SessionInFlight> session = std::make_shared<SessionInFlight>())
+        : bytes(AccountAllocator<std::byte>(account)), in_flight_(std::move(all_sessions), std::move(session)) {}
 
-    /// Makes `bytes` of this size, which are then in flight; keeps its memory if that suffices. Throws LimitExceeded or
-    /// std::bad_alloc.
+    /// Makes `bytes` of this size, which are announced for flight; keeps its memory if that suffices. Throws
+    /// LimitExceeded or std::bad_alloc.
     void allocate(std::size_t size);
+    /// See FrameInFlight.
+    bool book(std::size_t arrived, std::function<void()> booked) { return in_flight_.book(arrived, std::move(booked)); }
     /// Its bytes are no longer in flight. Its memory stays for the next frame.
     void land() noexcept { in_flight_.release(); }
+    /// Takes over the particles of a frame that has landed, whose bytes are then gone.
+    void take_from(InputFrame& other) {
+        index = other.index;
+        simulation_time = other.simulation_time;
+        particle_count = std::exchange(other.particle_count, 0);
+        quantized = other.quantized;
+        has_levels = other.has_levels;
+        quantization_box = other.quantization_box;
+        // Its allocator stays, with its account.
+        Array<std::byte> taken(other.bytes.get_allocator());
+        taken.swap(other.bytes);
+        bytes = std::move(taken);
+        received_at = other.received_at;
+        shown_in_run = std::exchange(other.shown_in_run, std::nullopt);
+    }
     /// The particles, in place.
     ParticleFrame view() const;
 
@@ -39,7 +58,7 @@ struct InputFrame {
     std::optional<std::uint64_t> shown_in_run;
 
 private:
-    ShareInFlight in_flight_;
+    FrameInFlight in_flight_;
 };
 
 }  // namespace meniscus::server

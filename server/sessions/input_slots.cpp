@@ -4,8 +4,10 @@
 
 namespace meniscus::server {
 
-InputSlots::InputSlots(const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<BytesInFlight>& in_flight)
-    : inputs_{InputFrame(account, in_flight), InputFrame(account, in_flight), InputFrame(account, in_flight)} {
+InputSlots::InputSlots(const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<BytesInFlight>& in_flight,
+                       const std::shared_ptr<SessionInFlight>& session)
+    : inputs_{InputFrame(account, in_flight, session), InputFrame(account, in_flight, session),
+              InputFrame(account, in_flight, session)} {
     for (std::size_t i = 0; i + 1 < inputs_.size(); ++i) free_.give(inputs_[i]);
 }
 
@@ -27,6 +29,16 @@ bool InputSlots::take_back(InputFrame& input) {
     if (&input != &third()) return false;
     const std::lock_guard lock(mutex_);
     return !std::exchange(third_in_use_, true);
+}
+
+void InputSlots::release_memory() {
+    for (InputFrame& input : inputs_) {
+        if (!take_back(input)) continue;
+        Array<std::byte>(input.bytes.get_allocator()).swap(input.bytes);
+        input.particle_count = 0;
+        input.shown_in_run.reset();
+        give_back(input);
+    }
 }
 
 void InputSlots::allow_third(bool allowed) {

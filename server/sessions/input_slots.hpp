@@ -14,7 +14,9 @@ namespace meniscus::server {
 /// complete. Thread-safe.
 class InputSlots {
 public:
-    InputSlots(const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<BytesInFlight>& in_flight);
+    /// session: its part of the bytes in flight.
+    InputSlots(const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<BytesInFlight>& in_flight,
+               const std::shared_ptr<SessionInFlight>& session);
 
     /// Calls the waiter once a slot is free, at once or from the thread that gives one back.
     void request(SlotPool<InputFrame>::Waiter waiter) { free_.request(std::move(waiter)); }
@@ -22,6 +24,8 @@ public:
     void give_back(InputFrame& input);
     /// Borrows a slot that was given back, for the frame that is still in it. False if another frame has the slot.
     bool take_back(InputFrame& input);
+    /// Frees the memory of the slots that no frame has.
+    void release_memory();
     void close() { free_.close(); }
 
     /// Whether the third slot may be lent. Calls no waiter.

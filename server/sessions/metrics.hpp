@@ -32,6 +32,8 @@ public:
     virtual void watcher_lag(double /*seconds*/) {}
     /// A call has ended; the status code by its name in gRPC, as "INVALID_ARGUMENT".
     virtual void call_ended(std::string_view /*code*/) {}
+    /// A call has been refused. reason: a word; name: of the caller's token, empty where there is none.
+    virtual void refused(std::string_view /*reason*/, std::string_view /*name*/) {}
 };
 
 constexpr std::string_view name_of(Metrics::Receiver receiver) {

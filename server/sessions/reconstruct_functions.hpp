@@ -31,6 +31,8 @@ struct ReconstructFunctions {
     std::function<void(int max_level, Mesh& mesh)> emit_capped{};
     /// Once it is raised, both throw Stopped soon. None: nothing stops them.
     std::shared_ptr<StopFlag> stop{};
+    /// Gives the buffers back until the next frame. May be none.
+    std::function<void()> release_memory{};
 };
 
 }  // namespace meniscus::server

@@ -44,14 +44,20 @@ void ReconstructingThread::run() {
         }
         if (next_mesh_ == nullptr) next_mesh_ = encoding_.wait_for_free_frame();
         if (next_mesh_ == nullptr) return;
-        Turns::Turn turn = context_.shared.turns->wait();
+        auto turn = begin_work();
+        if (!turn) return;
         // Only now, so that until its turn a frame can be replaced by a newer one.
-        if (auto frame = received_.take(next); frame && !reconstruct_next(std::move(*frame), std::move(turn))) return;
+        if (auto frame = received_.take(next); frame && !reconstruct_next(std::move(*frame), *std::move(turn))) return;
+        rest();
     }
 }
 
 void ReconstructingThread::pass_on(Received note) {
-    if (note.max_level != 0)
+    if (note.release)
+        release_buffers();
+    else if (note.meshes)
+        make_meshes_again();
+    else if (note.max_level != 0)
         cap_levels_again(note.max_level);
     else if (note.particles)
         particles_.show_again();
@@ -84,7 +90,10 @@ bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn)
         encoding_.put(EncodingThread::EndUpload{.upload = failed_, .error = std::current_exception()});
         return true;
     }
-    particles_.show(input, *received.upload->run);
+    if (particles_.show(input, *received.upload->run)) {
+        shown_ = {.number = next_mesh_->number, .run_id = next_mesh_->run_id, .statistics = next_mesh_->statistics};
+        meshes_released_ = false;
+    }
     inputs_.give_back(input);
     encoding_.put(
         EncodingThread::Encode{.upload = std::move(received.upload), .frame = std::exchange(next_mesh_, nullptr)});
@@ -148,7 +157,8 @@ void ReconstructingThread::cap_levels(ReconstructedFrame& frame) {
 
 void ReconstructingThread::cap_levels_again(int max_level) {
     if (!has_surface_) return;
-    const Turns::Turn turn = context_.shared.turns->wait();
+    const auto turn = begin_work();
+    if (!turn) return;
     const FrameStop::UnderWay under_way(stop_, nullptr);
     EncodingThread::AddCapped task{.frame_number = progress_.frames, .max_level = max_level, .mesh = {}};
     try {
@@ -157,6 +167,80 @@ void ReconstructingThread::cap_levels_again(int max_level) {
         log_error({.session = context_.identity.id}, "the session ends: {}", error.what());
         encoding_.put(EncodingThread::EndSession{std::current_exception()});
     }
+    rest();
+}
+
+std::optional<Turns::Turn> ReconstructingThread::begin_work() {
+    {
+        const std::lock_guard lock(mutex_);
+        resting_since_.reset();
+    }
+    waits_for_turn_ = true;
+    auto turn = context_.shared.turns->wait(context_.closing, context_.identity.id);
+    waits_for_turn_ = false;
+    return turn;
+}
+
+void ReconstructingThread::rest() {
+    const std::lock_guard lock(mutex_);
+    resting_since_ = Clock::now();
+}
+
+std::optional<ReconstructingThread::Clock::time_point> ReconstructingThread::resting_since() const {
+    const std::lock_guard lock(mutex_);
+    return resting_since_;
+}
+
+void ReconstructingThread::release_buffers() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!resting_since_) return;
+    }
+    if (!functions_.release_memory) return;
+    // The newest particles may have been overwritten by a frame that was refused. Their mesh stays then.
+    const bool can_make_again = progress_.frames == 0 || particles_.keep();
+    // Meshes first: a download reads the reconstruction's memory.
+    if (!encoding_.release_meshes(can_make_again ? EncodingThread::Newest::release : EncodingThread::Newest::keep))
+        return;
+    functions_.release_memory();
+    inputs_.release_memory();
+    meshes_released_ = progress_.frames != 0 && can_make_again;
+    has_surface_ = false;
+    const std::lock_guard lock(mutex_);
+    resting_since_.reset();
+}
+
+void ReconstructingThread::make_meshes_again() {
+    const InputFrame* const input = particles_.kept();
+    if (!meshes_released_ || input == nullptr) return;
+    if (next_mesh_ == nullptr) next_mesh_ = encoding_.wait_for_free_frame();
+    if (next_mesh_ == nullptr) return;
+    {
+        const auto turn = begin_work();
+        if (!turn) return;
+        const FrameStop::UnderWay under_way(stop_, nullptr);
+        ReconstructedFrame& frame = *next_mesh_;
+        try {
+            frame.download = functions_.reconstruct(input->view(), frame.mesh).download;
+            has_surface_ = true;
+            frame.statistics = shown_.statistics;
+            frame.index = input->index;
+            frame.run_id = shown_.run_id;
+            frame.simulation_time = input->simulation_time;
+            frame.received_at = input->received_at;
+            frame.number = shown_.number;
+            cap_levels(frame);
+            encoding_.put(EncodingThread::ShowAgain{.frame = std::exchange(next_mesh_, nullptr)});
+            meshes_released_ = false;
+        } catch (const DeviceError& error) {
+            log_error({.session = context_.identity.id}, "the session ends: {}", error.what());
+            encoding_.put(EncodingThread::EndSession{std::current_exception()});
+        } catch (const std::exception& error) {
+            log_error({.session = context_.identity.id, .frame = input->index},
+                      "no mesh for a watcher that has come, until the next frame: {}", error.what());
+        }
+    }
+    rest();
 }
 
 bool ReconstructingThread::emit_capped(int max_level, Mesh& mesh) {

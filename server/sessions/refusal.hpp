@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "meniscus/error.hpp"
+#include "sessions/limits/limit_reached.hpp"
 
 namespace meniscus::server {
 
@@ -29,9 +29,9 @@ private:
 };
 
 /// Ends a stream that brings nothing. A client may open it again when it has a frame.
-class IdleStream : public LimitExceeded {
+class IdleStream : public LimitReached {
 public:
-    using LimitExceeded::LimitExceeded;
+    explicit IdleStream(const std::string& message) : LimitReached(LimitName::idle_time, message) {}
 };
 
 inline Refusal moved() {

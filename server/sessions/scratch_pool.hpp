@@ -32,6 +32,13 @@ public:
     /// account: none: uncounted.
     explicit ScratchPool(std::shared_ptr<MemoryAccount> account = nullptr) : account_(std::move(account)) {}
 
+    /// Frees what is not on loan.
+    void release_memory() {
+        const std::lock_guard lock(mutex_);
+        made_ -= free_.size();
+        free_.clear();
+    }
+
 private:
     std::unique_ptr<BrickScratch> take() {
         const std::lock_guard lock(mutex_);

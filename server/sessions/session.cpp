@@ -7,6 +7,7 @@
 
 #include "log.hpp"
 #include "meniscus/error.hpp"
+#include "sessions/limits/limit_reached.hpp"
 #include "sessions/refusal.hpp"
 #include "sessions/stream_notices.hpp"
 
@@ -18,8 +19,10 @@ Session::Session(SessionIdentity identity, const Settings& settings, const Limit
                .settings = settings,
                .limits = limits,
                .shared = std::move(shared),
-               .observer = std::move(observer)},
-      inputs_(std::make_shared<MemoryAccount>(limits.bytes_per_session), context_.shared.bytes_in_flight),
+               .observer = std::move(observer),
+               .closing = closing_.get_token()},
+      inputs_(std::make_shared<MemoryAccount>(limits.bytes_per_session), context_.shared.bytes_in_flight,
+              std::make_shared<SessionInFlight>(SessionInFlight{.name = account() ? account()->in_flight() : nullptr})),
       frame_stop_(functions.stop, context_.shared.deadlines, limits.frame_time),
       frame_rate_(limits.frames_per_second),
       encoding_(context_, watchers_,
@@ -45,14 +48,21 @@ SessionState Session::state() const {
     state.watcher_lag = watchers.lag;
     const std::lock_guard lock(mutex_);
     state.uploading = upload_ != nullptr;
+    if (reconstructing_.waits_for_turn()) {
+        state.wait = SessionWait::device;
+        state.waits_for = context_.shared.turns->holder();
+    } else if (upload_ && upload_->pace.paused()) {
+        state.wait = SessionWait::bytes_in_flight;
+    }
     state.frames_dropped_replaced = dropped_replaced_;
     state.frames_dropped_not_nth = dropped_not_nth_;
     return state;
 }
 
 std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::function<void()> wake,
-                                             std::function<void()> drain) {
-    auto upload = std::make_shared<Upload>(options, std::move(wake), std::move(drain));
+                                             std::function<void()> drain,
+                                             std::function<void(std::exception_ptr)> stop) {
+    auto upload = std::make_shared<Upload>(options, std::move(wake), std::move(drain), std::move(stop));
     std::shared_ptr<Upload> before;
     std::vector<InputFrame*> withdrawn;
     {
@@ -64,6 +74,7 @@ std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::
             throw Refusal(Refusal::Kind::failed_precondition,
                           fmt::format("another stream uploads to session {}", id()));
         before = upload_;
+        orphaned_ = false;
         set_upload(upload);
         run_ = upload->run;
         unanswered_.push_back(upload);
@@ -92,10 +103,16 @@ void Session::set_upload(std::shared_ptr<Upload> upload) {
 void Session::admit_frame(std::uint64_t index) {
     const std::lock_guard lock(mutex_);
     if (!frame_rate_.take(std::chrono::steady_clock::now()))
-        throw LimitExceeded(
+        throw LimitReached(
+            LimitName::frames_per_second,
             fmt::format("frame {}: more than {} frames in a second; the server takes at most {} frames per "
                         "second of a session",
                         index, limits().frames_per_second, limits().frames_per_second));
+    if (account() && !account()->take_frame(std::chrono::steady_clock::now()))
+        throw LimitReached(
+            LimitName::frames_per_second_per_name,
+            fmt::format("frame {}: more than {} frames in a second over all sessions of {}; that is its share", index,
+                        account()->shares().frames_per_second, account()->name()));
 }
 
 void Session::submit(std::shared_ptr<Upload> upload, InputFrame& input) {
@@ -140,28 +157,44 @@ void Session::end_upload(std::shared_ptr<Upload> upload, std::exception_ptr erro
     received_.put({.upload = std::move(upload), .error = std::move(error)});
 }
 
-void Session::cancel_upload(const std::shared_ptr<Upload>& upload) {
+void Session::cancel_upload(const std::shared_ptr<Upload>& upload, bool vanished) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (vanished && upload_ == upload) orphaned_ = true;
+    }
     upload->output.close();
     for (InputFrame* input : received_.withdraw(*upload)) inputs_.give_back(*input);
     frame_stop_.cancel(*upload);
     end_upload(upload, nullptr);
 }
 
-std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::function<void()> wake) {
-    auto watch = std::make_shared<Watch>(wishes, std::move(wake), context_.shared.metrics);
+std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::function<void()> wake,
+                                           const std::shared_ptr<const NameAccount>& watcher) {
+    const std::uint32_t share = watcher ? watcher->shares().watchers : 0;
+    auto watch = std::make_shared<Watch>(wishes, std::move(wake), context_.shared.metrics, watcher);
     const std::lock_guard lock(mutex_);
     if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
     if (draining_) throw shutting_down();
     const std::size_t watchers = watchers_.count();
     if (limits().watchers_per_session != 0 && watchers >= limits().watchers_per_session)
-        throw LimitExceeded(fmt::format("session {} has {} watchers; the server takes at most {} per session", id(),
-                                        watchers, limits().watchers_per_session));
+        throw LimitReached(LimitName::watchers,
+                           fmt::format("session {} has {} watchers; the server takes at most {} per session", id(),
+                                       watchers, limits().watchers_per_session));
+    if (share != 0) {
+        const auto watches = watchers_.list();
+        if (std::ranges::count(watches, watcher, &Watch::account) >= static_cast<std::ptrdiff_t>(share))
+            throw LimitReached(LimitName::watchers_per_name,
+                               fmt::format("{} has {} watchers of session {}; the server takes at most {} of one "
+                                           "caller per session",
+                                           watcher->name(), share, id(), share));
+    }
     if (watchers_.add(watch)) return watch;
     if (wishes.max_particles) {
         received_.put({.particles = true});
         return watch;
     }
     encoding_.put(EncodingThread::EncodeForWatchers{});
+    received_.put({.meshes = true});
     if (wishes.format.max_level < 3) received_.put({.max_level = wishes.format.max_level});
     return watch;
 }
@@ -220,12 +253,33 @@ void Session::drain(std::chrono::duration<double> grace) {
 }
 
 bool Session::end_idle(std::chrono::steady_clock::time_point now) {
+    using Clock = std::chrono::steady_clock;
     using Seconds = std::chrono::duration<double>;
     std::shared_ptr<Upload> idle;
+    std::shared_ptr<Upload> slow;
+    std::optional<UploadPace::Slow> frame;
     {
         const std::lock_guard lock(mutex_);
-        if (!upload_) return unanswered_.empty() && watchers_.count() == 0 && now - last_used_ >= limits().idle_time;
-        if (upload_->owed == 0 && now - upload_->last_activity.load() >= limits().idle_time) idle = upload_;
+        if (upload_ && (frame = upload_->pace.too_slow(limits().least_pace, now))) slow = upload_;
+    }
+    if (slow)
+        slow->stop(std::make_exception_ptr(
+            LimitReached(LimitName::upload_time,
+                         fmt::format("frame {}: {} of {} bytes in {:.3g} s; a frame must be there within {:.3g} s, or "
+                                     "come with {} bytes per "
+                                     "second from then on",
+                                     frame->index, frame->arrived, frame->announced, frame->time.count(),
+                                     limits().least_pace.time.count(), limits().least_pace.bytes_per_second))));
+    {
+        const std::lock_guard lock(mutex_);
+        if (!upload_) {
+            const auto unused = unanswered_.empty() && watchers_.count() == 0 ? now - last_used_ : Clock::duration{};
+            const auto reaches = [&](Clock::duration time) { return time.count() != 0 && unused >= time; };
+            return reaches(limits().idle_time) || (orphaned_ && reaches(limits().orphan_time));
+        }
+        if (limits().idle_time.count() == 0) return false;
+        if (upload_->owed == 0 && !upload_->pace.paused() && now - upload_->last_activity.load() >= limits().idle_time)
+            idle = upload_;
         if (idle) set_upload(nullptr);
     }
     if (idle)
@@ -234,6 +288,18 @@ bool Session::end_idle(std::chrono::steady_clock::time_point now) {
                         "when there are frames",
                         Seconds(now - idle->last_activity.load()).count(), Seconds(limits().idle_time).count()))));
     return false;
+}
+
+std::future<void> Session::release_buffers() {
+    auto done = std::make_shared<std::promise<void>>();
+    std::future<void> released = done->get_future();
+    received_.put({.release = std::move(done)});
+    return released;
+}
+
+bool Session::orphaned() const {
+    const std::lock_guard lock(mutex_);
+    return orphaned_;
 }
 
 void Session::touch() {
@@ -262,6 +328,7 @@ Session::Attached Session::detach() {
     received_.close();
     encoding_.close();
     frame_stop_.close();
+    closing_.request_stop();
     return attached;
 }
 

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,8 +29,13 @@
 
 namespace meniscus::server {
 
+/// What a session's next frame waits for.
+enum class SessionWait : std::uint8_t { nothing, device, bytes_in_flight };
+
 struct SessionState {
     bool uploading = false;
+    SessionWait wait = SessionWait::nothing;
+    std::string waits_for;  ///< id of the session that has the device; empty: none any more, or several
     std::uint32_t watchers = 0;
     std::uint64_t frames = 0;
     std::optional<std::uint64_t> last_frame_index;
@@ -57,6 +64,8 @@ public:
 
     const std::string& id() const noexcept { return context_.identity.id; }
     const std::string& owner() const noexcept { return context_.identity.owner; }
+    /// Of the caller that created it; may be none.
+    const std::shared_ptr<NameAccount>& account() const noexcept { return context_.identity.account; }
     const Settings& settings() const noexcept { return context_.settings; }
     const Limits& limits() const noexcept { return context_.limits; }
     SessionState state() const;
@@ -65,8 +74,9 @@ public:
 
     /// A stream that resumes the session's run takes the place of the one before, which ends. Throws Refusal if a
     /// stream of another run uploads, or the session ends.
-    std::shared_ptr<Upload> open_upload(const UploadOptions& options, std::function<void()> wake,
-                                        std::function<void()> drain);
+    std::shared_ptr<Upload> open_upload(
+        const UploadOptions& options, std::function<void()> wake, std::function<void()> drain,
+        std::function<void(std::exception_ptr)> stop = [](const std::exception_ptr&) {});
     void request_input(SlotPool<InputFrame>::Waiter waiter) { inputs_.request(std::move(waiter)); }
     void return_input(InputFrame& input) { inputs_.give_back(input); }
     /// Call it before a frame is begun. Throws LimitExceeded for one too many in a second.
@@ -74,22 +84,33 @@ public:
     void submit(std::shared_ptr<Upload> upload, InputFrame& input);
     /// Frames that were submitted before are still answered; then the upload's output ends with the error.
     void end_upload(std::shared_ptr<Upload> upload, std::exception_ptr error);
-    /// Nobody reads any more: its frames that wait are forgotten.
-    void cancel_upload(const std::shared_ptr<Upload>& upload);
+    /// Nobody reads any more: its frames that wait are forgotten. vanished: its simulator has gone without a word.
+    void cancel_upload(const std::shared_ptr<Upload>& upload, bool vanished = false);
 
     // Watching.
 
-    /// The watch has the newest mesh, or its particles, at once if they are there. Throws LimitExceeded, or Refusal if
-    /// the session ends.
-    std::shared_ptr<Watch> open_watch(const WatchWishes& wishes, std::function<void()> wake);
+    /// The watch has the newest mesh, or its particles, at once if they are there. watcher: may be none. Throws
+    /// LimitExceeded, or Refusal if the session ends.
+    std::shared_ptr<Watch> open_watch(const WatchWishes& wishes, std::function<void()> wake,
+                                      const std::shared_ptr<const NameAccount>& watcher = nullptr);
     void close_watch(const std::shared_ptr<Watch>& watch);
 
     /// Lets the frame on its way in be the last, then ends the watchers. grace: told to streams and watchers. Returns
     /// at once.
     void drain(std::chrono::duration<double> grace);
-    /// Ends an upload that has been idle for Limits::idle_time. Returns whether the session has been without streams,
-    /// watchers and calls for that time.
+    /// Ends an upload that has been idle for Limits::idle_time, or whose frame comes too slowly. Returns whether the
+    /// session has been without streams, watchers and calls for that time.
+    /// The same after Limits::orphan_time where its simulator has vanished without a word.
     bool end_idle(std::chrono::steady_clock::time_point now);
+    /// Since when it has had nothing to reconstruct, and may give its buffers back; none: it has, or it works.
+    std::optional<std::chrono::steady_clock::time_point> resting_since() const {
+        return encoding_.idle() ? reconstructing_.resting_since() : std::nullopt;
+    }
+    /// Gives the buffers back, all but the newest particles and what is encoded, unless a frame comes before. Returns
+    /// at once. The future is ready when it is done, or given up.
+    std::future<void> release_buffers();
+    /// Whether its simulator has vanished without a word, and nobody has resumed it.
+    bool orphaned() const;
     /// Call it for each call about this session: it is not idle.
     void touch();
     /// Drops what is in flight, and ends the upload and the watchers. Returns at once.
@@ -120,6 +141,7 @@ private:
     void finish_upload(const std::shared_ptr<Upload>& upload, std::exception_ptr error);
     void end(const std::exception_ptr& error);
 
+    std::stop_source closing_;
     const SessionContext context_;
     InputSlots inputs_;
     FrameQueue received_;
@@ -134,6 +156,7 @@ private:
     std::shared_ptr<Run> run_;                         ///< of the stream opened last
     std::shared_ptr<Upload> upload_;                   ///< the one that sends
     std::vector<std::shared_ptr<Upload>> unanswered_;  ///< and those whose last frames are still on their way
+    bool orphaned_ = false;
     bool draining_ = false;
     bool closed_ = false;
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include "meniscus/settings.hpp"
 #include "sessions/limits/limits.hpp"
+#include "sessions/limits/name_account.hpp"
 #include "sessions/session_observer.hpp"
 #include "sessions/shared_resources.hpp"
 
@@ -13,7 +15,8 @@ namespace meniscus::server {
 
 struct SessionIdentity {
     std::string id;
-    std::string owner{};  ///< the caller that created it; empty where callers have no names
+    std::string owner{};                     ///< the caller that created it; empty where callers have no names
+    std::shared_ptr<NameAccount> account{};  ///< that caller's; none: it has no limits of its own
 };
 
 struct SessionContext {
@@ -22,6 +25,7 @@ struct SessionContext {
     const Limits limits;
     const SharedResources shared;
     const std::shared_ptr<SessionObserver> observer;  ///< may be none
+    const std::stop_token closing{};                  ///< requested once the session ends
 };
 
 }  // namespace meniscus::server

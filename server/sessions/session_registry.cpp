@@ -10,6 +10,7 @@
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
+#include "sessions/limits/limit_reached.hpp"
 #include "sessions/placement.hpp"
 #include "sessions/refusal.hpp"
 
@@ -24,9 +25,14 @@ BackendOptions with_limits(BackendOptions backend, const Limits& limits) {
     return backend;
 }
 
-/// Often enough that nothing is kept for much longer than the limit says.
+/// Often enough that nothing is kept for much longer than the limit says; 0 if none says anything.
 std::chrono::milliseconds idle_check_interval(const Limits& limits) {
-    return std::clamp(limits.idle_time / 4, std::chrono::milliseconds(10), std::chrono::milliseconds(10'000));
+    auto shortest = std::chrono::milliseconds::max();
+    for (const auto time : {limits.idle_time, limits.orphan_time, limits.idle_buffers_time,
+                            std::chrono::ceil<std::chrono::milliseconds>(limits.least_pace.time)})
+        if (time.count() != 0) shortest = std::min(shortest, time);
+    if (shortest == std::chrono::milliseconds::max()) return {};
+    return std::clamp(shortest / 4, std::chrono::milliseconds(10), std::chrono::milliseconds(10'000));
 }
 
 std::string place_name(const BackendOptions& backend) {
@@ -46,7 +52,8 @@ ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOpt
                     return Reconstructed(reconstructor->statistics(), std::move(download));
                 },
             .emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); },
-            .stop = stop};
+            .stop = stop,
+            .release_memory = [reconstructor] { reconstructor->release_memory(); }};
 }
 
 SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
@@ -59,12 +66,18 @@ SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& bac
       make_reconstruct_(std::move(make)),
       workers_(std::make_shared<WorkerPool>(encoding_threads)),
       metrics_(std::move(metrics)),
-      bytes_in_flight_(std::make_shared<BytesInFlight>(limits.bytes_in_flight)) {
+      bytes_in_flight_(std::make_shared<BytesInFlight>(limits.bytes_in_flight, limits.sessions)),
+      memory_(shared_memory(limits.total_bytes)) {
     joining_ = std::thread([this] {
-        while (const auto session = removed_.take()) (*session)->join();
+        while (auto session = removed_.take()) {
+            (*session)->join();
+            if (const auto& account = (*session)->account()) --account->ending;
+            session->reset();
+            --ending_;
+        }
     });
-    if (limits.idle_time.count() != 0)
-        idle_check_.emplace(idle_check_interval(limits), [this] { end_idle(std::chrono::steady_clock::now()); });
+    if (const auto interval = idle_check_interval(limits); interval.count() != 0)
+        idle_check_.emplace(interval, [this] { end_idle(std::chrono::steady_clock::now()); });
 }
 
 SessionRegistry::~SessionRegistry() {
@@ -75,11 +88,15 @@ SessionRegistry::~SessionRegistry() {
 }
 
 std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Settings& settings,
-                                                 const std::string& owner) {
+                                                 const Creator& creator) {
     const std::lock_guard lock(mutex_);
     if (draining_) throw shutting_down();
     remove_ended();
     if (const auto found = sessions_.find(id); found != sessions_.end()) {
+        // First: whose settings differ is nobody else's business.
+        if (creator.may_see && !creator.may_see(found->second->owner()))
+            throw Refusal(Refusal::Kind::permission_denied,
+                          fmt::format("session {} is not one of {}'s: choose another id", id, creator.name));
         if (found->second->settings() == settings) {
             found->second->touch();
             return found->second;
@@ -87,22 +104,39 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
         throw Refusal(Refusal::Kind::already_exists, fmt::format("session {} exists with other settings", id));
     }
     if (limits_.sessions != 0 && sessions_.size() >= limits_.sessions)
-        throw LimitExceeded(
-            fmt::format("{} sessions are open; the server holds at most {}", sessions_.size(), limits_.sessions));
-    const BackendOptions backend = place_session();
-    auto session = std::make_shared<Session>(SessionIdentity{.id = id, .owner = owner}, settings, limits_,
-                                             make_reconstruct_(settings, backend), shared_on(backend),
-                                             observe_ ? observe_(id, settings, owner) : nullptr);
+        throw LimitReached(LimitName::sessions, fmt::format("{} sessions are open; the server holds at most {}",
+                                                            sessions_.size(), limits_.sessions));
+    // As many again may be about to end, so that a session can take the place of one that was just deleted.
+    if (limits_.sessions != 0 && ending_ >= limits_.sessions)
+        throw LimitReached(
+            LimitName::sessions,
+            fmt::format("{} sessions that were deleted have not ended yet, beside {} open ones; the server holds at "
+                        "most {} of each: try again later",
+                        ending_.load(), sessions_.size(), limits_.sessions));
+    if (creator.account) require_share(*creator.account);
+    BackendOptions backend = place_session();
+    backend.shared_memory = memory_;
+    if (backend.backend == Backend::cuda) {
+        auto& device = device_memory_[backend.device];
+        if (!device) device = shared_memory(limits_.total_device_bytes);
+        backend.shared_device_memory = device;
+    }
+    auto session =
+        std::make_shared<Session>(SessionIdentity{.id = id, .owner = creator.name, .account = creator.account},
+                                  settings, limits_, make_reconstruct_(settings, backend), shared_on(backend),
+                                  observe_ ? observe_(id, settings, creator.name) : nullptr);
     sessions_.emplace(id, session);
+    idle_buffers_->add(session);
     log_info({.session = id}, "created on {} ({} open)", place_name(backend), sessions_.size());
     return session;
 }
 
-std::shared_ptr<Session> SessionRegistry::find(const std::string& id) {
+std::shared_ptr<Session> SessionRegistry::find(const std::string& id, const MaySee& may_see) {
     const std::lock_guard lock(mutex_);
     remove_ended();
     const auto found = sessions_.find(id);
-    if (found == sessions_.end()) throw Refusal(Refusal::Kind::not_found, fmt::format("no session {}", id));
+    if (found == sessions_.end() || (may_see && !may_see(found->second->owner())))
+        throw Refusal(Refusal::Kind::not_found, fmt::format("no session {}", id));
     found->second->touch();
     return found->second;
 }
@@ -126,18 +160,38 @@ void SessionRegistry::remove(const std::shared_ptr<Session>& session) {
             throw Refusal(Refusal::Kind::not_found, fmt::format("no session {}", session->id()));
         sessions_.erase(found);
         left = sessions_.size();
+        let_end(session);
     }
     session->close();
     log_info({.session = session->id()}, "deleted ({} open)", left);
-    removed_.put(session);
+}
+
+void SessionRegistry::require_share(const NameAccount& account) const {
+    const std::uint32_t share = account.shares().sessions;
+    if (share == 0) return;
+    const auto open =
+        std::ranges::count_if(sessions_, [&](const auto& entry) { return entry.second->account().get() == &account; });
+    const std::uint32_t ending = account.ending;
+    if (open >= static_cast<std::ptrdiff_t>(share) || ending >= share)
+        throw LimitReached(
+            LimitName::sessions_per_name,
+            fmt::format("{} has {} sessions, and {} that were deleted have not ended yet; the server holds at most {} "
+                        "of one caller",
+                        account.name(), open, ending, share));
 }
 
 void SessionRegistry::remove_ended() {
     std::erase_if(sessions_, [this](const auto& entry) {
         const bool ended = entry.second->ended();
-        if (ended) removed_.put(entry.second);
+        if (ended) let_end(entry.second);
         return ended;
     });
+}
+
+void SessionRegistry::let_end(std::shared_ptr<Session> session) {
+    ++ending_;
+    if (session->account()) ++session->account()->ending;
+    removed_.put(std::move(session));
 }
 
 BackendOptions SessionRegistry::place_session() const {
@@ -145,6 +199,17 @@ BackendOptions SessionRegistry::place_session() const {
     const BackendOptions place = place_on(backend_, cuda::devices(devices_));
     if (place.backend == Backend::cpu) spdlog::warn("no GPU answers any more: the next session goes to the CPU");
     return place;
+}
+
+std::shared_ptr<SharedMemory> SessionRegistry::shared_memory(std::size_t limit) {
+    const auto memory = std::make_shared<std::weak_ptr<SharedMemory>>();
+    // A call may keep a session for longer than there is a registry.
+    auto shared = std::make_shared<SharedMemory>(limit, [idle = idle_buffers_, memory](std::size_t missing) {
+        const auto self = memory->lock();
+        idle->make_room([&] { return self->limit() - std::min(self->limit(), self->bytes()) >= missing; });
+    });
+    *memory = shared;
+    return shared;
 }
 
 SharedResources SessionRegistry::shared_on(const BackendOptions& place) {
@@ -175,6 +240,10 @@ void SessionRegistry::drain(std::chrono::duration<double> grace) {
 
 void SessionRegistry::end_idle(std::chrono::steady_clock::time_point now) {
     for (const auto& session : list()) {
+        const auto resting_since = session->resting_since();
+        if (limits_.idle_buffers_time.count() != 0 && resting_since &&
+            now - *resting_since >= limits_.idle_buffers_time)
+            session->release_buffers();
         if (!session->end_idle(now)) continue;
         {
             const std::lock_guard lock(mutex_);
@@ -182,11 +251,15 @@ void SessionRegistry::end_idle(std::chrono::steady_clock::time_point now) {
             const auto found = sessions_.find(session->id());
             if (found == sessions_.end() || found->second != session || !session->end_idle(now)) continue;
             sessions_.erase(found);
+            let_end(session);
         }
         session->close();
-        log_info({.session = session->id()}, "removed: nobody has used it for {:.3g} s",
-                 std::chrono::duration<double>(limits_.idle_time).count());
-        removed_.put(session);
+        if (session->orphaned())
+            log_info({.session = session->id()},
+                     "removed: its simulator vanished, and nobody has watched or resumed it since");
+        else
+            log_info({.session = session->id()}, "removed: nobody has used it for {:.3g} s",
+                     std::chrono::duration<double>(limits_.idle_time).count());
     }
 }
 

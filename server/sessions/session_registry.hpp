@@ -1,7 +1,9 @@
 // All sessions of a server, by their ids.
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -15,6 +17,7 @@
 #include "meniscus/settings.hpp"
 #include "sessions/handover/channel.hpp"
 #include "sessions/handover/periodic.hpp"
+#include "sessions/idle_buffers.hpp"
 #include "sessions/limits/limits.hpp"
 #include "sessions/session.hpp"
 
@@ -30,6 +33,16 @@ using MakeReconstruct = std::function<ReconstructFunctions(const Settings& setti
 /// Those of a Reconstructor.
 ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOptions& backend);
 
+/// Whether the sessions of this owner exist for a caller.
+using MaySee = std::function<bool(const std::string& owner)>;
+
+/// Who creates a session.
+struct Creator {
+    std::string name{};                      ///< empty where callers have no names
+    std::shared_ptr<NameAccount> account{};  ///< none: no limits of its own
+    MaySee may_see{};                        ///< empty: all
+};
+
 class SessionRegistry {
 public:
     /// encoding_threads: at least 1. devices: the GPUs that sessions may use; all if none is named. observe: may be
@@ -41,11 +54,11 @@ public:
     SessionRegistry(const SessionRegistry&) = delete;
     SessionRegistry& operator=(const SessionRegistry&) = delete;
 
-    /// Returns the session that exists with equal settings, or a new one. owner: of a new one. Throws InvalidInput (of
-    /// settings), LimitExceeded, Refusal, DeviceError.
-    std::shared_ptr<Session> create(const std::string& id, const Settings& settings, const std::string& owner = {});
-    /// Throws Refusal if there is none.
-    std::shared_ptr<Session> find(const std::string& id);
+    /// Returns the session that exists with equal settings, or a new one, which is the creator's. Throws InvalidInput
+    /// (of settings), LimitExceeded, Refusal, DeviceError.
+    std::shared_ptr<Session> create(const std::string& id, const Settings& settings, const Creator& creator = {});
+    /// Throws Refusal, not_found, if there is none that the caller may see.
+    std::shared_ptr<Session> find(const std::string& id, const MaySee& may_see = nullptr);
     /// Ordered by id.
     std::vector<std::shared_ptr<Session>> list();
     /// Ends the session, its stream and its watchers; its threads end in the background. Throws Refusal if it has gone,
@@ -61,15 +74,27 @@ public:
     const Limits& limits() const noexcept { return limits_; }
     /// Bytes of the frames of all sessions.
     std::size_t bytes_in_flight() const noexcept { return bytes_in_flight_->bytes(); }
+    /// Host memory that all reconstructions hold.
+    std::size_t reconstruction_bytes() const noexcept { return memory_->bytes(); }
     /// The time that all devices together have spent on frames since the start.
     std::chrono::duration<double> busy_time();
     Metrics& metrics() const noexcept { return *metrics_; }
+    /// A caller's account. name: of its token, or its address. own: what the tokens file says of it.
+    std::shared_ptr<NameAccount> account(const std::string& name, const OwnShares& own = {}) {
+        return accounts_.of(name, own.over(limits_.per_name));
+    }
 
 private:
+    /// Throws LimitExceeded if the account has no room for another session. With the lock held.
+    void require_share(const NameAccount& account) const;
     /// Forgets the sessions that ended by themselves. With the lock held.
     void remove_ended();
+    /// The session is no longer in the map; its threads end in the background. With the lock held.
+    void let_end(std::shared_ptr<Session> session);
     /// Where the next session reconstructs.
     BackendOptions place_session() const;
+    /// Memory of at most so many bytes, for which idle sessions give theirs back.
+    std::shared_ptr<SharedMemory> shared_memory(std::size_t limit);
     /// What sessions on this place share. With the lock held.
     SharedResources shared_on(const BackendOptions& place);
 
@@ -82,13 +107,19 @@ private:
     const std::shared_ptr<Metrics> metrics_;
     const std::shared_ptr<BytesInFlight> bytes_in_flight_;
     const std::shared_ptr<Deadlines> deadlines_ = std::make_shared<Deadlines>();
+    const std::shared_ptr<IdleBuffers> idle_buffers_ = std::make_shared<IdleBuffers>();
+    const std::shared_ptr<SharedMemory> memory_;
+
+    NameAccounts accounts_;
 
     std::mutex mutex_;
     std::map<std::string, std::shared_ptr<Session>> sessions_;
-    std::map<int, std::shared_ptr<Turns>> turns_;  ///< by device
+    std::map<int, std::shared_ptr<Turns>> turns_;                 ///< by device
+    std::map<int, std::shared_ptr<SharedMemory>> device_memory_;  ///< by device
     bool draining_ = false;
 
     // Joins the threads of sessions that were removed, so that no gRPC thread has to wait for a reconstruction.
+    std::atomic<std::uint32_t> ending_{0};  ///< sessions that were removed, and whose threads may run still
     Channel<std::shared_ptr<Session>> removed_;
     std::thread joining_;
     std::optional<Periodic> idle_check_;  ///< last: it uses the others

@@ -16,20 +16,35 @@ ShownParticles::ShownParticles(std::string session, double particle_radius, Inpu
       watchers_(watchers),
       observer_(std::move(observer)) {}
 
-void ShownParticles::show(InputFrame& input, Run& run) {
-    if (run.last_shown && input.index <= *run.last_shown) return;
+bool ShownParticles::show(InputFrame& input, Run& run) {
+    if (run.last_shown && input.index <= *run.last_shown) return false;
     run.last_shown = input.index;
     if (observer_) observer_->reconstructed(input);
     input.shown_in_run = run.id;
+    if (newest_ == &kept_) Array<std::byte>().swap(kept_.bytes);
     newest_ = &input;
     watchers_.forget_particles();
     encode(input);
+    return true;
 }
 
 void ShownParticles::show_again() {
+    if (kept() != nullptr) return encode(kept_);
     if (newest_ == nullptr || !inputs_.take_back(*newest_)) return;
     if (newest_->shown_in_run) encode(*newest_);
     inputs_.give_back(*newest_);
+}
+
+bool ShownParticles::keep() {
+    if (kept() != nullptr) return true;
+    if (newest_ == nullptr || !inputs_.take_back(*newest_)) return false;
+    InputFrame& slot = *newest_;
+    if (slot.shown_in_run) {
+        kept_.take_from(slot);
+        newest_ = &kept_;
+    }
+    inputs_.give_back(slot);
+    return kept() != nullptr;
 }
 
 void ShownParticles::encode(const InputFrame& input) {

@@ -18,10 +18,17 @@ public:
     ShownParticles(std::string session, double particle_radius, InputSlots& inputs, Watchers& watchers,
                    std::shared_ptr<SessionObserver> observer);
 
-    /// The frame was reconstructed. Does nothing if the run has shown the frame already, before it was resumed.
-    void show(InputFrame& input, Run& run);
+    /// The frame was reconstructed. Does nothing, and returns false, if the run has shown the frame already, before it
+    /// was resumed.
+    bool show(InputFrame& input, Run& run);
     /// Shows the newest frame to a watcher that has come since, unless another frame is on its way into its slot.
     void show_again();
+
+    /// Keeps the newest frame outside of the slots, where no other frame replaces it. Returns false if there is none,
+    /// or one has.
+    bool keep();
+    /// The frame that was kept; null once a newer one was shown.
+    const InputFrame* kept() const noexcept { return newest_ == &kept_ ? &kept_ : nullptr; }
 
 private:
     void encode(const InputFrame& input);
@@ -32,6 +39,7 @@ private:
     Watchers& watchers_;
     const std::shared_ptr<SessionObserver> observer_;
     InputFrame* newest_ = nullptr;  ///< the frame that was shown last
+    InputFrame kept_{nullptr};
 };
 
 }  // namespace meniscus::server

@@ -4,12 +4,14 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "sessions/limits/unreported_drops.hpp"
+#include "sessions/limits/upload_pace.hpp"
 #include "sessions/output_queue.hpp"
 
 namespace meniscus::server {
@@ -41,15 +43,20 @@ struct Run {
 struct Upload {
     using Clock = std::chrono::steady_clock;
 
-    /// wake: see OutputQueue. stop_receiving: called when the frame on its way in is to be the last.
-    Upload(const UploadOptions& wishes, std::function<void()> wake, std::function<void()> stop_receiving)
-        : options(wishes), output(std::move(wake)), drain(std::move(stop_receiving)) {}
+    /// wake: see OutputQueue. stop_receiving: called when the frame on its way in is to be the last. stop_at_once: when
+    /// it is not wanted any more; the stream then ends with the error.
+    Upload(
+        const UploadOptions& wishes, std::function<void()> wake, std::function<void()> stop_receiving,
+        std::function<void(std::exception_ptr)> stop_at_once = [](const std::exception_ptr&) {})
+        : options(wishes), output(std::move(wake)), drain(std::move(stop_receiving)), stop(std::move(stop_at_once)) {}
 
     const UploadOptions options;
     OutputQueue output;
     const std::function<void()> drain;
+    const std::function<void(std::exception_ptr)> stop;
     std::shared_ptr<Run> run;  ///< set once, before others see the upload
 
+    UploadPace pace;
     std::uint64_t submitted = 0;  ///< frames, dropped ones included; with the session's lock held
     UnreportedDrops unreported_drops;
     std::atomic<std::uint64_t> owed{0};  ///< frames submitted and not yet answered

@@ -21,8 +21,9 @@ struct Update {
 
 }  // namespace
 
-Watch::Watch(const WatchWishes& wishes, std::function<void()> wake, std::shared_ptr<Metrics> metrics)
-    : wishes_(wishes), wake_(std::move(wake)), metrics_(std::move(metrics)) {
+Watch::Watch(const WatchWishes& wishes, std::function<void()> wake, std::shared_ptr<Metrics> metrics,
+             std::shared_ptr<const NameAccount> account)
+    : wishes_(wishes), wake_(std::move(wake)), metrics_(std::move(metrics)), account_(std::move(account)) {
     if (wishes_.bytes_per_second != 0) bucket_.emplace(wishes_.bytes_per_second, Clock::now());
 }
 

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "sessions/encoded_frame.hpp"
+#include "sessions/limits/name_account.hpp"
 #include "sessions/limits/token_bucket.hpp"
 #include "sessions/mesh_update.hpp"
 #include "sessions/metrics.hpp"
@@ -50,9 +51,12 @@ public:
 
     /// wake: called once, by a producing thread, after take() has found nothing and there is something again.
     Watch(const WatchWishes& wishes, std::function<void()> wake,
-          std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>());
+          std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>(),
+          std::shared_ptr<const NameAccount> account = nullptr);
 
     const WatchWishes& wishes() const noexcept { return wishes_; }
+    /// Of the watcher; may be none.
+    const std::shared_ptr<const NameAccount>& account() const noexcept { return account_; }
 
     // The session's side.
 
@@ -77,6 +81,7 @@ private:
     const WatchWishes wishes_;
     const std::function<void()> wake_;
     const std::shared_ptr<Metrics> metrics_;
+    const std::shared_ptr<const NameAccount> account_;
 
     mutable std::mutex mutex_;            ///< for what follows
     std::optional<WatchedFrame> newest_;  ///< not begun yet

@@ -28,12 +28,21 @@ TEST(SessionTable, HasColumnsThatAlign) {
     busy.last_frame.emplace();
     busy.last_frame->latency_seconds = 0.0123;
     busy.last_frame->particles = 1'000'000;
-    const std::string table = cli::session_table({{busy, 59.94}, {session("new", 0), std::nullopt}});
+    client::SessionInfo waiting = session("new", 0);
+    waiting.waits_for = client::SessionWait::device;
+    client::SessionInfo of_an_admin = waiting;
+    of_an_admin.waits_for_session = busy.id;
+    client::SessionInfo full = waiting;
+    full.waits_for = client::SessionWait::bytes_in_flight;
+    const std::string table =
+        cli::session_table({{busy, 59.94}, {waiting, std::nullopt}, {of_an_admin, std::nullopt}, {full, std::nullopt}});
     std::istringstream lines(table);
     std::string header;
     std::getline(lines, header);
     for (std::string line; std::getline(lines, line);) EXPECT_EQ(line.size(), header.size()) << line;
-    for (const char* word : {"simulation-cluster", "uploading", "123k", "59.9", "12.3", "1.00M", "17", "idle"})
+    for (const char* word :
+         {"simulation-cluster", "uploading", "123k", "59.9", "12.3", "1.00M", "17", "idle", "device: another session",
+          "device: 6a1f0a3c-5a37-4a39-b6ae-2f7f6b1f6d51", "bytes in flight"})
         EXPECT_NE(table.find(word), std::string::npos) << word << '\n' << table;
 }
 

@@ -65,5 +65,42 @@ TEST(Memory, FollowsTheFluidAndNotItsExtent) {
     EXPECT_LT(apart.statistics().peak_bytes, 3 * near.statistics().peak_bytes);
 }
 
+TEST(Memory, OfAllReconstructorsHasALimitOfItsOwn) {
+    const Settings settings = test::default_settings();
+    const test::Particles particles = test::splash(42, 20);
+    const auto reconstructor = [&](const std::shared_ptr<SharedMemory>& memory) {
+        return Reconstructor(settings, {.backend = Backend::cpu, .threads = 1, .shared_memory = memory});
+    };
+    Mesh meshes[2];
+    const auto counted = std::make_shared<SharedMemory>();
+    std::size_t bytes = 0;
+    {
+        Reconstructor alone = reconstructor(counted);
+        alone.reconstruct(particles.frame(), meshes[0]);
+        bytes = counted->bytes();
+    }
+    EXPECT_GT(counted->bytes(), 0U) << "a mesh outlives its reconstructor";
+    meshes[0] = {};
+    EXPECT_EQ(counted->bytes(), 0U);
+
+    Reconstructor* idle = nullptr;
+    const auto memory = std::make_shared<SharedMemory>(bytes + bytes / 2, [&](std::size_t missing) {
+        EXPECT_GT(missing, 0U);
+        if (idle != nullptr) idle->release_memory();
+    });
+    Reconstructor first = reconstructor(memory);
+    Reconstructor second = reconstructor(memory);
+    first.reconstruct(particles.frame(), meshes[0]);
+    EXPECT_THROW(second.reconstruct(particles.frame(), meshes[1]), LimitExceeded);
+    EXPECT_LE(memory->bytes(), memory->limit());
+    idle = &first;
+    second.reconstruct(particles.frame(), meshes[1]);
+    EXPECT_LE(memory->bytes(), memory->limit());
+    EXPECT_EQ(mesh_sha256(meshes[1]), mesh_sha256(meshes[0]));
+    idle = &second;
+    first.reconstruct(particles.frame(), meshes[0]);
+    EXPECT_EQ(mesh_sha256(meshes[1]), mesh_sha256(meshes[0]));
+}
+
 }  // namespace
 }  // namespace meniscus

@@ -4,11 +4,15 @@ namespace meniscus::hostile {
 
 std::span<const Attack> attacks() {
     static constexpr Attack all[] = {
+        {"announcements", "frames announced as large as the limit, of which a byte comes now and then", announcements},
         {"crowded-frames", "frames of a megabyte or less with all their particles in few places", crowded_frames},
         {"connections", "1100 and 5000 connections at 1024 descriptors, twenty times", connections},
         {"damaged-recording", "four bytes of a recording, changed at 400 places, one after the other",
          damaged_recording},
+        {"greedy-names", "an uploader that takes all sessions, and deletes 300 behind a long frame", greedy_names},
         {"gzip-bomb", "512 MiB of zeros, compressed by gzip, without a token", gzip_bomb},
+        {"large-sessions", "six sessions that take all the memory of reconstructions, beside ten small ones",
+         large_sessions},
         {"proxied-strangers", "600,000 resets, and headers without an end, through the shipped proxies",
          proxied_strangers},
         {"restarts", "40 servers killed or ended, each back after 0.1 to 5 s", restarts},

@@ -10,10 +10,13 @@ namespace meniscus::hostile {
 std::span<const Attack> attacks();
 
 /// One function for each file of the folder attacks.
+std::vector<Figure> announcements(const std::string& program);
 std::vector<Figure> crowded_frames(const std::string& program);
 std::vector<Figure> connections(const std::string& program);
 std::vector<Figure> damaged_recording(const std::string& program);
+std::vector<Figure> greedy_names(const std::string& program);
 std::vector<Figure> gzip_bomb(const std::string& program);
+std::vector<Figure> large_sessions(const std::string& program);
 std::vector<Figure> proxied_strangers(const std::string& program);
 std::vector<Figure> restarts(const std::string& program);
 std::vector<Figure> stalled_readers(const std::string& program);

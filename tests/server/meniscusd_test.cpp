@@ -278,6 +278,20 @@ TEST(Meniscusd, TakesLimitsWithUnits) {
                                   "10",
                                   "--max-idle",
                                   "11.5",
+                                  "--max-upload-seconds",
+                                  "12.5",
+                                  "--min-upload-rate",
+                                  "13K",
+                                  "--orphan-seconds",
+                                  "14.5",
+                                  "--max-sessions-per-name",
+                                  "2",
+                                  "--max-watchers-per-name",
+                                  "3",
+                                  "--max-frames-per-second-per-name",
+                                  "4",
+                                  "--max-bytes-in-flight-per-name",
+                                  "5M",
                                   "--max-message-bytes",
                                   "2M"}));
     client::Client client(process.address());
@@ -293,6 +307,13 @@ TEST(Meniscusd, TakesLimitsWithUnits) {
     EXPECT_EQ(info.max_frames_per_second, 9U);
     EXPECT_EQ(info.max_chunks_per_frame, 10U);
     EXPECT_EQ(info.max_idle_seconds, 11.5);
+    EXPECT_EQ(info.max_upload_seconds, 12.5);
+    EXPECT_EQ(info.min_upload_bytes_per_second, 13U << 10U);
+    EXPECT_EQ(info.max_orphan_seconds, 14.5);
+    EXPECT_EQ(info.max_sessions_per_name, 2U);
+    EXPECT_EQ(info.max_watchers_per_name, 3U);
+    EXPECT_EQ(info.max_frames_per_second_per_name, 4U);
+    EXPECT_EQ(info.max_bytes_in_flight_per_name, std::uint64_t{5} << 20U);
     EXPECT_EQ(info.max_message_bytes, std::uint64_t{2} << 20U);
 }
 

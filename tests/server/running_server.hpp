@@ -67,9 +67,11 @@ struct RawStream {
         call->Write(request);
     }
 
-    void send_chunk(std::size_t bytes) {
+    void send_chunk(std::size_t bytes) { send_data(std::string(bytes, '\0')); }
+
+    void send_data(std::string data) {
         v1::StreamRequest request;
-        request.mutable_frame_chunk()->set_data(std::string(bytes, '\0'));
+        request.mutable_frame_chunk()->set_data(std::move(data));
         call->Write(request);
     }
 

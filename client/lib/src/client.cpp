@@ -28,6 +28,12 @@ SessionInfo from_wire(const v1::Session& wire) {
     info.owner = wire.owner();
     info.frames_dropped = wire.frames_dropped();
     info.frames_skipped = wire.frames_skipped();
+    if (wire.has_wait()) {
+        info.waits_for = wire.wait().reason() == v1::WAIT_REASON_DEVICE            ? SessionWait::device
+                         : wire.wait().reason() == v1::WAIT_REASON_BYTES_IN_FLIGHT ? SessionWait::bytes_in_flight
+                                                                                   : SessionWait::something_else;
+        info.waits_for_session = wire.wait().session_id();
+    }
     if (wire.has_last_frame()) info.last_frame = frame_statistics(wire.last_frame());
     return info;
 }
@@ -97,6 +103,16 @@ ServerInfo Client::server_info() {
     info.max_frames_per_second = response.limits().frames_per_second();
     info.max_chunks_per_frame = response.limits().chunks_per_frame();
     info.max_idle_seconds = response.limits().idle_seconds();
+    info.max_upload_seconds = response.limits().upload_seconds();
+    info.min_upload_bytes_per_second = response.limits().upload_bytes_per_second();
+    info.max_orphan_seconds = response.limits().orphan_seconds();
+    info.max_total_bytes = response.limits().total_bytes();
+    info.max_total_device_bytes = response.limits().total_device_bytes();
+    info.max_idle_buffers_seconds = response.limits().idle_buffers_seconds();
+    info.max_sessions_per_name = response.limits().sessions_per_name();
+    info.max_watchers_per_name = response.limits().watchers_per_name();
+    info.max_frames_per_second_per_name = response.limits().frames_per_second_per_name();
+    info.max_bytes_in_flight_per_name = response.limits().bytes_in_flight_per_name();
     info.max_message_bytes = response.limits().message_bytes();
     info.codecs.assign(response.codecs().begin(), response.codecs().end());
     return info;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string_view>
 
+#include "meniscus/memory.hpp"
 #include "meniscus/stop_flag.hpp"
 
 namespace meniscus {
@@ -36,7 +37,9 @@ struct BackendOptions {
     /// How much more work a frame may be than one of as many particles that are evenly spread
     /// (core/README.md#work-20-and-1024); a frame beyond it is refused with LimitExceeded. 0: no limit.
     double work_limit = 0.0;
-    std::shared_ptr<const StopFlag> stop = {};  ///< ends a reconstruction with Stopped; none: nothing does
+    std::shared_ptr<const StopFlag> stop = {};             ///< ends a reconstruction with Stopped; none: nothing does
+    std::shared_ptr<SharedMemory> shared_memory{};         ///< of all reconstructors; may be none
+    std::shared_ptr<SharedMemory> shared_device_memory{};  ///< of all on that GPU; may be none
 };
 
 }  // namespace meniscus

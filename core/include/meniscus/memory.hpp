@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -12,14 +13,43 @@
 
 namespace meniscus {
 
+/// What several accounts have together. Thread-safe.
+class SharedMemory {
+public:
+    /// Frees memory of these accounts, if it can: so many bytes are missing. Called by the thread that asks for them.
+    using MakeRoom = std::function<void(std::size_t missing)>;
+
+    /// limit: bytes, 0 for none. make_room: called before a charge is refused; may be empty.
+    explicit SharedMemory(std::size_t limit = 0, MakeRoom make_room = nullptr)
+        : limit_(limit), make_room_(std::move(make_room)) {}
+
+    /// Returns false, without charging, if there would be more than the limit.
+    bool charge(std::size_t bytes);
+    void release(std::size_t bytes) noexcept { bytes_.fetch_sub(bytes, std::memory_order_relaxed); }
+
+    std::size_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
+    std::size_t limit() const noexcept { return limit_; }
+
+private:
+    /// Returns how many bytes are missing; if none is, they are charged.
+    std::size_t try_charge(std::size_t bytes) noexcept;
+
+    const std::size_t limit_;
+    const MakeRoom make_room_;
+    std::atomic<std::size_t> bytes_{0};
+};
+
 /// Counts the bytes and the allocations of the arrays charged to it, and refuses an array that would pass its limit.
 /// Thread-safe.
 class MemoryAccount {
 public:
-    /// limit: bytes, 0 for none. place: where the memory is, in words, for the message of a refusal.
-    explicit MemoryAccount(std::size_t limit = 0, const char* place = "in memory") : limit_(limit), place_(place) {}
+    /// limit: bytes, 0 for none. place: where the memory is, in words, for the message of a refusal. shared: charged,
+    /// too; may be none.
+    explicit MemoryAccount(std::size_t limit = 0, const char* place = "in memory",
+                           std::shared_ptr<SharedMemory> shared = nullptr)
+        : limit_(limit), place_(place), shared_(std::move(shared)) {}
 
-    /// Throws LimitExceeded, without charging, if the account would pass its limit.
+    /// Throws LimitExceeded, without charging, if the account would pass its limit, or the shared memory its own.
     void charge(std::size_t bytes);
     void release(std::size_t bytes) noexcept;
 
@@ -31,6 +61,7 @@ public:
 private:
     std::size_t limit_;
     const char* place_;
+    std::shared_ptr<SharedMemory> shared_;
     std::atomic<std::size_t> bytes_{0};
     std::atomic<std::size_t> peak_{0};
     std::atomic<std::uint64_t> allocations_{0};

@@ -48,6 +48,10 @@ public:
     /// downloaded to another Mesh; an earlier mesh that waits on the GPU is then downloaded first.
     void emit_capped(int max_level, Mesh& mesh);
 
+    /// Gives the buffers back; the next frame takes them again. There is no surface to emit again until then. Meshes
+    /// keep their memory.
+    void release_memory();
+
     /// The statistics of the last frame.
     const Statistics& statistics() const;
     const Settings& settings() const;

@@ -2,17 +2,31 @@
 
 namespace meniscus::server {
 
-Turns::Turn Turns::wait() {
+std::optional<Turns::Turn> Turns::wait(const std::stop_token& stop, const std::string& who) {
     std::unique_lock lock(mutex_);
     const std::uint64_t mine = asked_++;
-    ended_.wait(lock, [&] { return current_ == mine; });
+    waiting_.push_back(mine);
+    changed_.wait(lock, stop, [&] { return !began_ && waiting_.front() == mine; });
+    std::erase(waiting_, mine);
+    if (stop.stop_requested()) {
+        // The next one may have waited for this one alone.
+        lock.unlock();
+        changed_.notify_all();
+        return std::nullopt;
+    }
     began_ = Clock::now();
-    return Turn(*this);
+    holder_ = who;
+    return std::optional<Turn>(std::in_place, *this);
+}
+
+std::string Turns::holder() {
+    const std::lock_guard lock(mutex_);
+    return holder_;
 }
 
 std::uint64_t Turns::waiting() {
     const std::lock_guard lock(mutex_);
-    return asked_ > current_ ? asked_ - current_ - 1 : 0;
+    return waiting_.size();
 }
 
 std::chrono::duration<double> Turns::taken() {
@@ -23,11 +37,11 @@ std::chrono::duration<double> Turns::taken() {
 void Turns::end() {
     {
         const std::lock_guard lock(mutex_);
-        ++current_;
         taken_ += Clock::now() - *began_;
         began_.reset();
+        holder_.clear();
     }
-    ended_.notify_all();
+    changed_.notify_all();
 }
 
 }  // namespace meniscus::server

@@ -4,8 +4,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <mutex>
 #include <optional>
+#include <stop_token>
+#include <string>
 #include <utility>
 
 namespace meniscus::server {
@@ -30,8 +33,11 @@ public:
         Turns* turns_;
     };
 
-    /// Waits until all turns that were asked for before have ended.
-    Turn wait();
+    /// Waits until all turns that were asked for before have ended or been given up. None if the turn is given up: stop
+    /// was requested before it began. who: a name for holder().
+    std::optional<Turn> wait(const std::stop_token& stop, const std::string& who = {});
+    /// Who has the present turn; empty: nobody.
+    std::string holder();
     /// The number of threads that wait.
     std::uint64_t waiting();
     /// The time of all turns so far, the present one included.
@@ -43,10 +49,11 @@ private:
     void end();
 
     std::mutex mutex_;
-    std::condition_variable ended_;
+    std::condition_variable_any changed_;
     std::uint64_t asked_ = 0;
-    std::uint64_t current_ = 0;
+    std::deque<std::uint64_t> waiting_;       ///< the numbers of the turns that were asked for, the next one first
     std::optional<Clock::time_point> began_;  ///< the present turn; none: there is none
+    std::string holder_;                      ///< of the present turn
     Clock::duration taken_{};                 ///< by the turns that have ended
 };
 

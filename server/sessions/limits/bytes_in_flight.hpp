@@ -1,60 +1,117 @@
-// The bytes of all sessions' frames that are on their way to be reconstructed.
+// The bytes of all sessions' frames that are on their way to be reconstructed: which frame may have how many of them.
 #pragma once
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <utility>
+#include <vector>
 
 namespace meniscus::server {
 
+class FrameInFlight;
+
+/// A caller's part of the bytes in flight, over all of its sessions. Its numbers belong to BytesInFlight.
+struct NameInFlight {
+    std::atomic<std::size_t> limit{0};  ///< bytes of frames, as announced; 0: none of its own
+    std::size_t announced = 0;
+};
+
+/// A session's part of the bytes in flight. Its numbers belong to BytesInFlight.
+struct SessionInFlight {
+    std::size_t booked = 0;                        ///< of its share
+    std::shared_ptr<NameInFlight> name = nullptr;  ///< none: the session counts for nobody
+};
+
+/// Gives the bytes out. Every session has a share, which is kept for it: a quarter of the limit is divided among the
+/// sessions that there may be. A frame's bytes are booked
+/// * from its session's share as the frame is announced, as far as the share reaches;
+/// * beyond the share from what all sessions have in common, as they arrive, so that an announcement costs nobody
+///   anything. A frame waits there for those that have come before it; it is never refused once it has begun.
+///
+/// A frame gets bytes only while there is an order in which all frames that have begun can still arrive whole (the
+/// banker's algorithm with one resource, for which the order by what is missing is as good as any): two large frames
+/// can never wait for each other. A frame of more than what is in common, and its session's share, is oversized: it
+/// takes nothing from its share, and the last part of it also what the others have not booked of theirs.
+///
 /// Thread-safe.
 class BytesInFlight {
 public:
-    /// limit: bytes, 0 for none.
-    explicit BytesInFlight(std::size_t limit = 0) : limit_(limit) {}
+    /// limit: bytes, 0 for none. sessions: as many have a share; 0: none has one, as there may be any number.
+    explicit BytesInFlight(std::size_t limit = 0, std::uint32_t sessions = 0);
 
-    /// Returns false, and adds nothing, if there would be more than the limit.
-    bool add(std::size_t bytes) noexcept {
-        std::size_t before = bytes_.load(std::memory_order_relaxed);
-        do {
-            if (limit_ != 0 && (before > limit_ || bytes > limit_ - before)) return false;
-        } while (!bytes_.compare_exchange_weak(before, before + bytes, std::memory_order_relaxed));
-        return true;
-    }
-    void remove(std::size_t bytes) noexcept { bytes_.fetch_sub(bytes, std::memory_order_relaxed); }
-
-    std::size_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
+    /// Booked by now.
+    std::size_t bytes() const noexcept { return booked_.load(std::memory_order_relaxed); }
     std::size_t limit() const noexcept { return limit_; }
+    /// Bytes that are kept for each session.
+    std::size_t share() const noexcept { return share_; }
+    /// Frames that wait for bytes.
+    std::size_t waiting() const;
 
 private:
+    friend class FrameInFlight;
+    using Calls = std::vector<std::function<void()>>;
+
+    // With the lock held.
+    bool grant(FrameInFlight& frame);
+    bool admit(FrameInFlight& frame);
+    /// Whether all frames that have begun can arrive whole, if this one has so many more bytes.
+    bool is_safe(const FrameInFlight& frame, std::size_t more) const;
+    void forget(FrameInFlight& frame);
+    /// Those whose bytes are booked by now, in the order of their frames.
+    Calls grant_waiting();
+
     const std::size_t limit_;
-    std::atomic<std::size_t> bytes_{0};
+    const std::size_t share_;   ///< of each session
+    const std::size_t common_;  ///< what remains
+    std::atomic<std::size_t> booked_{0};
+
+    mutable std::mutex mutex_;            ///< for what follows
+    std::vector<FrameInFlight*> frames_;  ///< in the order of their announcements
+    std::size_t taken_ = 0;               ///< of what is in common
 };
 
-/// The part of one frame in them, until it is released.
-class ShareInFlight {
+/// One frame's part, until it is released. One thread at a time.
+class FrameInFlight {
 public:
-    explicit ShareInFlight(std::shared_ptr<BytesInFlight> all) : all_(std::move(all)) {}
-    ~ShareInFlight() { release(); }
-    ShareInFlight(ShareInFlight&& other) noexcept : all_(other.all_), bytes_(std::exchange(other.bytes_, 0)) {}
-    ShareInFlight(const ShareInFlight&) = delete;
-    ShareInFlight& operator=(const ShareInFlight&) = delete;
-    ShareInFlight& operator=(ShareInFlight&&) = delete;
+    explicit FrameInFlight(std::shared_ptr<BytesInFlight> all,
+                           std::shared_ptr<SessionInFlight> session = std::make_shared<SessionInFlight>())
+        : all_(std::move(all)), session_(std::move(session)) {}
+    ~FrameInFlight() { release(); }
+    /// The other one has nothing afterwards.
+    FrameInFlight(FrameInFlight&& other) noexcept;
+    FrameInFlight(const FrameInFlight&) = delete;
+    FrameInFlight& operator=(const FrameInFlight&) = delete;
+    FrameInFlight& operator=(FrameInFlight&&) = delete;
 
-    /// Replaces what it had. Returns false, and has nothing, if that is too much.
-    bool take(std::size_t bytes) noexcept {
-        release();
-        if (!all_->add(bytes)) return false;
-        bytes_ = bytes;
-        return true;
-    }
-    void release() noexcept { all_->remove(std::exchange(bytes_, 0)); }
-    const BytesInFlight& all() const noexcept { return *all_; }
+    /// Begins a frame of so many bytes; the one before is released. Throws LimitExceeded if there could never be as
+    /// many.
+    void announce(std::size_t bytes);
+    /// Books so many of the announced bytes, which have arrived. If it returns false, they are booked later, and the
+    /// function is called then, by another thread, unless the frame is released before.
+    bool book(std::size_t arrived, std::function<void()> booked);
+    void release() noexcept;
 
 private:
+    friend class BytesInFlight;
+
+    std::size_t missing() const noexcept { return admitted_ ? announced_ - own_ - taken_ : announced_; }
+
     const std::shared_ptr<BytesInFlight> all_;
-    std::size_t bytes_ = 0;
+    const std::shared_ptr<SessionInFlight> session_;
+
+    // Of BytesInFlight, with its lock held.
+    bool begun_ = false;
+    bool admitted_ = false;
+    bool oversized_ = false;
+    std::size_t announced_ = 0;
+    std::size_t arrived_ = 0;
+    std::size_t own_ = 0;    ///< booked from the session's share
+    std::size_t taken_ = 0;  ///< and beyond it
+    std::function<void()> waiter_;
 };
 
 }  // namespace meniscus::server

@@ -1,4 +1,4 @@
-// The limit of frames that a session may begin in a second.
+// The limit of frames that a session, or a caller, may begin in a second.
 #pragma once
 
 #include <chrono>

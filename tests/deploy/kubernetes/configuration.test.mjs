@@ -111,7 +111,7 @@ for (const overlay of overlays) {
     test('is refused with a wrong setting, by file, line and value', () => {
       const cases = [
         [/^max-sessions = .*$/m, 'max-sessions = many', /:\d+: max-sessions: .*many/],
-        [/^memory-limit = .*$/m, 'memory-limit = 8 gigabytes', /:\d+: memory-limit: .*gigabytes/],
+        [/^total-memory-limit = .*$/m, 'total-memory-limit = 8 gigabytes', /:\d+: total-memory-limit: .*gigabytes/],
         [/^backend = /m, 'backnd = ', /:\d+: backnd: there is no setting of this name; --backend is near it/],
         [
           /^(insecure|tls-cert|tls-key) = .*$/gm,

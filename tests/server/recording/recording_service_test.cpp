@@ -401,7 +401,7 @@ TEST_F(RecordingService, ShowsUploadersTheirOwnAlone) {
             try {
                 as("ben").read_recording(id, 1).next();
             } catch (const client::ServerError& error) {
-                EXPECT_EQ(error.status(), "PERMISSION_DENIED");
+                EXPECT_EQ(error.status(), "NOT_FOUND");
                 throw;
             }
         },

@@ -1,7 +1,11 @@
 // Limits of uploading streams over a real connection: exactly at each, and one past it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <functional>
+#include <thread>
+#include <vector>
 
 #include "running_server.hpp"
 
@@ -64,12 +68,15 @@ TEST_F(UploadLimits, FramesPerSecond) {
     }
 }
 
-TEST_F(UploadLimits, BytesInFlightOverAllSessions) {
-    options.limits.bytes_in_flight = 240;
+TEST_F(UploadLimits, BytesInFlightThatAreOnlyAnnouncedCostOthersNothing) {
+    options.limits.bytes_in_flight = 2400;
     RunningServer running(options);
-    RawStream holds(running.server.address(), running.session());
-    holds.send_begin(0, 10);
-    holds.send_chunk(1);
+    RawStream first(running.server.address(), running.session());
+    RawStream second(running.server.address(), running.session());
+    for (RawStream* holds : {&first, &second}) {
+        holds->send_begin(0, 200);
+        holds->send_chunk(1);
+    }
     const auto send = [&](std::uint64_t particles) {
         RawStream stream(running.server.address(), running.session());
         stream.send_begin(0, particles);
@@ -77,18 +84,57 @@ TEST_F(UploadLimits, BytesInFlightOverAllSessions) {
         stream.send_end();
         return outcome(stream);
     };
-    // Until the other one is there.
-    Outcome refused;
-    while ((refused = send(11)).status.ok()) {
+    for (const std::uint64_t particles : {1U, 3U, 4U, 100U, 150U}) {
+        const Outcome result = send(particles);
+        EXPECT_TRUE(result.status.ok()) << particles << ": " << result.status.error_message();
     }
-    expect_refused(refused.status, "at most 240 bytes over all sessions");
-    EXPECT_TRUE(send(10).status.ok());
-    EXPECT_TRUE(send(10).status.ok());
-    holds.context.TryCancel();
-    holds.finish();
-    while (!send(20).status.ok()) {
+    expect_refused(send(201).status, "frame 0: a frame of 2412 bytes; the server takes at most 2400 bytes");
+    for (RawStream* holds : {&first, &second}) {
+        holds->send_chunk(2399);
+        holds->send_end();
+        holds->call->WritesDone();
     }
-    expect_refused(send(21).status, "frame 0: a frame of 252 bytes");
+    EXPECT_TRUE(first.finish().ok());
+    EXPECT_TRUE(second.finish().ok());
+}
+
+TEST_F(UploadLimits, LargeFramesOfTwoSessionsBothArrive) {
+    const Particles particles = wave(20, 0.0);
+    const std::size_t bytes = particles.positions.size() * sizeof(float);
+    options.limits.bytes_in_flight = bytes * 10 / 6;
+    RunningServer running(options);
+    std::vector<std::thread> senders;
+    std::array<grpc::Status, 4> ends;
+    for (grpc::Status& end : ends)
+        senders.emplace_back([&, id = running.session()] {
+            RawStream stream(running.server.address(), id);
+            for (std::uint64_t frame = 0; frame < 3; ++frame) {
+                stream.send_begin(frame, particles.positions.size() / 3);
+                for (std::size_t at = 0; at < bytes; at += 4096)
+                    stream.send_data(std::string{reinterpret_cast<const char*>(particles.positions.data()) + at,
+                                                 std::min<std::size_t>(4096, bytes - at)});
+                stream.send_end();
+            }
+            end = outcome(stream).status;
+        });
+    for (std::thread& sender : senders) sender.join();
+    for (const grpc::Status& end : ends) EXPECT_TRUE(end.ok()) << end.error_message();
+}
+
+TEST_F(UploadLimits, TimeOfAFrameThatComesTooSlowly) {
+    options.limits.least_pace = {.time = std::chrono::milliseconds(200), .bytes_per_second = 1000};
+    RunningServer running(options);
+    const std::string id = running.session();
+    RawStream stream(running.server.address(), id);
+    stream.send_begin(0, 0);
+    stream.send_end();
+    stream.send_begin(1, 1000);
+    stream.send_chunk(1);
+    const grpc::Status status = stream.finish();
+    EXPECT_EQ(stream.answered, 1) << "the frames before are answered";
+    expect_refused(status, "frame 1: 1 of 12000 bytes in 0.2");
+    expect_refused(status, "within 0.2 s, or come with 1000 bytes per second from then on");
+    EXPECT_FALSE(running.client.session(id).uploading) << "another stream may follow";
 }
 
 TEST_F(UploadLimits, MessageBytes) {

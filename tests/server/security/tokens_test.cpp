@@ -74,10 +74,10 @@ public:
         v1::GetSessionResponse response;
         return connection_.sessions->GetSession(context().get(), request, &response);
     }
-    grpc::Status create() const {
+    grpc::Status create(const Settings& chosen = settings()) const {
         v1::CreateSessionRequest request;
         request.set_id(session_);
-        *request.mutable_settings() = conversion::to_wire(settings());
+        *request.mutable_settings() = conversion::to_wire(chosen);
         v1::CreateSessionResponse response;
         return connection_.sessions->CreateSession(context().get(), request, &response);
     }
@@ -176,13 +176,79 @@ TEST_F(TokensOnAServer, KeepUploadersFromEachOthersSessions) {
     const RawCalls calls(server.address(), id, {"Bearer " + ben});
     EXPECT_TRUE(calls.server_info().ok());
     for (const grpc::Status& status :
-         {calls.get(), calls.create(), calls.stream(), calls.watch(), calls.watch_particles(), calls.remove()}) {
-        EXPECT_EQ(status.error_code(), grpc::StatusCode::PERMISSION_DENIED);
-        EXPECT_NE(status.error_message().find("session " + id + " is not one of ben's"), std::string::npos)
-            << status.error_message();
+         {calls.get(), calls.stream(), calls.watch(), calls.watch_particles(), calls.remove()}) {
+        EXPECT_EQ(status.error_code(), grpc::StatusCode::NOT_FOUND);
+        EXPECT_EQ(status.error_message(), "no session " + id);
     }
     EXPECT_TRUE(client(ben).sessions().empty());
     EXPECT_EQ(client(ada).sessions().size(), 1U);
+}
+
+TEST_F(TokensOnAServer, TellUploadersNothingOfEachOthersSessions) {
+    const std::string none = client::new_session_id();
+    const RawCalls others(server.address(), id, {"Bearer " + ben});
+    const RawCalls nobodys(server.address(), none, {"Bearer " + ben});
+    const auto same_but_for_the_id = [&](const grpc::Status& of_others, const grpc::Status& of_nobodys) {
+        EXPECT_EQ(of_others.error_code(), of_nobodys.error_code());
+        std::string text = of_others.error_message();
+        const std::size_t at = text.find(id);
+        ASSERT_NE(at, std::string::npos) << text;
+        EXPECT_EQ(text.replace(at, id.size(), none), of_nobodys.error_message());
+    };
+    same_but_for_the_id(others.get(), nobodys.get());
+    same_but_for_the_id(others.stream(), nobodys.stream());
+    same_but_for_the_id(others.watch(), nobodys.watch());
+    same_but_for_the_id(others.watch_particles(), nobodys.watch_particles());
+    same_but_for_the_id(others.remove(), nobodys.remove());
+    // That the id is taken cannot be hidden. With which settings can.
+    Settings other_settings = settings();
+    other_settings.iso = 0.5;
+    const grpc::Status equal = others.create();
+    const grpc::Status different = others.create(other_settings);
+    EXPECT_EQ(equal.error_code(), grpc::StatusCode::PERMISSION_DENIED);
+    EXPECT_EQ(equal.error_code(), different.error_code());
+    EXPECT_EQ(equal.error_message(), different.error_message());
+}
+
+TEST_F(TokensOnAServer, HaveSharesThatLeaveRoomForOthers) {
+    folder.write("tokens",
+                 "uploader ada token-of-ada-0123456789 sessions=2 watchers=1 frames-per-second=3 bytes-in-flight=1K\n"
+                 "uploader ben token-of-ben-0123456789\n");
+    Server shared{options(file)};
+    client::Client adas(shared.address(), {.token = ada});
+    client::Client bens(shared.address(), {.token = ben});
+    const auto status_of = [](const auto& call) -> std::string {
+        try {
+            call();
+            return "OK";
+        } catch (const LimitExceeded& error) {
+            return error.what();
+        }
+    };
+    const auto create = [&](client::Client& client) {
+        const std::string session = client::new_session_id();
+        client.create_session(session, settings());
+        return session;
+    };
+    const std::string session = create(adas);
+    create(adas);
+    EXPECT_NE(status_of([&] { create(adas); }).find("ada has 2 sessions"), std::string::npos);
+    const std::string bens_session = create(bens);
+
+    const auto frame = [&](client::Client& client, const std::string& to, std::uint64_t frames, std::size_t side) {
+        auto stream = client.stream(to);
+        for (std::uint64_t i = 0; i < frames; ++i) stream.push(wave(side, 0.0).view(), i, 0.0);
+        stream.finish();
+        while (stream.next()) {
+        }
+    };
+    EXPECT_NE(status_of([&] { frame(adas, session, 300, 2); }).find("more than 3 frames in a second"),
+              std::string::npos);
+    EXPECT_NE(status_of([&] { frame(adas, session, 1, 5); }), "OK") << "1500 bytes";
+    EXPECT_EQ(status_of([&] { frame(bens, bens_session, 30, 5); }), "OK");
+
+    const auto watcher = adas.watch(session);
+    EXPECT_NE(status_of([&] { adas.watch(session).next(); }).find("ada has 1 watchers"), std::string::npos);
 }
 
 TEST_F(TokensOnAServer, LetUploadersDoEverythingWithTheirOwn) {
@@ -249,6 +315,13 @@ TEST(Tokens, AreRefusedWithTheLineAndWithoutTheToken) {
     const std::vector<Case> cases{
         {"uploader ada 0123456789secret\nwatcher eve\n", ":2: a line must be: ROLE NAME TOKEN"},
         {"uploader ada 0123456789secret more\n", ":1: a line must be: ROLE NAME TOKEN"},
+        {"uploader ada 0123456789secret sessions=\n", ":1: a line must be: ROLE NAME TOKEN"},
+        {"uploader ada 0123456789secret sessions=-1\n", ":1: a line must be: ROLE NAME TOKEN"},
+        {"uploader ada 0123456789secret sessions=4M\n", ":1: a line must be: ROLE NAME TOKEN"},
+        {"uploader ada 0123456789secret watchers=4294967296\n", ":1: a line must be: ROLE NAME TOKEN"},
+        {"uploader ada 0123456789secret bytes-in-flight=99999999999T\n", ":1: a line must be: ROLE NAME TOKEN"},
+        {"uploader ada 0123456789secret sessions=1\nuploader ada 9876543210secret sessions=2\n",
+         ":2: the shares of ada differ"},
         {"owner ada 0123456789secret\n", ":1: the role must be uploader, watcher or admin"},
         {"# only\nuploader ada 56789secret\n", ":2: the token has 11 characters; it needs at least 16"},
         {"uploader 0123456789secret ada\n", ":1: the token has 3 characters"},
@@ -265,6 +338,33 @@ TEST(Tokens, AreRefusedWithTheLineAndWithoutTheToken) {
             EXPECT_EQ(message.find("secret"), std::string::npos) << message;
         }
     }
+}
+
+TEST(Tokens, HaveTheSharesOfTheirName) {
+    const TestFolder folder;
+    const Tokens tokens = Tokens::load(
+        folder.write("tokens",
+                     "uploader ada 0123456789first\n"
+                     "uploader ada 0123456789second sessions=0 watchers=7 frames-per-second=8 bytes-in-flight=9M\n"
+                     "uploader ben 0123456789third bytes-in-flight=10\n"));
+    const NameShares everybody{.sessions = 1, .watchers = 2, .frames_per_second = 3, .bytes_in_flight = 4};
+    const NameShares adas{
+        .sessions = 0, .watchers = 7, .frames_per_second = 8, .bytes_in_flight = std::size_t{9} << 20U};
+    EXPECT_EQ(tokens.find("0123456789first")->shares.over(everybody), adas);
+    EXPECT_EQ(tokens.find("0123456789second")->shares.over(everybody), adas);
+    EXPECT_EQ(tokens.find("0123456789third")->shares.over(everybody),
+              (NameShares{.sessions = 1, .watchers = 2, .frames_per_second = 3, .bytes_in_flight = 10}));
+}
+
+TEST(Shares, WithoutTokensAreOfPeerAddressesThatAreNotTrusted) {
+    const Authorizer authorizer{TrustedPeers({"192.0.2.0/24"})};
+    const auto account = [&](const char* peer) {
+        return authorizer.admit({}, PeerAddress::of_grpc(peer), Action::create_session).account;
+    };
+    EXPECT_EQ(account("ipv4:198.51.100.7:50000"), "198.51.100.7");
+    EXPECT_EQ(account("ipv4:198.51.100.7:50001"), "198.51.100.7");
+    for (const char* exempt : {"ipv4:192.0.2.1:1", "ipv4:127.0.0.1:1", "unix:", "inproc"})
+        EXPECT_EQ(account(exempt), "") << exempt;
 }
 
 TEST(Tokens, AreRefusedInAFileThatEveryoneMayRead) {

@@ -120,18 +120,18 @@ TEST_F(FrameAssembly, TakesAsManyChunksAsTheLimitSaysAndNoEmptyOneMore) {
     EXPECT_THROW(limited.append(chunk(0), frame), LimitExceeded);
 }
 
-TEST_F(FrameAssembly, TakesBytesInFlightOfAllSessionsUpToTheLimit) {
-    const auto in_flight = std::make_shared<BytesInFlight>(1200);
+TEST_F(FrameAssembly, RefusesAFrameOfMoreBytesThanMayEverBeInFlight) {
+    const auto in_flight = std::make_shared<BytesInFlight>(1200, 4);
     InputFrame first{nullptr, in_flight};
     InputFrame second{nullptr, in_flight};
+    assembler.begin(begin(0, 100), first);
+    EXPECT_LT(in_flight->bytes(), 1200U) << "what is announced has not arrived";
     FrameAssembler other{limits};
-    assembler.begin(begin(0, 60), first);
-    other.begin(begin(0, 40), second);
-    EXPECT_EQ(in_flight->bytes(), 1200U);
+    EXPECT_THROW(other.begin(begin(0, 101), second), LimitExceeded);
+    other.begin(begin(1, 5), second);
+    EXPECT_EQ(in_flight->bytes(), 60U);
     second.land();
-    FrameAssembler third{limits};
-    EXPECT_THROW(third.begin(begin(0, 41), second), LimitExceeded);
-    EXPECT_EQ(in_flight->bytes(), 720U);
+    EXPECT_EQ(in_flight->bytes(), 0U);
 }
 
 TEST_F(FrameAssembly, RefusesATimeThatIsNotFinite) {

@@ -2,9 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <memory>
+#include <semaphore>
+#include <thread>
+#include <vector>
+
 #include "meniscus/error.hpp"
 #include "sessions/refusal.hpp"
-#include "test_frames.hpp"
+#include "simulator_player.hpp"
 
 namespace meniscus::server {
 namespace {
@@ -100,6 +106,116 @@ TEST(IdleRegistry, ForgetsASessionThatNobodyHasUsedForAsLongAsTheLimitSaysAndNon
     EXPECT_EQ(registry.list()[0], used);
     const auto end = std::get<OutputQueue::End>(upload->output.take());
     EXPECT_THROW(std::rethrow_exception(end.error), LimitExceeded);
+}
+
+/// A registry whose reconstructions wait for the test.
+struct BusyRegistry : testing::Test {
+    ~BusyRegistry() override { gate.release(1000); }
+
+    std::counting_semaphore<> gate{0};  ///< one reconstruction for each
+    std::atomic<int> begun{0};
+    SessionRegistry registry{
+        Limits{.sessions = 4},
+        BackendOptions{.backend = Backend::cpu, .threads = 1},
+        1,
+        {},
+        std::make_shared<Metrics>(),
+        nullptr,
+        [this](const Settings&, const BackendOptions&) {
+            return ReconstructFunctions{
+                .reconstruct = [this, cpu = test::reconstruct_on_the_cpu()](const ParticleFrame& frame, Mesh& mesh) {
+                    ++begun;
+                    gate.acquire();
+                    return cpu(frame, mesh);
+                }};
+        }};
+    const test::Particles particles = test::wave(2, 0.0);
+};
+
+TEST_F(BusyRegistry, LetsDeletedSessionsEndWhoseFramesWaitForTheDevice) {
+    const auto busy = registry.create(first_id, test::settings());
+    test::Simulator holds(*busy, {});
+    holds.send(0, particles);
+    while (begun == 0) std::this_thread::yield();
+    for (int i = 0; i < 50; ++i) {
+        auto session = registry.create(second_id, test::settings());
+        auto waiting = std::make_unique<test::Simulator>(*session, UploadOptions{});
+        waiting->send(0, particles);
+        registry.remove(session);
+        waiting.reset();
+        const std::weak_ptr<Session> ended = session;
+        session.reset();
+        while (!ended.expired()) std::this_thread::yield();
+    }
+    EXPECT_EQ(begun, 1) << "the device was busy all the time";
+}
+
+TEST_F(BusyRegistry, CountsDeletedSessionsThatHaveNotEnded) {
+    std::vector<std::unique_ptr<test::Simulator>> simulators;
+    // Each has the device when it is deleted, one after the other; none of them can be stopped.
+    const auto first = registry.create(first_id, test::settings());
+    simulators.push_back(std::make_unique<test::Simulator>(*first, UploadOptions{}));
+    simulators.back()->send(0, particles);
+    while (begun == 0) std::this_thread::yield();
+    registry.remove(first);
+    for (int i = 0; i < 3; ++i) registry.remove(registry.create(second_id, test::settings()));
+    EXPECT_THROW(registry.create(second_id, test::settings()), LimitExceeded) << "four are about to end";
+    gate.release();
+    for (bool refused = true; refused;) {
+        try {
+            registry.create(second_id, test::settings());
+            refused = false;
+        } catch (const LimitExceeded&) {
+            std::this_thread::yield();
+        }
+    }
+    EXPECT_EQ(registry.list().size(), 1U);
+}
+
+TEST(SharedRegistry, HoldsASharesWorthOfSessionsForEachCaller) {
+    SessionRegistry registry{Limits{.sessions = 4, .per_name = {.sessions = 2}},
+                             BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
+    const auto create = [&](const char* id, const std::string& name, const OwnShares& own = {}) {
+        return registry.create(id, test::settings(), {.name = name, .account = registry.account(name, own)});
+    };
+    const auto first = create(first_id, "ada");
+    create(second_id, "ada");
+    EXPECT_NO_THROW(create(second_id, "ada")) << "it is there";
+    EXPECT_THROW(create(third_id, "ada"), LimitExceeded);
+    EXPECT_NO_THROW(create(third_id, "ada", {.sessions = 3})) << "the tokens file may have been changed";
+    EXPECT_NO_THROW(create("00000000-0000-4000-8000-000000000004", "ben"));
+    registry.remove(first);
+    EXPECT_THROW(create(first_id, "ada"), LimitExceeded);
+}
+
+TEST(OrphanedRegistry, ForgetsASessionWhoseSimulatorVanishedUnlessItIsWatchedOrResumed) {
+    using Clock = std::chrono::steady_clock;
+    constexpr auto limit = std::chrono::minutes(2);
+    SessionRegistry registry{Limits{.orphan_time = limit}, BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
+    const auto later = Clock::now() + 10 * limit;
+    const auto open = [](Session& session) {
+        return session.open_upload(
+            {.run_id = 7}, [] {}, [] {});
+    };
+    const auto vanish = [&](Session& session) { session.cancel_upload(open(session), true); };
+    const auto watched = registry.create(first_id, test::settings());
+    vanish(*watched);
+    const auto watch = watched->open_watch({}, [] {});
+    const auto resumed = registry.create(second_id, test::settings());
+    vanish(*resumed);
+    const auto again = open(*resumed);
+    const auto ended = registry.create(third_id, test::settings());
+    ended->cancel_upload(open(*ended));
+    const auto orphaned = registry.create("00000000-0000-4000-8000-000000000004", test::settings());
+    vanish(*orphaned);
+    registry.end_idle(Clock::now() + limit / 2);
+    EXPECT_EQ(registry.list().size(), 4U);
+    while (!orphaned->ended()) registry.end_idle(later);
+    EXPECT_EQ(registry.list().size(), 3U);
+    watched->close_watch(watch);
+    while (!watched->ended()) registry.end_idle(later);
+    EXPECT_FALSE(resumed->ended());
+    EXPECT_FALSE(ended->ended()) << "that one said goodbye";
 }
 
 TEST_F(Registry, RefusesSettingsOutOfRange) {

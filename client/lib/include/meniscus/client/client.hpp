@@ -66,6 +66,16 @@ struct ServerInfo {
     std::uint32_t max_frames_per_second = 0;  ///< of one session
     std::uint32_t max_chunks_per_frame = 0;
     double max_idle_seconds = 0.0;
+    double max_upload_seconds = 0.0;  ///< of a frame that comes more slowly than with the rate that follows
+    std::uint64_t min_upload_bytes_per_second = 0;
+    double max_orphan_seconds = 0.0;           ///< of a session whose simulator has vanished
+    std::uint64_t max_total_bytes = 0;         ///< of all sessions' reconstructions
+    std::uint64_t max_total_device_bytes = 0;  ///< of those on one GPU
+    double max_idle_buffers_seconds = 0.0;
+    std::uint32_t max_sessions_per_name = 0;  ///< of one token's name, or without tokens of one peer address
+    std::uint32_t max_watchers_per_name = 0;  ///< of one session
+    std::uint32_t max_frames_per_second_per_name = 0;
+    std::uint64_t max_bytes_in_flight_per_name = 0;
     std::uint64_t max_message_bytes = 0;
     std::vector<std::uint32_t> codecs;  ///< numbers of those that the server encodes with; codec.hpp names them
 };
@@ -77,12 +87,22 @@ struct FrameStatistics : Statistics {
     std::uint64_t encoded_bytes = 0;
 };
 
+/// What a session's next frame waits for.
+enum class SessionWait {
+    nothing,
+    device,           ///< its turn
+    bytes_in_flight,  ///< room among those of all sessions
+    something_else,   ///< that this version does not know
+};
+
 struct SessionInfo {
     std::string id;
     std::string owner;  ///< who made it; empty where nobody is asked
     Settings settings;  ///< as in_force() has them
     bool uploading = false;
     unsigned watchers = 0;
+    SessionWait waits_for = SessionWait::nothing;
+    std::string waits_for_session;  ///< that has the device; told to admins alone
     std::uint64_t frames = 0;
     std::uint64_t frames_dropped = 0;  ///< by the policies of its streams
     std::uint64_t frames_skipped = 0;  ///< replaced before a watcher had taken them, over all watchers

@@ -1,0 +1,28 @@
+// Calls that the server has refused: counted by reason and name, and logged at a limited rate.
+#pragma once
+
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "log_rate.hpp"
+#include "sessions/metrics.hpp"
+
+namespace meniscus::server {
+
+/// Thread-safe.
+class Refusals {
+public:
+    explicit Refusals(std::shared_ptr<Metrics> metrics) : metrics_(std::move(metrics)) {}
+
+    /// name: of the caller's token; empty where there is none. peer: its address. Does nothing without an error, and
+    /// for one that is no refusal.
+    void report(const std::exception_ptr& error, const std::string& name, const std::string& peer);
+
+private:
+    const std::shared_ptr<Metrics> metrics_;
+    LogRate lines_{1.0, 20.0};
+};
+
+}  // namespace meniscus::server

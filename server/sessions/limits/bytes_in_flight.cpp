@@ -1,0 +1,172 @@
+#include "sessions/limits/bytes_in_flight.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "sessions/limits/limit_reached.hpp"
+
+namespace meniscus::server {
+
+BytesInFlight::BytesInFlight(std::size_t limit, std::uint32_t sessions)
+    : limit_(limit), share_(sessions != 0 ? limit / 4 / sessions : 0), common_(limit - share_ * sessions) {}
+
+std::size_t BytesInFlight::waiting() const {
+    const std::lock_guard lock(mutex_);
+    return static_cast<std::size_t>(
+        std::ranges::count_if(frames_, [](const FrameInFlight* frame) { return frame->waiter_ != nullptr; }));
+}
+
+bool BytesInFlight::admit(FrameInFlight& frame) {
+    NameInFlight* const name = frame.session_->name.get();
+    const std::size_t name_limit = name != nullptr ? name->limit.load() : 0;
+    if (name_limit != 0 && name->announced != 0 &&
+        (name->announced > name_limit || frame.announced_ > name_limit - name->announced))
+        return false;
+    std::size_t own = frame.announced_;
+    if (limit_ != 0) {
+        frame.oversized_ = frame.announced_ > common_ + share_;
+        own = frame.oversized_ ? 0 : std::min(own, share_ - std::min(share_, frame.session_->booked));
+        if (own > limit_ - booked_) return false;
+        // A frame that fits into its share is never in anybody's way.
+        frame.own_ = own;
+        frame.admitted_ = true;
+        if (own < frame.announced_ && !is_safe(frame, 0)) {
+            frame.own_ = 0;
+            frame.admitted_ = false;
+            return false;
+        }
+    }
+    frame.own_ = own;
+    frame.admitted_ = true;
+    frame.session_->booked += own;
+    booked_ += own;
+    if (name != nullptr) name->announced += frame.announced_;
+    return true;
+}
+
+bool BytesInFlight::grant(FrameInFlight& frame) {
+    if (!frame.admitted_ && !admit(frame)) return false;
+    const std::size_t booked = frame.own_ + frame.taken_;
+    if (frame.arrived_ <= booked) return true;
+    const std::size_t more = frame.arrived_ - booked;
+    if (more > limit_ - booked_) return false;
+    if (!frame.oversized_ && (taken_ > common_ || more > common_ - taken_)) return false;
+    if (!is_safe(frame, more)) return false;
+    frame.taken_ += more;
+    taken_ += more;
+    booked_ += more;
+    return true;
+}
+
+bool BytesInFlight::is_safe(const FrameInFlight& frame, std::size_t more) const {
+    struct Claim {
+        std::size_t missing;
+        std::size_t taken;
+    };
+    std::vector<Claim> claims;
+    std::vector<Claim> oversized;
+    std::size_t taken = 0;
+    std::size_t taken_by_oversized = 0;
+    for (const FrameInFlight* each : frames_) {
+        const std::size_t extra = each == &frame ? more : 0;
+        // One that has arrived whole is reconstructed, and gives its bytes back.
+        if (!each->admitted_ || each->missing() == extra) continue;
+        const Claim claim{.missing = each->missing() - extra, .taken = each->taken_ + extra};
+        (each->oversized_ ? oversized : claims).push_back(claim);
+        taken += claim.taken;
+        if (each->oversized_) taken_by_oversized += claim.taken;
+    }
+    const auto all_arrive = [](std::vector<Claim>& waiting, std::size_t free) {
+        std::ranges::sort(waiting, {}, &Claim::missing);
+        return std::ranges::all_of(waiting, [&free](const Claim& claim) {
+            const bool arrives = claim.missing <= free;
+            free += claim.taken;
+            return arrives;
+        });
+    };
+    // First those that leave the shares alone; the oversized ones may have the rest once these are gone.
+    return all_arrive(claims, common_ - std::min(common_, taken)) && taken_by_oversized <= limit_ &&
+           all_arrive(oversized, limit_ - taken_by_oversized);
+}
+
+void BytesInFlight::forget(FrameInFlight& frame) {
+    if (!std::exchange(frame.begun_, false)) return;
+    std::erase(frames_, &frame);
+    if (frame.admitted_) {
+        frame.session_->booked -= frame.own_;
+        if (frame.session_->name) frame.session_->name->announced -= frame.announced_;
+        taken_ -= frame.taken_;
+        booked_ -= frame.own_ + frame.taken_;
+    }
+    frame.admitted_ = frame.oversized_ = false;
+    frame.announced_ = frame.arrived_ = frame.own_ = frame.taken_ = 0;
+}
+
+BytesInFlight::Calls BytesInFlight::grant_waiting() {
+    Calls calls;
+    for (FrameInFlight* frame : frames_)
+        if (frame->waiter_ && grant(*frame)) calls.push_back(std::exchange(frame->waiter_, nullptr));
+    return calls;
+}
+
+FrameInFlight::FrameInFlight(FrameInFlight&& other) noexcept : all_(other.all_), session_(other.session_) {
+    const std::lock_guard lock(all_->mutex_);
+    begun_ = std::exchange(other.begun_, false);
+    admitted_ = std::exchange(other.admitted_, false);
+    oversized_ = std::exchange(other.oversized_, false);
+    announced_ = std::exchange(other.announced_, 0);
+    arrived_ = std::exchange(other.arrived_, 0);
+    own_ = std::exchange(other.own_, 0);
+    taken_ = std::exchange(other.taken_, 0);
+    waiter_ = std::exchange(other.waiter_, nullptr);
+    std::ranges::replace(all_->frames_, &other, this);
+}
+
+void FrameInFlight::announce(std::size_t bytes) {
+    release();
+    const std::size_t limit = all_->limit_;
+    if (limit != 0 && bytes > limit)
+        throw LimitReached(
+            LimitName::bytes_in_flight,
+            fmt::format(
+                "a frame of {} bytes; the server takes at most {} bytes over all sessions: send fewer particles", bytes,
+                limit));
+    const std::size_t name_limit = session_->name ? session_->name->limit.load() : 0;
+    if (name_limit != 0 && bytes > name_limit)
+        throw LimitReached(
+            LimitName::bytes_in_flight_per_name,
+            fmt::format(
+                "a frame of {} bytes; the server takes at most {} bytes at a time of one caller: send fewer particles",
+                bytes, name_limit));
+    const std::lock_guard lock(all_->mutex_);
+    announced_ = bytes;
+    begun_ = true;
+    all_->frames_.push_back(this);
+    all_->grant(*this);
+}
+
+bool FrameInFlight::book(std::size_t arrived, std::function<void()> booked) {
+    const std::lock_guard lock(all_->mutex_);
+    if (!begun_) return true;
+    arrived_ = arrived;
+    if (all_->grant(*this)) return true;
+    waiter_ = std::move(booked);
+    return false;
+}
+
+void FrameInFlight::release() noexcept {
+    BytesInFlight::Calls calls;
+    std::function<void()> forgotten;  // destroyed outside of the lock
+    {
+        const std::lock_guard lock(all_->mutex_);
+        if (!begun_) return;
+        forgotten = std::exchange(waiter_, nullptr);
+        all_->forget(*this);
+        calls = all_->grant_waiting();
+    }
+    for (const auto& call : calls) call();
+}
+
+}  // namespace meniscus::server
