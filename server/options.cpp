@@ -199,6 +199,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
                    share_of("Frames that wait to be reconstructed",
                             "; 0: no limit. Default: three quarters of --max-bytes-in-flight"))
         ->transform(CLI::AsSizeValue(false))
+        ->transform(whole_number())
         ->type_name("BYTES")
         ->default_str("");
     app.add_option("--max-chunks", server.limits.chunks_per_frame, "Chunk messages of one frame; 0: no limit");
@@ -209,10 +210,11 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->type_name("BYTES");
     app.add_option("--max-upload-seconds", upload_seconds,
                    "Seconds in which a frame must have arrived, unless it comes with --min-upload-rate; 0: no limit")
-        ->check(CLI::Range(0.0, 1e7));
+        ->check(seconds_up_to(1e7));
     app.add_option("--min-upload-rate", server.limits.least_pace.bytes_per_second,
                    "Bytes a second with which a frame must come after --max-upload-seconds; 0: none may take longer")
         ->transform(CLI::AsSizeValue(false))
+        ->transform(whole_number())
         ->type_name("BYTES");
     app.add_option(
            "--max-idle", idle_seconds,
@@ -232,16 +234,18 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
                    "Memory of all sessions' reconstructions; 0: no limit. Default: half of the machine's, or of the "
                    "container's")
         ->transform(CLI::AsSizeValue(false))
+        ->transform(whole_number())
         ->type_name("BYTES");
     app.add_option("--total-device-memory-limit", server.limits.total_device_bytes,
                    "Memory of all sessions' reconstructions on one GPU; 0: no limit")
         ->transform(CLI::AsSizeValue(false))
+        ->transform(whole_number())
         ->type_name("BYTES");
     app.add_option(
            "--idle-buffers", idle_buffers_seconds,
            "Seconds after which a session without frames gives the memory of its reconstruction back, and takes "
            "it again when it needs it; 0: only where others need it")
-        ->check(CLI::Range(0.0, 1e7));
+        ->check(seconds_up_to(1e7));
     app.add_option("--device-memory-limit", server.limits.device_bytes_per_session,
                    "Memory of one session's reconstruction on its GPU; 0: no limit")
         ->transform(CLI::AsSizeValue(false))

@@ -1,6 +1,5 @@
 #include "rpc/refusals.hpp"
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <new>
@@ -67,9 +66,9 @@ void Refusals::report(const std::exception_ptr& error, const std::string& name, 
     if (reason.name.empty()) return;
     metrics_->refused(reason.name, name);
     if (!reason.is_logged) return;
-    if (const auto left_out = lines_.admit())
+    if (const auto kept_back = lines_.pass())
         spdlog::warn("refused{}{} at {}: {}{}", name.empty() ? "" : " to ", name, peer, reason.message,
-                     *left_out == 0 ? "" : fmt::format(" ({} more lines like it were left out)", *left_out));
+                     left_out(*kept_back));
 }
 
 }  // namespace meniscus::server

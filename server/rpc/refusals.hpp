@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "log_rate.hpp"
+#include "line_limit.hpp"
 #include "sessions/metrics.hpp"
 
 namespace meniscus::server {
@@ -22,7 +22,7 @@ public:
 
 private:
     const std::shared_ptr<Metrics> metrics_;
-    LogRate lines_{1.0, 20.0};
+    LineLimit lines_{20};
 };
 
 }  // namespace meniscus::server

@@ -22,7 +22,7 @@ public:
 
 private:
     /// For sessions to give their buffers back.
-    static constexpr auto patience = std::chrono::seconds(2);
+    static constexpr auto patience = std::chrono::seconds(1);
 
     std::mutex mutex_;
     std::vector<std::weak_ptr<Session>> sessions_;

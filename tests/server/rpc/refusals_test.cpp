@@ -67,7 +67,7 @@ TEST_F(RefusedCalls, AreCountedByReasonAndName) {
     EXPECT_EQ(metrics->counts, expected);
 }
 
-TEST_F(RefusedCalls, FillTheLogNoFasterThanALineASecondAfterABurst) {
+TEST_F(RefusedCalls, FillTheLogNoFasterThanTwentyLinesInTenSeconds) {
     report(InvalidInput("wrong"));
     EXPECT_EQ(lines(), 0) << "that is the client's own affair";
     for (int i = 0; i < 5000; ++i) report(LimitReached(LimitName::sessions, "too many"));
