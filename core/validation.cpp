@@ -118,9 +118,8 @@ void validate(const Settings& s) {
         throw InvalidInput("iso value is " + text(s.iso) + ", must be at most " + text(greatest_iso) +
                            ": inside a fluid the field is about 1");
     // In float32 the iso value must remain above zero, or the outside would be inside.
-    const auto iso = static_cast<float>(s.iso);
-    if (!(std::isfinite(iso) && iso > 0.0F))
-        throw InvalidInput("iso value is " + text(s.iso) + ", must be finite and greater than 0 as a float32, too");
+    if (static_cast<float>(s.iso) == 0.0F)
+        throw InvalidInput("iso value is " + text(s.iso) + ", must be greater than 0 as a float32, too");
     require_field_settings(s);
     require_support(s, 0);
     std::visit([](const auto& criterion) { require(criterion); }, s.criterion);

@@ -9,6 +9,7 @@ std::span<const Attack> attacks() {
         {"connections", "1100 and 5000 connections at 1024 descriptors, twenty times", connections},
         {"damaged-recording", "four bytes of a recording, changed at 400 places, one after the other",
          damaged_recording},
+        {"garbled-requests", "3000 requests of bytes that are none, to every method", garbled_requests},
         {"greedy-names", "an uploader that takes all sessions, and deletes 300 behind a long frame", greedy_names},
         {"gzip-bomb", "512 MiB of zeros, compressed by gzip, without a token", gzip_bomb},
         {"large-sessions", "six sessions that take all the memory of reconstructions, beside ten small ones",

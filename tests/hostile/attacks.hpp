@@ -14,6 +14,7 @@ std::vector<Figure> announcements(const std::string& program);
 std::vector<Figure> crowded_frames(const std::string& program);
 std::vector<Figure> connections(const std::string& program);
 std::vector<Figure> damaged_recording(const std::string& program);
+std::vector<Figure> garbled_requests(const std::string& program);
 std::vector<Figure> greedy_names(const std::string& program);
 std::vector<Figure> gzip_bomb(const std::string& program);
 std::vector<Figure> large_sessions(const std::string& program);

@@ -332,7 +332,7 @@ TEST_F(RecordingService, EndsAReaderThatStopsReadingAndGivesItsPlaceToAnother) {
     limited.limits.recording_readers = 1;
     limited.limits.reader_patience = std::chrono::milliseconds(300);
     RunningServer running(limited);
-    const std::string id = recorded(running, std::vector<Particles>(12, spray(12)));
+    const std::string id = recorded(running, std::vector<Particles>(12, spray(24)));
     auto stalled = running.client.read_recording(id, 1);
     ASSERT_TRUE(stalled.next());
     EXPECT_TRUE(becomes([&] { return status_of(running, request_for(id)).ok(); }));
