@@ -22,11 +22,14 @@ std::size_t SharedMemory::try_charge(std::size_t bytes) noexcept {
 }
 
 bool SharedMemory::charge(std::size_t bytes) {
-    const std::size_t missing = try_charge(bytes);
-    if (missing == 0) return true;
-    if (!make_room_ || bytes > limit_) return false;
-    make_room_(missing);
-    return try_charge(bytes) == 0;
+    while (const std::size_t missing = try_charge(bytes)) {
+        if (!make_room_ || bytes > limit_) return false;
+        const std::size_t before = this->bytes();
+        make_room_(missing);
+        // Another thread may have taken the room; where none was made, there is none to be had.
+        if (this->bytes() >= before) return try_charge(bytes) == 0;
+    }
+    return true;
 }
 
 void MemoryAccount::charge(std::size_t bytes) {

@@ -206,7 +206,9 @@ std::shared_ptr<SharedMemory> SessionRegistry::shared_memory(std::size_t limit) 
     // A call may keep a session for longer than there is a registry.
     auto shared = std::make_shared<SharedMemory>(limit, [idle = idle_buffers_, memory](std::size_t missing) {
         const auto self = memory->lock();
-        idle->make_room([&] { return self->limit() - std::min(self->limit(), self->bytes()) >= missing; });
+        const auto room = [&] { return self->limit() - std::min(self->limit(), self->bytes()); };
+        const std::size_t wanted = room() + missing;
+        idle->make_room([&] { return room() >= wanted; });
     });
     *memory = shared;
     return shared;

@@ -67,7 +67,7 @@ int refused_to_bob(const std::string& address) {
 /// Threads that 300 sessions leave behind, each deleted while its frame waits for a long one.
 int threads_left_behind(const Target& target) {
     client::Client alice(target.address(), {.token = alices});
-    const std::vector<float> large = block_of_particles(60, true);
+    const std::vector<float> large = block_of_particles(80);
     const std::vector<float> small = block_of_particles(2);
     ParticleFrame frame;
     frame.positions = large;

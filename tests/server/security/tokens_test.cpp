@@ -344,15 +344,15 @@ TEST(Tokens, HaveTheSharesOfTheirName) {
     const TestFolder folder;
     const Tokens tokens = Tokens::load(
         folder.write("tokens",
-                     "uploader ada 0123456789first\n"
+                     "uploader ada 0123456789-first\n"
                      "uploader ada 0123456789second sessions=0 watchers=7 frames-per-second=8 bytes-in-flight=9M\n"
-                     "uploader ben 0123456789third bytes-in-flight=10\n"));
+                     "uploader ben 0123456789-third bytes-in-flight=10\n"));
     const NameShares everybody{.sessions = 1, .watchers = 2, .frames_per_second = 3, .bytes_in_flight = 4};
     const NameShares adas{
         .sessions = 0, .watchers = 7, .frames_per_second = 8, .bytes_in_flight = std::size_t{9} << 20U};
-    EXPECT_EQ(tokens.find("0123456789first")->shares.over(everybody), adas);
+    EXPECT_EQ(tokens.find("0123456789-first")->shares.over(everybody), adas);
     EXPECT_EQ(tokens.find("0123456789second")->shares.over(everybody), adas);
-    EXPECT_EQ(tokens.find("0123456789third")->shares.over(everybody),
+    EXPECT_EQ(tokens.find("0123456789-third")->shares.over(everybody),
               (NameShares{.sessions = 1, .watchers = 2, .frames_per_second = 3, .bytes_in_flight = 10}));
 }
 
