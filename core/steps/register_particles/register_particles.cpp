@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "engine/cpu/words.hpp"
 #include "engine/index_limit.hpp"
@@ -243,13 +244,23 @@ std::uint64_t mark_reached_cells(ParticleSets& sets, BrickGrid& grid) {
             const Units3 origin{brick.coordinate.x * edge, brick.coordinate.y * edge, brick.coordinate.z * edge};
             const auto size = static_cast<float>(edge);
             std::uint64_t marked = 0;
-            for (const ParticleSet& set : sets.of_level)
+            for (const ParticleSet& set : sets.of_level) {
+                // Coincident particles follow one another, and mark the same.
+                float last[4] = {NAN, NAN, NAN, NAN};
+                std::uint32_t by_last = 0;
                 set.view().for_each_near(origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
                                          [&, view = set.view()](float x, float y, float z, std::uint32_t particle) {
                                              if (particle % 16384 == 0) sets.workers.go_on();
-                                             marked +=
-                                                 mark_reached(BrickMarks{brick}, x, y, z, view.support_of(particle));
+                                             const float support = view.support_of(particle);
+                                             if (x != last[0] || y != last[1] || z != last[2] || support != last[3])
+                                                 by_last = mark_reached(BrickMarks{brick}, x, y, z, support);
+                                             marked += by_last;
+                                             last[0] = x;
+                                             last[1] = y;
+                                             last[2] = z;
+                                             last[3] = support;
                                          });
+            }
             const bool has_domain = sets.settings.has_domain;
             for (int w = 0; w < Brick::words && has_domain; ++w)
                 brick.occupied[w] &=

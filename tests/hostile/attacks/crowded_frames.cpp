@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int megabyte = 87'000;                  ///< particles of 12 bytes
-constexpr double frame_seconds = 60.0;            ///< --max-frame-seconds of the first server
+constexpr double frame_seconds = 10.0;            ///< --max-frame-seconds of the first server
 constexpr double least_seconds = 2.0;             ///< that a frame may always take
 constexpr double times_of_an_evenly_spread = 20;  ///< and as a share
 
@@ -123,7 +123,9 @@ double seconds_of(client::Client& client, const Settings& settings, const Positi
 
 /// The worst of all frames' seconds over those that each may take.
 Figure worst_frame(const std::string& program) {
-    Target target(program);
+    TargetOptions options;
+    options.arguments = {"--max-frame-seconds", std::to_string(frame_seconds)};
+    Target target(program, options);
     client::Client client(target.address());
     Figure worst{"the longest frame beside its limit", 0.0, 1.0, ""};
     for (const Case& attack : cases()) {
