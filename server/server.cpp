@@ -113,12 +113,7 @@ std::size_t own_descriptors(const ServerOptions& options, const BackendDescripti
 }
 
 ConnectionShares shares_of(const ServerOptions& options, const BackendDescription& backend) {
-    const std::size_t descriptors = descriptor_limit();
-    const ConnectionShares shares =
-        share_descriptors(descriptors, own_descriptors(options, backend), options.limits.connections);
-    spdlog::info("connections: {} to the gRPC port, {} to the HTTP port, of {} descriptors", shares.grpc, shares.http,
-                 descriptors);
-    return shares;
+    return share_descriptors(descriptor_limit(), own_descriptors(options, backend), options.limits.connections);
 }
 
 }  // namespace
@@ -200,6 +195,8 @@ Server::Server(const ServerOptions& options)
                                          port_.own_connections());
     if (!options.http.empty()) serve_http(origins);
     if (!options.probes.empty()) serve_probes();
+    spdlog::info("connections: {} to the gRPC port, {} to the HTTP port, of {} descriptors", shares_.grpc, shares_.http,
+                 descriptor_limit());
 }
 
 Server::~Server() {

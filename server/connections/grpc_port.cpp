@@ -7,6 +7,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -26,9 +28,10 @@ int make_event() {
     return event;
 }
 
-/// Whether the next accept may succeed at once: the error is that of one connection.
+/// Whether the next accept may succeed at once: the error is that of one connection, not of the process or the socket.
 bool concerns_one_connection(int error) {
-    return error != EMFILE && error != ENFILE && error != ENOBUFS && error != ENOMEM;
+    constexpr std::array others{EMFILE, ENFILE, ENOBUFS, ENOMEM, EBADF, EINVAL, ENOTSOCK, EOPNOTSUPP};
+    return std::ranges::find(others, error) == others.end();
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace meniscus::server {
 
@@ -55,16 +56,15 @@ Address address_of(int listening) {
 }
 
 /// A place to connect from that is known before the connection is. Of Unix sockets a name that the kernel chooses.
-Address bind_near(int socket, const Address& server) {
+Address bind_near(int socket, const sockaddr& server, socklen_t size) {
     Address own;
-    own.storage.ss_family = server.storage.ss_family;
-    own.size = server.storage.ss_family == AF_UNIX ? sizeof(sa_family_t) : server.size;
-    if (server.storage.ss_family == AF_INET)
-        reinterpret_cast<sockaddr_in&>(own.storage).sin_addr =
-            reinterpret_cast<const sockaddr_in&>(server.storage).sin_addr;
-    if (server.storage.ss_family == AF_INET6)
+    own.storage.ss_family = server.sa_family;
+    own.size = server.sa_family == AF_UNIX ? sizeof(sa_family_t) : size;
+    if (server.sa_family == AF_INET)
+        reinterpret_cast<sockaddr_in&>(own.storage).sin_addr = reinterpret_cast<const sockaddr_in&>(server).sin_addr;
+    if (server.sa_family == AF_INET6)
         reinterpret_cast<sockaddr_in6&>(own.storage).sin6_addr =
-            reinterpret_cast<const sockaddr_in6&>(server.storage).sin6_addr;
+            reinterpret_cast<const sockaddr_in6&>(server).sin6_addr;
     ::bind(socket, &own.get(), own.size);
     own.size = sizeof own.storage;
     ::getsockname(socket, &own.get(), &own.size);
@@ -159,10 +159,13 @@ void PortCheck::stop() {
 }
 
 void PortCheck::run() {
+    std::vector<Address> servers;
+    servers.reserve(sockets_.size());
+    for (const int socket : sockets_) servers.push_back(address_of(socket));
     for (;;) {
         Result result = Result::answered;
-        for (const int socket : sockets_)
-            if (result == Result::answered) result = check(socket);
+        for (const Address& server : servers)
+            if (result == Result::answered) result = check(server.get(), server.size);
         std::unique_lock lock(mutex_);
         if (stopped_) return;
         judge(result);
@@ -180,17 +183,16 @@ void PortCheck::judge(Result result) {
         spdlog::error("the gRPC port does not answer, though there is room: /healthz says so");
 }
 
-PortCheck::Result PortCheck::check(int listening) {
-    const Address server = address_of(listening);
-    const int connection = ::socket(server.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+PortCheck::Result PortCheck::check(const sockaddr& server, socklen_t size) {
+    const int connection = ::socket(server.sa_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
     if (connection < 0) return Result::no_room;
     const auto patience = std::chrono::duration_cast<std::chrono::microseconds>(times_.patience).count();
     const timeval limit{.tv_sec = patience / 1'000'000, .tv_usec = patience % 1'000'000};
     for (const int option : {SO_SNDTIMEO, SO_RCVTIMEO})  // the first one is also connect()'s
         ::setsockopt(connection, SOL_SOCKET, option, &limit, sizeof limit);
-    const Address own = bind_near(connection, server);
+    const Address own = bind_near(connection, server, size);
     own_.expect(own.get(), own.size);
-    const bool answered = use(connection) && ::connect(connection, &server.get(), server.size) == 0 &&
+    const bool answered = use(connection) && ::connect(connection, &server, size) == 0 &&
                           (protocol_ == Protocol::tls ? answers_hello(connection) : answers_ping(connection));
     close(connection);
     own_.forget(own.get(), own.size);

@@ -1,11 +1,14 @@
 // Asks the server's own gRPC port, again and again, whether it answers.
 #pragma once
 
+#include <sys/socket.h>
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "connections/own_connections.hpp"
@@ -40,7 +43,7 @@ private:
     enum class Result { answered, silent, no_room };
 
     void run();
-    Result check(int listening);
+    Result check(const sockaddr& server, socklen_t size);
     void judge(Result result);
     /// For stop(), which cuts the connection in use off. False if that has been called.
     bool use(int connection);
