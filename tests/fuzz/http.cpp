@@ -64,7 +64,8 @@ void http(Bytes bytes) {
     client.connect(acceptor.local_endpoint());
     bool gone = false;
     std::make_shared<server::HttpConnection>(
-        acceptor.accept(), nullptr, context, server::HttpConnection::Content{router, grpc_web}, server::HttpLimits{},
+        acceptor.accept(), server::PeerAddress{}, nullptr, context, server::HttpConnection::Content{router, grpc_web},
+        server::HttpLimits{},
         server::HttpConnection::Observer{
             .answered = [](auto&) {}, .gone = [&gone](auto&) { gone = true; }, .may_stream = [] { return true; }})
         ->start();
