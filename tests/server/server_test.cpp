@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "listen_address.hpp"
 #include "meniscus/error.hpp"
 #include "running_server.hpp"
 
@@ -22,10 +23,10 @@ TEST(Server, RefusesAnAddressInUse) {
     options.listen = "127.0.0.1:0";
     const Server tcp(options);
     options.listen = tcp.address();
-    EXPECT_THROW(Server{options}, InvalidInput);
+    EXPECT_THROW(Server{options}, AddressUnavailable);
     const ServerOptions unix_options = test_options();
     const Server unix_socket(unix_options);
-    EXPECT_THROW(Server{unix_options}, InvalidInput);
+    EXPECT_THROW(Server{unix_options}, AddressUnavailable);
 }
 
 TEST(Server, RefusesAnAddressThatIsNone) {

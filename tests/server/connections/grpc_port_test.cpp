@@ -121,10 +121,12 @@ TEST(GrpcPort, TakesAConnectionInThePlaceOfOneThatHasGone) {
     options.limits.connections = 2;
     const Server server(options);
     for (int i = 0; i < 5; ++i) {
-        const AttackSockets strangers(server.address(), 2);
-        scrape_until(server.http_address(), "meniscus_connections", 2);
+        {
+            const AttackSockets strangers(server.address(), 2);
+            scrape_until(server.http_address(), "meniscus_connections", 2);
+        }
+        scrape_until(server.http_address(), "meniscus_connections", 0);
     }
-    scrape_until(server.http_address(), "meniscus_connections", 0);
     EXPECT_EQ(client::Client(server.address()).server_info().version, version());
 }
 
@@ -240,7 +242,7 @@ TEST(ConnectionTable, KnowsWhichConnectionsHaveGoneThoughNobodySaysSo) {
     auto first = std::make_unique<Pair>();
     const Pair second;
     const Pair third;
-    for (const Pair* each : {first.get(), &second, &third})
+    for (const Pair* each : {static_cast<const Pair*>(first.get()), &second, &third})
         EXPECT_EQ(table.admit(each->get(), peer("203.0.113.1")), Verdict::admitted);
     EXPECT_EQ(table.sweep(), 3U);
     first.reset();
