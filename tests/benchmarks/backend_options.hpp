@@ -12,7 +12,7 @@ class App;
 namespace meniscus::benchmarks {
 
 /// Unless told otherwise.
-inline constexpr BackendOptions one_cpu_thread{.backend = Backend::cpu, .threads = 1};
+inline const BackendOptions one_cpu_thread{.backend = Backend::cpu, .threads = 1};
 
 /// The flags --backend and --threads.
 void add_backend_options(CLI::App& command, BackendOptions& options);
