@@ -63,9 +63,11 @@ private:
                                               .emit_capped = nullptr};
                                       }};
     const server::Authorizer everyone_;
-    server::ActiveCalls calls_;
-    server::SessionServiceImpl session_service_{registry_, everyone_};
-    server::SurfaceServiceImpl surface_service_{registry_, everyone_, calls_};
+    server::Refusals refusals_{std::make_shared<server::Metrics>()};
+    server::ActiveCalls streams_;
+    server::ActiveCalls watchers_;
+    server::SessionServiceImpl session_service_{registry_, everyone_, refusals_};
+    server::SurfaceServiceImpl surface_service_{registry_, everyone_, refusals_, streams_, watchers_};
     std::unique_ptr<grpc::Server> grpc_;
     std::string address_;
 };

@@ -23,6 +23,12 @@ public:
         to.sin_family = AF_INET;
         to.sin_port = htons(static_cast<std::uint16_t>(std::stoi(address.substr(address.rfind(':') + 1))));
         to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        // Linux has all of 127.0.0.0/8 on loopback: as a stranger, this client has another address than honest ones.
+        sockaddr_in from{};
+        from.sin_family = AF_INET;
+        from.sin_addr.s_addr = htonl(INADDR_LOOPBACK + 1);
+        if (::bind(socket_, reinterpret_cast<const sockaddr*>(&from), sizeof from) != 0)
+            throw std::runtime_error("the address 127.0.0.2 cannot be used");
         const timeval guard{.tv_sec = 30, .tv_usec = 0};
         ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &guard, sizeof guard);
         if (::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0)

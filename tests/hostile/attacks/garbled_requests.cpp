@@ -30,7 +30,8 @@ std::string garbled(std::minstd_rand& random) {
     std::string bytes(random() % 60, '\0');
     for (char& byte : bytes) byte = static_cast<char>(random() % 128);
     if (random() % 2 == 0) return bytes;
-    return "\x0a" + std::string(1, static_cast<char>(bytes.size())) + bytes;
+    std::string field{'\x0a', static_cast<char>(bytes.size())};
+    return field += bytes;
 }
 
 }  // namespace
