@@ -25,8 +25,8 @@ std::shared_ptr<Session> find_session(const Caller& caller, SessionRegistry& reg
 
 std::string peer_of(const grpc::ServerContextBase& context) {
     std::string peer = context.peer();
-    // gRPC knows no peer of calls from within the process. Nobody else makes them: elsewhere the metadata are a claim of
-    // the client's.
+    // gRPC knows no peer of calls from within the process. Nobody else makes them: elsewhere the metadata are a claim
+    // of the client's.
     if (peer != "unknown" && !peer.starts_with("inproc")) return peer;
     const auto web = context.client_metadata().find(web_peer_key);
     if (web == context.client_metadata().end()) return peer;

@@ -61,7 +61,8 @@ for (const overlay of overlays) {
         for (const { name, emptyDir } of pod(workload).volumes) assert.ok(!emptyDir || emptyDir.sizeLimit, name);
       }
       assert.ok(
-        bytes(config['total-memory-limit']) + bytes(config['max-bytes-in-flight']) < bytes(container.resources.limits.memory),
+        bytes(config['total-memory-limit']) + bytes(config['max-bytes-in-flight']) <
+          bytes(container.resources.limits.memory),
       );
     });
 
