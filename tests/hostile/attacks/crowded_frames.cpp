@@ -1,5 +1,6 @@
 // Valid frames that are more work than they look: all particles in few places (D4).
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <random>
@@ -110,9 +111,7 @@ double seconds_of(client::Client& client, const Settings& settings, const Positi
         ParticleFrame frame;
         frame.positions = positions;
         stream.push(frame, 0, 0.0);
-        stream.finish();
-        while (stream.next()) {
-        }
+        static_cast<void>(stream.next());
     } catch (const LimitExceeded&) {
         // Refused or stopped.
     }
@@ -157,9 +156,17 @@ Figure wait_of_another(const std::string& program) {
     TargetOptions options;
     options.arguments = {"--max-frame-seconds", "1", "--max-frame-work", "0"};
     Target target(program, options);
-    std::thread attacker([&] { hold_the_device(target.address()); });
+    std::atomic<bool> over = false;
+    std::thread attacker([&] {
+        hold_the_device(target.address());
+        over = true;
+    });
     client::Client client(target.address());
-    while (client.sessions().empty() || !client.sessions().front().uploading) std::this_thread::yield();
+    const auto attacked = [&] {
+        const auto sessions = client.sessions();
+        return !sessions.empty() && sessions.front().uploading;
+    };
+    while (!over && !attacked()) std::this_thread::yield();
     const std::string id = "00000000-0000-4000-8000-00000000d4d5";
     client.create_session(id, settings_of(Field::smooth, 1.0, Mode::adaptive));
     client::Stream stream = client.stream(id, {.receive_meshes = false});
