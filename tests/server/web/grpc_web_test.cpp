@@ -15,7 +15,6 @@
 #include <sstream>
 #include <thread>
 
-#include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
 #include "meniscus/v1/recording_service.pb.h"
 #include "meniscus/v1/server_service.pb.h"
@@ -26,7 +25,6 @@
 #include "test_certificates.hpp"
 #include "test_folder.hpp"
 #include "web/grpc_web.hpp"
-#include "web/origins.hpp"
 #include "web/web_call.hpp"
 
 namespace meniscus::server::test {
@@ -446,29 +444,6 @@ TEST_F(GrpcWebCalls, AreTakenInChunks) {
                 "Transfer-Encoding: chunked\r\n\r\n2\r\n" +
                 std::string(2, '\0') + "\r\n3\r\n" + std::string(3, '\0') + "\r\n0\r\n\r\n");
     EXPECT_EQ(client.receive().status, 200);
-}
-
-TEST(Origins, OfThisMachineOfTheServerItselfAndOfTheListMayCall) {
-    const AllowedOrigins origins({"https://viewer.example"});
-    for (const char* origin : {"", "http://localhost:5173", "http://127.0.0.1", "https://[::1]:8443",
-                               "https://viewer.example", "http://host:9464"})
-        EXPECT_TRUE(origins.admits(origin, "host:9464")) << origin;
-    for (const char* origin :
-         {"null", "https://evil.example", "http://localhost.evil.example", "http://127.0.0.1.evil.example",
-          "https://viewer.example.evil", "http://host:9465", "ftp://localhost"})
-        EXPECT_FALSE(origins.admits(origin, "host:9464")) << origin;
-    for (const char* wrong : {"", "*", "viewer.example", "https://viewer.example/"})
-        EXPECT_THROW(AllowedOrigins({wrong}), InvalidInput) << wrong;
-}
-
-TEST(Origins, KnowTheServerByAddressAndByItsNames) {
-    const AllowedOrigins origins({"https://viewer.example:8443"}, "water.example:9464");
-    for (const char* host : {"", "localhost", "LocalHost:9464", "127.0.0.1:9464", "10.1.2.3", "[::1]:9464", "[fe80::1]",
-                             "viewer.example", "viewer.example:1", "water.example:9464"})
-        EXPECT_TRUE(origins.knows_host(host)) << host;
-    for (const char* host : {"evil.example", "evil.example:9464", "127.0.0.1.evil.example", "localhost.evil.example",
-                             "viewer.example.evil", "0x7f.1"})
-        EXPECT_FALSE(origins.knows_host(host)) << host;
 }
 
 /// A page of evil.example, whose name its DNS has turned to this machine, is the server's own page to the browser.
