@@ -235,6 +235,12 @@ void ReconstructingThread::make_meshes_again() {
         } catch (const DeviceError& error) {
             log_error({.session = context_.identity.id}, "the session ends: {}", error.what());
             encoding_.put(EncodingThread::EndSession{std::current_exception()});
+        } catch (const Stopped&) {
+            // Where the session ends, no watcher is left to miss it.
+            if (stop_.reason() == FrameStop::Reason::too_long)
+                log_warning(
+                    {.session = context_.identity.id, .frame = input->index},
+                    "no mesh for a watcher that has come, until the next frame: it had the device for too long");
         } catch (const std::exception& error) {
             log_error({.session = context_.identity.id, .frame = input->index},
                       "no mesh for a watcher that has come, until the next frame: {}", error.what());
@@ -249,6 +255,14 @@ bool ReconstructingThread::emit_capped(int max_level, Mesh& mesh) {
         return true;
     } catch (const DeviceError&) {
         throw;
+    } catch (const Stopped&) {
+        has_surface_ = false;
+        if (stop_.reason() == FrameStop::Reason::too_long)
+            log_warning({.session = context_.identity.id},
+                        "no mesh of levels up to {} for its watchers, who keep the one before: it had the device for "
+                        "too long",
+                        max_level);
+        return false;
     } catch (const std::exception& error) {
         has_surface_ = false;
         log_error({.session = context_.identity.id},
