@@ -2,15 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "unavailable.hpp"
 
 namespace meniscus::server {
 
 /// An address that is right, but another program has it, or this machine has not.
-struct AddressUnavailable : std::runtime_error {
-    using std::runtime_error::runtime_error;
+struct AddressUnavailable : Unavailable {
+    using Unavailable::Unavailable;
 };
 
 struct HostPort {

@@ -23,6 +23,7 @@
 #include "meniscus/error.hpp"
 #include "options.hpp"
 #include "server.hpp"
+#include "unavailable.hpp"
 
 namespace {
 
@@ -117,7 +118,7 @@ int main(int argc, char** argv) {
     } catch (const meniscus::InvalidInput& error) {
         std::fprintf(stderr, "meniscusd: %s\n", error.what());
         return 2;
-    } catch (const meniscus::server::AddressUnavailable& error) {
+    } catch (const meniscus::server::Unavailable& error) {
         std::fprintf(stderr, "meniscusd: %s\n", error.what());
         return 1;
     } catch (const std::exception& error) {

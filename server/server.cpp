@@ -116,6 +116,11 @@ ConnectionShares shares_of(const ServerOptions& options, const BackendDescriptio
     return share_descriptors(descriptor_limit(), own_descriptors(options, backend), options.limits.connections);
 }
 
+Limits in_force(Limits limits, const ConnectionShares& shares) {
+    limits.connections = static_cast<std::uint32_t>(shares.grpc);
+    return limits;
+}
+
 }  // namespace
 
 std::vector<std::string> problems_of(const ServerOptions& options) {
@@ -152,9 +157,11 @@ Server::Server(const ServerOptions& options)
     : options_((require_closed_to_others(options), options)),
       access_(options.tls, options.tokens, options.trusted_proxies),
       backend_(describe(options)),
+      shares_(shares_of(options, backend_)),
+      limits_(in_force(options.limits, shares_)),
       metrics_(std::make_shared<PrometheusMetrics>()),
       recordings_(options.recording.directory.empty() ? nullptr : std::make_unique<RecordingWriter>(options.recording)),
-      registry_(options.limits, for_sessions(options.backend, backend_), threads_or_processors(options.backend.threads),
+      registry_(limits_, for_sessions(options.backend, backend_), threads_or_processors(options.backend.threads),
                 options.devices, metrics_, record_with(recordings_.get())),
       recording_reads_(recordings_ ? std::make_unique<RecordingReads>(options.recording.directory,
                                                                       options.limits.recording_readers,
@@ -162,11 +169,10 @@ Server::Server(const ServerOptions& options)
                                    : nullptr),
       refusals_(metrics_),
       server_service_(access_.authorizer(), refusals_, backend_, threads_or_processors(options.backend.threads),
-                      options.limits),
+                      limits_),
       session_service_(registry_, access_.authorizer(), refusals_),
       surface_service_(registry_, access_.authorizer(), refusals_, streams_, receivers_),
       recording_service_(recording_reads_.get(), access_.authorizer(), *metrics_, receivers_),
-      shares_(shares_of(options, backend_)),
       port_(options.listen, {.all = shares_.grpc, .for_each_peer = options.limits.connections_per_peer},
             TrustedPeers(options.trusted_proxies)) {
     const AllowedOrigins origins(options.web_origins, options.http);
@@ -269,9 +275,7 @@ std::vector<prometheus::MetricFamily> Server::metrics() {
                         draining_ ? 0 : 1));
     add(connection_metrics(port_.counts()));
     add(session_gauges(registry_));
-    Limits limits = options_.limits;
-    limits.connections = static_cast<std::uint32_t>(shares_.grpc);  // as far as there are descriptors
-    add(limit_gauges(limits, backend_));
+    add(limit_gauges(limits_, backend_));
     const Access::Expiry expiry = access_.expiry();
     all.push_back(gauges("meniscus_certificate_expires_timestamp_seconds",
                          "When the first certificate of the file in use expires, seconds since 1970; +Inf: there is "

@@ -49,8 +49,8 @@ std::vector<std::string> problems_of(const ServerOptions& options);
 
 class Server {
 public:
-    /// Listens when it returns. Throws InvalidInput if the backend or the address cannot be used, AddressUnavailable if
-    /// another program has the address or this machine has not.
+    /// Listens when it returns. Throws InvalidInput if the backend or the address cannot be used, Unavailable if
+    /// another program has the address or the folder of recordings, or this machine has no such address.
     explicit Server(const ServerOptions& options);
     ~Server();
     Server(const Server&) = delete;
@@ -83,6 +83,8 @@ private:
     const ServerOptions options_;
     Access access_;
     const BackendDescription backend_;
+    const ConnectionShares shares_;
+    const Limits limits_;  ///< in force: connections as far as there are descriptors
     const std::shared_ptr<PrometheusMetrics> metrics_;
     const std::unique_ptr<RecordingWriter> recordings_;  ///< none: nothing is recorded
     SessionRegistry registry_;
@@ -94,7 +96,6 @@ private:
     SessionServiceImpl session_service_;
     SurfaceServiceImpl surface_service_;
     RecordingServiceImpl recording_service_;
-    const ConnectionShares shares_;
     GrpcPort port_;
     std::unique_ptr<grpc::Server> grpc_;
     std::unique_ptr<PortCheck> check_;

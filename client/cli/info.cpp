@@ -66,6 +66,9 @@ void print_server(const ServerFlags& server) {
               << "bytes of all sessions  " << limit(info.max_total_bytes) << '\n'
               << "  on one GPU           " << limit(info.max_total_device_bytes) << '\n'
               << "idle buffers seconds   " << seconds_limit(info.max_idle_buffers_seconds) << '\n'
+              << "connections            " << limit(info.max_connections) << '\n'
+              << "  from one address     " << limit(info.max_connections_per_peer) << '\n'
+              << "readers of recordings  " << limit(info.max_recording_readers) << '\n'
               << "of one name, or of one address where the server asks for no tokens:\n"
               << "  sessions             " << limit(info.max_sessions_per_name) << '\n'
               << "  watchers per session " << limit(info.max_watchers_per_name) << '\n'

@@ -50,8 +50,8 @@ FolderLock::FolderLock(const std::filesystem::path& directory) {
     if (error == EWOULDBLOCK) {
         const std::string owner = owner_in(descriptor_);
         ::close(descriptor_);
-        throw InvalidInput(fmt::format("--record {}: {} records there: give each server a folder of its own",
-                                       directory.string(), owner));
+        throw FolderInUse(fmt::format("--record {}: {} records there: give each server a folder of its own",
+                                      directory.string(), owner));
     }
     log_warning({}, "--record {}: its file system has no locks ({}): see that no other server records there",
                 directory.string(), std::generic_category().message(error));

@@ -43,8 +43,8 @@ struct RecordedRun {
 
 class RecordingWriter {
 public:
-    /// Creates the directory if it is missing. Throws InvalidInput if it cannot be written to, or another server
-    /// records there.
+    /// Creates the directory if it is missing. Throws InvalidInput if it cannot be written to, FolderInUse if
+    /// another server records there.
     explicit RecordingWriter(const RecordingOptions& options);
     /// Writes what waits.
     ~RecordingWriter();

@@ -38,6 +38,9 @@ v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, uns
     wire.set_watchers_per_name(limits.per_name.watchers);
     wire.set_frames_per_second_per_name(limits.per_name.frames_per_second);
     wire.set_bytes_in_flight_per_name(limits.per_name.bytes_in_flight);
+    wire.set_connections(limits.connections);
+    wire.set_connections_per_peer(limits.connections_per_peer);
+    wire.set_recording_readers(limits.recording_readers);
     return response;
 }
 

@@ -96,6 +96,10 @@ public:
     }
 
     void OnDone() override {
+        {
+            const std::lock_guard lock(done_mutex_);
+            done_ = true;
+        }
         const auto self = std::move(self_);
         if (!upload_) return;
         // For a call that ended before its upload: nobody reads, and the session is free for the next stream.
@@ -358,12 +362,29 @@ private:
         InputFrame* unused = nullptr;
         {
             const std::lock_guard lock(mutex_);
-            if (writing_ || finished_) return;
+            if (finished_) return;
+            if (writing_) {
+                if (upload_ && upload_->output.aborted() && !last_write_) await_last_write();
+                return;
+            }
             write_next();
             if (finished_ && !working_) unused = std::exchange(input_, nullptr);
         }
         // Outside of the lock: the slot may go to another stream at once.
         if (unused != nullptr) session_->return_input(*unused);
+    }
+
+    /// No message follows the one that is under way. A client that does not take that one never learns of the end, and
+    /// its call would stay for good.
+    void await_last_write() {
+        constexpr auto patience = std::chrono::seconds(2);
+        last_write_ = std::make_unique<grpc::Alarm>();
+        last_write_->Set(std::chrono::system_clock::now() + patience, [weak = weak_from_this()](bool rang) {
+            const auto self = rang ? weak.lock() : nullptr;
+            if (!self) return;
+            const std::lock_guard lock(self->done_mutex_);
+            if (!self->done_) self->context_.TryCancel();
+        });
     }
 
     void write_next() {
@@ -444,6 +465,10 @@ private:
     bool canceled_ = false;
     bool vanished_ = false;  ///< canceled while more was to come
     bool finished_ = false;
+    std::unique_ptr<grpc::Alarm> last_write_;  ///< for its end
+
+    std::mutex done_mutex_;  ///< for what follows; gRPC may call OnCancel while it is locked
+    bool done_ = false;
 };
 
 }  // namespace

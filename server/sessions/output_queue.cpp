@@ -30,8 +30,9 @@ void OutputQueue::end(std::exception_ptr error, bool drop) {
         if (drop) messages_.clear();
         if (finished_) return;
         finished_ = true;
+        aborted_ = drop;
         error_ = std::move(error);
-        wake = std::exchange(consumer_waits_, false);
+        wake = std::exchange(consumer_waits_, false) || drop;
     }
     changed_.notify_all();
     if (wake) wake_();
@@ -39,8 +40,20 @@ void OutputQueue::end(std::exception_ptr error, bool drop) {
 
 bool OutputQueue::wait_for_room() {
     std::unique_lock lock(mutex_);
+    stall_ = Stall{.since = Clock::now()};
     changed_.wait(lock, [&] { return finished_ || closed_ || messages_.size() <= room_for_a_frame; });
+    stall_.reset();
     return !finished_ && !closed_;
+}
+
+std::optional<OutputQueue::Stall> OutputQueue::stall() const {
+    const std::lock_guard lock(mutex_);
+    return stall_;
+}
+
+bool OutputQueue::aborted() const {
+    const std::lock_guard lock(mutex_);
+    return aborted_;
 }
 
 OutputQueue::Next OutputQueue::take() {
@@ -48,6 +61,7 @@ OutputQueue::Next OutputQueue::take() {
     if (!messages_.empty()) {
         SharedMessage message = std::move(messages_.front());
         messages_.pop_front();
+        if (stall_) stall_->bytes_taken += message->size();
         changed_.notify_all();
         return message;
     }

@@ -1,12 +1,14 @@
 // Messages on their way to the simulator that uploads: every one, in order.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <variant>
 
 #include "sessions/encoded_frame.hpp"
@@ -24,8 +26,16 @@ public:
         std::exception_ptr error;  ///< none: all went well
     };
     using Next = std::variant<Nothing, SharedMessage, End>;
+    using Clock = std::chrono::steady_clock;
 
-    /// wake: called once, by a producing thread, after take() has found nothing and there is something again.
+    /// While the producer waits for room.
+    struct Stall {
+        Clock::time_point since;
+        std::size_t bytes_taken = 0;
+    };
+
+    /// wake: called once, by a producing thread, after take() has found nothing and there is something again; and by
+    /// abort().
     explicit OutputQueue(std::function<void()> wake) : wake_(std::move(wake)) {}
 
     // The producer's side.
@@ -36,21 +46,27 @@ public:
     void abort(std::exception_ptr error);
     /// Waits until a frame may begin. Returns false if nobody will read it.
     bool wait_for_room();
+    /// None: the producer does not wait.
+    std::optional<Stall> stall() const;
 
     // The consumer's side, one thread at a time.
     Next take();
     /// The consumer is gone: nothing is kept any more.
     void close();
+    /// Whether its messages were dropped for an error.
+    bool aborted() const;
 
 private:
     void end(std::exception_ptr error, bool drop);
 
     const std::function<void()> wake_;
-    std::mutex mutex_;
+    mutable std::mutex mutex_;  ///< for what follows
     std::condition_variable changed_;
     std::deque<SharedMessage> messages_;
     std::exception_ptr error_;
+    std::optional<Stall> stall_;
     bool finished_ = false;
+    bool aborted_ = false;
     bool closed_ = false;
     bool consumer_waits_ = false;
 };

@@ -21,8 +21,9 @@ Session::Session(SessionIdentity identity, const Settings& settings, const Limit
                .shared = std::move(shared),
                .observer = std::move(observer),
                .closing = closing_.get_token()},
-      inputs_(std::make_shared<MemoryAccount>(limits.bytes_per_session), context_.shared.bytes_in_flight,
-              std::make_shared<SessionInFlight>(SessionInFlight{.name = account() ? account()->in_flight() : nullptr})),
+      in_flight_(
+          std::make_shared<SessionInFlight>(SessionInFlight{.name = account() ? account()->in_flight() : nullptr})),
+      inputs_(std::make_shared<MemoryAccount>(limits.bytes_per_session), context_.shared.bytes_in_flight, in_flight_),
       frame_stop_(functions.stop, context_.shared.deadlines, limits.frame_time),
       frame_rate_(limits.frames_per_second),
       encoding_(context_, watchers_,
@@ -252,10 +253,7 @@ void Session::drain(std::chrono::duration<double> grace) {
         received_.put({});
 }
 
-bool Session::end_idle(std::chrono::steady_clock::time_point now) {
-    using Clock = std::chrono::steady_clock;
-    using Seconds = std::chrono::duration<double>;
-    std::shared_ptr<Upload> idle;
+void Session::end_slow_upload(std::chrono::steady_clock::time_point now) {
     std::shared_ptr<Upload> slow;
     std::optional<UploadPace::Slow> frame;
     {
@@ -270,6 +268,43 @@ bool Session::end_idle(std::chrono::steady_clock::time_point now) {
                                      "second from then on",
                                      frame->index, frame->arrived, frame->announced, frame->time.count(),
                                      limits().least_pace.time.count(), limits().least_pace.bytes_per_second))));
+}
+
+void Session::end_stalled_uploads(std::chrono::steady_clock::time_point now) {
+    using Seconds = std::chrono::duration<double>;
+    const LeastPace& least = limits().least_pace;
+    if (least.time.count() == 0 || !context_.shared.bytes_in_flight->others_wait(*in_flight_)) return;
+    std::vector<std::shared_ptr<Upload>> unanswered;
+    {
+        const std::lock_guard lock(mutex_);
+        unanswered = unanswered_;
+    }
+    for (const auto& upload : unanswered) {
+        const auto stall = upload->output.stall();
+        if (!stall || least.allows(stall->bytes_taken, now - stall->since)) continue;
+        const Seconds time = now - stall->since;
+        log_warning({.session = id()},
+                    "its simulator has taken {} bytes in {:.3g} s, while frames of other sessions wait: the stream "
+                    "ends",
+                    stall->bytes_taken, time.count());
+        const auto error = std::make_exception_ptr(LimitReached(
+            LimitName::answer_time,
+            fmt::format("{} bytes of the meshes were taken in {:.3g} s, while frames of other sessions wait for room; "
+                        "take the first within {:.3g} s, or {} bytes per second from then on",
+                        stall->bytes_taken, time.count(), Seconds(least.time).count(), least.bytes_per_second)));
+        // First, as nobody may ever take what waits.
+        upload->output.abort(error);
+        cancel_upload(upload, true);
+        upload->stop(error);
+    }
+}
+
+bool Session::end_idle(std::chrono::steady_clock::time_point now) {
+    using Clock = std::chrono::steady_clock;
+    using Seconds = std::chrono::duration<double>;
+    end_slow_upload(now);
+    end_stalled_uploads(now);
+    std::shared_ptr<Upload> idle;
     {
         const std::lock_guard lock(mutex_);
         if (!upload_) {

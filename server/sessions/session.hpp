@@ -98,8 +98,9 @@ public:
     /// Lets the frame on its way in be the last, then ends the watchers. grace: told to streams and watchers. Returns
     /// at once.
     void drain(std::chrono::duration<double> grace);
-    /// Ends an upload that has been idle for Limits::idle_time, or whose frame comes too slowly. Returns whether the
-    /// session has been without streams, watchers and calls for that time.
+    /// Ends an upload that has been idle for Limits::idle_time, or whose frame comes too slowly, or whose answers are
+    /// taken too slowly while frames of others wait for the bytes of its own. Returns whether the session has been
+    /// without streams, watchers and calls for that time.
     /// The same after Limits::orphan_time where its simulator has vanished without a word.
     bool end_idle(std::chrono::steady_clock::time_point now);
     /// Since when it has had nothing to reconstruct, and may give its buffers back; none: it has, or it works.
@@ -141,8 +142,14 @@ private:
     void finish_upload(const std::shared_ptr<Upload>& upload, std::exception_ptr error);
     void end(const std::exception_ptr& error);
 
+    // Of end_idle().
+
+    void end_slow_upload(std::chrono::steady_clock::time_point now);
+    void end_stalled_uploads(std::chrono::steady_clock::time_point now);
+
     std::stop_source closing_;
     const SessionContext context_;
+    const std::shared_ptr<SessionInFlight> in_flight_;
     InputSlots inputs_;
     FrameQueue received_;
     Watchers watchers_;

@@ -107,12 +107,12 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
         throw LimitReached(LimitName::sessions, fmt::format("{} sessions are open; the server holds at most {}",
                                                             sessions_.size(), limits_.sessions));
     // As many again may be about to end, so that a session can take the place of one that was just deleted.
-    if (limits_.sessions != 0 && ending_ >= limits_.sessions)
+    if (limits_.sessions != 0 && sessions_.size() + ending_ >= std::size_t{2} * limits_.sessions)
         throw LimitReached(
             LimitName::sessions,
             fmt::format("{} sessions that were deleted have not ended yet, beside {} open ones; the server holds at "
-                        "most {} of each: try again later",
-                        ending_.load(), sessions_.size(), limits_.sessions));
+                        "most {} of both: try again later",
+                        ending_.load(), sessions_.size(), std::size_t{2} * limits_.sessions));
     if (creator.account) require_share(*creator.account);
     BackendOptions backend = place_session();
     backend.shared_memory = memory_;
@@ -172,12 +172,12 @@ void SessionRegistry::require_share(const NameAccount& account) const {
     const auto open =
         std::ranges::count_if(sessions_, [&](const auto& entry) { return entry.second->account().get() == &account; });
     const std::uint32_t ending = account.ending;
-    if (open >= static_cast<std::ptrdiff_t>(share) || ending >= share)
+    if (open >= static_cast<std::ptrdiff_t>(share) || open + ending >= std::ptrdiff_t{2} * share)
         throw LimitReached(
             LimitName::sessions_per_name,
             fmt::format("{} has {} sessions, and {} that were deleted have not ended yet; the server holds at most {} "
-                        "of one caller",
-                        account.name(), open, ending, share));
+                        "of one caller, and {} of both",
+                        account.name(), open, ending, share, std::int64_t{2} * share));
 }
 
 void SessionRegistry::remove_ended() {

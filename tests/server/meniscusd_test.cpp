@@ -295,6 +295,12 @@ TEST(Meniscusd, TakesLimitsWithUnits) {
                                   "4",
                                   "--max-bytes-in-flight-per-name",
                                   "5M",
+                                  "--max-connections",
+                                  "123",
+                                  "--max-connections-per-peer",
+                                  "45",
+                                  "--max-recording-readers",
+                                  "6",
                                   "--max-message-bytes",
                                   "2M"}));
     client::Client client(process.address());
@@ -317,6 +323,9 @@ TEST(Meniscusd, TakesLimitsWithUnits) {
     EXPECT_EQ(info.max_watchers_per_name, 3U);
     EXPECT_EQ(info.max_frames_per_second_per_name, 4U);
     EXPECT_EQ(info.max_bytes_in_flight_per_name, std::uint64_t{5} << 20U);
+    EXPECT_EQ(info.max_connections, 123U);
+    EXPECT_EQ(info.max_connections_per_peer, 45U);
+    EXPECT_EQ(info.max_recording_readers, 6U);
     EXPECT_EQ(info.max_message_bytes, std::uint64_t{2} << 20U);
 }
 

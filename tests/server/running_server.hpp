@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -43,8 +44,11 @@ struct RunningServer {
 
 /// The call itself, for what the client library would never send.
 struct RawStream {
-    RawStream(const std::string& address, const std::string& session_id, bool open = true) : connection(address) {
+    RawStream(const std::string& address, const std::string& session_id, bool open = true,
+              std::chrono::system_clock::time_point deadline = std::chrono::system_clock::time_point::max())
+        : connection(address) {
         client::add_session_id(context, session_id);
+        context.set_deadline(deadline);
         start();
         if (open) send_open(session_id);
     }

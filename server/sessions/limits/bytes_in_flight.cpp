@@ -18,6 +18,13 @@ std::size_t BytesInFlight::waiting() const {
         std::ranges::count_if(frames_, [](const FrameInFlight* frame) { return frame->waiter_ != nullptr; }));
 }
 
+bool BytesInFlight::others_wait(const SessionInFlight& session) const {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(frames_, [&](const FrameInFlight* frame) {
+        return frame->waiter_ != nullptr && frame->session_.get() != &session;
+    });
+}
+
 bool BytesInFlight::admit(FrameInFlight& frame) {
     NameInFlight* const name = frame.session_->name.get();
     const std::size_t name_limit = name != nullptr ? name->limit.load() : 0;

@@ -50,6 +50,8 @@ public:
     std::size_t share() const noexcept { return share_; }
     /// Frames that wait for bytes.
     std::size_t waiting() const;
+    /// Whether frames of other sessions do.
+    bool others_wait(const SessionInFlight& session) const;
 
 private:
     friend class FrameInFlight;

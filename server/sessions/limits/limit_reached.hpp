@@ -19,6 +19,7 @@ enum class LimitName : std::uint8_t {
     bytes_in_flight,
     bytes_in_flight_per_name,
     upload_time,
+    answer_time,
     idle_time,
 };
 constexpr std::string_view name_of(LimitName limit) {
@@ -41,6 +42,8 @@ constexpr std::string_view name_of(LimitName limit) {
             return "bytes_in_flight_per_name";
         case LimitName::upload_time:
             return "upload_time";
+        case LimitName::answer_time:
+            return "answer_time";
         case LimitName::idle_time:
             return "idle_time";
     }

@@ -1,4 +1,4 @@
-// How fast the frame that is on its way in comes.
+// How fast a frame comes in, and its answer is taken.
 #pragma once
 
 #include <chrono>
@@ -13,6 +13,12 @@ namespace meniscus::server {
 struct LeastPace {
     std::chrono::duration<double> time{};  ///< 0: no limit
     std::size_t bytes_per_second = 0;      ///< 0: a frame that takes longer is too slow
+
+    bool allows(std::size_t bytes, std::chrono::duration<double> taken) const {
+        const double late = (taken - time).count();
+        return time.count() == 0 || late < 0 ||
+               static_cast<double>(bytes) > late * static_cast<double>(bytes_per_second);
+    }
 };
 
 /// The clock stands still while the frame waits for the server. Thread-safe.
@@ -59,12 +65,10 @@ public:
     /// The frame on its way in, if it comes too slowly.
     std::optional<Slow> too_slow(const LeastPace& least, Clock::time_point now) const {
         const std::lock_guard lock(mutex_);
-        if (!frame_ || least.time.count() == 0) return std::nullopt;
+        if (!frame_) return std::nullopt;
         Slow frame = *frame_;
         if (since_) frame.time += now - *since_;
-        const double late = (frame.time - least.time).count();
-        if (late < 0 || static_cast<double>(frame.arrived) > late * static_cast<double>(least.bytes_per_second))
-            return std::nullopt;
+        if (least.allows(frame.arrived, frame.time)) return std::nullopt;
         return frame;
     }
 

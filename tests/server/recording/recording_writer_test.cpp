@@ -214,7 +214,7 @@ TEST_F(RecordingWriterTest, RefusesAFolderThatAnotherRecordsIn) {
         try {
             const RecordingWriter another(options());
             FAIL() << "two record in one folder";
-        } catch (const InvalidInput& error) {
+        } catch (const FolderInUse& error) {
             const std::string expected = "--record " + directory_.string() + ": another meniscusd, process " +
                                          std::to_string(::getpid()) +
                                          ", records there: give each server a folder of its own";

@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <functional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -135,6 +139,101 @@ TEST_F(UploadLimits, TimeOfAFrameThatComesTooSlowly) {
     expect_refused(status, "frame 1: 1 of 12000 bytes in ");
     expect_refused(status, "within 0.2 s, or come with 1000 bytes per second from then on");
     EXPECT_FALSE(running.client.session(id).uploading) << "another stream may follow";
+}
+
+/// Sends frames as long as it may, and reads nothing by itself.
+class DeafSimulator {
+public:
+    DeafSimulator(const std::string& address, const std::string& id, const Particles& particles)
+        : stream_(address, id, false, in_a_minute()) {
+        v1::StreamRequest open;
+        open.mutable_open()->set_session_id(id);
+        open.mutable_open()->set_receive_meshes(true);
+        stream_.call->Write(open);
+        thread_ = std::thread([this, &particles] {
+            v1::StreamRequest chunk;
+            chunk.mutable_frame_chunk()->set_data(bytes_of(particles));
+            for (std::uint64_t frame = 0; !enough_; ++frame) {
+                stream_.send_begin(frame, particles.positions.size() / 3);
+                if (!stream_.call->Write(chunk)) return;
+                stream_.send_end();
+            }
+            stream_.call->WritesDone();
+        });
+    }
+    ~DeafSimulator() {
+        stream_.context.TryCancel();
+        if (thread_.joinable()) thread_.join();
+    }
+
+    static std::string bytes_of(const Particles& particles) {
+        return {reinterpret_cast<const char*>(particles.positions.data()), particles.positions.size() * sizeof(float)};
+    }
+    static std::chrono::system_clock::time_point in_a_minute() {
+        return std::chrono::system_clock::now() + std::chrono::minutes(1);
+    }
+
+    void wait_until_it_may_not_send() { thread_.join(); }
+    /// The frame on its way is the last, and from here on it reads.
+    grpc::Status finish() {
+        enough_ = true;
+        return stream_.finish();
+    }
+    int answered() const { return stream_.answered; }
+
+private:
+    RawStream stream_;
+    std::atomic<bool> enough_ = false;
+    std::thread thread_;
+};
+
+TEST_F(UploadLimits, TimeOfAnswersThatNobodyTakesWhileFramesOfOthersWait) {
+    const Particles particles = wave(20, 0.0);
+    options.limits.bytes_in_flight = 2 * particles.positions.size() * sizeof(float);
+    options.limits.least_pace = {.time = std::chrono::milliseconds(200), .bytes_per_second = 1000};
+    RunningServer running(options);
+    for (const bool reads_at_last : {true, false}) {
+        SCOPED_TRACE(reads_at_last);
+        const std::string id = running.session();
+        const std::string another = running.session();
+        DeafSimulator deaf(running.server.address(), id, particles);
+        while (running.client.session(id).frames == 0) std::this_thread::yield();
+        for (bool all_went_well = true; all_went_well && running.client.session(id).uploading;) {
+            RawStream other(running.server.address(), another, true, DeafSimulator::in_a_minute());
+            other.send_begin(0, particles.positions.size() / 3);
+            other.send_data(DeafSimulator::bytes_of(particles));
+            other.send_end();
+            const Outcome result = outcome(other);
+            all_went_well = result.status.ok();
+            EXPECT_TRUE(all_went_well) << result.status.error_message();
+        }
+        if (!reads_at_last) deaf.wait_until_it_may_not_send();
+        const grpc::Status status = deaf.finish();
+        if (reads_at_last) {
+            expect_refused(status, " bytes of the meshes were taken in 0.");
+            expect_refused(status, "take the first within 0.2 s, or 1000 bytes per second from then on");
+        } else {
+            EXPECT_EQ(status.error_code(), grpc::StatusCode::CANCELLED) << "it could not be told";
+        }
+        RawStream next(running.server.address(), id, true, DeafSimulator::in_a_minute());
+        EXPECT_TRUE(outcome(next).status.ok()) << "another stream may follow";
+    }
+}
+
+TEST_F(UploadLimits, OfAnswersThatNobodyTakesAreNoneWhileNobodyElseWaits) {
+    const Particles particles = wave(20, 0.0);
+    // So that its own next frame waits for the bytes of the one before.
+    options.limits.bytes_in_flight = particles.positions.size() * sizeof(float) * 3 / 2;
+    options.limits.least_pace = {.time = std::chrono::milliseconds(40), .bytes_per_second = 1'000'000'000};
+    RunningServer running(options);
+    const std::string id = running.session();
+    DeafSimulator deaf(running.server.address(), id, particles);
+    using Clock = std::chrono::steady_clock;
+    const auto waits = [&] { return running.client.session(id).waits_for == client::SessionWait::bytes_in_flight; };
+    for (Clock::time_point since = Clock::now(); Clock::now() - since < std::chrono::milliseconds(400);)
+        if (!waits()) since = Clock::now();
+    EXPECT_TRUE(deaf.finish().ok());
+    EXPECT_EQ(deaf.answered(), static_cast<int>(running.client.session(id).frames));
 }
 
 TEST_F(UploadLimits, MessageBytes) {

@@ -158,8 +158,8 @@ TEST_F(BusyRegistry, CountsDeletedSessionsThatHaveNotEnded) {
     simulators.back()->send(0, particles);
     while (begun == 0) std::this_thread::yield();
     registry.remove(first);
-    for (int i = 0; i < 3; ++i) registry.remove(registry.create(second_id, test::settings()));
-    EXPECT_THROW(registry.create(second_id, test::settings()), LimitExceeded) << "four are about to end";
+    for (int i = 0; i < 7; ++i) registry.remove(registry.create(second_id, test::settings()));
+    EXPECT_THROW(registry.create(second_id, test::settings()), LimitExceeded) << "eight are about to end";
     gate.release();
     for (bool refused = true; refused;) {
         try {

@@ -29,7 +29,7 @@ struct Simulator {
     Simulator(Session& s, const UploadOptions& options)
         : session(s),
           upload(session.open_upload(
-              options, [this] { awake.release(); }, [this] { ++drained; })) {}
+              options, [awake = awake] { awake->release(); }, [this] { ++drained; })) {}
 
     void send(std::uint64_t index, const Particles& particles) {
         std::promise<InputFrame*> lent;
@@ -64,7 +64,7 @@ struct Simulator {
                 error = end->error;
                 return std::nullopt;
             }
-            awake.acquire();
+            awake->acquire();
         }
     }
     /// Indices of the frames that are answered until the end.
@@ -92,7 +92,8 @@ struct Simulator {
     }
 
     Session& session;
-    std::counting_semaphore<> awake{0};
+    /// Shared, as the session may outlive its simulators.
+    const std::shared_ptr<std::counting_semaphore<>> awake = std::make_shared<std::counting_semaphore<>>(0);
     std::atomic<int> drained{0};
     std::shared_ptr<Upload> upload;
     std::exception_ptr error;

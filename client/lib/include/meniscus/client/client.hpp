@@ -76,6 +76,9 @@ struct ServerInfo {
     std::uint32_t max_watchers_per_name = 0;  ///< of one session
     std::uint32_t max_frames_per_second_per_name = 0;
     std::uint64_t max_bytes_in_flight_per_name = 0;
+    std::uint32_t max_connections = 0;           ///< to the gRPC port
+    std::uint32_t max_connections_per_peer = 0;  ///< from one address that is no trusted proxy's
+    std::uint32_t max_recording_readers = 0;
     std::uint64_t max_message_bytes = 0;
     std::vector<std::uint32_t> codecs;  ///< numbers of those that the server encodes with; codec.hpp names them
 };
