@@ -17,6 +17,7 @@
 
 #include "connections/descriptors.hpp"
 #include "exit_deadline.hpp"
+#include "freed_memory.hpp"
 #include "line_limit.hpp"
 #include "listen_address.hpp"
 #include "log.hpp"
@@ -75,6 +76,7 @@ void log_grpc(gpr_log_func_args* message) {
 }
 
 int run(const meniscus::server::CommandLine& command_line) {
+    meniscus::server::keep_arrays_out_of_the_heaps();
     const sigset_t signals = block_signals();
     spdlog::set_default_logger(spdlog::stderr_color_mt("meniscusd"));
     meniscus::server::use_log_format(command_line.log_format);

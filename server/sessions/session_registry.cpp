@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "freed_memory.hpp"
 #include "log.hpp"
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
@@ -74,6 +75,7 @@ SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& bac
             if (const auto& account = (*session)->account()) --account->ending;
             session->reset();
             --ending_;
+            sessions_have_ended_ = true;
         }
     });
     if (const auto interval = idle_check_interval(limits); interval.count() != 0)
@@ -241,11 +243,15 @@ void SessionRegistry::drain(std::chrono::duration<double> grace) {
 }
 
 void SessionRegistry::end_idle(std::chrono::steady_clock::time_point now) {
+    const auto released = std::erase_if(releases_, [](const std::future<void>& release) {
+        return release.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    });
+    if (sessions_have_ended_.exchange(false) || released != 0) return_free_pages();
     for (const auto& session : list()) {
         const auto resting_since = session->resting_since();
         if (limits_.idle_buffers_time.count() != 0 && resting_since &&
             now - *resting_since >= limits_.idle_buffers_time)
-            session->release_buffers();
+            releases_.push_back(session->release_buffers());
         if (!session->end_idle(now)) continue;
         {
             const std::lock_guard lock(mutex_);

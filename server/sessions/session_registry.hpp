@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -122,7 +123,9 @@ private:
     std::atomic<std::uint32_t> ending_{0};  ///< sessions that were removed, and whose threads may run still
     Channel<std::shared_ptr<Session>> removed_;
     std::thread joining_;
-    std::optional<Periodic> idle_check_;  ///< last: it uses the others
+    std::atomic<bool> sessions_have_ended_{false};  ///< since free pages were returned
+    std::vector<std::future<void>> releases_;       ///< of buffers, that were not over then; of end_idle() alone
+    std::optional<Periodic> idle_check_;            ///< last: it uses the others
 };
 
 }  // namespace meniscus::server

@@ -23,12 +23,21 @@
 namespace meniscus::server::test {
 namespace {
 
-/// The most that has been resident.
-std::size_t peak_bytes(pid_t pid) {
+std::size_t bytes_of(pid_t pid, const std::string& field) {
     std::ifstream file("/proc/" + std::to_string(pid) + "/status");
     for (std::string line; std::getline(file, line);)
-        if (line.starts_with("VmHWM:")) return std::stoul(line.substr(6)) << 10U;
+        if (line.starts_with(field)) return std::stoul(line.substr(field.size())) << 10U;
     return 0;
+}
+
+/// Without those of files.
+std::size_t resident_bytes(pid_t pid) {
+    return bytes_of(pid, "RssAnon:");
+}
+
+/// The most that has been resident.
+std::size_t peak_bytes(pid_t pid) {
+    return bytes_of(pid, "VmHWM:");
 }
 
 TEST(Meniscusd, EndsWellOnSigtermAndSigint) {
@@ -177,6 +186,30 @@ TEST(Meniscusd, DecompressesNothing) {
     const std::string log = process.rest();
     EXPECT_EQ(log.find("ompression"), std::string::npos) << log;
     EXPECT_EQ(process.exit_code(), 0);
+}
+
+TEST(Meniscusd, GivesTheSystemBackWhatIdleSessionsGiveBack) {
+    Process process(on_free_port({"--idle-buffers", "0.2"}));
+    client::Client client(process.address());
+    Settings large = settings();
+    large.cell_size = 0.25;
+    large.mode = Mode::uniform;
+    const Particles particles = wave(24, 0.0);
+    constexpr std::size_t megabyte = std::size_t{1} << 20U;
+    const std::size_t before = resident_bytes(process.pid());
+    // One after the other: the arrays of those before could be in the way.
+    for (int i = 0; i < 4; ++i) {
+        const std::string id = client::new_session_id();
+        client.create_session(id, large);
+        client::Stream stream = client.stream(id, {.receive_meshes = false});
+        stream.push(particles.view(), 0, 0.0);
+        ASSERT_TRUE(stream.next());
+    }
+    EXPECT_GT(peak_bytes(process.pid()), before + 60 * megabyte) << "there is something to give back";
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (resident_bytes(process.pid()) > before + 15 * megabyte && std::chrono::steady_clock::now() < deadline)
+        std::this_thread::yield();
+    EXPECT_LT(resident_bytes(process.pid()), before + 15 * megabyte);
 }
 
 TEST(Meniscusd, DoesNotWaitForAReconstructionThatOutlivesTheGracePeriod) {

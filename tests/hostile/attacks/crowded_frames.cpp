@@ -61,7 +61,20 @@ struct Case {
     std::string name;
     Settings settings;
     Positions positions;
+    std::vector<std::uint8_t> levels = {};  ///< none: all 0
 };
+
+/// As many particles of each level, at rest.
+Case evenly_spread_as(const Case& attack) {
+    const auto large = static_cast<int>(std::ranges::count(attack.levels, 3));
+    const auto small = static_cast<int>(attack.positions.size() / 3) - large;
+    Case even{"", attack.settings, together(evenly_spread(small), evenly_spread(large, 16.0F))};
+    if (large != 0) {
+        even.levels.assign(even.positions.size() / 3, 3);
+        std::fill_n(even.levels.begin(), small, std::uint8_t{0});
+    }
+    return even;
+}
 
 Settings settings_of(Field field, double cell_size, Mode mode) {
     Settings settings;
@@ -93,6 +106,17 @@ std::vector<Case> cases() {
                            together(evenly_spread(megabyte / 2), clumps(1, megabyte / 2, 0.01F))});
         }
     }
+    // A large particle is near 512 times as many places as a small one.
+    for (const Field field : {Field::smooth, Field::color, Field::density})
+        for (const int number : {10, 109, 435}) {
+            Case mixed{
+                std::to_string(number) + " clumps of large particles among small ones, " + std::string(name_of(field)),
+                settings_of(field, 0.5, Mode::adaptive),
+                together(evenly_spread(megabyte / 2), clumps(number, megabyte / 2 / number, 8.0F))};
+            mixed.levels.assign(mixed.positions.size() / 3, 3);
+            std::fill_n(mixed.levels.begin(), megabyte / 2, std::uint8_t{0});
+            all.push_back(std::move(mixed));
+        }
     Settings fine = settings_of(Field::color, 1.0 / 64.0, Mode::adaptive);
     fine.edge_points = Bisection{7};
     all.push_back({"a clump at the finest cells, bisected", fine, clumps(1, 4000, 0.0F)});
@@ -102,14 +126,15 @@ std::vector<Case> cases() {
 }
 
 /// Seconds until a frame is answered or refused.
-double seconds_of(client::Client& client, const Settings& settings, const Positions& positions) {
+double seconds_of(client::Client& client, const Case& frame_of) {
     const std::string id = "00000000-0000-4000-8000-00000000d4d4";
-    client.create_session(id, settings);
+    client.create_session(id, frame_of.settings);
     const auto start = Clock::now();
     try {
         client::Stream stream = client.stream(id, {.receive_meshes = false});
         ParticleFrame frame;
-        frame.positions = positions;
+        frame.positions = frame_of.positions;
+        frame.levels = frame_of.levels;
         stream.push(frame, 0, 0.0);
         static_cast<void>(stream.next());
     } catch (const LimitExceeded&) {
@@ -128,12 +153,10 @@ Figure worst_frame(const std::string& program) {
     client::Client client(target.address());
     Figure worst{"the longest frame beside its limit", 0.0, 1.0, ""};
     for (const Case& attack : cases()) {
-        const double seconds = seconds_of(client, attack.settings, attack.positions);
+        const double seconds = seconds_of(client, attack);
         double limit = least_seconds;
         if (seconds > limit)
-            limit = std::max(limit, times_of_an_evenly_spread *
-                                        seconds_of(client, attack.settings,
-                                                   evenly_spread(static_cast<int>(attack.positions.size() / 3))));
+            limit = std::max(limit, times_of_an_evenly_spread * seconds_of(client, evenly_spread_as(attack)));
         limit = std::min(limit, frame_seconds + 0.2);
         if (seconds / limit > worst.value)
             worst = {"the longest frame over what it may take: " + attack.name, seconds / limit, 1.0, ""};
@@ -145,7 +168,7 @@ Figure worst_frame(const std::string& program) {
 void hold_the_device(const std::string& address) {
     client::Client client(address);
     try {
-        seconds_of(client, settings_of(Field::smooth, 1.0 / 16.0, Mode::uniform), evenly_spread(20'000));
+        seconds_of(client, {"", settings_of(Field::smooth, 1.0 / 16.0, Mode::uniform), evenly_spread(20'000)});
     } catch (const std::exception&) {
         // It was stopped, or the server has gone.
     }
