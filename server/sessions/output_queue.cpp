@@ -40,15 +40,20 @@ void OutputQueue::end(std::exception_ptr error, bool drop) {
 
 bool OutputQueue::wait_for_room() {
     std::unique_lock lock(mutex_);
-    stall_ = Stall{.since = Clock::now()};
+    producer_waits_since_ = Clock::now();
+    taken_since_ = 0;
+    pace_ = {};
     changed_.wait(lock, [&] { return finished_ || closed_ || messages_.size() <= room_for_a_frame; });
-    stall_.reset();
+    producer_waits_since_.reset();
     return !finished_ && !closed_;
 }
 
-std::optional<OutputQueue::Stall> OutputQueue::stall() const {
+std::optional<OutputQueue::Stall> OutputQueue::too_slow(const LeastPace& least, Clock::time_point now) {
     const std::lock_guard lock(mutex_);
-    return stall_;
+    if (!producer_waits_since_) return std::nullopt;
+    const Stall stall{.time = now - *producer_waits_since_, .bytes_taken = taken_since_};
+    if (!pace_.too_slow(least, stall.time, stall.bytes_taken)) return std::nullopt;
+    return stall;
 }
 
 bool OutputQueue::aborted() const {
@@ -61,7 +66,7 @@ OutputQueue::Next OutputQueue::take() {
     if (!messages_.empty()) {
         SharedMessage message = std::move(messages_.front());
         messages_.pop_front();
-        if (stall_) stall_->bytes_taken += message->size();
+        taken_since_ += message->size();
         changed_.notify_all();
         return message;
     }

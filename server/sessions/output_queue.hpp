@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "sessions/encoded_frame.hpp"
+#include "sessions/limits/upload_pace.hpp"
 
 namespace meniscus::server {
 
@@ -28,9 +29,9 @@ public:
     using Next = std::variant<Nothing, SharedMessage, End>;
     using Clock = std::chrono::steady_clock;
 
-    /// While the producer waits for room.
+    /// Of the consumer, while the producer waits for room.
     struct Stall {
-        Clock::time_point since;
+        std::chrono::duration<double> time{};
         std::size_t bytes_taken = 0;
     };
 
@@ -46,8 +47,8 @@ public:
     void abort(std::exception_ptr error);
     /// Waits until a frame may begin. Returns false if nobody will read it.
     bool wait_for_room();
-    /// None: the producer does not wait.
-    std::optional<Stall> stall() const;
+    /// None: the producer does not wait, or what waits is taken fast enough. Ask again and again.
+    std::optional<Stall> too_slow(const LeastPace& least, Clock::time_point now);
 
     // The consumer's side, one thread at a time.
     Next take();
@@ -64,7 +65,9 @@ private:
     std::condition_variable changed_;
     std::deque<SharedMessage> messages_;
     std::exception_ptr error_;
-    std::optional<Stall> stall_;
+    std::optional<Clock::time_point> producer_waits_since_;
+    std::size_t taken_since_ = 0;  ///< bytes
+    PaceCheck pace_;
     bool finished_ = false;
     bool aborted_ = false;
     bool closed_ = false;

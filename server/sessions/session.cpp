@@ -280,18 +280,17 @@ void Session::end_stalled_uploads(std::chrono::steady_clock::time_point now) {
         unanswered = unanswered_;
     }
     for (const auto& upload : unanswered) {
-        const auto stall = upload->output.stall();
-        if (!stall || least.allows(stall->bytes_taken, now - stall->since)) continue;
-        const Seconds time = now - stall->since;
+        const auto stall = upload->output.too_slow(least, now);
+        if (!stall) continue;
         log_warning({.session = id()},
                     "its simulator has taken {} bytes in {:.3g} s, while frames of other sessions wait: the stream "
                     "ends",
-                    stall->bytes_taken, time.count());
+                    stall->bytes_taken, stall->time.count());
         const auto error = std::make_exception_ptr(LimitReached(
             LimitName::answer_time,
             fmt::format("{} bytes of the meshes were taken in {:.3g} s, while frames of other sessions wait for room; "
                         "take the first within {:.3g} s, or {} bytes per second from then on",
-                        stall->bytes_taken, time.count(), Seconds(least.time).count(), least.bytes_per_second)));
+                        stall->bytes_taken, stall->time.count(), Seconds(least.time).count(), least.bytes_per_second)));
         // First, as nobody may ever take what waits.
         upload->output.abort(error);
         cancel_upload(upload, true);

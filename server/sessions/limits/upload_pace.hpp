@@ -1,6 +1,7 @@
 // How fast a frame comes in, and its answer is taken.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -9,16 +10,40 @@
 
 namespace meniscus::server {
 
-/// A frame may take `time`. If it takes longer, it must have come with `bytes_per_second` since then.
+/// A frame may take `time`. If it takes longer, it must come with `bytes_per_second` from then on: what came quickly
+/// before is no credit for a standstill.
 struct LeastPace {
     std::chrono::duration<double> time{};  ///< 0: no limit
     std::size_t bytes_per_second = 0;      ///< 0: a frame that takes longer is too slow
+};
 
-    bool allows(std::size_t bytes, std::chrono::duration<double> taken) const {
-        const double late = (taken - time).count();
-        return time.count() == 0 || late < 0 ||
-               static_cast<double>(bytes) > late * static_cast<double>(bytes_per_second);
+/// Measures a transfer against its least pace, whenever it is asked.
+class PaceCheck {
+public:
+    using Seconds = std::chrono::duration<double>;
+
+    /// taken: of time, by the transfer up to now. bytes: transferred by now.
+    bool too_slow(const LeastPace& least, Seconds taken, std::size_t bytes) {
+        if (least.time.count() == 0 || taken < least.time) return false;
+        if (least.bytes_per_second == 0) return true;
+        if (!window_) window_ = Window{taken, bytes};
+        const Seconds passed = taken - window_->begin;
+        if (passed < std::min(least.time, longest_window)) return false;
+        const auto wanted = passed.count() * static_cast<double>(least.bytes_per_second);
+        const bool is_slow = static_cast<double>(bytes - window_->bytes) < wanted;
+        window_ = Window{taken, bytes};
+        return is_slow;
     }
+
+private:
+    struct Window {
+        Seconds begin;
+        std::size_t bytes = 0;
+    };
+    /// Pauses of a connection are shorter.
+    static constexpr Seconds longest_window{5.0};
+
+    std::optional<Window> window_;  ///< none: the time is not up
 };
 
 /// The clock stands still while the frame waits for the server. Thread-safe.
@@ -36,6 +61,7 @@ public:
     void begin(std::uint64_t index, std::size_t announced, Clock::time_point now = Clock::now()) {
         const std::lock_guard lock(mutex_);
         frame_ = Slow{.index = index, .announced = announced};
+        check_ = {};
         since_ = now;
     }
     void arrived(std::size_t bytes) {
@@ -62,19 +88,20 @@ public:
         const std::lock_guard lock(mutex_);
         return frame_ && !since_;
     }
-    /// The frame on its way in, if it comes too slowly.
-    std::optional<Slow> too_slow(const LeastPace& least, Clock::time_point now) const {
+    /// The frame on its way in, if it comes too slowly. Ask again and again.
+    std::optional<Slow> too_slow(const LeastPace& least, Clock::time_point now) {
         const std::lock_guard lock(mutex_);
         if (!frame_) return std::nullopt;
         Slow frame = *frame_;
         if (since_) frame.time += now - *since_;
-        if (least.allows(frame.arrived, frame.time)) return std::nullopt;
+        if (!check_.too_slow(least, frame.time, frame.arrived)) return std::nullopt;
         return frame;
     }
 
 private:
     mutable std::mutex mutex_;
-    std::optional<Slow> frame_;               ///< its time up to since_
+    std::optional<Slow> frame_;  ///< its time up to since_
+    PaceCheck check_;
     std::optional<Clock::time_point> since_;  ///< none: the clock stands still
 };
 

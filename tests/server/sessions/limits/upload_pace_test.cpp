@@ -8,7 +8,13 @@ namespace {
 using std::chrono::seconds;
 
 struct Pace : testing::Test {
-    bool too_slow(int second) const { return pace.too_slow(least, start + seconds(second)).has_value(); }
+    bool too_slow(int second) { return pace.too_slow(least, start + seconds(second)).has_value(); }
+    /// Asked every second, as a server asks. 0: not up to `last`.
+    int too_slow_at(int first, int last) {
+        for (int second = first; second <= last; ++second)
+            if (too_slow(second)) return second;
+        return 0;
+    }
 
     const LeastPace least{.time = seconds(10), .bytes_per_second = 100};
     const UploadPace::Clock::time_point start{};
@@ -18,21 +24,39 @@ struct Pace : testing::Test {
 TEST_F(Pace, LetsAFrameTakeTheTimeThatItHas) {
     EXPECT_FALSE(too_slow(1000)) << "there is none";
     pace.begin(7, 5000, start);
-    EXPECT_FALSE(too_slow(9));
-    EXPECT_TRUE(too_slow(10));
+    EXPECT_EQ(too_slow_at(0, 100), 15) << "its time, and a window of five seconds";
+    pace.begin(8, 5000, start + seconds(15));
+    EXPECT_EQ(too_slow_at(15, 29), 0);
     pace.end();
     EXPECT_FALSE(too_slow(1000));
     EXPECT_FALSE(UploadPace().too_slow({}, start + seconds(1000))) << "no limit";
 }
 
-TEST_F(Pace, LetsAFrameTakeLongerThatComesFastEnough) {
+TEST_F(Pace, EndsAFrameAsSoonAsItsTimeIsUpWhereThereIsNoRate) {
     pace.begin(7, 5000, start);
-    pace.arrived(1000);
-    EXPECT_FALSE(too_slow(19));
-    EXPECT_TRUE(too_slow(20));
-    pace.arrived(4000);
-    EXPECT_FALSE(too_slow(59));
-    EXPECT_TRUE(too_slow(60)) << "its end is missing";
+    pace.arrived(4999);
+    const LeastPace none{.time = seconds(10), .bytes_per_second = 0};
+    EXPECT_FALSE(pace.too_slow(none, start + seconds(9)));
+    EXPECT_TRUE(pace.too_slow(none, start + seconds(10)));
+}
+
+TEST_F(Pace, LetsAFrameTakeLongerThatComesFastEnough) {
+    pace.begin(7, 50'000, start);
+    for (int second = 1; second < 100; ++second) {
+        // In bursts: a pause of a connection is shorter than five seconds.
+        if (second % 3 == 0) pace.arrived(300);
+        if (second % 5 == 0) EXPECT_FALSE(too_slow(second)) << second;
+    }
+    EXPECT_NE(too_slow_at(100, 110), 0) << "nothing comes any more";
+}
+
+TEST_F(Pace, TakesWhatCameQuicklyForNoCreditForAStandstill) {
+    pace.begin(7, 50'000, start);
+    pace.arrived(49'999);
+    EXPECT_EQ(too_slow_at(1, 100), 15);
+    pace.begin(8, 50'000, start);
+    pace.arrived(50'000);
+    EXPECT_EQ(too_slow_at(1, 100), 15) << "its end is missing";
 }
 
 TEST_F(Pace, DoesNotCountTheTimeThatAFrameWaitsForTheServer) {
@@ -41,12 +65,12 @@ TEST_F(Pace, DoesNotCountTheTimeThatAFrameWaitsForTheServer) {
     EXPECT_TRUE(pace.paused());
     EXPECT_FALSE(too_slow(1000));
     pace.resume(start + seconds(1000));
-    EXPECT_FALSE(too_slow(1005));
-    const auto slow = pace.too_slow(least, start + seconds(1006));
+    EXPECT_EQ(too_slow_at(1000, 1010), 0);
+    const auto slow = pace.too_slow(least, start + seconds(1011));
     ASSERT_TRUE(slow);
     EXPECT_EQ(slow->index, 7U);
     EXPECT_EQ(slow->announced, 5000U);
-    EXPECT_EQ(slow->time.count(), 10.0);
+    EXPECT_EQ(slow->time.count(), 15.0);
 }
 
 }  // namespace
