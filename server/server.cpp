@@ -172,7 +172,7 @@ Server::Server(const ServerOptions& options)
                       limits_),
       session_service_(registry_, access_.authorizer(), refusals_),
       surface_service_(registry_, access_.authorizer(), refusals_, streams_, receivers_),
-      recording_service_(recording_reads_.get(), access_.authorizer(), *metrics_, receivers_),
+      recording_service_(recording_reads_.get(), access_.authorizer(), refusals_, *metrics_, receivers_),
       port_(options.listen, {.all = shares_.grpc, .for_each_peer = options.limits.connections_per_peer},
             TrustedPeers(options.trusted_proxies)) {
     const AllowedOrigins origins(options.web_origins, options.http);
@@ -183,6 +183,7 @@ Server::Server(const ServerOptions& options)
     keep_alive(builder);
     auto connections = builder.experimental().AddExternalConnectionAcceptor(
         grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, access_.credentials());
+    builder.RegisterService(&health_service_);
     builder.RegisterService(&server_service_);
     builder.RegisterService(&session_service_);
     builder.RegisterService(&surface_service_);
@@ -194,7 +195,7 @@ Server::Server(const ServerOptions& options)
     builder.experimental().SetInterceptorCreators(std::move(interceptors));
     grpc_ = builder.BuildAndStart();
     if (!grpc_) throw InvalidInput(fmt::format("gRPC cannot serve {}", options.listen));
-    set_serving(*grpc_, true);
+    health_service_.set_serving(true);
     port_.start(std::move(connections));
     check_ = std::make_unique<PortCheck>(port_.sockets(),
                                          options.tls.any() ? PortCheck::Protocol::tls : PortCheck::Protocol::http2,
@@ -214,7 +215,7 @@ void Server::shutdown() {
     const auto time = options_.shutdown_grace - canceling_time(options_.shutdown_grace);
     const auto deadline = std::chrono::system_clock::now() + time;
     draining_ = true;
-    set_serving(*grpc_, false);
+    health_service_.set_serving(false);
     registry_.drain(time);
     if (recording_reads_) recording_reads_->end();
     // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection

@@ -16,6 +16,7 @@
 #include "metrics/prometheus_metrics.hpp"
 #include "recording/recording_reads.hpp"
 #include "recording/recording_writer.hpp"
+#include "rpc/health_service.hpp"
 #include "rpc/services.hpp"
 #include "rpc/standard_services.hpp"
 #include "security/access.hpp"
@@ -92,6 +93,7 @@ private:
     ActiveCalls streams_;
     ActiveCalls receivers_;  ///< calls of watchers and readers
     Refusals refusals_;
+    HealthService health_service_;
     ServerServiceImpl server_service_;
     SessionServiceImpl session_service_;
     SurfaceServiceImpl surface_service_;

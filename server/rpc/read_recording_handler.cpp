@@ -22,6 +22,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/v1/recording_service.pb.h"
 #include "rpc/caller.hpp"
+#include "rpc/one_request.hpp"
 #include "rpc/session_id.hpp"
 #include "rpc/status.hpp"
 #include "rpc/wire_bytes.hpp"
@@ -82,32 +83,41 @@ private:
     std::optional<files::DelimitedMessages> messages_;  ///< of the one before
 };
 
-/// Holds one message at a time: the next one is read when gRPC has taken the one before. At any moment either a job of
-/// the thread that reads or a write is under way, and only that goes on, or finishes; after a cancellation, too.
-class ReadRecordingReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
-                                   public std::enable_shared_from_this<ReadRecordingReactor> {
+/// Holds one message at a time: the next one is read when gRPC has taken the one before. At any moment either the
+/// request's read, a job of the thread that reads or a write is under way, and only that goes on, or finishes; after a
+/// cancellation, too.
+class ReadRecordingReactor final : public ByteReactor, public std::enable_shared_from_this<ReadRecordingReactor> {
 public:
-    ReadRecordingReactor(Metrics& metrics, ActiveCalls& calls, grpc::CallbackServerContext& context)
-        : metrics_(metrics), active_(calls), context_(&context) {}
+    ReadRecordingReactor(Refusals& refusals, Metrics& metrics, ActiveCalls& calls, grpc::CallbackServerContext& context)
+        : refusals_(refusals), metrics_(metrics), active_(calls), peer_(peer_of(context)), context_(&context) {}
 
-    void start(RecordingReads* reads, const Authorizer& authorizer, const grpc::ByteBuffer& request) {
+    void start(RecordingReads* reads, const Authorizer& authorizer) {
         self_ = shared_from_this();
         try {
-            const Caller caller = admit(authorizer, *context_, Action::read_recording);
+            caller_ = admit(authorizer, *context_, Action::read_recording);
             reads_ = &require_recorded(reads);
-            const std::string session_id = metadata_session_id(*context_);
-            request_ = parsed<v1::ReadRecordingRequest>(request);
-            require_same_session(session_id, request_.session_id());
+            session_id_ = metadata_session_id(*context_);
+        } catch (...) {
+            return refuse(std::current_exception());
+        }
+        StartRead(&incoming_);
+    }
+
+    void OnReadDone(bool ok) override {
+        if (!ok && context_->IsCancelled()) return Finish(client_gone());
+        try {
+            request_ = received<v1::ReadRecordingRequest>(ok, incoming_);
+            require_same_session(session_id_, request_.session_id());
             conversion::chosen_codec(request_.codecs());  // recorded meshes have the only one that there is
             place_ = reads_->admit();
-            go_on([this, caller](RecordingCatalog& catalog) {
-                open(catalog, caller);
+            go_on([this](RecordingCatalog& catalog) {
+                open(catalog);
                 // With metadata, as a refusal has none.
-                context_->AddInitialMetadata("x-session-id", request_.session_id());
+                context_->AddInitialMetadata("x-session-id", session_id_);
                 StartSendInitialMetadata();
             });
         } catch (...) {
-            Finish(to_status(std::current_exception()));
+            refuse(std::current_exception());
         }
     }
 
@@ -136,19 +146,19 @@ private:
                 first(catalog);
                 self->send_next();
             } catch (...) {
-                self->Finish(to_status(std::current_exception()));
+                self->refuse(std::current_exception());
             }
         });
     }
 
-    void open(RecordingCatalog& catalog, const Caller& caller) {
-        const auto opened = catalog.open({.session_id = request_.session_id(), .number = request_.number()},
-                                         [&](const std::string& owner) { return Authorizer::may_see(caller, owner); });
+    void open(RecordingCatalog& catalog) {
+        const auto opened = catalog.open({.session_id = session_id_, .number = request_.number()},
+                                         [&](const std::string& owner) { return Authorizer::may_see(caller_, owner); });
         messages_.emplace(opened, request_);
     }
 
     void send_next() {
-        if (canceled_) return Finish({grpc::StatusCode::CANCELLED, "the client has gone"});
+        if (canceled_) return Finish(client_gone());
         reads_->require_going_on();
         const SharedMessage message = messages_->next();
         if (!message) return Finish(grpc::Status::OK);
@@ -167,18 +177,28 @@ private:
             if (!self) return;
             const std::lock_guard lock(self->mutex_);
             if (self->context_ == nullptr) return;
-            log_info({.session = self->request_.session_id()},
-                     "a reader of its recording from {} has taken nothing for {:.3g} s: its call ends",
-                     peer_of(*self->context_), std::chrono::duration<double>(self->reads_->patience()).count());
+            log_info({.session = self->session_id_},
+                     "a reader of its recording from {} has taken nothing for {:.3g} s: its call ends", self->peer_,
+                     std::chrono::duration<double>(self->reads_->patience()).count());
             self->context_->TryCancel();
         });
     }
 
+    void refuse(const std::exception_ptr& error) {
+        refusals_.report(error, caller_.name, peer_);
+        Finish(to_status(error));
+    }
+
+    Refusals& refusals_;
     Metrics& metrics_;
     const ActiveCalls::Token active_;
+    const std::string peer_;
     std::shared_ptr<ReadRecordingReactor> self_;  ///< until OnDone
     RecordingReads* reads_ = nullptr;
     RecordingReads::Place place_;
+    Caller caller_;
+    std::string session_id_;
+    grpc::ByteBuffer incoming_;
     v1::ReadRecordingRequest request_;
     std::optional<RecordedMessages> messages_;
     grpc::ByteBuffer outgoing_;
@@ -197,12 +217,10 @@ RecordingReads& require_recorded(RecordingReads* reads) {
     return *reads;
 }
 
-grpc::ServerWriteReactor<grpc::ByteBuffer>* start_reading(RecordingReads* reads, const Authorizer& authorizer,
-                                                          Metrics& metrics, ActiveCalls& calls,
-                                                          grpc::CallbackServerContext& context,
-                                                          const grpc::ByteBuffer& request) {
-    const auto reactor = std::make_shared<ReadRecordingReactor>(metrics, calls, context);
-    reactor->start(reads, authorizer, request);
+ByteReactor* start_reading(RecordingReads* reads, const Authorizer& authorizer, Refusals& refusals, Metrics& metrics,
+                           ActiveCalls& calls, grpc::CallbackServerContext& context) {
+    const auto reactor = std::make_shared<ReadRecordingReactor>(refusals, metrics, calls, context);
+    reactor->start(reads, authorizer);
     return reactor.get();
 }
 

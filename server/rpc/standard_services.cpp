@@ -3,16 +3,11 @@
 #include <grpc/grpc.h>
 #include <grpcpp/ext/channelz_service_plugin.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
-#include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/impl/server_builder_option.h>
 #include <grpcpp/resource_quota.h>
 
 #include <memory>
 #include <vector>
-
-#include "meniscus/v1/server_service.grpc.pb.h"
-#include "meniscus/v1/session_service.grpc.pb.h"
-#include "meniscus/v1/surface_service.grpc.pb.h"
 
 namespace meniscus::server {
 
@@ -46,7 +41,6 @@ void load_standard_services() {
         // Never undone: the last object's end would shut gRPC down, and wait for its threads, which look up from some
         // of their waits after ten seconds.
         grpc_init();
-        grpc::EnableDefaultHealthCheckService(true);
         grpc::reflection::InitProtoReflectionServerBuilderPlugin();
         grpc::channelz::experimental::InitChannelzService();
         return true;
@@ -58,13 +52,6 @@ void add_standard_services(grpc::ServerBuilder& builder, const StandardServices&
     builder.SetOption(std::make_unique<Choice>(services));
     if (services.reflection || services.channelz)
         builder.SetResourceQuota(grpc::ResourceQuota().SetMaxThreads(thread_limit));
-}
-
-void set_serving(grpc::Server& server, bool serving) {
-    grpc::HealthCheckServiceInterface& health = *server.GetHealthCheckService();
-    for (const char* service : {"", v1::ServerService::service_full_name(), v1::SessionService::service_full_name(),
-                                v1::SurfaceService::service_full_name()})
-        health.SetServingStatus(service, serving);
 }
 
 }  // namespace meniscus::server

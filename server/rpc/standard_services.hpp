@@ -1,7 +1,6 @@
-// gRPC's own services: health, and on demand reflection and channelz.
+// gRPC's own services, on demand: reflection and channelz.
 #pragma once
 
-#include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 
 namespace meniscus::server {
@@ -13,10 +12,7 @@ struct StandardServices {
 
 /// Call it before a builder is constructed: gRPC adds its services to all builders that follow. Later calls do nothing.
 void load_standard_services();
-/// Adds health, and the services that are chosen.
+/// Adds the services that are chosen.
 void add_standard_services(grpc::ServerBuilder& builder, const StandardServices& services);
-
-/// The health of every service and of the server as a whole.
-void set_serving(grpc::Server& server, bool serving);
 
 }  // namespace meniscus::server

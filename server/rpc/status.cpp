@@ -64,4 +64,8 @@ grpc::Status to_status(const std::exception_ptr& error) {
     }
 }
 
+grpc::Status client_gone() {
+    return {grpc::StatusCode::CANCELLED, "the client has gone"};
+}
+
 }  // namespace meniscus::server

@@ -34,8 +34,7 @@ namespace {
 /// otherwise whoever holds the lock does, so that a call that ends gives its slot back however dead its connection is.
 /// The writing side sends what the upload's output holds and finishes the call after its end. It also finishes after a
 /// cancellation, as soon as no write is under way, so that no call outlives its client.
-class StreamReactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
-                            public std::enable_shared_from_this<StreamReactor> {
+class StreamReactor final : public ByteReactor, public std::enable_shared_from_this<StreamReactor> {
 public:
     StreamReactor(SessionRegistry& registry, Refusals& refusals, ActiveCalls& calls,
                   grpc::CallbackServerContext& context)
@@ -390,7 +389,7 @@ private:
     void write_next() {
         if (canceled_) {
             vanished_ = !reading_ended_;
-            finish({grpc::StatusCode::CANCELLED, "the client has gone"});
+            finish(client_gone());
         } else if (refusal_) {
             finish_with(*refusal_);
         } else if (upload_) {
@@ -473,10 +472,8 @@ private:
 
 }  // namespace
 
-grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* start_stream(SessionRegistry& registry,
-                                                                          const Authorizer& authorizer,
-                                                                          Refusals& refusals, ActiveCalls& calls,
-                                                                          grpc::CallbackServerContext& context) {
+ByteReactor* start_stream(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,
+                          ActiveCalls& calls, grpc::CallbackServerContext& context) {
     const auto reactor = std::make_shared<StreamReactor>(registry, refusals, calls, context);
     reactor->start(authorizer);
     return reactor.get();

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <grpcpp/server_context.h>
-#include <grpcpp/support/byte_buffer.h>
-#include <grpcpp/support/server_callback.h>
 
 #include "rpc/active_calls.hpp"
+#include "rpc/byte_service.hpp"
 #include "rpc/refusals.hpp"
 #include "security/authorizer.hpp"
 #include "sessions/session_registry.hpp"
@@ -13,9 +12,7 @@
 namespace meniscus::server {
 
 /// The call's reactor, which owns itself until the call is done.
-grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* start_stream(SessionRegistry& registry,
-                                                                          const Authorizer& authorizer,
-                                                                          Refusals& refusals, ActiveCalls& calls,
-                                                                          grpc::CallbackServerContext& context);
+ByteReactor* start_stream(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,
+                          ActiveCalls& calls, grpc::CallbackServerContext& context);
 
 }  // namespace meniscus::server

@@ -12,6 +12,7 @@
 #include "log.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "rpc/caller.hpp"
+#include "rpc/one_request.hpp"
 #include "rpc/session_id.hpp"
 #include "rpc/status.hpp"
 #include "rpc/watch_wishes.hpp"
@@ -21,40 +22,37 @@ namespace meniscus::server {
 
 namespace {
 
-/// Sends what the watch has for it, message by message. Finishes after a cancellation as soon as no write is under way.
-class WatchReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
-                           public std::enable_shared_from_this<WatchReactor> {
+/// Receives its request, then sends what the watch has for it, message by message. Finishes after a cancellation as
+/// soon as neither a read nor a write is under way. Request: what names the session and the wishes.
+template <class Request>
+class WatchReactor final : public ByteReactor, public std::enable_shared_from_this<WatchReactor<Request>> {
 public:
-    WatchReactor(Metrics& metrics, ActiveCalls& calls, const grpc::CallbackServerContext& context)
-        : metrics_(metrics), active_(calls), peer_(peer_of(context)) {}
+    WatchReactor(SessionRegistry& registry, Refusals& refusals, ActiveCalls& calls,
+                 grpc::CallbackServerContext& context)
+        : active_(calls), registry_(registry), refusals_(refusals), context_(context), peer_(peer_of(context)) {}
 
-    /// Request: what names the session and the wishes.
-    template <class Request>
-    void start(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,
-               grpc::CallbackServerContext& context, const grpc::ByteBuffer& request) {
-        self_ = shared_from_this();
-        Caller caller;
+    void start(const Authorizer& authorizer) {
+        self_ = this->shared_from_this();
         try {
-            caller = admit(authorizer, context, Action::watch);
-            session_id_ = metadata_session_id(context);
-            const auto message = parsed<Request>(request);
-            require_same_session(session_id_, message.session_id());
-            session_ = find_session(caller, registry, session_id_);
-            const auto wake = [self = weak_from_this()] {
-                if (const auto reactor = self.lock()) reactor->write();
-            };
-            watch_ = session_->open_watch(watch_wishes_of(message, session_->settings()), wake,
-                                          account_of(caller, registry));
+            caller_ = admit(authorizer, context_, Action::watch);
+            session_id_ = metadata_session_id(context_);
         } catch (...) {
-            refusals.report(std::current_exception(), caller.name, peer_);
-            const std::lock_guard lock(mutex_);
-            finish(to_status(std::current_exception()));
-            return;
+            return refuse(std::current_exception());
         }
-        log_info({.session = session_id_}, "watcher from {} connected", peer_);
-        // At once: the client knows from here on that it misses no mesh. With metadata, as a refusal has none.
-        context.AddInitialMetadata("x-session-id", session_id_);
-        StartSendInitialMetadata();
+        this->StartRead(&incoming_);
+    }
+
+    void OnReadDone(bool ok) override {
+        if (!ok && context_.IsCancelled()) return end(client_gone());
+        try {
+            open(received<Request>(ok, incoming_));
+        } catch (...) {
+            return refuse(std::current_exception());
+        }
+        {
+            const std::lock_guard lock(mutex_);
+            opened_ = true;
+        }
         write();
     }
 
@@ -85,19 +83,44 @@ public:
     }
 
 private:
+    void open(const Request& request) {
+        require_same_session(session_id_, request.session_id());
+        session_ = find_session(caller_, registry_, session_id_);
+        const auto wake = [self = this->weak_from_this()] {
+            if (const auto reactor = self.lock()) reactor->write();
+        };
+        watch_ =
+            session_->open_watch(watch_wishes_of(request, session_->settings()), wake, account_of(caller_, registry_));
+        log_info({.session = session_id_}, "watcher from {} connected", peer_);
+        // At once: the client knows from here on that it misses no mesh. With metadata, as a refusal has none.
+        context_.AddInitialMetadata("x-session-id", session_id_);
+        this->StartSendInitialMetadata();
+    }
+
+    void refuse(const std::exception_ptr& error) {
+        refusals_.report(error, caller_.name, peer_);
+        end(to_status(error));
+    }
+
+    /// Before it is open.
+    void end(const grpc::Status& status) {
+        const std::lock_guard lock(mutex_);
+        finish(status);
+    }
+
     void write() {
         const std::lock_guard lock(mutex_);
-        if (writing_ || finished_) return;
+        if (!opened_ || writing_ || finished_) return;
         if (canceled_) {
-            finish({grpc::StatusCode::CANCELLED, "the client has gone"});
+            finish(client_gone());
             return;
         }
         auto next = watch_->take();
         if (const auto* message = std::get_if<SharedMessage>(&next)) {
-            metrics_.message_sent(Metrics::Receiver::watcher, (*message)->size());
+            registry_.metrics().message_sent(Metrics::Receiver::watcher, (*message)->size());
             outgoing_ = to_bytes(*message);
             writing_ = true;
-            StartWrite(&outgoing_);
+            this->StartWrite(&outgoing_);
         } else if (const auto* later = std::get_if<Watch::Later>(&next)) {
             write_at(later->at);
         } else if (const auto* end = std::get_if<Watch::End>(&next)) {
@@ -109,7 +132,7 @@ private:
     void write_at(Watch::Clock::time_point time) {
         alarm_ = std::make_unique<grpc::Alarm>();
         alarm_->Set(std::chrono::system_clock::now() + (time - Watch::Clock::now()),
-                    [self = weak_from_this()](bool rang) {
+                    [self = this->weak_from_this()](bool rang) {
                         if (!rang) return;
                         if (const auto reactor = self.lock()) reactor->write();
                     });
@@ -117,20 +140,25 @@ private:
 
     void finish(const grpc::Status& status) {
         finished_ = true;
-        Finish(status);
+        this->Finish(status);
     }
 
-    Metrics& metrics_;
     const ActiveCalls::Token active_;
+    SessionRegistry& registry_;
+    Refusals& refusals_;
+    grpc::CallbackServerContext& context_;  ///< gRPC keeps it until OnDone
     const std::string peer_;
     std::shared_ptr<WatchReactor> self_;  ///< until OnDone
+    Caller caller_;
     std::string session_id_;
+    grpc::ByteBuffer incoming_;
     std::shared_ptr<Session> session_;
     std::shared_ptr<Watch> watch_;
 
     std::mutex mutex_;  ///< for what follows
     grpc::ByteBuffer outgoing_;
     std::unique_ptr<grpc::Alarm> alarm_;  ///< for the next frame, by the rate
+    bool opened_ = false;                 ///< until then only the read ends the call
     bool writing_ = false;
     bool canceled_ = false;
     bool finished_ = false;
@@ -139,21 +167,16 @@ private:
 }  // namespace
 
 template <class Request>
-grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, const Authorizer& authorizer,
-                                                        Refusals& refusals, ActiveCalls& calls,
-                                                        grpc::CallbackServerContext& context,
-                                                        const grpc::ByteBuffer& request) {
-    const auto reactor = std::make_shared<WatchReactor>(registry.metrics(), calls, context);
-    reactor->start<Request>(registry, authorizer, refusals, context, request);
+ByteReactor* start_watch(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,
+                         ActiveCalls& calls, grpc::CallbackServerContext& context) {
+    const auto reactor = std::make_shared<WatchReactor<Request>>(registry, refusals, calls, context);
+    reactor->start(authorizer);
     return reactor.get();
 }
 
-template grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch<v1::WatchRequest>(SessionRegistry&, const Authorizer&,
-                                                                                   Refusals&, ActiveCalls&,
-                                                                                   grpc::CallbackServerContext&,
-                                                                                   const grpc::ByteBuffer&);
-template grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch<v1::WatchParticlesRequest>(
-    SessionRegistry&, const Authorizer&, Refusals&, ActiveCalls&, grpc::CallbackServerContext&,
-    const grpc::ByteBuffer&);
+template ByteReactor* start_watch<v1::WatchRequest>(SessionRegistry&, const Authorizer&, Refusals&, ActiveCalls&,
+                                                    grpc::CallbackServerContext&);
+template ByteReactor* start_watch<v1::WatchParticlesRequest>(SessionRegistry&, const Authorizer&, Refusals&,
+                                                             ActiveCalls&, grpc::CallbackServerContext&);
 
 }  // namespace meniscus::server

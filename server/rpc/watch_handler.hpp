@@ -2,10 +2,9 @@
 #pragma once
 
 #include <grpcpp/server_context.h>
-#include <grpcpp/support/byte_buffer.h>
-#include <grpcpp/support/server_callback.h>
 
 #include "rpc/active_calls.hpp"
+#include "rpc/byte_service.hpp"
 #include "rpc/refusals.hpp"
 #include "security/authorizer.hpp"
 #include "sessions/session_registry.hpp"
@@ -15,9 +14,7 @@ namespace meniscus::server {
 /// The call's reactor, which owns itself until the call is done. Request: v1::WatchRequest or
 /// v1::WatchParticlesRequest.
 template <class Request>
-grpc::ServerWriteReactor<grpc::ByteBuffer>* start_watch(SessionRegistry& registry, const Authorizer& authorizer,
-                                                        Refusals& refusals, ActiveCalls& calls,
-                                                        grpc::CallbackServerContext& context,
-                                                        const grpc::ByteBuffer& request);
+ByteReactor* start_watch(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,
+                         ActiveCalls& calls, grpc::CallbackServerContext& context);
 
 }  // namespace meniscus::server

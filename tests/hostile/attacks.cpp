@@ -19,6 +19,7 @@ std::span<const Attack> attacks() {
         {"restarts", "40 servers killed or ended, each back after 0.1 to 5 s", restarts},
         {"stalled-readers", "readers of a recording that take every place and read nothing", stalled_readers},
         {"stops", "200 ends after watchers that were stalled, killed, or have vanished", stops},
+        {"unread-requests", "512 MiB in one message, to every call, eleven at once, without a token", unread_requests},
     };
     return all;
 }

@@ -22,5 +22,6 @@ std::vector<Figure> proxied_strangers(const std::string& program);
 std::vector<Figure> restarts(const std::string& program);
 std::vector<Figure> stalled_readers(const std::string& program);
 std::vector<Figure> stops(const std::string& program);
+std::vector<Figure> unread_requests(const std::string& program);
 
 }  // namespace meniscus::hostile

@@ -160,27 +160,42 @@ TEST(Meniscusd, EndsWithItsWorkThoughWatchersHaveStoppedReadingOrVanished) {
     EXPECT_EQ(log.find("unfinished"), std::string::npos) << log;
 }
 
+/// Calls with one message of 64 MiB of zeros.
+class Bomber {
+public:
+    explicit Bomber(const std::string& address) : stub_(channel(address)) {}
+
+    grpc::StatusCode throw_at(const std::string& method, grpc_compression_algorithm algorithm) {
+        grpc::ClientContext context;
+        context.set_compression_algorithm(algorithm);
+        const grpc::Slice slice(zeros_.data(), zeros_.size(), grpc::Slice::STATIC_SLICE);
+        const grpc::ByteBuffer bomb(&slice, 1);
+        std::promise<grpc::Status> status;
+        grpc::ByteBuffer answer;
+        stub_.UnaryCall(&context, method, grpc::StubOptions(), &bomb, &answer,
+                        [&](grpc::Status s) { status.set_value(std::move(s)); });
+        return status.get_future().get().error_code();
+    }
+
+private:
+    static std::shared_ptr<grpc::Channel> channel(const std::string& address) {
+        grpc::ChannelArguments arguments;
+        arguments.SetMaxSendMessageSize(-1);
+        return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+    }
+
+    const std::vector<char> zeros_ = std::vector<char>(std::size_t{64} << 20U);
+    grpc::GenericStub stub_;
+};
+
 TEST(Meniscusd, DecompressesNothing) {
     Process process(on_free_port());
-    grpc::ChannelArguments arguments;
-    arguments.SetMaxSendMessageSize(-1);
-    const auto channel = grpc::CreateCustomChannel(process.address(), grpc::InsecureChannelCredentials(), arguments);
-    grpc::GenericStub stub(channel);
-    const std::vector<char> zeros(std::size_t{64} << 20U);
-    const grpc::Slice slice(zeros.data(), zeros.size(), grpc::Slice::STATIC_SLICE);
-    const grpc::ByteBuffer bomb(&slice, 1);
+    Bomber bomber(process.address());
     const std::size_t before = peak_bytes(process.pid());
     for (const auto algorithm : {GRPC_COMPRESS_GZIP, GRPC_COMPRESS_DEFLATE})
         for (const char* method : {"/meniscus.v1.SessionService/ListSessions", "/meniscus.v1.SurfaceService/Watch",
-                                   "/grpc.health.v1.Health/Check"}) {
-            grpc::ClientContext context;
-            context.set_compression_algorithm(algorithm);
-            std::promise<grpc::Status> status;
-            grpc::ByteBuffer answer;
-            stub.UnaryCall(&context, method, grpc::StubOptions(), &bomb, &answer,
-                           [&](grpc::Status s) { status.set_value(std::move(s)); });
-            EXPECT_EQ(status.get_future().get().error_code(), grpc::StatusCode::UNIMPLEMENTED) << method;
-        }
+                                   "/grpc.health.v1.Health/Check"})
+            EXPECT_EQ(bomber.throw_at(method, algorithm), grpc::StatusCode::UNIMPLEMENTED) << method;
     EXPECT_LT(peak_bytes(process.pid()) - before, std::size_t{16} << 20U);
     process.signal(SIGTERM);
     const std::string log = process.rest();
@@ -210,6 +225,29 @@ TEST(Meniscusd, GivesTheSystemBackWhatIdleSessionsGiveBack) {
     while (resident_bytes(process.pid()) > before + 15 * megabyte && std::chrono::steady_clock::now() < deadline)
         std::this_thread::yield();
     EXPECT_LT(resident_bytes(process.pid()), before + 15 * megabyte);
+}
+
+TEST(Meniscusd, ReceivesNoMessageBeforeTheTokenIsKnown) {
+    const TestFolder folder;
+    Process process(on_free_port({"--tokens", folder.write("tokens", "admin root token-of-root-0123456789\n"),
+                                  "--record", folder / "recordings"}));
+    Bomber bomber(process.address());
+    const std::size_t before = peak_bytes(process.pid());
+    for (const char* method :
+         {"ServerService/GetServerInfo", "SessionService/CreateSession", "SessionService/GetSession",
+          "SessionService/ListSessions", "SessionService/DeleteSession", "SurfaceService/Stream",
+          "SurfaceService/Watch", "SurfaceService/WatchParticles", "RecordingService/ListRecordings",
+          "RecordingService/ReadRecording"})
+        EXPECT_EQ(bomber.throw_at(std::string("/meniscus.v1.") + method, GRPC_COMPRESS_NONE),
+                  grpc::StatusCode::UNAUTHENTICATED)
+            << method;
+    EXPECT_EQ(bomber.throw_at("/grpc.health.v1.Health/Check", GRPC_COMPRESS_NONE), grpc::StatusCode::OK);
+    EXPECT_EQ(bomber.throw_at("/meniscus.v1.SessionService/NoCall", GRPC_COMPRESS_NONE),
+              grpc::StatusCode::UNIMPLEMENTED);
+    EXPECT_LT(peak_bytes(process.pid()) - before, std::size_t{16} << 20U);
+    process.signal(SIGTERM);
+    process.rest();
+    EXPECT_EQ(process.exit_code(), 0);
 }
 
 TEST(Meniscusd, DoesNotWaitForAReconstructionThatOutlivesTheGracePeriod) {

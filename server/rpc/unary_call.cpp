@@ -1,0 +1,45 @@
+#include "rpc/unary_call.hpp"
+
+#include <utility>
+
+#include "rpc/one_request.hpp"
+#include "rpc/status.hpp"
+
+namespace meniscus::server {
+
+UnaryCall* UnaryCall::start(const Authorizer& authorizer, Refusals& refusals, Action action, Handle handle,
+                            grpc::CallbackServerContext& context) {
+    auto* call = new UnaryCall(refusals, std::move(handle), context);
+    try {
+        call->caller_ = admit(authorizer, context, action);
+        call->StartRead(&call->request_);
+    } catch (...) {
+        call->refuse(std::current_exception());
+    }
+    return call;
+}
+
+UnaryCall::UnaryCall(Refusals& refusals, Handle handle, grpc::CallbackServerContext& context)
+    : refusals_(refusals), handle_(std::move(handle)), context_(context) {}
+
+void UnaryCall::OnReadDone(bool ok) {
+    if (!ok && context_.IsCancelled()) return Finish(client_gone());
+    try {
+        require_request(ok, request_);
+        handle_(*this);
+    } catch (...) {
+        refuse(std::current_exception());
+    }
+}
+
+void UnaryCall::answer(const google::protobuf::MessageLite& response) {
+    response_ = serialized(response);
+    StartWriteAndFinish(&response_, {}, grpc::Status::OK);
+}
+
+void UnaryCall::refuse(const std::exception_ptr& error) {
+    refusals_.report(error, caller_.name, peer_of(context_));
+    Finish(to_status(error));
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,52 @@
+// A call with one request and one answer.
+#pragma once
+
+#include <google/protobuf/message_lite.h>
+
+#include <exception>
+#include <functional>
+
+#include "rpc/byte_service.hpp"
+#include "rpc/caller.hpp"
+#include "rpc/refusals.hpp"
+#include "rpc/wire_bytes.hpp"
+#include "security/authorizer.hpp"
+
+namespace meniscus::server {
+
+/// Receives the request once the caller may make the call. Owns itself until the call is done.
+class UnaryCall final : public ByteReactor {
+public:
+    /// Given the call with its request, gives it its answer or refusal, at once or later. What it throws is a refusal.
+    using Handle = std::function<void(UnaryCall&)>;
+
+    static UnaryCall* start(const Authorizer& authorizer, Refusals& refusals, Action action, Handle handle,
+                            grpc::CallbackServerContext& context);
+
+    const grpc::CallbackServerContext& context() const { return context_; }
+    const Caller& caller() const { return caller_; }
+    /// Throws InvalidInput for bytes that are not such a message.
+    template <class Request>
+    Request request() const {
+        return parsed<Request>(request_);
+    }
+
+    // Either of them, once; the call may be gone when they return.
+    void answer(const google::protobuf::MessageLite& response);
+    void refuse(const std::exception_ptr& error);
+
+    void OnReadDone(bool ok) override;
+    void OnDone() override { delete this; }
+
+private:
+    UnaryCall(Refusals& refusals, Handle handle, grpc::CallbackServerContext& context);
+
+    Refusals& refusals_;
+    const Handle handle_;
+    grpc::CallbackServerContext& context_;  ///< gRPC keeps it until OnDone
+    Caller caller_;
+    grpc::ByteBuffer request_;
+    grpc::ByteBuffer response_;
+};
+
+}  // namespace meniscus::server

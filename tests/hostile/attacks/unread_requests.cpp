@@ -1,0 +1,97 @@
+// Huge messages, not compressed, of strangers: to every call, at once (D2).
+#include <grpcpp/generic/generic_stub.h>
+#include <grpcpp/grpcpp.h>
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "../attacks.hpp"
+#include "../recorded_session.hpp"
+#include "../target.hpp"
+
+namespace meniscus::hostile {
+
+namespace {
+
+constexpr std::size_t mebibyte = 1 << 20;
+constexpr std::size_t mebibytes = 512;
+constexpr int rounds = 3;
+constexpr const char* methods[] = {
+    "/meniscus.v1.ServerService/GetServerInfo",
+    "/meniscus.v1.SessionService/CreateSession",
+    "/meniscus.v1.SessionService/GetSession",
+    "/meniscus.v1.SessionService/ListSessions",
+    "/meniscus.v1.SessionService/DeleteSession",
+    "/meniscus.v1.SurfaceService/Watch",
+    "/meniscus.v1.SurfaceService/WatchParticles",
+    "/meniscus.v1.SurfaceService/Stream",
+    "/meniscus.v1.RecordingService/ListRecordings",
+    "/meniscus.v1.RecordingService/ReadRecording",
+    "/grpc.health.v1.Health/Check",
+};
+
+std::string tokens_file(const Folder& folder) {
+    const std::filesystem::path path = folder.path() / "tokens";
+    std::ofstream(path) << "admin root token-of-root-0123456789\n";
+    std::filesystem::permissions(path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    return path.string();
+}
+
+/// Slices of the same bytes: the attacker needs no memory for them.
+grpc::ByteBuffer huge() {
+    static const std::vector<char> bytes(mebibyte, '\0');
+    const grpc::Slice slice(bytes.data(), bytes.size(), grpc::Slice::STATIC_SLICE);
+    const std::vector<grpc::Slice> slices(mebibytes, slice);
+    return {slices.data(), slices.size()};
+}
+
+grpc::StatusCode send(const std::string& address, const std::string& method, const grpc::ByteBuffer& message) {
+    grpc::ChannelArguments arguments;
+    arguments.SetMaxSendMessageSize(-1);
+    arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+    grpc::GenericStub stub(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(2));
+    grpc::CompletionQueue queue;
+    const auto call = stub.PrepareUnaryCall(&context, method, message, &queue);
+    call->StartCall();
+    grpc::ByteBuffer answer;
+    grpc::Status status;
+    call->Finish(&answer, &status, nullptr);
+    void* tag = nullptr;
+    bool ok = false;
+    queue.Next(&tag, &ok);
+    return status.error_code();
+}
+
+}  // namespace
+
+std::vector<Figure> unread_requests(const std::string& program) {
+    const Folder folder;
+    TargetOptions options;
+    options.arguments = {"--tokens", tokens_file(folder), "--record", (folder.path() / "recordings").string()};
+    const Target target(program, options);
+    const grpc::ByteBuffer message = huge();
+    const double before = static_cast<double>(target.peak_bytes());
+    std::atomic<int> failed{0};
+    std::vector<std::thread> threads;
+    for (const char* method : methods)
+        threads.emplace_back([&, method] {
+            for (int i = 0; i < rounds; ++i) {
+                const grpc::StatusCode code = send(target.address(), method, message);
+                // A health check is OK.
+                if (code != grpc::StatusCode::UNAUTHENTICATED && code != grpc::StatusCode::OK) ++failed;
+            }
+        });
+    for (std::thread& thread : threads) thread.join();
+    const double after = static_cast<double>(target.peak_bytes());
+    return {{"memory at its peak, above that before", (after - before) / 1e6, 16.0, "MB"},
+            {"calls of 33 that were neither refused for want of a token nor OK", static_cast<double>(failed), 0.0, ""}};
+}
+
+}  // namespace meniscus::hostile
