@@ -232,19 +232,21 @@ TEST(Meniscusd, ReceivesNoMessageBeforeTheTokenIsKnown) {
     Process process(on_free_port({"--tokens", folder.write("tokens", "admin root token-of-root-0123456789\n"),
                                   "--record", folder / "recordings"}));
     Bomber bomber(process.address());
-    const std::size_t before = peak_bytes(process.pid());
+    std::size_t before = peak_bytes(process.pid());
+    const auto expect = [&](const std::string& method, grpc::StatusCode code) {
+        EXPECT_EQ(bomber.throw_at(method, GRPC_COMPRESS_NONE), code) << method;
+        const std::size_t after = peak_bytes(process.pid());
+        EXPECT_LT(after - before, std::size_t{16} << 20U) << method;
+        before = after;
+    };
     for (const char* method :
          {"ServerService/GetServerInfo", "SessionService/CreateSession", "SessionService/GetSession",
           "SessionService/ListSessions", "SessionService/DeleteSession", "SurfaceService/Stream",
           "SurfaceService/Watch", "SurfaceService/WatchParticles", "RecordingService/ListRecordings",
           "RecordingService/ReadRecording"})
-        EXPECT_EQ(bomber.throw_at(std::string("/meniscus.v1.") + method, GRPC_COMPRESS_NONE),
-                  grpc::StatusCode::UNAUTHENTICATED)
-            << method;
-    EXPECT_EQ(bomber.throw_at("/grpc.health.v1.Health/Check", GRPC_COMPRESS_NONE), grpc::StatusCode::OK);
-    EXPECT_EQ(bomber.throw_at("/meniscus.v1.SessionService/NoCall", GRPC_COMPRESS_NONE),
-              grpc::StatusCode::UNIMPLEMENTED);
-    EXPECT_LT(peak_bytes(process.pid()) - before, std::size_t{16} << 20U);
+        expect(std::string("/meniscus.v1.") + method, grpc::StatusCode::UNAUTHENTICATED);
+    expect("/grpc.health.v1.Health/Check", grpc::StatusCode::OK);
+    expect("/meniscus.v1.SessionService/NoCall", grpc::StatusCode::UNIMPLEMENTED);
     process.signal(SIGTERM);
     process.rest();
     EXPECT_EQ(process.exit_code(), 0);
