@@ -17,6 +17,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "rpc/caller.hpp"
+#include "rpc/cancel_timer.hpp"
 #include "rpc/frame_chunk_reader.hpp"
 #include "rpc/session_id.hpp"
 #include "rpc/status.hpp"
@@ -38,10 +39,11 @@ class StreamReactor final : public ByteReactor, public std::enable_shared_from_t
 public:
     StreamReactor(SessionRegistry& registry, Refusals& refusals, ActiveCalls& calls,
                   grpc::CallbackServerContext& context)
-        : active_(calls),
+        : calls_(calls),
           registry_(registry),
           refusals_(refusals),
           context_(context),
+          timer_(context),
           peer_(context.peer()),
           assembler_(registry.limits()) {}
 
@@ -54,6 +56,7 @@ public:
             refuse(std::current_exception());
             return;
         }
+        timer_.start(first_message_patience);
         start_read();
     }
 
@@ -95,10 +98,7 @@ public:
     }
 
     void OnDone() override {
-        {
-            const std::lock_guard lock(done_mutex_);
-            done_ = true;
-        }
+        timer_.call_is_done();
         const auto self = std::move(self_);
         if (!upload_) return;
         // For a call that ended before its upload: nobody reads, and the session is free for the next stream.
@@ -119,6 +119,7 @@ private:
         if (!upload_) {
             parse(incoming_, request_, "StreamRequest");
             if (!request_.has_open()) throw InvalidInput("the first message of a stream must be open");
+            timer_.stop();
             open_or_wait();
             return;
         }
@@ -265,6 +266,8 @@ private:
         const auto stop = [self = weak_from_this()](std::exception_ptr error) {
             if (const auto reactor = self.lock()) reactor->stop_reading(std::move(error));
         };
+        // Before it, as a server that stops waits for streams of its sessions alone.
+        if (!active_) active_.emplace(calls_);
         auto upload = session->open_upload(options, wake, drain, stop);
         log_info({.session = session_id_}, "stream from {} opened", peer_);
         {
@@ -363,7 +366,8 @@ private:
             const std::lock_guard lock(mutex_);
             if (finished_) return;
             if (writing_) {
-                if (upload_ && upload_->output.aborted() && !last_write_) await_last_write();
+                // Otherwise a client that takes nothing would never learn of the end, and its call stay for good.
+                if (upload_ && upload_->output.aborted() && !timer_.runs()) timer_.start(last_message_patience);
                 return;
             }
             write_next();
@@ -371,19 +375,6 @@ private:
         }
         // Outside of the lock: the slot may go to another stream at once.
         if (unused != nullptr) session_->return_input(*unused);
-    }
-
-    /// No message follows the one that is under way. A client that does not take that one never learns of the end, and
-    /// its call would stay for good.
-    void await_last_write() {
-        constexpr auto patience = std::chrono::seconds(2);
-        last_write_ = std::make_unique<grpc::Alarm>();
-        last_write_->Set(std::chrono::system_clock::now() + patience, [weak = weak_from_this()](bool rang) {
-            const auto self = rang ? weak.lock() : nullptr;
-            if (!self) return;
-            const std::lock_guard lock(self->done_mutex_);
-            if (!self->done_) self->context_.TryCancel();
-        });
     }
 
     void write_next() {
@@ -429,10 +420,12 @@ private:
         Finish(status);
     }
 
-    const ActiveCalls::Token active_;
+    ActiveCalls& calls_;
+    std::optional<ActiveCalls::Token> active_;  ///< once it has opened a session
     SessionRegistry& registry_;
     Refusals& refusals_;
     grpc::CallbackServerContext& context_;  ///< gRPC keeps it until OnDone
+    CancelTimer timer_;                     ///< for the first message, and for the last
     const std::string peer_;
     std::shared_ptr<StreamReactor> self_;  ///< until OnDone
     Caller caller_;
@@ -464,10 +457,6 @@ private:
     bool canceled_ = false;
     bool vanished_ = false;  ///< canceled while more was to come
     bool finished_ = false;
-    std::unique_ptr<grpc::Alarm> last_write_;  ///< for its end
-
-    std::mutex done_mutex_;  ///< for what follows; gRPC may call OnCancel while it is locked
-    bool done_ = false;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@ UnaryCall* UnaryCall::start(const Authorizer& authorizer, Refusals& refusals, Ac
     auto* call = new UnaryCall(refusals, std::move(handle), context);
     try {
         call->caller_ = admit(authorizer, context, action);
+        call->first_message_.start(first_message_patience);
         call->StartRead(&call->request_);
     } catch (...) {
         call->refuse(std::current_exception());
@@ -20,9 +21,10 @@ UnaryCall* UnaryCall::start(const Authorizer& authorizer, Refusals& refusals, Ac
 }
 
 UnaryCall::UnaryCall(Refusals& refusals, Handle handle, grpc::CallbackServerContext& context)
-    : refusals_(refusals), handle_(std::move(handle)), context_(context) {}
+    : refusals_(refusals), handle_(std::move(handle)), context_(context), first_message_(context) {}
 
 void UnaryCall::OnReadDone(bool ok) {
+    first_message_.stop();
     if (!ok && context_.IsCancelled()) return Finish(client_gone());
     try {
         require_request(ok, request_);
@@ -30,6 +32,11 @@ void UnaryCall::OnReadDone(bool ok) {
     } catch (...) {
         refuse(std::current_exception());
     }
+}
+
+void UnaryCall::OnDone() {
+    first_message_.call_is_done();
+    delete this;
 }
 
 void UnaryCall::answer(const google::protobuf::MessageLite& response) {

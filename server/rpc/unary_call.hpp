@@ -8,6 +8,7 @@
 
 #include "rpc/byte_service.hpp"
 #include "rpc/caller.hpp"
+#include "rpc/cancel_timer.hpp"
 #include "rpc/refusals.hpp"
 #include "rpc/wire_bytes.hpp"
 #include "security/authorizer.hpp"
@@ -36,7 +37,7 @@ public:
     void refuse(const std::exception_ptr& error);
 
     void OnReadDone(bool ok) override;
-    void OnDone() override { delete this; }
+    void OnDone() override;
 
 private:
     UnaryCall(Refusals& refusals, Handle handle, grpc::CallbackServerContext& context);
@@ -44,6 +45,7 @@ private:
     Refusals& refusals_;
     const Handle handle_;
     grpc::CallbackServerContext& context_;  ///< gRPC keeps it until OnDone
+    CancelTimer first_message_;
     Caller caller_;
     grpc::ByteBuffer request_;
     grpc::ByteBuffer response_;

@@ -12,6 +12,7 @@
 #include "log.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "rpc/caller.hpp"
+#include "rpc/cancel_timer.hpp"
 #include "rpc/one_request.hpp"
 #include "rpc/session_id.hpp"
 #include "rpc/status.hpp"
@@ -29,7 +30,12 @@ class WatchReactor final : public ByteReactor, public std::enable_shared_from_th
 public:
     WatchReactor(SessionRegistry& registry, Refusals& refusals, ActiveCalls& calls,
                  grpc::CallbackServerContext& context)
-        : active_(calls), registry_(registry), refusals_(refusals), context_(context), peer_(peer_of(context)) {}
+        : active_(calls),
+          registry_(registry),
+          refusals_(refusals),
+          context_(context),
+          timer_(context),
+          peer_(peer_of(context)) {}
 
     void start(const Authorizer& authorizer) {
         self_ = this->shared_from_this();
@@ -39,10 +45,12 @@ public:
         } catch (...) {
             return refuse(std::current_exception());
         }
+        timer_.start(first_message_patience);
         this->StartRead(&incoming_);
     }
 
     void OnReadDone(bool ok) override {
+        timer_.stop();
         if (!ok && context_.IsCancelled()) return end(client_gone());
         try {
             open(received<Request>(ok, incoming_));
@@ -61,6 +69,7 @@ public:
         {
             const std::lock_guard lock(mutex_);
             writing_ = false;
+            timer_.stop();
             if (!ok) canceled_ = true;
         }
         write();
@@ -75,6 +84,7 @@ public:
     }
 
     void OnDone() override {
+        timer_.call_is_done();
         if (watch_) {
             session_->close_watch(watch_);
             log_info({.session = session_id_}, "watcher from {} gone", peer_);
@@ -110,7 +120,12 @@ private:
 
     void write() {
         const std::lock_guard lock(mutex_);
-        if (!opened_ || writing_ || finished_) return;
+        if (!opened_ || finished_) return;
+        if (writing_) {
+            // Otherwise a client that takes nothing any more would keep what the session had.
+            if (watch_->is_finished() && !timer_.runs()) timer_.start(last_message_patience);
+            return;
+        }
         if (canceled_) {
             finish(client_gone());
             return;
@@ -121,6 +136,7 @@ private:
             outgoing_ = to_bytes(*message);
             writing_ = true;
             this->StartWrite(&outgoing_);
+            if (watch_->is_finished()) timer_.start(last_message_patience);
         } else if (const auto* later = std::get_if<Watch::Later>(&next)) {
             write_at(later->at);
         } else if (const auto* end = std::get_if<Watch::End>(&next)) {
@@ -147,6 +163,7 @@ private:
     SessionRegistry& registry_;
     Refusals& refusals_;
     grpc::CallbackServerContext& context_;  ///< gRPC keeps it until OnDone
+    CancelTimer timer_;                     ///< for the request, and for the last messages
     const std::string peer_;
     std::shared_ptr<WatchReactor> self_;  ///< until OnDone
     Caller caller_;

@@ -27,7 +27,8 @@ EncodingThread::EncodingThread(const SessionContext& context, Watchers& watchers
     : context_(context),
       watchers_(watchers),
       ends_(std::move(ends)),
-      scratch_(std::make_shared<MemoryAccount>(context.limits.bytes_per_session, "to encode its mesh")) {
+      scratch_(std::make_shared<MemoryAccount>(context.limits.bytes_per_session, "to encode its mesh",
+                                               context.shared.memory)) {
     for (ReconstructedFrame& frame : frames_) free_frames_.put(&frame);
     thread_ =
         start_thread(fmt::format("that encodes the meshes of session {}", context.identity.id), [this] { run(); });
@@ -54,6 +55,13 @@ void EncodingThread::close() {
 
 void EncodingThread::join() {
     if (thread_.joinable()) thread_.join();
+}
+
+void EncodingThread::release_memory() {
+    before_.clear();
+    newest_ = nullptr;
+    for (ReconstructedFrame& frame : frames_) frame.release_memory();
+    scratch_.release_memory();
 }
 
 void EncodingThread::run() {

@@ -96,6 +96,8 @@ public:
     void close();
     /// Once it is closed. Not from the thread itself.
     void join();
+    /// Frees all of it; once it was joined.
+    void release_memory();
 
 private:
     void run();

@@ -58,7 +58,8 @@ std::optional<Received> FrameQueue::take(Next kind) {
     return received;
 }
 
-void FrameQueue::close() {
+std::vector<InputFrame*> FrameQueue::close() {
+    std::vector<InputFrame*> unused;
     std::deque<Received> forgotten;  // destroyed outside of the lock
     {
         const std::lock_guard lock(mutex_);
@@ -66,6 +67,9 @@ void FrameQueue::close() {
         forgotten.swap(waiting_);
     }
     changed_.notify_all();
+    for (const Received& received : forgotten)
+        if (received.input != nullptr) unused.push_back(received.input);
+    return unused;
 }
 
 }  // namespace meniscus::server

@@ -48,8 +48,8 @@ public:
     /// Takes the first in the queue if it is of this kind, which it need not be any more.
     std::optional<Received> take(Next kind);
 
-    /// Drops what has not been taken.
-    void close();
+    /// Drops what has not been taken. Returns the inputs of the frames among it, which are free again.
+    std::vector<InputFrame*> close();
 
 private:
     std::mutex mutex_;

@@ -8,6 +8,7 @@ static_assert(std::endian::native == std::endian::little, "the wire's numbers ar
 
 void InputFrame::allocate(std::size_t size) {
     in_flight_.announce(size);
+    retained_.drop();
     shown_in_run.reset();
     if (bytes.capacity() < size) {
         // A fresh array: growing the old one would hold both for a moment, and copy what nobody needs.

@@ -15,19 +15,66 @@
 
 namespace meniscus::server {
 
+/// Memory of all that one frame keeps, once it is not in flight.
+class RetainedMemory {
+public:
+    /// memory: may be none, which counts nothing.
+    explicit RetainedMemory(std::shared_ptr<SharedMemory> memory = nullptr) : memory_(std::move(memory)) {}
+    ~RetainedMemory() { drop(); }
+    RetainedMemory(const RetainedMemory&) = delete;
+    RetainedMemory& operator=(const RetainedMemory&) = delete;
+    /// The other one holds nothing afterwards.
+    RetainedMemory(RetainedMemory&& other) noexcept : memory_(other.memory_), bytes_(std::exchange(other.bytes_, 0)) {}
+    RetainedMemory& operator=(RetainedMemory&& other) noexcept {
+        drop();
+        memory_ = other.memory_;
+        bytes_ = std::exchange(other.bytes_, 0);
+        return *this;
+    }
+
+    /// Returns whether there was room.
+    bool hold(std::size_t bytes) noexcept {
+        drop();
+        if (memory_ == nullptr) return true;
+        if (memory_->try_charge(bytes) != 0) return false;
+        bytes_ = bytes;
+        return true;
+    }
+    void drop() noexcept {
+        if (memory_ != nullptr) memory_->release(std::exchange(bytes_, 0));
+    }
+
+private:
+    std::shared_ptr<SharedMemory> memory_;
+    std::size_t bytes_ = 0;
+};
+
 struct InputFrame {
+    /// memory: counts what stays here between two frames; may be none.
     explicit InputFrame(const std::shared_ptr<MemoryAccount>& account,
                         std::shared_ptr<BytesInFlight> all_sessions = std::make_shared<BytesInFlight>(),
-                        std::shared_ptr<SessionInFlight> session = std::make_shared<SessionInFlight>())
-        : bytes(AccountAllocator<std::byte>(account)), in_flight_(std::move(all_sessions), std::move(session)) {}
+                        std::shared_ptr<SessionInFlight> session = std::make_shared<SessionInFlight>(),
+                        std::shared_ptr<SharedMemory> memory = nullptr)
+        : bytes(AccountAllocator<std::byte>(account)),
+          in_flight_(std::move(all_sessions), std::move(session)),
+          retained_(std::move(memory)) {}
 
     /// Makes `bytes` of this size, which are announced for flight; keeps its memory if that suffices. Throws
     /// LimitExceeded or std::bad_alloc.
     void allocate(std::size_t size);
     /// See FrameInFlight.
     bool book(std::size_t arrived, std::function<void()> booked) { return in_flight_.book(arrived, std::move(booked)); }
-    /// Its bytes are no longer in flight. Its memory stays for the next frame.
-    void land() noexcept { in_flight_.release(); }
+    /// Its bytes are no longer in flight. Its memory stays for the next frame, if there is room for it.
+    void land() noexcept {
+        in_flight_.release();
+        if (!retained_.hold(bytes.capacity())) free_memory();
+    }
+    void free_memory() noexcept {
+        Array<std::byte>(bytes.get_allocator()).swap(bytes);
+        particle_count = 0;
+        shown_in_run.reset();
+        retained_.drop();
+    }
     /// Takes over the particles of a frame that has landed, whose bytes are then gone.
     void take_from(InputFrame& other) {
         index = other.index;
@@ -40,6 +87,7 @@ struct InputFrame {
         Array<std::byte> taken(other.bytes.get_allocator());
         taken.swap(other.bytes);
         bytes = std::move(taken);
+        retained_ = std::move(other.retained_);
         received_at = other.received_at;
         shown_in_run = std::exchange(other.shown_in_run, std::nullopt);
     }
@@ -59,6 +107,7 @@ struct InputFrame {
 
 private:
     FrameInFlight in_flight_;
+    RetainedMemory retained_;
 };
 
 }  // namespace meniscus::server

@@ -5,14 +5,15 @@
 namespace meniscus::server {
 
 InputSlots::InputSlots(const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<BytesInFlight>& in_flight,
-                       const std::shared_ptr<SessionInFlight>& session)
-    : inputs_{InputFrame(account, in_flight, session), InputFrame(account, in_flight, session),
-              InputFrame(account, in_flight, session)} {
+                       const std::shared_ptr<SessionInFlight>& session, const std::shared_ptr<SharedMemory>& memory)
+    : inputs_{InputFrame(account, in_flight, session, memory), InputFrame(account, in_flight, session, memory),
+              InputFrame(account, in_flight, session, memory)} {
     for (std::size_t i = 0; i + 1 < inputs_.size(); ++i) free_.give(inputs_[i]);
 }
 
 void InputSlots::give_back(InputFrame& input) {
     input.land();
+    if (closed_) input.free_memory();
     if (&input == &third()) {
         const std::lock_guard lock(mutex_);
         if (!third_allowed_) {
@@ -34,11 +35,14 @@ bool InputSlots::take_back(InputFrame& input) {
 void InputSlots::release_memory() {
     for (InputFrame& input : inputs_) {
         if (!take_back(input)) continue;
-        Array<std::byte>(input.bytes.get_allocator()).swap(input.bytes);
-        input.particle_count = 0;
-        input.shown_in_run.reset();
+        input.free_memory();
         give_back(input);
     }
+}
+
+void InputSlots::close() {
+    closed_ = true;
+    free_.close();
 }
 
 void InputSlots::allow_third(bool allowed) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <mutex>
 
@@ -14,9 +15,9 @@ namespace meniscus::server {
 /// complete. Thread-safe.
 class InputSlots {
 public:
-    /// session: its part of the bytes in flight.
+    /// session: its part of the bytes in flight. memory: counts what the slots keep between two frames; may be none.
     InputSlots(const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<BytesInFlight>& in_flight,
-               const std::shared_ptr<SessionInFlight>& session);
+               const std::shared_ptr<SessionInFlight>& session, const std::shared_ptr<SharedMemory>& memory = nullptr);
 
     /// Calls the waiter once a slot is free, at once or from the thread that gives one back.
     void request(SlotPool<InputFrame>::Waiter waiter) { free_.request(std::move(waiter)); }
@@ -26,7 +27,8 @@ public:
     bool take_back(InputFrame& input);
     /// Frees the memory of the slots that no frame has.
     void release_memory();
-    void close() { free_.close(); }
+    /// Lends nothing any more, and keeps no memory of what is given back.
+    void close();
 
     /// Whether the third slot may be lent. Calls no waiter.
     void allow_third(bool allowed);
@@ -38,6 +40,7 @@ private:
 
     std::array<InputFrame, 3> inputs_;
     SlotPool<InputFrame> free_;
+    std::atomic<bool> closed_{false};
 
     std::mutex mutex_;  ///< for what follows
     bool third_allowed_ = false;

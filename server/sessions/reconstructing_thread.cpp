@@ -34,6 +34,11 @@ void ReconstructingThread::join() {
     if (thread_.joinable()) thread_.join();
 }
 
+void ReconstructingThread::release_memory() {
+    functions_ = {};
+    particles_.forget();
+}
+
 void ReconstructingThread::run() {
     for (;;) {
         const FrameQueue::Next next = received_.wait();
@@ -82,6 +87,7 @@ bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn)
         reconstruct(received, *next_mesh_);
     } catch (const DeviceError& error) {
         log_error({.session = context_.identity.id, .frame = input.index}, "the session ends: {}", error.what());
+        inputs_.give_back(input);
         encoding_.put(EncodingThread::EndSession{std::current_exception()});
         return false;
     } catch (...) {

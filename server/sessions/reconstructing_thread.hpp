@@ -43,6 +43,8 @@ public:
     std::optional<Clock::time_point> resting_since() const;
     /// Once `received` and the encoding thread are closed.
     void join();
+    /// Frees all of it; once it was joined, and after the encoding thread's memory.
+    void release_memory();
 
 private:
     void run();
@@ -66,7 +68,7 @@ private:
     bool emit_capped(int max_level, Mesh& mesh);
 
     const SessionContext& context_;
-    const ReconstructFunctions functions_;
+    ReconstructFunctions functions_;
     FrameQueue& received_;
     InputSlots& inputs_;
     Watchers& watchers_;
@@ -87,9 +89,9 @@ private:
     std::shared_ptr<Upload> failed_;           ///< its frames that follow are dropped
 
     std::atomic<bool> waits_for_turn_{false};
-    mutable std::mutex mutex_;  ///< for what follows
-    Progress progress_;         ///< written by the thread alone
-    std::optional<Clock::time_point> resting_since_;
+    mutable std::mutex mutex_;                                       ///< for what follows
+    Progress progress_;                                              ///< written by the thread alone
+    std::optional<Clock::time_point> resting_since_ = Clock::now();  ///< frames may come, and never be complete
 
     std::thread thread_;  ///< last: it uses the others
 };

@@ -23,7 +23,8 @@ Session::Session(SessionIdentity identity, const Settings& settings, const Limit
                .closing = closing_.get_token()},
       in_flight_(
           std::make_shared<SessionInFlight>(SessionInFlight{.name = account() ? account()->in_flight() : nullptr})),
-      inputs_(std::make_shared<MemoryAccount>(limits.bytes_per_session), context_.shared.bytes_in_flight, in_flight_),
+      inputs_(std::make_shared<MemoryAccount>(limits.bytes_per_session), context_.shared.bytes_in_flight, in_flight_,
+              context_.shared.memory),
       frame_stop_(functions.stop, context_.shared.deadlines, limits.frame_time),
       frame_rate_(limits.frames_per_second),
       encoding_(context_, watchers_,
@@ -230,7 +231,10 @@ void Session::finish_upload(const std::shared_ptr<Upload>& upload, std::exceptio
 
 void Session::end(const std::exception_ptr& error) {
     const Attached attached = detach();
-    for (const auto& upload : attached.uploads) upload->output.finish(error);
+    for (const auto& upload : attached.uploads) {
+        upload->output.finish(error);
+        upload->stop(error);
+    }
     for (const auto& watch : attached.watches) watch->finish(error);
 }
 
@@ -270,10 +274,11 @@ void Session::end_slow_upload(std::chrono::steady_clock::time_point now) {
                                      limits().least_pace.time.count(), limits().least_pace.bytes_per_second))));
 }
 
-void Session::end_stalled_uploads(std::chrono::steady_clock::time_point now) {
+void Session::end_stalled_uploads(std::chrono::steady_clock::time_point now, bool memory_is_short) {
     using Seconds = std::chrono::duration<double>;
     const LeastPace& least = limits().least_pace;
-    if (least.time.count() == 0 || !context_.shared.bytes_in_flight->others_wait(*in_flight_)) return;
+    const bool keeps_others_waiting = memory_is_short || context_.shared.bytes_in_flight->others_wait(*in_flight_);
+    if (least.time.count() == 0 || !keeps_others_waiting) return;
     std::vector<std::shared_ptr<Upload>> unanswered;
     {
         const std::lock_guard lock(mutex_);
@@ -283,13 +288,13 @@ void Session::end_stalled_uploads(std::chrono::steady_clock::time_point now) {
         const auto stall = upload->output.too_slow(least, now);
         if (!stall) continue;
         log_warning({.session = id()},
-                    "its simulator has taken {} bytes in {:.3g} s, while frames of other sessions wait: the stream "
-                    "ends",
+                    "its simulator has taken {} bytes in {:.3g} s, while there is no room for frames of other "
+                    "sessions: the stream ends",
                     stall->bytes_taken, stall->time.count());
         const auto error = std::make_exception_ptr(LimitReached(
             LimitName::answer_time,
-            fmt::format("{} bytes of the meshes were taken in {:.3g} s, while frames of other sessions wait for room; "
-                        "take the first within {:.3g} s, or {} bytes per second from then on",
+            fmt::format("{} bytes of the meshes were taken in {:.3g} s, while there is no room for frames of other "
+                        "sessions; take the first within {:.3g} s, or {} bytes per second from then on",
                         stall->bytes_taken, stall->time.count(), Seconds(least.time).count(), least.bytes_per_second)));
         // First, as nobody may ever take what waits.
         upload->output.abort(error);
@@ -298,11 +303,11 @@ void Session::end_stalled_uploads(std::chrono::steady_clock::time_point now) {
     }
 }
 
-bool Session::end_idle(std::chrono::steady_clock::time_point now) {
+bool Session::end_idle(std::chrono::steady_clock::time_point now, bool memory_is_short) {
     using Clock = std::chrono::steady_clock;
     using Seconds = std::chrono::duration<double>;
     end_slow_upload(now);
-    end_stalled_uploads(now);
+    end_stalled_uploads(now, memory_is_short);
     std::shared_ptr<Upload> idle;
     {
         const std::lock_guard lock(mutex_);
@@ -345,7 +350,10 @@ void Session::close() {
     const Attached attached = detach();
     const auto error =
         std::make_exception_ptr(Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id())));
-    for (const auto& upload : attached.uploads) upload->output.abort(error);
+    for (const auto& upload : attached.uploads) {
+        upload->output.abort(error);
+        upload->stop(error);
+    }
     for (const auto& watch : attached.watches) watch->finish(nullptr);
 }
 
@@ -359,7 +367,7 @@ Session::Attached Session::detach() {
         attached.watches = watchers_.list();
     }
     inputs_.close();
-    received_.close();
+    for (InputFrame* input : received_.close()) inputs_.give_back(*input);
     encoding_.close();
     frame_stop_.close();
     closing_.request_stop();
@@ -374,6 +382,10 @@ bool Session::ended() const {
 void Session::join() {
     reconstructing_.join();
     encoding_.join();
+    // Not with the last reference: a call that its client keeps open may have that for long.
+    encoding_.release_memory();
+    reconstructing_.release_memory();
+    inputs_.release_memory();
 }
 
 }  // namespace meniscus::server

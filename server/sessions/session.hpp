@@ -99,10 +99,10 @@ public:
     /// at once.
     void drain(std::chrono::duration<double> grace);
     /// Ends an upload that has been idle for Limits::idle_time, or whose frame comes too slowly, or whose answers are
-    /// taken too slowly while frames of others wait for the bytes of its own. Returns whether the session has been
-    /// without streams, watchers and calls for that time.
+    /// taken too slowly while frames of others wait for the bytes of its own, or are refused for its memory. Returns
+    /// whether the session has been without streams, watchers and calls for that time.
     /// The same after Limits::orphan_time where its simulator has vanished without a word.
-    bool end_idle(std::chrono::steady_clock::time_point now);
+    bool end_idle(std::chrono::steady_clock::time_point now, bool memory_is_short = false);
     /// Since when it has had nothing to reconstruct, and may give its buffers back; none: it has, or it works.
     std::optional<std::chrono::steady_clock::time_point> resting_since() const {
         return encoding_.idle() ? reconstructing_.resting_since() : std::nullopt;
@@ -118,7 +118,8 @@ public:
     void close();
     /// Whether the session was closed or has moved to another server, or a GPU that failed has ended it.
     bool ended() const;
-    /// After its end: waits until the session's threads have ended. Once, and not from one of them.
+    /// After its end: waits until the session's threads have ended, and frees its memory. Once, and not from one of
+    /// them.
     void join();
 
 private:
@@ -145,7 +146,7 @@ private:
     // Of end_idle().
 
     void end_slow_upload(std::chrono::steady_clock::time_point now);
-    void end_stalled_uploads(std::chrono::steady_clock::time_point now);
+    void end_stalled_uploads(std::chrono::steady_clock::time_point now, bool memory_is_short);
 
     std::stop_source closing_;
     const SessionContext context_;

@@ -211,6 +211,7 @@ std::shared_ptr<SharedMemory> SessionRegistry::shared_memory(std::size_t limit) 
         const auto room = [&] { return self->limit() - std::min(self->limit(), self->bytes()); };
         const std::size_t wanted = room() + missing;
         idle->make_room([&] { return room() >= wanted; });
+        if (room() < wanted) idle->note_shortage();
     });
     *memory = shared;
     return shared;
@@ -223,6 +224,7 @@ SharedResources SessionRegistry::shared_on(const BackendOptions& place) {
     return {.workers = workers_,
             .metrics = metrics_,
             .turns = turns,
+            .memory = memory_,
             .bytes_in_flight = bytes_in_flight_,
             .deadlines = deadlines_};
 }
@@ -247,12 +249,13 @@ void SessionRegistry::end_idle(std::chrono::steady_clock::time_point now) {
         return release.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     });
     if (sessions_have_ended_.exchange(false) || released != 0) return_free_pages();
+    const bool memory_is_short = idle_buffers_->short_within(limits_.least_pace.time + std::chrono::minutes(1));
     for (const auto& session : list()) {
         const auto resting_since = session->resting_since();
         if (limits_.idle_buffers_time.count() != 0 && resting_since &&
             now - *resting_since >= limits_.idle_buffers_time)
             releases_.push_back(session->release_buffers());
-        if (!session->end_idle(now)) continue;
+        if (!session->end_idle(now, memory_is_short)) continue;
         {
             const std::lock_guard lock(mutex_);
             // Somebody may have found it, or removed it, in the meantime.

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "meniscus/memory.hpp"
 #include "sessions/handover/deadlines.hpp"
 #include "sessions/handover/turns.hpp"
 #include "sessions/handover/worker_pool.hpp"
@@ -15,6 +16,8 @@ struct SharedResources {
     std::shared_ptr<WorkerPool> workers;  ///< encode
     std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>();
     std::shared_ptr<Turns> turns = std::make_shared<Turns>();  ///< on the device that the session reconstructs on
+    /// Of all sessions' reconstructions, of what they encode in, and of what they keep of frames; may be none.
+    std::shared_ptr<SharedMemory> memory{};
     std::shared_ptr<BytesInFlight> bytes_in_flight = std::make_shared<BytesInFlight>();
     std::shared_ptr<Deadlines> deadlines = std::make_shared<Deadlines>();  ///< of frames on the device
 };

@@ -21,7 +21,7 @@ bool ShownParticles::show(InputFrame& input, Run& run) {
     run.last_shown = input.index;
     if (observer_) observer_->reconstructed(input);
     input.shown_in_run = run.id;
-    if (newest_ == &kept_) Array<std::byte>().swap(kept_.bytes);
+    if (newest_ == &kept_) kept_.free_memory();
     newest_ = &input;
     watchers_.forget_particles();
     encode(input);

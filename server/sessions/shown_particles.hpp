@@ -29,6 +29,11 @@ public:
     bool keep();
     /// The frame that was kept; null once a newer one was shown.
     const InputFrame* kept() const noexcept { return newest_ == &kept_ ? &kept_ : nullptr; }
+    /// Frees what was kept.
+    void forget() {
+        newest_ = nullptr;
+        kept_.free_memory();
+    }
 
 private:
     void encode(const InputFrame& input);

@@ -70,15 +70,19 @@ void Watch::announce_end(std::chrono::duration<double> grace) {
 }
 
 void Watch::finish(std::exception_ptr error) {
-    bool wake = false;
     {
         const std::lock_guard lock(mutex_);
         if (finished_) return;
         finished_ = true;
         error_ = std::move(error);
-        wake = std::exchange(waits_, Waits::no) != Waits::no;
+        waits_ = Waits::no;
     }
-    if (wake) wake_();
+    wake_();
+}
+
+bool Watch::is_finished() const {
+    const std::lock_guard lock(mutex_);
+    return finished_;
 }
 
 Watch::Progress Watch::progress(Clock::time_point now) const {

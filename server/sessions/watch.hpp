@@ -49,7 +49,8 @@ public:
         Clock::duration lag{};             ///< since the oldest frame that it has not taken whole; 0: it has the newest
     };
 
-    /// wake: called once, by a producing thread, after take() has found nothing and there is something again.
+    /// wake: called once, by a producing thread, after take() has found nothing and there is something again;
+    /// and by finish().
     Watch(const WatchWishes& wishes, std::function<void()> wake,
           std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>(),
           std::shared_ptr<const NameAccount> account = nullptr);
@@ -66,6 +67,7 @@ public:
     void announce_end(std::chrono::duration<double> grace);
     /// No frames follow those that are here now, which go out without waiting for the rate. Later calls do nothing.
     void finish(std::exception_ptr error);
+    bool is_finished() const;
     Progress progress(Clock::time_point now = Clock::now()) const;
 
     // The writer's side, one thread at a time.

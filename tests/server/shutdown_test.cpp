@@ -2,6 +2,7 @@
 #include <spdlog/sinks/sink.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <future>
 #include <memory>
 #include <string_view>
@@ -43,6 +44,23 @@ TEST(Shutdown, EndsAStreamThatIsBeingOpened) {
         stopping.join();
     }
     spdlog::set_default_logger(logger_before);
+}
+
+TEST(Shutdown, DoesNotWaitForAStreamThatNeverOpens) {
+    RunningServer running;
+    const std::string id = running.session();
+    RawStream stream(running.server.address(), id, false);
+    // On the same connection, so that the stream is there before it.
+    grpc::ClientContext context;
+    client::add_session_id(context, id);
+    v1::GetSessionRequest request;
+    request.set_id(id);
+    v1::GetSessionResponse response;
+    ASSERT_TRUE(stream.connection.sessions->GetSession(&context, request, &response).ok());
+    const auto begin = std::chrono::steady_clock::now();
+    running.server.shutdown();
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << "the grace is a minute";
+    EXPECT_FALSE(stream.finish().ok());
 }
 
 TEST(Shutdown, LetsAFrameThatIsOnItsWayInBeTheLast) {

@@ -25,15 +25,14 @@ public:
 
     /// Returns false, without charging, if there would be more than the limit.
     bool charge(std::size_t bytes);
+    /// Makes no room. Returns how many bytes are missing; if none is, they are charged.
+    std::size_t try_charge(std::size_t bytes) noexcept;
     void release(std::size_t bytes) noexcept { bytes_.fetch_sub(bytes, std::memory_order_relaxed); }
 
     std::size_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
     std::size_t limit() const noexcept { return limit_; }
 
 private:
-    /// Returns how many bytes are missing; if none is, they are charged.
-    std::size_t try_charge(std::size_t bytes) noexcept;
-
     const std::size_t limit_;
     const MakeRoom make_room_;
     std::atomic<std::size_t> bytes_{0};

@@ -80,6 +80,17 @@ TEST_F(Registry, ForgetsASessionThatEndedByItself) {
     EXPECT_NE(registry.create(first_id, test::settings()), ended);
 }
 
+TEST_F(Registry, FreesTheMemoryOfADeletedSessionThatACallStillHolds) {
+    const auto session = registry.create(first_id, test::settings());
+    test::Simulator simulator(*session, {.receive_meshes = true});
+    simulator.send(0, test::wave(6, 0.0));
+    simulator.end();
+    simulator.receive_all();
+    EXPECT_GT(registry.reconstruction_bytes(), 0U);
+    registry.remove(session);
+    while (registry.reconstruction_bytes() != 0) std::this_thread::yield();
+}
+
 TEST_F(Registry, TakesNoSessionsWhileItDrains) {
     const auto session = registry.create(first_id, test::settings());
     registry.drain(std::chrono::seconds(1));
@@ -148,6 +159,36 @@ TEST_F(BusyRegistry, LetsDeletedSessionsEndWhoseFramesWaitForTheDevice) {
         while (!ended.expired()) std::this_thread::yield();
     }
     EXPECT_EQ(begun, 1) << "the device was busy all the time";
+}
+
+TEST_F(BusyRegistry, GivesTheBytesOfADeletedSessionsFramesToOthers) {
+    const auto session = registry.create(first_id, test::settings());
+    std::exception_ptr told;
+    InputFrame* lent = nullptr;
+    const auto upload = session->open_upload(
+        {}, [] {}, [] {},
+        [&](std::exception_ptr error) {
+            told = std::move(error);
+            session->return_input(*std::exchange(lent, nullptr));
+        });
+    const auto begin = [&](InputFrame& input) {
+        input.particle_count = 1;
+        input.allocate(12);
+        lent = &input;
+        return true;
+    };
+    for (int i = 0; i < 2; ++i) {
+        session->request_input(begin);
+        while (lent == nullptr) std::this_thread::yield();
+        if (i == 0) session->submit(upload, *std::exchange(lent, nullptr));
+        while (begun == 0) std::this_thread::yield();
+    }
+    EXPECT_EQ(registry.bytes_in_flight(), 24U);
+    registry.remove(session);
+    EXPECT_EQ(registry.bytes_in_flight(), 12U) << "the device has one";
+    EXPECT_THROW(std::rethrow_exception(told), Refusal);
+    gate.release();
+    while (registry.bytes_in_flight() != 0) std::this_thread::yield();
 }
 
 TEST_F(BusyRegistry, CountsDeletedSessionsThatHaveNotEnded) {
