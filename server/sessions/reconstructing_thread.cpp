@@ -182,7 +182,9 @@ std::optional<Turns::Turn> ReconstructingThread::begin_work() {
         resting_since_.reset();
     }
     waits_for_turn_ = true;
-    auto turn = context_.shared.turns->wait(context_.closing, context_.identity.id);
+    const SessionIdentity& identity = context_.identity;
+    auto turn = context_.shared.turns->wait(context_.closing, identity.account ? identity.account->name() : identity.id,
+                                            identity.id);
     waits_for_turn_ = false;
     return turn;
 }

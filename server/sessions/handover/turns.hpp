@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <list>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -13,8 +14,8 @@
 
 namespace meniscus::server {
 
-/// One turn at a time, first come, first served. A session asks for one turn per frame, so that sessions with frames
-/// alternate.
+/// One turn at a time. Names take turns, and so do the sessions of each name: a name with many sessions has no more
+/// turns than one with a single session. A session asks for one turn per frame.
 class Turns {
 public:
     /// Ends when it is destroyed.
@@ -33,10 +34,11 @@ public:
         Turns* turns_;
     };
 
-    /// Waits until all turns that were asked for before have ended or been given up. None if the turn is given up: stop
-    /// was requested before it began. who: a name for holder().
-    std::optional<Turn> wait(const std::stop_token& stop, const std::string& who = {});
-    /// Who has the present turn; empty: nobody.
+    /// Waits for at most one turn of each other name, and for those of its own name that were asked for before. None if
+    /// the turn is given up: stop was requested before it began. name: the caller's that the session belongs to, or one
+    /// that the session has for itself. session: for holder().
+    std::optional<Turn> wait(const std::stop_token& stop, const std::string& name, const std::string& session = {});
+    /// The session that has the present turn; empty: none.
     std::string holder();
     /// The number of threads that wait.
     std::uint64_t waiting();
@@ -46,12 +48,21 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    /// Of one name.
+    struct Line {
+        std::string name;
+        std::deque<std::uint64_t> waiting{};  ///< the numbers of the turns that were asked for, the next one first
+    };
+
+    /// The name's, which may be new. With the lock held.
+    Line& line_of(const std::string& name);
     void end();
 
     std::mutex mutex_;
     std::condition_variable_any changed_;
     std::uint64_t asked_ = 0;
-    std::deque<std::uint64_t> waiting_;       ///< the numbers of the turns that were asked for, the next one first
+    /// Of the names that wait, the next one first. The one that has the present turn is last, and may be empty.
+    std::list<Line> lines_;
     std::optional<Clock::time_point> began_;  ///< the present turn; none: there is none
     std::string holder_;                      ///< of the present turn
     Clock::duration taken_{};                 ///< by the turns that have ended

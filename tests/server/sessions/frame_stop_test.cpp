@@ -108,7 +108,7 @@ TEST_F(FrameStops, ButTheWaitForItsTurnIsNotCounted) {
     constexpr milliseconds longest(200);
     const auto session = make_session(longest);
     Simulator simulator(*session, {});
-    std::optional<Turns::Turn> turn = shared.turns->wait({});
+    std::optional<Turns::Turn> turn = shared.turns->wait({}, "another");
     simulator.send(0, particles);
     while (shared.turns->waiting() == 0) std::this_thread::yield();
     std::this_thread::sleep_for(longest * 2);

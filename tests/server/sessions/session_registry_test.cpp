@@ -213,6 +213,30 @@ TEST_F(BusyRegistry, CountsDeletedSessionsThatHaveNotEnded) {
     EXPECT_EQ(registry.list().size(), 1U);
 }
 
+TEST_F(BusyRegistry, GivesTurnsToCallersHoweverManySessionsEachHas) {
+    std::vector<std::unique_ptr<test::Simulator>> simulators;
+    std::vector<std::shared_ptr<Session>> sessions;
+    const auto send = [&](const char* id, const std::string& name) {
+        sessions.push_back(registry.create(id, test::settings(), {.name = name, .account = registry.account(name)}));
+        simulators.push_back(std::make_unique<test::Simulator>(*sessions.back(), UploadOptions{}));
+        simulators.back()->send(0, particles);
+    };
+    const auto await_turn = [&](std::size_t session) {
+        while (sessions[session]->state().wait != SessionWait::device) std::this_thread::yield();
+    };
+    send(first_id, "ada");
+    while (begun == 0) std::this_thread::yield();
+    send(second_id, "ada");
+    await_turn(1);
+    send(third_id, "ada");
+    await_turn(2);
+    send("00000000-0000-4000-8000-000000000004", "ben");
+    await_turn(3);
+    gate.release(3);
+    while (begun < 4) std::this_thread::yield();
+    EXPECT_EQ(sessions[3]->state().frames, 1U) << "it came last, and is the first of its caller";
+}
+
 TEST(SharedRegistry, HoldsASharesWorthOfSessionsForEachCaller) {
     SessionRegistry registry{Limits{.sessions = 4, .per_name = {.sessions = 2}},
                              BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};

@@ -2,39 +2,102 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <optional>
 #include <stop_token>
+#include <string>
 #include <thread>
 #include <vector>
 
 namespace meniscus::server {
 namespace {
 
-TEST(Turns, GoToWhoAskedFirst) {
-    Turns turns;
-    std::vector<int> order;  // written in a turn only
-    auto held = turns.wait({});
-    std::vector<std::thread> askers;
-    askers.reserve(4);
-    for (int asker = 0; asker < 4; ++asker) {
-        askers.emplace_back([&, asker] {
-            const auto turn = turns.wait({});
-            order.push_back(asker);
-        });
-        while (turns.waiting() != static_cast<std::uint64_t>(asker) + 1) std::this_thread::yield();
+/// Threads that ask one after the other while "ada" has a turn, and the order of their turns.
+struct Askers {
+    ~Askers() {
+        held.reset();
+        for (std::thread& each : threads) each.join();
     }
-    held.reset();
-    for (std::thread& asker : askers) asker.join();
-    EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 3}));
+    void ask(const std::string& name, const std::string& session) {
+        const std::uint64_t before = turns.waiting();
+        threads.emplace_back([this, name, session] {
+            const auto turn = turns.wait(stop.get_token(), name, session);
+            if (turn) order.push_back(turns.holder());
+        });
+        while (turns.waiting() == before) std::this_thread::yield();
+    }
+    std::vector<std::string> ordered() {
+        held.reset();
+        for (std::thread& each : threads) each.join();
+        threads.clear();
+        return order;
+    }
+
+    Turns turns;
+    std::stop_source stop;
+    std::optional<Turns::Turn> held = turns.wait({}, "ada");
+    std::vector<std::string> order;  ///< written in a turn only
+    std::vector<std::thread> threads;
+};
+
+using Sessions = std::vector<std::string>;
+
+TEST(Turns, GoToTheSessionOfANameThatAskedFirst) {
+    Askers askers;
+    for (const char* session : {"1", "2", "3", "4"}) askers.ask("ada", session);
+    EXPECT_EQ(askers.ordered(), (Sessions{"1", "2", "3", "4"}));
+}
+
+TEST(Turns, GoToTheNameThatAskedFirst) {
+    Askers askers;
+    for (const char* name : {"ben", "eve", "dan"}) askers.ask(name, name);
+    EXPECT_EQ(askers.ordered(), (Sessions{"ben", "eve", "dan"}));
+}
+
+TEST(Turns, GoRoundAmongNamesHoweverManySessionsEachHas) {
+    Askers askers;
+    for (const char* session : {"ada 1", "ada 2", "ada 3", "ada 4"}) askers.ask("ada", session);
+    askers.ask("ben", "ben 1");
+    askers.ask("ben", "ben 2");
+    askers.ask("eve", "eve 1");
+    EXPECT_EQ(askers.ordered(), (Sessions{"ben 1", "eve 1", "ada 1", "ben 2", "ada 2", "ada 3", "ada 4"}))
+        << "ada has a turn when the others come";
+}
+
+TEST(Turns, OfANameThatGivesUpGoToTheNext) {
+    Askers askers;
+    askers.ask("ada", "ada 1");
+    askers.ask("ben", "ben 1");
+    std::stop_source leaving;
+    std::thread left([&] { EXPECT_FALSE(askers.turns.wait(leaving.get_token(), "eve")); });
+    while (askers.turns.waiting() != 3) std::this_thread::yield();
+    askers.ask("dan", "dan 1");
+    leaving.request_stop();
+    left.join();
+    EXPECT_EQ(askers.turns.waiting(), 3U);
+    EXPECT_EQ(askers.ordered(), (Sessions{"ben 1", "dan 1", "ada 1"}));
+}
+
+TEST(Turns, AreGivenUpByAllAtOnceAndGivenAgain) {
+    Askers askers;
+    for (const char* name : {"ada", "ben", "ada", "ben"}) askers.ask(name, name);
+    askers.stop.request_stop();
+    for (std::thread& each : askers.threads) each.join();
+    askers.threads.clear();
+    EXPECT_EQ(askers.turns.waiting(), 0U);
+    askers.held.reset();
+    EXPECT_TRUE(askers.turns.wait({}, "ben"));
+    EXPECT_TRUE(askers.order.empty());
 }
 
 TEST(Turns, GoRoundAmongThoseWhoAskAgainAndAgain) {
     Turns turns;
     std::vector<int> order;
     constexpr int rounds = 20;
-    auto held = turns.wait({});
+    auto held = turns.wait({}, "ada");
     const auto ask = [&](int asker) {
         for (int round = 0; round < rounds; ++round) {
-            const auto turn = turns.wait({});
+            const auto turn = turns.wait({}, asker == 0 ? "ada" : "ben");
             order.push_back(asker);
             // The other one has asked again: now it is a matter of order alone.
             while (turns.waiting() == 0 && order.size() < 2 * rounds - 1) std::this_thread::yield();
@@ -51,7 +114,7 @@ TEST(Turns, GoRoundAmongThoseWhoAskAgainAndAgain) {
 
 TEST(Turns, AreGivenAtOnceToWhoIsAlone) {
     Turns turns;
-    for (int i = 0; i < 3; ++i) const auto turn = turns.wait({});
+    for (int i = 0; i < 3; ++i) const auto turn = turns.wait({}, "ada");
     EXPECT_EQ(turns.waiting(), 0U);
 }
 
@@ -60,25 +123,25 @@ TEST(Turns, AddUpToTheTimeThatTheyTook) {
     EXPECT_EQ(turns.taken().count(), 0.0);
     std::chrono::duration<double> running{};
     {
-        const auto turn = turns.wait({});
+        const auto turn = turns.wait({}, "ada");
         while (running.count() == 0.0) running = turns.taken();
     }
     const auto ended = turns.taken();
     EXPECT_GE(ended, running);
     EXPECT_EQ(turns.taken(), ended) << "nobody has a turn";
-    { const auto turn = turns.wait({}); }
+    { const auto turn = turns.wait({}, "ada"); }
     EXPECT_GT(turns.taken(), ended);
 }
 
 TEST(Turns, AreGivenUpByWhoStopsAndGoToTheNext) {
     Turns turns;
-    auto held = turns.wait({});
+    auto held = turns.wait({}, "ada");
     std::stop_source stop;
     bool given_up = false;
-    std::thread stopped([&] { given_up = !turns.wait(stop.get_token()); });
+    std::thread stopped([&] { given_up = !turns.wait(stop.get_token(), "ada"); });
     while (turns.waiting() != 1) std::this_thread::yield();
     bool turn = false;
-    std::thread next([&] { turn = turns.wait({}).has_value(); });
+    std::thread next([&] { turn = turns.wait({}, "ada").has_value(); });
     while (turns.waiting() != 2) std::this_thread::yield();
     stop.request_stop();
     stopped.join();
@@ -87,7 +150,7 @@ TEST(Turns, AreGivenUpByWhoStopsAndGoToTheNext) {
     held.reset();
     next.join();
     EXPECT_TRUE(turn);
-    EXPECT_FALSE(turns.wait(stop.get_token())) << "also where nobody else wants it";
+    EXPECT_FALSE(turns.wait(stop.get_token(), "ada")) << "also where nobody else wants it";
 }
 
 }  // namespace
