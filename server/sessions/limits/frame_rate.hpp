@@ -16,8 +16,12 @@ public:
 
     /// Returns whether one more frame may begin at this time; if so, counts it.
     bool take(Clock::time_point now);
+    /// Returns whether a second's frames may begin now, as if none had been before.
+    bool full(Clock::time_point now) const { return tokens_at(now) >= limit_; }
 
 private:
+    double tokens_at(Clock::time_point now) const;
+
     double limit_;
     double tokens_;
     Clock::time_point filled_at_{};

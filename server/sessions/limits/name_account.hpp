@@ -37,6 +37,11 @@ public:
         const std::lock_guard lock(mutex_);
         return frame_rate_.take(now);
     }
+    /// Returns whether it may begin as many frames as one that is new.
+    bool rested(FrameRate::Clock::time_point now) const {
+        const std::lock_guard lock(mutex_);
+        return frame_rate_.full(now);
+    }
     const std::shared_ptr<NameInFlight>& in_flight() const noexcept { return in_flight_; }
 
     std::atomic<std::uint32_t> ending{0};  ///< sessions that were removed, and whose threads may run still
@@ -49,23 +54,26 @@ private:
     FrameRate frame_rate_{0};
 };
 
-/// Kept for as long as somebody holds one: a session, a watcher. Thread-safe.
+/// Kept for as long as somebody holds one (a session, a watcher), and then until it is rested, at most a second: a
+/// caller that deletes its sessions has no more frames by it. Thread-safe.
 class NameAccounts {
 public:
     /// shares: those of the account from now on.
-    std::shared_ptr<NameAccount> of(const std::string& name, const NameShares& shares) {
+    std::shared_ptr<NameAccount> of(const std::string& name, const NameShares& shares,
+                                    FrameRate::Clock::time_point now = FrameRate::Clock::now()) {
         const std::lock_guard lock(mutex_);
-        std::erase_if(accounts_, [](const auto& entry) { return entry.second.expired(); });
-        auto& known = accounts_[name];
-        auto account = known.lock();
-        if (!account) known = account = std::make_shared<NameAccount>(name);
+        // Only here are references made of the one in the map: the last one stays the last.
+        std::erase_if(accounts_,
+                      [&](const auto& entry) { return entry.second.use_count() == 1 && entry.second->rested(now); });
+        auto& account = accounts_[name];
+        if (!account) account = std::make_shared<NameAccount>(name);
         account->set_shares(shares);
         return account;
     }
 
 private:
     std::mutex mutex_;
-    std::map<std::string, std::weak_ptr<NameAccount>> accounts_;
+    std::map<std::string, std::shared_ptr<NameAccount>> accounts_;
 };
 
 }  // namespace meniscus::server
