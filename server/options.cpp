@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <optional>
+#include <string>
 #include <system_error>
 
 #include "available_memory.hpp"
@@ -54,14 +56,28 @@ CLI::Validator whole_number() {
             "", "whole number"};
 }
 
-/// CLI11's own range takes "nan".
+/// None for anything else, such as "nan", which CLI11's own range takes.
+std::optional<double> number_up_to(double most, const std::string& text) {
+    double number = 0.0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error == std::errc{} && rest == text.data() + text.size() && number >= 0.0 && number <= most) return number;
+    return std::nullopt;
+}
+
+CLI::Validator up_to(double most) {
+    return {[most](std::string& text) -> std::string {
+                return number_up_to(most, text) ? "" : fmt::format("{} is no number from 0 to {}", text, most);
+            },
+            "", "number"};
+}
+
+/// The server counts milliseconds. Less than one would be 0, which is no limit.
 CLI::Validator seconds_up_to(double most) {
     return {[most](std::string& text) -> std::string {
-                double seconds = 0.0;
-                const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-                if (error == std::errc{} && rest == text.data() + text.size() && seconds >= 0.0 && seconds <= most)
-                    return "";
-                return fmt::format("{} is no number of seconds from 0 to {}", text, most);
+                constexpr double least = 0.001;
+                const auto seconds = number_up_to(most, text);
+                if (seconds && (*seconds == 0.0 || *seconds >= least)) return "";
+                return fmt::format("{} is no number of seconds: 0, or from {} to {}", text, least, most);
             },
             "", "seconds"};
 }
@@ -181,7 +197,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
            "--max-frame-work", server.limits.work_per_frame,
            "Times the work that as many evenly spread particles are at that cell size: a frame that is estimated "
            "to be more is refused; 0: no limit")
-        ->check(CLI::Range(0.0, 1e9));
+        ->check(up_to(1e9));
     app.add_option("--max-frame-seconds", frame_seconds,
                    "Seconds for which one frame may have the device, after which it is stopped; 0: no limit")
         ->check(seconds_up_to(1e7));

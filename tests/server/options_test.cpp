@@ -140,6 +140,57 @@ TEST(Options, ThatAreWrongAreRefusedWithTheirSource) {
     EXPECT_THROW(refusal({"--config", folder / "."}), InvalidInput);
 }
 
+TEST(Options, ThatAreNumbersAreRefusedWhereTheyAreNone) {
+    const std::string text = refusal({"--max-frame-work", "nan", "--check-config"});
+    EXPECT_NE(text.find("nan is no number from 0 to 1000000000"), std::string::npos) << text;
+    const std::vector<std::string> names{"--max-sessions",
+                                         "--max-watchers",
+                                         "--max-connections",
+                                         "--max-connections-per-peer",
+                                         "--max-sessions-per-name",
+                                         "--max-watchers-per-name",
+                                         "--max-recording-readers",
+                                         "--max-reader-pause",
+                                         "--max-particles",
+                                         "--max-frame-work",
+                                         "--max-frame-seconds",
+                                         "--max-bytes-in-flight",
+                                         "--max-frames-per-second",
+                                         "--max-frames-per-second-per-name",
+                                         "--max-chunks",
+                                         "--max-bytes-in-flight-per-name",
+                                         "--max-message-bytes",
+                                         "--max-upload-seconds",
+                                         "--min-upload-rate",
+                                         "--max-idle",
+                                         "--orphan-seconds",
+                                         "--memory-limit",
+                                         "--total-memory-limit",
+                                         "--total-device-memory-limit",
+                                         "--idle-buffers",
+                                         "--device-memory-limit",
+                                         "--shutdown-grace",
+                                         "--record-limit",
+                                         "--threads",
+                                         "--devices"};
+    for (const std::string& name : names)
+        for (const char* const value : {"nan", "inf", "-inf", "-1", "1x", "1e999", " "})
+            EXPECT_NE(refusal({name + "=" + value}), "") << name << " " << value;
+}
+
+TEST(Options, ThatAreTimesAreZeroOrAtLeastAMillisecond) {
+    for (const char* const name : {"--max-reader-pause", "--max-frame-seconds", "--max-upload-seconds", "--max-idle",
+                                   "--orphan-seconds", "--idle-buffers", "--shutdown-grace"})
+        for (const char* const value : {"0.0001", "0.000999", "1e-9"}) {
+            const std::string text = refusal({name, value});
+            EXPECT_NE(text.find(std::string(value) + " is no number of seconds: 0, or from 0.001 to "),
+                      std::string::npos)
+                << text;
+        }
+    EXPECT_EQ(parse({"--max-idle", "0.001"}).limits.idle_time, std::chrono::milliseconds(1));
+    EXPECT_EQ(parse({"--max-idle", "0"}).limits.idle_time, std::chrono::milliseconds(0));
+}
+
 TEST(Options, LeaveVariablesOfOthersAlone) {
     const Variable token("MENISCUS_TOKEN", "secret");
     const Variable host("MENISCUS_SERVICE_HOST", "10.0.0.1");
