@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include "meniscus/error.hpp"
@@ -36,6 +37,12 @@ std::optional<std::uint64_t> number_of(std::string_view text, bool with_unit) {
     const unsigned shift = 10 * (static_cast<unsigned>(power) + 1);
     if (number > (std::numeric_limits<std::uint64_t>::max() >> shift)) return std::nullopt;
     return number << shift;
+}
+
+/// Of ASCII; the bytes of other characters are none.
+bool is_control(char byte) {
+    const auto code = static_cast<unsigned char>(byte);
+    return code < 0x20 || code == 0x7f;
 }
 
 /// Returns false if the word is none.
@@ -87,9 +94,18 @@ Tokens Tokens::load(const std::string& path) {
         words >> role_name;
         if (role_name.empty() || role_name.starts_with('#')) continue;
         if (!(words >> name >> token)) throw InvalidInput(fmt::format("{}:{}: {}", path, number, line_format));
+        // It would stand in the log, and in /metrics.
+        if (const auto control = std::ranges::find_if(name, is_control); control != name.end())
+            throw InvalidInput(fmt::format("{}:{}: the name has a control character, 0x{:02x}, behind {} others", path,
+                                           number, static_cast<unsigned char>(*control), control - name.begin()));
         OwnShares shares;
-        for (std::string word; words >> word;)
+        std::set<std::string> given;
+        for (std::string word; words >> word;) {
             if (!add_share(word, shares)) throw InvalidInput(fmt::format("{}:{}: {}", path, number, line_format));
+            const std::string key = word.substr(0, word.find('='));
+            if (!given.insert(key).second)
+                throw InvalidInput(fmt::format("{}:{}: {} is given twice", path, number, key));
+        }
         // What stands there may be a token.
         const auto role = find_by_name<Role>(role_name);
         if (!role) throw InvalidInput(fmt::format("{}:{}: the role must be {}", path, number, listed(names<Role>)));

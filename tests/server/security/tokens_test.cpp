@@ -307,8 +307,9 @@ TEST_F(TokensOnAServer, AreReadAgainWithoutEndingStreams) {
 }
 
 TEST(Tokens, AreRefusedWithTheLineAndWithoutTheToken) {
+    using std::string_literals::operator""s;
     struct Case {
-        const char* text;
+        std::string text;
         const char* words;
     };
     const TestFolder folder;
@@ -322,6 +323,11 @@ TEST(Tokens, AreRefusedWithTheLineAndWithoutTheToken) {
         {"uploader ada 0123456789secret bytes-in-flight=99999999999T\n", ":1: a line must be: ROLE NAME TOKEN"},
         {"uploader ada 0123456789secret sessions=1\nuploader ada 9876543210secret sessions=2\n",
          ":2: the shares of ada differ"},
+        {"uploader ada 0123456789secret sessions=1 watchers=1 sessions=5\n", ":1: sessions is given twice"},
+        {"uploader ada 0123456789secret watchers=1 watchers=1\n", ":1: watchers is given twice"},
+        {"uploader a\0da 0123456789secret\n"s, ":1: the name has a control character, 0x00, behind 1 others"},
+        {"# one\nuploader \x1b[2Jada 0123456789secret\n", ":2: the name has a control character, 0x1b"},
+        {"uploader ada\x7f 0123456789secret\n", ":1: the name has a control character, 0x7f"},
         {"owner ada 0123456789secret\n", ":1: the role must be uploader, watcher or admin"},
         {"# only\nuploader ada 56789secret\n", ":2: the token has 11 characters; it needs at least 16"},
         {"uploader 0123456789secret ada\n", ":1: the token has 3 characters"},
@@ -338,6 +344,12 @@ TEST(Tokens, AreRefusedWithTheLineAndWithoutTheToken) {
             EXPECT_EQ(message.find("secret"), std::string::npos) << message;
         }
     }
+}
+
+TEST(Tokens, HaveNamesOfAllLanguages) {
+    const TestFolder folder;
+    const Tokens tokens = Tokens::load(folder.write("tokens", "uploader Jürgen-Ōé-水 0123456789secret\r\n"));
+    EXPECT_EQ(tokens.find("0123456789secret")->name, "Jürgen-Ōé-水");
 }
 
 TEST(Tokens, HaveTheSharesOfTheirName) {
