@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "log.hpp"
+#include "call_log.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "rpc/caller.hpp"
@@ -103,7 +103,7 @@ public:
         if (!upload_) return;
         // For a call that ended before its upload: nobody reads, and the session is free for the next stream.
         session_->cancel_upload(upload_, vanished_);
-        log_info({.session = session_id_}, "stream from {} closed: {}", peer_, outcome_);
+        call_log.write({.session = session_id_}, "stream from {} closed: {}", peer_, outcome_);
     }
 
 private:
@@ -269,7 +269,7 @@ private:
         // Before it, as a server that stops waits for streams of its sessions alone.
         if (!active_) active_.emplace(calls_);
         auto upload = session->open_upload(options, wake, drain, stop);
-        log_info({.session = session_id_}, "stream from {} opened", peer_);
+        call_log.write({.session = session_id_}, "stream from {} opened", peer_);
         {
             const std::lock_guard lock(mutex_);
             session_ = session;

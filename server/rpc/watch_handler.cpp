@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "log.hpp"
+#include "call_log.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "rpc/caller.hpp"
 #include "rpc/cancel_timer.hpp"
@@ -87,7 +87,7 @@ public:
         timer_.call_is_done();
         if (watch_) {
             session_->close_watch(watch_);
-            log_info({.session = session_id_}, "watcher from {} gone", peer_);
+            call_log.write({.session = session_id_}, "watcher from {} gone", peer_);
         }
         const auto self = std::move(self_);
     }
@@ -101,7 +101,7 @@ private:
         };
         watch_ =
             session_->open_watch(watch_wishes_of(request, session_->settings()), wake, account_of(caller_, registry_));
-        log_info({.session = session_id_}, "watcher from {} connected", peer_);
+        call_log.write({.session = session_id_}, "watcher from {} connected", peer_);
         // At once: the client knows from here on that it misses no mesh. With metadata, as a refusal has none.
         context_.AddInitialMetadata("x-session-id", session_id_);
         this->StartSendInitialMetadata();

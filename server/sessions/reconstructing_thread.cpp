@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "call_log.hpp"
 #include "log.hpp"
 #include "meniscus/error.hpp"
 #include "open_work.hpp"
@@ -149,7 +150,7 @@ void ReconstructingThread::throw_stopped(std::uint64_t index) const {
         case FrameStop::Reason::none:
             break;
     }
-    log_info({.session = id, .frame = index}, "stopped: its stream was canceled");
+    call_log.write({.session = id, .frame = index}, "stopped: its stream was canceled");
     throw Refusal(Refusal::Kind::unavailable, fmt::format("frame {}: its stream was canceled", index));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "call_log.hpp"
 #include "log.hpp"
 #include "meniscus/error.hpp"
 #include "sessions/limits/limit_reached.hpp"
@@ -221,7 +222,7 @@ void Session::finish_upload(const std::shared_ptr<Upload>& upload, std::exceptio
                 std::ranges::all_of(unanswered_, [&](const auto& other) { return other->run == upload->run; });
     }
     if (moves) {
-        log_info({.session = id()}, "its simulator goes on with another server");
+        call_log.write({.session = id()}, "its simulator goes on with another server");
         end(std::make_exception_ptr(moved()));
     }
     // Only now: the stream that learns of the end may open the next one.

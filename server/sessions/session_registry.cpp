@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "call_log.hpp"
 #include "freed_memory.hpp"
-#include "log.hpp"
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
@@ -129,7 +129,7 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
                                   observe_ ? observe_(id, settings, creator.name) : nullptr);
     sessions_.emplace(id, session);
     idle_buffers_->add(session);
-    log_info({.session = id}, "created on {} ({} open)", place_name(backend), sessions_.size());
+    call_log.write({.session = id}, "created on {} ({} open)", place_name(backend), sessions_.size());
     return session;
 }
 
@@ -165,7 +165,7 @@ void SessionRegistry::remove(const std::shared_ptr<Session>& session) {
         let_end(session);
     }
     session->close();
-    log_info({.session = session->id()}, "deleted ({} open)", left);
+    call_log.write({.session = session->id()}, "deleted ({} open)", left);
 }
 
 void SessionRegistry::require_share(const NameAccount& account) const {
@@ -266,11 +266,11 @@ void SessionRegistry::end_idle(std::chrono::steady_clock::time_point now) {
         }
         session->close();
         if (session->orphaned())
-            log_info({.session = session->id()},
-                     "removed: its simulator vanished, and nobody has watched or resumed it since");
+            call_log.write({.session = session->id()},
+                           "removed: its simulator vanished, and nobody has watched or resumed it since");
         else
-            log_info({.session = session->id()}, "removed: nobody has used it for {:.3g} s",
-                     std::chrono::duration<double>(limits_.idle_time).count());
+            call_log.write({.session = session->id()}, "removed: nobody has used it for {:.3g} s",
+                           std::chrono::duration<double>(limits_.idle_time).count());
     }
 }
 

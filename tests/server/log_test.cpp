@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
+
+#include "call_log.hpp"
 
 namespace meniscus::server {
 namespace {
@@ -51,6 +54,28 @@ TEST(Log, HasSessionAndFrameAsFieldsOfJson) {
     EXPECT_EQ(second.at("message"), "of nothing");
     EXPECT_FALSE(second.contains("session"));
     EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST(CallLog, HasAllLinesOfSessionsInOrdinaryUse) {
+    CallLog calls;
+    const std::string text = logged(LogFormat::text, [&] {
+        for (int session = 0; session < 200; ++session)
+            for (const char* const what : {"created", "opened", "connected", "gone", "connected", "gone", "connected",
+                                           "gone", "closed", "opened", "closed", "opened", "closed", "deleted"})
+                calls.write({.session = "abc"}, "{}", what);
+    });
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2800);
+}
+
+TEST(CallLog, HasThreeThousandLinesInTenSecondsAtTheMost) {
+    CallLog calls;
+    const std::string text = logged(LogFormat::text, [&] {
+        for (int call = 0; call < 20'000; ++call) calls.write({.session = "abc"}, "stream from {} opened", "here");
+    });
+    const auto lines = std::count(text.begin(), text.end(), '\n');
+    EXPECT_GE(lines, 3000);
+    EXPECT_LE(lines, 6000) << "an interval may have ended meanwhile";
+    EXPECT_NE(text.find(" info session abc: stream from here opened\n"), std::string::npos);
 }
 
 }  // namespace
