@@ -216,6 +216,8 @@ void Server::shutdown() {
     const auto deadline = std::chrono::system_clock::now() + time;
     draining_ = true;
     health_service_.set_serving(false);
+    // Then there is time left to say what the disk was too slow for.
+    if (recordings_) recordings_->finish_by(std::chrono::steady_clock::now() + time);
     registry_.drain(time);
     if (recording_reads_) recording_reads_->end();
     // Before the shutdown, so that its goodbye follows the last answer on each connection: gRPC closes a connection

@@ -11,6 +11,7 @@
 
 #include "files/recording_format.hpp"
 #include "files/writing_mark.hpp"
+#include "recording/free_number.hpp"
 
 namespace meniscus::server {
 
@@ -22,14 +23,20 @@ namespace {
 
 }  // namespace
 
+std::string recording_file_name(std::uint32_t number) {
+    return fmt::format("{:06}{}", number, files::recording_extension);
+}
+
 RecordingFile::RecordingFile(const std::filesystem::path& directory, const std::string& session_id) {
     const std::filesystem::path folder = directory / session_id;
     if (::mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) fail(folder, errno);
-    for (unsigned number = 1; descriptor_ < 0; ++number) {
-        path_ = folder / fmt::format("{:06}{}", number, files::recording_extension);
-        descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
-        if (descriptor_ < 0 && errno != EEXIST) fail(path_, errno);
-    }
+    const std::uint32_t number = free_number([&](std::uint32_t taken) {
+        struct stat ignored {};
+        return ::lstat((folder / recording_file_name(taken)).c_str(), &ignored) == 0;
+    });
+    path_ = folder / recording_file_name(number);
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+    if (descriptor_ < 0) fail(path_, errno);
     files::mark_as_being_written(descriptor_);
 }
 

@@ -1,11 +1,15 @@
 // One file of a recording, which only grows.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace meniscus::server {
+
+/// NNNNNN.recording, of more digits from a million on.
+std::string recording_file_name(std::uint32_t number);
 
 /// Blocks; for one thread. Readable for the operator alone: folders have mode 0700, files 0600.
 class RecordingFile {

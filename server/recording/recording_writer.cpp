@@ -6,12 +6,14 @@
 #include <cerrno>
 #include <csignal>
 #include <exception>
+#include <iterator>
+#include <map>
 #include <system_error>
 #include <utility>
 
-#include "files/recording_format.hpp"
 #include "log.hpp"
 #include "meniscus/error.hpp"
+#include "open_work.hpp"
 
 namespace meniscus::server {
 
@@ -24,46 +26,46 @@ void make_directory(const RecordingOptions& options) {
                                        std::generic_category().message(errno)));
 }
 
-std::uint64_t bytes_of_recordings(const std::filesystem::path& directory) {
-    constexpr auto options = std::filesystem::directory_options::skip_permission_denied;
-    std::uint64_t bytes = 0;
-    std::error_code error;
-    for (auto i = std::filesystem::recursive_directory_iterator(directory, options, error);
-         i != std::filesystem::recursive_directory_iterator(); i.increment(error)) {
-        if (i->path().extension() != files::recording_extension) continue;
-        const std::uintmax_t size = i->file_size(error);
-        if (!error) bytes += size;
-    }
-    return bytes;
+/// What waits costs this beside its bytes: the memory of its objects, and the time for a file that it may begin.
+constexpr std::size_t entry_bytes = std::size_t{16} << 10;
+
+/// Whose room in the queue it takes.
+const std::string& name_of(const RecordedSession& session) {
+    return session.owner.empty() ? session.id : session.owner;
 }
 
 }  // namespace
 
-RecordingWriter::RecordingWriter(const RecordingOptions& options) : options_(options), queue_(options.waiting_limit) {
+RecordingWriter::RecordingWriter(const RecordingOptions& options)
+    : options_(options), recorded_(options.directory), queue_(options.waiting_limit) {
     make_directory(options_);
     lock_.emplace(options_.directory);
     thread_ = std::thread([this] { write_jobs(); });
 }
 
 RecordingWriter::~RecordingWriter() {
+    const OpenWork::Entry working(open_work(), "the writing of recordings");
     queue_.close();
+    leave_out_what_waits();
     thread_.join();
 }
 
-bool RecordingWriter::reserve(std::size_t bytes) {
-    const bool room = queue_.reserve(bytes);
+bool RecordingWriter::reserve(const RecordedSession& session, std::size_t bytes) {
+    const bool room = queue_.reserve(name_of(session), entry_bytes + bytes);
     if (!room) ++left_out_;
     return room;
 }
 
-void RecordingWriter::cancel(std::size_t bytes) {
+void RecordingWriter::cancel(const RecordedSession& session, std::size_t bytes) {
     ++left_out_;
-    queue_.cancel(bytes);
+    queue_.cancel(name_of(session), entry_bytes + bytes);
 }
 
 void RecordingWriter::write(std::shared_ptr<RecordedRun> run, std::uint64_t frame_index, Frame frame,
                             std::size_t reserved) {
-    queue_.put({.run = std::move(run), .frame_index = frame_index, .frame = std::move(frame)}, reserved);
+    std::string name = name_of(*run->session);
+    queue_.put({.run = std::move(run), .frame_index = frame_index, .frame = std::move(frame)}, std::move(name),
+               entry_bytes + reserved);
 }
 
 RecordingCounters RecordingWriter::counters() const noexcept {
@@ -105,31 +107,56 @@ void RecordingWriter::perform(Job& job) {
     }
 }
 
+void RecordingWriter::leave_out_what_waits() {
+    std::map<std::string, std::uint64_t> left;  // by session
+    queue_.finish(finish_by_, [&](const Job& job) {
+        if (!job.run->session->stopped) ++left[job.run->session->id];
+    });
+    if (left.empty()) return;
+    std::uint64_t all = 0;
+    std::string sessions;
+    constexpr std::size_t named = 16;
+    for (auto session = left.begin(); session != left.end(); ++session) {
+        all += session->second;
+        const auto before = static_cast<std::size_t>(std::distance(left.begin(), session));
+        if (before < named) sessions += (before == 0 ? "" : ", ") + session->first;
+    }
+    left_out_ += all;
+    log_warning({},
+                "the server's end came before the disk: {} particles or meshes of frames are left out at the ends of "
+                "the recordings of {} sessions: {}{}",
+                all, left.size(), sessions, left.size() > named ? ", ..." : "");
+}
+
 void RecordingWriter::append(RecordedRun& run, const RecordingBytes& bytes) {
     if (!run.file) {
         const RecordedSession& session = *run.session;
         const std::string begin = recording_begin(session.id, session.settings, run.started_at, session.owner);
-        // Counted again with every file, so that room made by deleting recordings is found.
-        if (options_.limit != 0) used_ = bytes_of_recordings(options_.directory);
         admit(begin.size() + bytes.size());
         run.file.emplace(options_.directory, session.id);
         run.file->append(begin);
-        used_ += begin.size();
-        bytes_ += begin.size();
-        log_info({.session = session.id}, "recorded in {}", run.file->path().string());
+        count(begin.size());
+        if (const auto kept_back = lines_.pass())
+            log_info({.session = session.id}, "recorded in {}{}", run.file->path().string(), left_out(*kept_back));
     }
     admit(bytes.size());
     run.file->append(bytes.entry);
     run.file->append(bytes.messages);
-    used_ += bytes.size();
-    bytes_ += bytes.size();
+    count(bytes.size());
+}
+
+void RecordingWriter::count(std::uint64_t written) {
+    bytes_ += written;
+    if (options_.limit != 0) recorded_.add(written);
 }
 
 void RecordingWriter::admit(std::uint64_t bytes) {
-    if (options_.limit == 0 || (used_ <= options_.limit && bytes <= options_.limit - used_)) return;
+    if (options_.limit == 0) return;
+    const auto fits = [&](std::uint64_t used) { return used <= options_.limit && bytes <= options_.limit - used; };
+    if (fits(recorded_.sum()) || fits(recorded_.newest_sum())) return;
     throw LimitExceeded(
         fmt::format("{} bytes of recordings are in {}, {} more would pass --record-limit {}: delete some, or raise it",
-                    used_, options_.directory.string(), bytes, options_.limit));
+                    recorded_.sum(), options_.directory.string(), bytes, options_.limit));
 }
 
 }  // namespace meniscus::server

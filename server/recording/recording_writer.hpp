@@ -10,8 +10,10 @@
 #include <thread>
 #include <variant>
 
+#include "line_limit.hpp"
 #include "meniscus/settings.hpp"
 #include "recording/folder_lock.hpp"
+#include "recording/recorded_bytes.hpp"
 #include "recording/recording_entries.hpp"
 #include "recording/recording_file.hpp"
 #include "recording/recording_options.hpp"
@@ -23,7 +25,7 @@ namespace meniscus::server {
 struct RecordingCounters {
     std::uint64_t frames = 0;           ///< with their particles written
     std::uint64_t bytes = 0;            ///< written
-    std::uint64_t frames_left_out = 0;  ///< because the disk was too slow
+    std::uint64_t frames_left_out = 0;  ///< particles or meshes: the disk was too slow
     std::uint64_t stopped = 0;          ///< recordings that a failure or the limit has ended
 };
 
@@ -46,18 +48,21 @@ public:
     /// Creates the directory if it is missing. Throws InvalidInput if it cannot be written to, FolderInUse if
     /// another server records there.
     explicit RecordingWriter(const RecordingOptions& options);
-    /// Writes what waits.
+    /// Writes what waits, until the time of finish_by(). What is left out then is counted, and the log says so.
     ~RecordingWriter();
     RecordingWriter(const RecordingWriter&) = delete;
     RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-    /// Whether there is room for this many bytes; write() or cancel() follows. If not, the frame is counted as left
-    /// out.
-    bool reserve(std::size_t bytes);
-    void cancel(std::size_t bytes);
+    /// Whether there is room for this many bytes of that session; write() or cancel() follows. If not, the frame is
+    /// counted as left out. The sessions of one owner share their room; one without owner has its own.
+    bool reserve(const RecordedSession& session, std::size_t bytes);
+    void cancel(const RecordedSession& session, std::size_t bytes);
     /// Particles, or a mesh.
     using Frame = std::variant<RecordingBytes, std::shared_ptr<const EncodedFrame>>;
     void write(std::shared_ptr<RecordedRun> run, std::uint64_t frame_index, Frame frame, std::size_t reserved);
+
+    /// The end's latest time; without it the end takes as long as the disk.
+    void finish_by(std::chrono::steady_clock::time_point time) { finish_by_ = time; }
 
     std::size_t waiting_limit() const noexcept { return queue_.limit(); }
     RecordingCounters counters() const noexcept;
@@ -73,9 +78,11 @@ private:
 
     void write_jobs();
     void perform(Job& job);
+    void leave_out_what_waits();
     /// Throws LimitExceeded.
     void admit(std::uint64_t bytes);
     void append(RecordedRun& run, const RecordingBytes& bytes);
+    void count(std::uint64_t written);
 
     const RecordingOptions options_;
     const std::chrono::system_clock::time_point wall_start_ = std::chrono::system_clock::now();
@@ -87,7 +94,9 @@ private:
     std::atomic<std::uint64_t> stopped_{0};
 
     std::optional<FolderLock> lock_;
-    std::uint64_t used_ = 0;  ///< bytes of all recordings; of the writing thread
+    std::chrono::steady_clock::time_point finish_by_ = std::chrono::steady_clock::time_point::max();
+    LineLimit lines_{200};    ///< about files that are begun
+    RecordedBytes recorded_;  ///< of the writing thread
     WriteQueue<Job> queue_;
     std::thread thread_;
 };

@@ -26,11 +26,10 @@ SessionRecording::SessionRecording(RecordingWriter& writer, std::string session_
 void SessionRecording::reconstructed(const InputFrame& frame) noexcept {
     if (session_->stopped) return;
     const std::size_t bytes = frame.bytes.size();
-    if (!writer_.reserve(bytes)) {
-        left_out(frame.index, "the disk does not keep up");
-        return;
-    }
+    bool reserved = false;
     try {
+        reserved = writer_.reserve(*session_, bytes);
+        if (!reserved) return left_out(frame.index, "the disk does not keep up");
         auto particles = recorded_particles(frame, writer_.wall_clock(frame.received_at));
         const std::lock_guard lock(mutex_);
         auto run = run_of(frame);
@@ -38,7 +37,7 @@ void SessionRecording::reconstructed(const InputFrame& frame) noexcept {
         if (without_mesh_.size() > frames_under_way) without_mesh_.pop_front();
         writer_.write(std::move(run), frame.index, std::move(particles), bytes);
     } catch (const std::exception& error) {
-        writer_.cancel(bytes);
+        if (reserved) writer_.cancel(*session_, bytes);
         left_out(frame.index, error.what());
     }
 }
@@ -50,14 +49,13 @@ void SessionRecording::encoded(std::shared_ptr<const EncodedFrame> frame) noexce
     if (!run) return;
     std::size_t bytes = 0;
     frame->for_each_message([&](const SharedMessage& message) { bytes += message->size(); });
-    if (!writer_.reserve(bytes)) {
-        left_out(index, "the disk does not keep up");
-        return;
-    }
+    bool reserved = false;
     try {
+        reserved = writer_.reserve(*session_, bytes);
+        if (!reserved) return left_out(index, "the disk does not keep up");
         writer_.write(std::move(run), index, std::move(frame), bytes);
     } catch (const std::exception& error) {
-        writer_.cancel(bytes);
+        if (reserved) writer_.cancel(*session_, bytes);
         left_out(index, error.what());
     }
 }

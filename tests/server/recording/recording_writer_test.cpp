@@ -1,14 +1,22 @@
 // What becomes of frames on their way to the disk.
 #include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "files/recording_format.hpp"
 #include "meniscus/error.hpp"
+#include "recording/free_number.hpp"
 #include "recording/session_recording.hpp"
 #include "recording/write_queue.hpp"
 #include "test_frames.hpp"
@@ -58,35 +66,75 @@ std::shared_ptr<const EncodedFrame> mesh(std::uint64_t index) {
 
 TEST(WriteQueue, TakesNoMoreThanItsLimitAtATime) {
     WriteQueue<int> queue(100);
-    EXPECT_TRUE(queue.reserve(60));
-    EXPECT_FALSE(queue.reserve(41));
-    EXPECT_TRUE(queue.reserve(40));
-    queue.cancel(40);
-    queue.put(1, 60);
-    EXPECT_FALSE(queue.reserve(41));
+    EXPECT_TRUE(queue.reserve("a", 60));
+    EXPECT_FALSE(queue.reserve("b", 41));
+    EXPECT_TRUE(queue.reserve("b", 30));
+    queue.cancel("b", 30);
+    queue.put(1, "a", 60);
+    EXPECT_FALSE(queue.reserve("b", 41));
     EXPECT_EQ(queue.take(), 1);
-    EXPECT_FALSE(queue.reserve(41)) << "what is being written is in memory still";
+    EXPECT_FALSE(queue.reserve("b", 41)) << "what is being written is in memory still";
     queue.close();
     EXPECT_EQ(queue.take(), std::nullopt);
-    EXPECT_TRUE(queue.reserve(100));
+    EXPECT_TRUE(queue.reserve("b", 75));
+}
+
+TEST(WriteQueue, LeavesRoomForOthersHoweverManyFillIt) {
+    WriteQueue<int> queue(100'000);
+    for (const std::string name : {"a", "b", "c", "d", "e", "f", "g"}) {
+        int taken = 0;
+        while (queue.reserve(name, 1)) ++taken;
+        EXPECT_GT(taken, 0) << name;
+        EXPECT_LE(taken, 75'000) << name;
+    }
+    EXPECT_TRUE(queue.reserve("h", 1));
+    queue.cancel("a", 70'000);
+    EXPECT_TRUE(queue.reserve("b", 30'000)) << "room comes back";
 }
 
 TEST(WriteQueue, TakesALargerFrameAlone) {
     WriteQueue<int> queue(100);
-    EXPECT_TRUE(queue.reserve(1000));
-    EXPECT_FALSE(queue.reserve(1));
+    EXPECT_TRUE(queue.reserve("a", 1000));
+    EXPECT_FALSE(queue.reserve("b", 1));
 }
 
 TEST(WriteQueue, GivesWhatWaitsAfterItsEnd) {
     WriteQueue<int> queue(100);
     for (const int i : {1, 2}) {
-        ASSERT_TRUE(queue.reserve(1));
-        queue.put(i, 1);
+        ASSERT_TRUE(queue.reserve("a", 1));
+        queue.put(i, "a", 1);
     }
     queue.close();
     EXPECT_EQ(queue.take(), 1);
     EXPECT_EQ(queue.take(), 2);
     EXPECT_EQ(queue.take(), std::nullopt);
+}
+
+TEST(WriteQueue, NamesWhatIsLeftAtItsDeadline) {
+    WriteQueue<int> queue(100);
+    for (const int i : {1, 2, 3}) {
+        ASSERT_TRUE(queue.reserve("a", 10));
+        queue.put(i, "a", 10);
+    }
+    queue.close();
+    EXPECT_EQ(queue.take(), 1);
+    std::vector<int> left;
+    queue.finish(std::chrono::steady_clock::now(), [&](int value) { left.push_back(value); });
+    EXPECT_EQ(left, (std::vector<int>{2, 3}));
+    EXPECT_EQ(queue.take(), std::nullopt);
+}
+
+TEST(FreeNumber, IsTheOneAfterThoseThatAreTaken) {
+    for (const std::uint32_t taken : {0U, 1U, 2U, 3U, 4U, 7U, 8U, 9U, 1000U, 1'000'000U}) {
+        int questions = 0;
+        EXPECT_EQ(free_number([&](std::uint32_t number) { return ++questions, number <= taken; }), taken + 1);
+        EXPECT_LE(questions, 45);
+    }
+}
+
+TEST(FreeNumber, IsFreeWhereNumbersAreMissing) {
+    const std::set<std::uint32_t> taken{1, 2, 4, 5, 8, 11};
+    EXPECT_FALSE(taken.contains(free_number([&](std::uint32_t number) { return taken.contains(number); })));
 }
 
 TEST_F(RecordingWriterTest, WritesWhatWaitsBeforeItEnds) {
@@ -193,6 +241,41 @@ TEST_F(RecordingWriterTest, LeavesOutFramesThatTheDiskIsTooSlowFor) {
     EXPECT_GT(counters.frames, 0U);
     EXPECT_GT(counters.frames_left_out, 0U);
     EXPECT_EQ(counters.stopped, 0U);
+}
+
+TEST_F(RecordingWriterTest, LeavesOutFramesWithoutParticlesThatTheDiskIsTooSlowFor) {
+    RecordingOptions narrow = options();
+    narrow.waiting_limit = 1;
+    RecordingWriter writer(narrow);
+    SessionRecording recording(writer, session_id, settings());
+    const InputFrame empty = frame(0, 0);
+    for (int i = 0; i < 2000; ++i) recording.reconstructed(empty);  // a file each
+    EXPECT_GT(writer.counters().frames_left_out, 0U);
+}
+
+TEST_F(RecordingWriterTest, SaysWhatItsEndLeavesOut) {
+    std::ostringstream log;
+    const auto before = spdlog::default_logger();
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
+    constexpr std::uint64_t frames = 3000;
+    {
+        RecordingWriter writer(options());
+        SessionRecording recording(writer, session_id, settings());
+        const InputFrame empty = frame(0, 0);
+        for (std::uint64_t i = 0; i < frames; ++i) recording.reconstructed(empty);  // a file each
+        writer.finish_by(std::chrono::steady_clock::now());
+    }
+    spdlog::set_default_logger(before);
+    const auto written =
+        static_cast<std::uint64_t>(std::distance(std::filesystem::directory_iterator(directory_ / session_id), {}));
+    EXPECT_LT(written, frames);
+    EXPECT_NE(log.str().find("came before the disk: " + std::to_string(frames - written) +
+                             " particles or meshes of frames are left out at the ends of the recordings of 1 "
+                             "sessions: " +
+                             session_id),
+              std::string::npos)
+        << written << " written";
 }
 
 TEST_F(RecordingWriterTest, AFileThatCannotBeCreatedStopsThatSessionsRecordingAlone) {
