@@ -6,8 +6,8 @@
 #include <optional>
 #include <system_error>
 
-#include "files/recording_format.hpp"
 #include "meniscus/error.hpp"
+#include "recording/recording_file.hpp"
 #include "sessions/refusal.hpp"
 
 namespace meniscus::server {
@@ -19,29 +19,29 @@ std::optional<std::uint32_t> number_of(const std::filesystem::path& path) {
     const std::string stem = path.stem().string();
     std::uint32_t number = 0;
     std::from_chars(stem.data(), stem.data() + stem.size(), number);
-    if (number == 0 || path.filename() != fmt::format("{:06}{}", number, files::recording_extension))
-        return std::nullopt;
+    if (number == 0 || path.filename() != recording_file_name(number)) return std::nullopt;
     return number;
 }
 
 }  // namespace
 
-const std::map<RecordingName, RecordingCatalog::Entry>& RecordingCatalog::list() {
-    std::erase_if(entries_, [](const auto& entry) {
+void RecordingCatalog::scan(const std::function<void()>& go_on) {
+    std::erase_if(entries_, [&](const auto& entry) {
+        go_on();
         std::error_code error;
         return !std::filesystem::exists(entry.second.path, error);
     });
     std::error_code error;
     for (auto i = std::filesystem::directory_iterator(directory_, error);
          !error && i != std::filesystem::directory_iterator(); i.increment(error))
-        look_into(i->path());
-    return entries_;
+        look_into(i->path(), go_on);
 }
 
-void RecordingCatalog::look_into(const std::filesystem::path& session_folder) {
+void RecordingCatalog::look_into(const std::filesystem::path& session_folder, const std::function<void()>& go_on) {
     std::error_code error;
     for (auto i = std::filesystem::directory_iterator(session_folder, error);
          !error && i != std::filesystem::directory_iterator(); i.increment(error)) {
+        go_on();
         const auto number = number_of(i->path());
         if (!number) continue;
         const RecordingName name{.session_id = session_folder.filename().string(), .number = *number};
@@ -56,7 +56,9 @@ void RecordingCatalog::look_into(const std::filesystem::path& session_folder) {
 
 RecordingCatalog::Opened RecordingCatalog::open(const RecordingName& name,
                                                 const std::function<bool(const std::string& owner)>& may_see) {
-    if (!entries_.contains(name)) list();
+    // One that has come since the last scan; one that is not there costs a look at one name.
+    if (!entries_.contains(name) && name.number != 0)
+        entries_[name].path = directory_ / name.session_id / recording_file_name(name.number);
     if (entries_.contains(name))
         if (auto file = refresh(name); file && may_see(entries_.at(name).index.begin().owner()))
             return {.file = std::move(file), .index = entries_.at(name).index};

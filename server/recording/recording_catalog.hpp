@@ -1,4 +1,4 @@
-// The recordings in a folder, found by listing it: a request names a session and a number, never a file.
+// The recordings in a folder: a request names a session and a number, never a file.
 #pragma once
 
 #include <compare>
@@ -30,26 +30,30 @@ public:
         std::filesystem::path path;
         RecordingIndex index;
     };
-    /// All that can be read, as they are now. A file without a recording's beginning is none, nor is one in another
-    /// session's folder.
-    const std::map<RecordingName, Entry>& list();
+    using Entries = std::map<RecordingName, Entry>;
+    /// Looks for all that can be read now. A file without a recording's beginning is none, nor is one in another
+    /// session's folder. go_on: asked before each file; what it throws ends this.
+    void scan(const std::function<void()>& go_on);
+    /// By the last scan(), and what was opened since.
+    const Entries& known() const noexcept { return entries_; }
 
     struct Opened {
         std::shared_ptr<const files::RandomAccessFile> file;
         const RecordingIndex& index;  ///< as the file is now; until the next call
     };
-    /// may_see: whether the recordings of this owner exist for the caller. Throws Refusal, not_found, if there is no
+    /// name: its session's id is a UUID, as the edge has verified. may_see: whether the recordings of this owner exist
+    /// for the caller. Throws Refusal, not_found, if there is no
     /// such recording for it.
     Opened open(const RecordingName& name, const std::function<bool(const std::string& owner)>& may_see);
 
 private:
-    void look_into(const std::filesystem::path& session_folder);
+    void look_into(const std::filesystem::path& session_folder, const std::function<void()>& go_on);
     /// Opens the file and brings the entry up to date; forgets the entry and returns none if it is no recording any
     /// more.
     std::shared_ptr<const files::RandomAccessFile> refresh(const RecordingName& name);
 
     const std::filesystem::path directory_;
-    std::map<RecordingName, Entry> entries_;
+    Entries entries_;
 };
 
 }  // namespace meniscus::server

@@ -5,7 +5,7 @@
 #include <boost/asio/post.hpp>
 #include <utility>
 
-#include "meniscus/error.hpp"
+#include "sessions/limits/limit_reached.hpp"
 #include "sessions/refusal.hpp"
 
 namespace meniscus::server {
@@ -19,15 +19,33 @@ RecordingReads::Place RecordingReads::admit() {
     const std::uint32_t others = readers_++;
     Place place(&readers_, [](void* readers) { --*static_cast<std::atomic<std::uint32_t>*>(readers); });
     if (limit_ != 0 && others >= limit_)
-        throw LimitExceeded(
-            fmt::format("{} recordings are being read; the server takes at most {} readers at a time "
-                        "(--max-recording-readers): try again later",
-                        others, limit_));
+        throw LimitReached(LimitName::recording_readers,
+                           fmt::format("{} recordings are being read; the server takes at most {} readers at a time "
+                                       "(--max-recording-readers): try again later",
+                                       others, limit_));
     return place;
 }
 
 void RecordingReads::post(std::function<void(RecordingCatalog&)> job) {
     boost::asio::post(thread_, [this, job = std::move(job)] { job(catalog_); });
+}
+
+void RecordingReads::post_scan(std::function<void(RecordingCatalog&)> job) {
+    boost::asio::post(thread_, [this, job = std::move(job)] {
+        // Where the server ends, the wait is cut short, and the job finds out.
+        if (ending_) return job(catalog_);
+        next_scan_.async_wait([this, job](const boost::system::error_code&) {
+            const auto begun = std::chrono::steady_clock::now();
+            job(catalog_);
+            const auto end = std::chrono::steady_clock::now();
+            next_scan_.expires_at(end + (end - begun));
+        });
+    });
+}
+
+void RecordingReads::end() {
+    ending_ = true;
+    boost::asio::post(thread_, [this] { next_scan_.cancel(); });
 }
 
 void RecordingReads::require_going_on() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/thread_pool.hpp>
 #include <chrono>
 #include <cstdint>
@@ -24,7 +25,7 @@ public:
 
     /// Held by a reader for as long as it reads.
     using Place = std::shared_ptr<void>;
-    /// Throws LimitExceeded, or Refusal once the server goes down.
+    /// Throws LimitReached, or Refusal once the server goes down.
     Place admit();
     std::uint32_t readers() const noexcept { return readers_; }
 
@@ -32,8 +33,12 @@ public:
     /// a time, and so take turns.
     void post(std::function<void(RecordingCatalog&)> job);
 
-    /// Readers end at their next message.
-    void end() noexcept { ending_ = true; }
+    /// The same, for a job that looks into the whole folder. It begins once as much time has passed as the one before
+    /// took, so that at least half of the thread's time is the readers'.
+    void post_scan(std::function<void(RecordingCatalog&)> job);
+
+    /// Readers end at their next message; what waits is run at once.
+    void end();
     /// Throws Refusal once the server goes down.
     void require_going_on() const;
 
@@ -44,6 +49,7 @@ private:
     std::atomic<bool> ending_{false};
     RecordingCatalog catalog_;  ///< of the thread
     boost::asio::thread_pool thread_{1};
+    boost::asio::steady_timer next_scan_{thread_};  ///< of the thread
 };
 
 }  // namespace meniscus::server

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
+#include <vector>
 
 namespace meniscus::server {
 
 namespace {
 
 /// Some 500 kB: far below what clients take as one message.
-constexpr int most = 4096;
+constexpr std::size_t most = 4096;
 
 v1::Recording recording_message(const RecordingName& name, const RecordingIndex& index) {
     v1::Recording message;
@@ -29,15 +31,16 @@ v1::Recording recording_message(const RecordingName& name, const RecordingIndex&
 
 }  // namespace
 
-v1::ListRecordingsResponse list_recordings(RecordingCatalog& catalog, const Caller& caller) {
+v1::ListRecordingsResponse list_recordings(const RecordingCatalog::Entries& recordings, const Caller& caller) {
+    std::vector<const RecordingCatalog::Entries::value_type*> seen;
+    for (const auto& recording : recordings)
+        if (Authorizer::may_see(caller, recording.second.index.begin().owner())) seen.push_back(&recording);
+    const auto started_at = [](const auto* recording) { return recording->second.index.begin().started_at(); };
+    std::stable_sort(seen.begin(), seen.end(),
+                     [&](const auto* a, const auto* b) { return started_at(a) > started_at(b); });
     v1::ListRecordingsResponse response;
-    auto& recordings = *response.mutable_recordings();
-    for (const auto& [name, entry] : catalog.list())
-        if (Authorizer::may_see(caller, entry.index.begin().owner()))
-            recordings.Add(recording_message(name, entry.index));
-    std::stable_sort(recordings.begin(), recordings.end(),
-                     [](const v1::Recording& a, const v1::Recording& b) { return a.started_at() > b.started_at(); });
-    if (recordings.size() > most) recordings.DeleteSubrange(most, recordings.size() - most);
+    for (const auto* recording : std::span(seen).first(std::min(seen.size(), most)))
+        *response.add_recordings() = recording_message(recording->first, recording->second.index);
     return response;
 }
 

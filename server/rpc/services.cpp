@@ -1,6 +1,6 @@
 #include "rpc/services.hpp"
 
-#include <exception>
+#include <memory>
 #include <utility>
 
 #include "meniscus/v1/recording_service.grpc.pb.h"
@@ -10,9 +10,9 @@
 #include "rpc/create_session_handler.hpp"
 #include "rpc/delete_session_handler.hpp"
 #include "rpc/get_session_handler.hpp"
-#include "rpc/list_recordings_handler.hpp"
 #include "rpc/list_sessions_handler.hpp"
 #include "rpc/read_recording_handler.hpp"
+#include "rpc/recording_lists.hpp"
 #include "rpc/server_info_handler.hpp"
 #include "rpc/session_id.hpp"
 #include "rpc/stream_handler.hpp"
@@ -80,15 +80,10 @@ SurfaceServiceImpl::SurfaceServiceImpl(SessionRegistry& registry, const Authoriz
 RecordingServiceImpl::RecordingServiceImpl(RecordingReads* reads, const Authorizer& authorizer, Refusals& refusals,
                                            Metrics& metrics, ActiveCalls& calls)
     : ByteService(v1::RecordingService::service_full_name()) {
-    add("ListRecordings", unary(authorizer, refusals, Action::list_recordings, [reads](UnaryCall& call) {
+    const auto lists = std::make_shared<RecordingLists>();
+    add("ListRecordings", unary(authorizer, refusals, Action::list_recordings, [reads, lists](UnaryCall& call) {
             call.request<v1::ListRecordingsRequest>();
-            require_recorded(reads).post([&call](RecordingCatalog& catalog) {
-                try {
-                    call.answer(list_recordings(catalog, call.caller()));
-                } catch (...) {
-                    call.refuse(std::current_exception());
-                }
-            });
+            lists->answer(require_recorded(reads), call);
         }));
     add("ReadRecording", [reads, &authorizer, &refusals, &metrics, &calls](grpc::CallbackServerContext& context) {
         return start_reading(reads, authorizer, refusals, metrics, calls, context);

@@ -39,14 +39,20 @@ void UnaryCall::OnDone() {
     delete this;
 }
 
-void UnaryCall::answer(const google::protobuf::MessageLite& response) {
-    response_ = serialized(response);
+void UnaryCall::answer(const grpc::ByteBuffer& response) {
+    response_ = response;
     StartWriteAndFinish(&response_, {}, grpc::Status::OK);
 }
 
 void UnaryCall::refuse(const std::exception_ptr& error) {
     refusals_.report(error, caller_.name, peer_of(context_));
     Finish(to_status(error));
+}
+
+bool UnaryCall::finish_if_canceled() {
+    if (!context_.IsCancelled()) return false;
+    Finish(client_gone());
+    return true;
 }
 
 }  // namespace meniscus::server

@@ -32,9 +32,13 @@ public:
         return parsed<Request>(request_);
     }
 
-    // Either of them, once; the call may be gone when they return.
-    void answer(const google::protobuf::MessageLite& response);
+    // One of these, once; the call may be gone when they return.
+    void answer(const google::protobuf::MessageLite& response) { answer(serialized(response)); }
+    void answer(const grpc::ByteBuffer& response);
     void refuse(const std::exception_ptr& error);
+
+    /// Whether nobody waits for the answer any more; then the call is done.
+    bool finish_if_canceled();
 
     void OnReadDone(bool ok) override;
     void OnDone() override;

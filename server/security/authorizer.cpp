@@ -85,4 +85,10 @@ bool Authorizer::may_see(const Caller& caller, std::string_view owner) {
     return caller.role != Role::uploader || caller.name == owner;
 }
 
+bool Authorizer::see_the_same(const Caller& a, const Caller& b) {
+    if (a.role != Role::uploader || b.role != Role::uploader)
+        return a.role != Role::uploader && b.role != Role::uploader;
+    return a.name == b.name;
+}
+
 }  // namespace meniscus::server

@@ -43,6 +43,8 @@ public:
 
     /// Whether sessions of this owner exist for this caller.
     static bool may_see(const Caller& caller, std::string_view owner);
+    /// Whether that is so for the same owners.
+    static bool see_the_same(const Caller& a, const Caller& b);
 
 private:
     const TrustedPeers trusted_;

@@ -21,6 +21,7 @@ enum class LimitName : std::uint8_t {
     upload_time,
     answer_time,
     idle_time,
+    recording_readers,
 };
 constexpr std::string_view name_of(LimitName limit) {
     switch (limit) {
@@ -46,6 +47,8 @@ constexpr std::string_view name_of(LimitName limit) {
             return "answer_time";
         case LimitName::idle_time:
             return "idle_time";
+        case LimitName::recording_readers:
+            return "recording_readers";
     }
     return {};
 }
