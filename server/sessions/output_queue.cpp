@@ -41,9 +41,14 @@ void OutputQueue::end(std::exception_ptr error, bool drop) {
 bool OutputQueue::wait_for_room() {
     std::unique_lock lock(mutex_);
     stall_ = Stall{.since = Clock::now()};
-    changed_.wait(lock, [&] { return finished_ || closed_ || messages_.size() <= room_for_a_frame; });
+    changed_.wait(lock, [&] { return is_room(); });
     stall_.reset();
     return !finished_ && !closed_;
+}
+
+bool OutputQueue::has_room() const {
+    const std::lock_guard lock(mutex_);
+    return is_room();
 }
 
 std::optional<OutputQueue::Stall> OutputQueue::stall() const {

@@ -46,6 +46,8 @@ public:
     void abort(std::exception_ptr error);
     /// Waits until a frame may begin. Returns false if nobody will read it.
     bool wait_for_room();
+    /// Whether that would not wait.
+    bool has_room() const;
     /// None: the producer does not wait.
     std::optional<Stall> stall() const;
 
@@ -58,6 +60,8 @@ public:
 
 private:
     void end(std::exception_ptr error, bool drop);
+    /// With the lock held.
+    bool is_room() const { return finished_ || closed_ || messages_.size() <= room_for_a_frame; }
 
     const std::function<void()> wake_;
     mutable std::mutex mutex_;  ///< for what follows

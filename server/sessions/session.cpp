@@ -190,13 +190,8 @@ std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::funct
                                            watcher->name(), share, id(), share));
     }
     if (watchers_.add(watch)) return watch;
-    if (wishes.max_particles) {
-        received_.put({.particles = true});
-        return watch;
-    }
-    encoding_.put(EncodingThread::EncodeForWatchers{});
-    received_.put({.meshes = true});
-    if (wishes.format.max_level < 3) received_.put({.max_level = wishes.format.max_level});
+    if (!wishes.max_particles) encoding_.look_for_watchers();
+    received_.put({.watchers = true});
     return watch;
 }
 

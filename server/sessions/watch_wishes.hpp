@@ -20,7 +20,8 @@ struct WatchWishes {
     std::optional<std::array<double, 3>>
         viewpoint{};  ///< world units: nearest bricks first; else those with the most triangles
 
-    bool wants(const MeshFormat& mesh) const { return !max_particles && format == mesh; }
+    bool wants_meshes() const { return !max_particles; }
+    bool wants(const MeshFormat& mesh) const { return wants_meshes() && format == mesh; }
 };
 
 }  // namespace meniscus::server
