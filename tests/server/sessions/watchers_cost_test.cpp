@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <semaphore>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -160,6 +161,65 @@ TEST_F(WatchersCost, IsOneOfTheirFormatsBetweenTwoFramesAndEachHasItsTurn) {
     simulator.end();
     simulator.receive_all();
     EXPECT_EQ(formats.encoded, (std::vector<int>{0, 1, 2, 3, 4}));
+}
+
+struct LimitedFormats : testing::Test {
+    Session session{{.id = id},
+                    test::settings(),
+                    {.formats_per_session = 3},
+                    {.reconstruct = test::reconstruct_on_the_cpu()},
+                    {.workers = std::make_shared<WorkerPool>(1)}};
+    const WatchWishes some_particles{.format = {}, .max_particles = 100};
+
+    std::shared_ptr<Watch> watch(const WatchWishes& wishes, const std::shared_ptr<NameAccount>& name = nullptr) {
+        return session.open_watch(
+            wishes, [] {}, name);
+    }
+    /// Why it is refused; empty: it is not.
+    std::string refusal(LimitName limit, const WatchWishes& wishes,
+                        const std::shared_ptr<NameAccount>& name = nullptr) {
+        try {
+            watch(wishes, name);
+            return "";
+        } catch (const LimitReached& error) {
+            EXPECT_EQ(error.limit(), limit);
+            return error.what();
+        }
+    }
+};
+
+TEST_F(LimitedFormats, RefuseAnotherAndNameThoseInUseWhichMayBeWatchedStill) {
+    const auto first = watch(normals(8));
+    watch(normals(9));
+    watch(some_particles);
+    const std::string why = refusal(LimitName::formats, normals(10));
+    EXPECT_EQ(
+        why.substr(why.find(" have ")),
+        " have 3 formats; the server takes at most 3 per session: wish for one of (max_level 3, position_bits 6, "
+        "normal_bits 8, codec Draco), (max_level 3, position_bits 6, normal_bits 9, codec Draco), (max_particles 100)");
+    EXPECT_NE(refusal(LimitName::formats, {.format = {}, .max_particles = 101}), "");
+    for (const WatchWishes& wishes : {normals(8), normals(9), some_particles})
+        EXPECT_EQ(refusal(LimitName::formats, wishes), "");
+}
+
+TEST_F(LimitedFormats, HaveRoomAgainWhenTheLastWatcherOfOneGoes) {
+    const auto first = watch(normals(8));
+    watch(normals(9));
+    watch(some_particles);
+    session.close_watch(first);
+    EXPECT_EQ(refusal(LimitName::formats, normals(10)), "");
+}
+
+TEST_F(LimitedFormats, OfOneCallerLeaveRoomForOthers) {
+    const auto ada = std::make_shared<NameAccount>("ada");
+    const auto ben = std::make_shared<NameAccount>("ben");
+    for (const auto& name : {ada, ben}) name->set_shares({.formats = 2});
+    watch(normals(8), ada);
+    watch(normals(9), ada);
+    EXPECT_NE(refusal(LimitName::formats_per_name, normals(10), ada).find("the watchers of ada have 2 formats"),
+              std::string::npos);
+    EXPECT_EQ(refusal(LimitName::formats, normals(10), ben), "");
+    EXPECT_EQ(refusal(LimitName::formats, normals(10), ada), "") << "it costs nothing more";
 }
 
 }  // namespace
