@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <utility>
 
 #include "log.hpp"
@@ -213,9 +214,12 @@ std::shared_ptr<const EncodedFrame> EncodingThread::encode_newest(const MeshForm
 }
 
 void EncodingThread::encode_for_watchers() {
-    while (frames_waiting_ == 0 && encode_for_some_watchers()) {
+    // Each once: whoever comes meanwhile has put a task behind the others.
+    std::size_t formats = watchers_.unpublished_formats().size();
+    while (formats-- > 0 && frames_waiting_ == 0 && encode_for_some_watchers()) {
     }
-    std::erase_if(before_, [&](const auto& entry) { return !watchers_.await(entry.first); });
+    const auto awaited = watchers_.unpublished_formats();
+    std::erase_if(before_, [&](const auto& entry) { return !awaited.contains(entry.first); });
 }
 
 bool EncodingThread::encode_for_some_watchers() {

@@ -157,7 +157,7 @@ void ReconstructingThread::cap_levels(ReconstructedFrame& frame) {
 
 void ReconstructingThread::serve_watchers() {
     particles_.show_again();
-    if (watchers_.await_meshes()) make_meshes_again();
+    if (!watchers_.unpublished_formats().empty()) make_meshes_again();
     for (const int max_level : {1, 2}) cap_levels_again(max_level);
 }
 

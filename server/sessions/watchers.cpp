@@ -75,11 +75,12 @@ void Watchers::forget_particles(std::uint64_t particle_count) {
     particle_count_ = particle_count;
 }
 
-std::optional<std::uint64_t> Watchers::unpublished_stride() const {
+std::set<std::uint64_t> Watchers::unpublished_strides() const {
+    std::set<std::uint64_t> strides;
     const std::lock_guard lock(mutex_);
     for (const auto& watch : watches_)
-        if (const auto stride = stride_of(*watch); stride && !particles_.contains(*stride)) return stride;
-    return std::nullopt;
+        if (const auto stride = stride_of(*watch); stride && !particles_.contains(*stride)) strides.insert(*stride);
+    return strides;
 }
 
 void Watchers::publish(std::uint64_t stride, const std::shared_ptr<const ParticleMessages>& particles) {
@@ -105,16 +106,14 @@ bool Watchers::wish_for_level(int max_level) const {
                                [&](const auto& watch) { return watch->wishes().format.max_level == max_level; });
 }
 
-bool Watchers::await(const MeshFormat& format) const {
+std::set<MeshFormat> Watchers::unpublished_formats() const {
+    std::set<MeshFormat> formats;
     const std::lock_guard lock(mutex_);
-    return wish_for(format) && !meshes_.contains(format);
-}
-
-bool Watchers::await_meshes() const {
-    const std::lock_guard lock(mutex_);
-    return std::ranges::any_of(watches_, [&](const auto& watch) {
-        return watch->wishes().wants_meshes() && !meshes_.contains(watch->wishes().format);
-    });
+    for (const auto& watch : watches_) {
+        const MeshFormat& format = watch->wishes().format;
+        if (watch->wishes().wants(format) && !meshes_.contains(format)) formats.insert(format);
+    }
+    return formats;
 }
 
 std::optional<MeshFormat> Watchers::next_unpublished_format(const std::function<bool(int max_level)>& is_there) {

@@ -43,8 +43,8 @@ public:
 
     /// Particles of another frame with this number of them are about to be published.
     void forget_particles(std::uint64_t particle_count);
-    /// A stride that a watcher wishes for and nobody has published.
-    std::optional<std::uint64_t> unpublished_stride() const;
+    /// Strides that watchers wish for and nobody has published.
+    std::set<std::uint64_t> unpublished_strides() const;
     void publish(std::uint64_t stride, const std::shared_ptr<const ParticleMessages>& particles);
 
     // Meshes.
@@ -55,10 +55,9 @@ public:
     Encodings replace_meshes();
     /// Whether a watcher wishes for meshes of this finest level.
     bool wish_for_level(int max_level) const;
-    /// Whether a watcher wishes for the format, or for any, and nobody has published it.
-    bool await(const MeshFormat& format) const;
-    bool await_meshes() const;
-    /// Such a format, of those whose finest level is there: in turn, each as often as the others.
+    /// Formats that watchers wish for and nobody has published.
+    std::set<MeshFormat> unpublished_formats() const;
+    /// One of them, of those whose finest level is there: in turn, each as often as the others.
     std::optional<MeshFormat> next_unpublished_format(const std::function<bool(int max_level)>& is_there);
     void publish(const MeshFormat& format, const std::shared_ptr<const EncodedFrame>& frame,
                  Keep keep = Keep::while_wished_for);

@@ -163,6 +163,46 @@ TEST_F(WatchersCost, IsOneOfTheirFormatsBetweenTwoFramesAndEachHasItsTurn) {
     EXPECT_EQ(formats.encoded, (std::vector<int>{0, 1, 2, 3, 4}));
 }
 
+/// Goes as soon as it has a frame, and comes again.
+struct RestlessWatcher {
+    RestlessWatcher(Session& s, const WatchWishes& w) : session(s), wishes(w) { come(); }
+    ~RestlessWatcher() {
+        rests = true;
+        session.close();
+        session.join();
+    }
+    void come() {
+        watch = session.open_watch(wishes, [this] {
+            if (rests) return;
+            session.close_watch(watch);
+            come();
+        });
+        EXPECT_TRUE(std::holds_alternative<Watch::Nothing>(watch->take()));
+    }
+
+    Session& session;
+    const WatchWishes wishes;
+    std::atomic<bool> rests{false};
+    std::shared_ptr<Watch> watch;
+};
+
+TEST_F(WatchersCost, IsNoEndlessWorkForOneThatComesAgainAndAgain) {
+    Session other({.id = id}, test::settings(), {}, {.reconstruct = test::reconstruct_on_the_cpu()}, shared);
+    const auto answers = [&](Session& watched, const WatchWishes& wishes) {
+        Simulator simulator(watched, with_meshes);
+        RestlessWatcher watcher(watched, wishes);
+        for (std::uint64_t i = 0; i < 3; ++i) simulator.send(i, particles);
+        simulator.end();
+        auto answered = std::async(std::launch::async, [&] { return simulator.receive_all(); });
+        EXPECT_EQ(answered.wait_for(long_enough), std::future_status::ready);
+        watcher.rests = true;
+        return answered.get();
+    };
+    const std::vector<std::uint64_t> all{0, 1, 2};
+    EXPECT_EQ(answers(session, normals(10)), all);
+    EXPECT_EQ(answers(other, {.format = {}, .max_particles = 10}), all);
+}
+
 struct LimitedFormats : testing::Test {
     Session session{{.id = id},
                     test::settings(),
