@@ -36,6 +36,7 @@ NameShares default_shares(const Limits& limits) {
     const auto most_of = [](std::uint32_t limit) { return limit > 1 ? limit - std::max(limit / 8, 1U) : limit; };
     return {.sessions = most_of(limits.sessions),
             .watchers = most_of(limits.watchers_per_session),
+            .formats = most_of(limits.formats_per_session),
             .bytes_in_flight = limits.bytes_in_flight - limits.bytes_in_flight / 4};
 }
 
@@ -171,6 +172,9 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->check(CLI::Range(0U, 1024U));
     app.add_option("--max-sessions", server.limits.sessions, "Sessions at a time; 0: no limit");
     app.add_option("--max-watchers", server.limits.watchers_per_session, "Watchers of one session; 0: no limit");
+    app.add_option("--max-formats", server.limits.formats_per_session,
+                   "Formats of the meshes and numbers of particles that the watchers of one session wish for, of which "
+                   "one caller has all but an eighth; 0: no limit");
     app.add_option(
         "--max-connections", server.limits.connections,
         "Connections to the gRPC port, as far as the limit of descriptors (ulimit -n) is enough; 0: as many");

@@ -23,6 +23,7 @@ std::vector<prometheus::MetricFamily> limit_gauges(const Limits& limits, const B
             gauges("meniscus_limit", "What the server refuses to exceed, in the unit of the name; 0: no limit.", "name",
                    {{"sessions", number(limits.sessions)},
                     {"watchers_per_session", number(limits.watchers_per_session)},
+                    {"formats_per_session", number(limits.formats_per_session)},
                     {"connections", number(limits.connections)},
                     {"connections_per_peer", number(limits.connections_per_peer)},
                     {"recording_readers", number(limits.recording_readers)},

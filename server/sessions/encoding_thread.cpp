@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <utility>
 
 #include "log.hpp"
@@ -82,15 +83,18 @@ void EncodingThread::give_back(ReconstructedFrame& frame) {
 }
 
 void EncodingThread::perform(Encode& task) {
+    --frames_waiting_;
     Upload& upload = *task.upload;
     // Also when nobody reads any more: the frame was received, and watchers get it.
-    upload.output.wait_for_room();
+    wait_for_room(upload);
     auto& last_finished = upload.run->last_finished;
     if (last_finished && task.frame->index <= *last_finished) return answer_again(task);
     last_finished = task.frame->index;
     if (newest_ != nullptr) give_back(*newest_);
     newest_ = task.frame;
-    before_ = watchers_.replace_meshes();
+    Encodings before = watchers_.replace_meshes();
+    before.merge(before_);  // older ones, of formats that have skipped frames
+    before_ = std::move(before);
     try {
         if (upload.options.receive_meshes) {
             const MeshFormat format =
@@ -98,7 +102,7 @@ void EncodingThread::perform(Encode& task) {
             const auto encoded = encode_newest(
                 format, [&](const SharedMessage& message) { upload.output.push(message); }, upload.options.spray);
             count_answer(encoded->statistics);
-            watchers_.publish(format, encoded);
+            watchers_.publish(format, encoded, Watchers::Keep::until_the_next_frame);
         } else {
             const FrameStatistics statistics = statistics_of(*newest_);
             count_answer(statistics);
@@ -110,9 +114,10 @@ void EncodingThread::perform(Encode& task) {
         ends_.upload(task.upload, std::current_exception());
     }
     answered(upload);
-    encode_for_watchers();
     if (context_.observer) encode_for_observer();
-    before_.clear();
+    // One whatever waits, so that each format has its turn.
+    encode_for_some_watchers();
+    encode_for_watchers();
 }
 
 void EncodingThread::answer_again(Encode& task) {
@@ -132,11 +137,18 @@ void EncodingThread::answer_again(Encode& task) {
     }
     answered(upload);
     give_back(*task.frame);
+    encode_for_watchers();
+}
+
+void EncodingThread::wait_for_room(Upload& upload) {
+    while (!upload.output.has_room() && encode_for_some_watchers()) {
+    }
+    upload.output.wait_for_room();
 }
 
 void EncodingThread::perform(ReportDrop& task) {
     Upload& upload = *task.upload;
-    upload.output.wait_for_room();
+    wait_for_room(upload);
     upload.output.push(frame_dropped_message(task.dropped));
     upload.unreported_drops.report();
     answered(upload);
@@ -151,6 +163,7 @@ void EncodingThread::perform(EndSession& task) {
 }
 
 void EncodingThread::perform(EncodeForWatchers&) {
+    looks_for_watchers_ = false;  // first: those who come from here on may be overlooked
     encode_for_watchers();
 }
 
@@ -209,16 +222,27 @@ std::shared_ptr<const EncodedFrame> EncodingThread::encode_newest(const MeshForm
 }
 
 void EncodingThread::encode_for_watchers() {
-    if (newest_ == nullptr) return;
-    const auto is_there = [&](int max_level) { return newest_->mesh_at(max_level) != nullptr; };
+    // Each once: whoever comes meanwhile has put a task behind the others.
+    std::size_t formats = watchers_.unpublished_formats().size();
+    while (formats-- > 0 && frames_waiting_ == 0 && encode_for_some_watchers()) {
+    }
+    const auto awaited = watchers_.unpublished_formats();
+    std::erase_if(before_, [&](const auto& entry) { return !awaited.contains(entry.first); });
+}
+
+bool EncodingThread::encode_for_some_watchers() {
+    if (newest_ == nullptr) return false;
     try {
-        while (const auto format = watchers_.unpublished_format(is_there))
-            watchers_.publish(*format, encode_newest(*format, nullptr));
+        const auto format =
+            watchers_.next_unpublished_format([&](int max_level) { return newest_->mesh_at(max_level) != nullptr; });
+        if (format) watchers_.publish(*format, encode_newest(*format, nullptr));
+        return format.has_value();
     } catch (const DeviceError&) {
         throw;
     } catch (const std::exception& error) {
         log_error({.session = context_.identity.id, .frame = newest_->index},
                   "not encoded for its watchers, who keep the frame before: {}", error.what());
+        return false;
     }
 }
 
@@ -226,7 +250,8 @@ void EncodingThread::encode_for_observer() {
     const MeshFormat format = stream_format(SessionObserver::normal_bits, Codec::draco, context_.settings);
     std::shared_ptr<const EncodedFrame> frame = watchers_.published(format);
     try {
-        if (!frame) watchers_.publish(format, frame = encode_newest(format, nullptr));
+        if (!frame)
+            watchers_.publish(format, frame = encode_newest(format, nullptr), Watchers::Keep::until_the_next_frame);
     } catch (const DeviceError&) {
         throw;
     } catch (const std::exception& error) {

@@ -83,7 +83,12 @@ public:
     /// Dropped once the thread is closed.
     void put(Task task) {
         ++pending_;
+        if (std::holds_alternative<Encode>(task)) ++frames_waiting_;
         tasks_.put(std::move(task));
+    }
+    /// A watcher has come. Puts one task for all that come until it is done.
+    void look_for_watchers() {
+        if (!looks_for_watchers_.exchange(true)) put(EncodeForWatchers{});
     }
     /// Whether it has nothing to do.
     bool idle() const noexcept { return pending_ == 0; }
@@ -110,6 +115,8 @@ private:
     void perform(ShowAgain& task);
     void perform(ReleaseMeshes& task);
 
+    /// Goes on with watchers' formats as long as it would wait.
+    void wait_for_room(Upload& upload);
     /// Answers a frame of a resumed run that was finished before: for the simulator alone.
     void answer_again(Encode& task);
     /// One answer less is owed.
@@ -119,8 +126,11 @@ private:
 
     std::shared_ptr<const EncodedFrame> encode_newest(const MeshFormat& format, const MessageSink& sink,
                                                       bool spray_to_sink = false);
-    /// Encodes the newest mesh in the formats that watchers wish for and nobody has published.
+    /// Encodes the newest mesh in formats that watchers wish for and nobody has published, until a frame waits: the
+    /// simulator comes first, and a format may skip frames.
     void encode_for_watchers();
+    /// In the one format whose turn it is. Returns false if there is none, or it failed.
+    bool encode_for_some_watchers();
     void encode_for_observer();
 
     const SessionContext& context_;
@@ -130,10 +140,12 @@ private:
     std::array<ReconstructedFrame, 2> frames_;
     Channel<ReconstructedFrame*> free_frames_;
     Channel<Task> tasks_;
-    std::atomic<int> pending_{0};  ///< tasks that were put and are not done
+    std::atomic<int> pending_{0};         ///< tasks that were put and are not done
+    std::atomic<int> frames_waiting_{0};  ///< of those, frames that were not begun
+    std::atomic<bool> looks_for_watchers_{false};
     ReconstructedFrame* newest_ = nullptr;
     ScratchPool scratch_;
-    Encodings before_;  ///< of the frame before the newest, whose bricks may serve again
+    Encodings before_;  ///< of frames before the newest, whose bricks may serve again
 
     mutable std::mutex mutex_;  ///< for what follows
     std::optional<FrameStatistics> last_frame_;

@@ -1,5 +1,6 @@
 #include "sessions/frame_queue.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace meniscus::server {
@@ -16,6 +17,7 @@ void FrameQueue::put(Received received) {
     {
         const std::lock_guard lock(mutex_);
         if (closed_) return;
+        if (received.watchers && std::ranges::any_of(waiting_, &Received::watchers)) return;
         waiting_.push_back(std::move(received));
     }
     changed_.notify_one();

@@ -22,9 +22,7 @@ struct Received {
     std::shared_ptr<Upload> upload = nullptr;
     InputFrame* input = nullptr;               ///< the frame; none: a note
     std::optional<DroppedFrame> dropped = {};  ///< a note of a dropped frame
-    int max_level = 0;                         ///< or, if not 0, of a new watcher that wishes for this level cap
-    bool particles = false;                    ///< or of a new watcher that wishes for particles
-    bool meshes = false;                       ///< or of one that wishes for meshes
+    bool watchers = false;                     ///< or of watchers that have come and miss something
     std::shared_ptr<std::promise<void>> release =
         nullptr;                         ///< or that the buffers are to be given back: dropped when that is done
     std::exception_ptr error = nullptr;  ///< or that the upload ends, with this
@@ -36,7 +34,7 @@ class FrameQueue {
 public:
     enum class Next { frame, note, closed };
 
-    /// Dropped once the queue is closed.
+    /// Dropped once the queue is closed. One note of watchers is enough for all that come until it is taken.
     void put(Received received);
     /// Notes in place of the upload's frames that wait, each as replaced. Returns the frames.
     std::vector<InputFrame*> replace(const Upload& upload);

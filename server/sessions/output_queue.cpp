@@ -43,9 +43,14 @@ bool OutputQueue::wait_for_room() {
     producer_waits_since_ = Clock::now();
     taken_since_ = 0;
     pace_ = {};
-    changed_.wait(lock, [&] { return finished_ || closed_ || messages_.size() <= room_for_a_frame; });
+    changed_.wait(lock, [&] { return is_room(); });
     producer_waits_since_.reset();
     return !finished_ && !closed_;
+}
+
+bool OutputQueue::has_room() const {
+    const std::lock_guard lock(mutex_);
+    return is_room();
 }
 
 std::optional<OutputQueue::Stall> OutputQueue::too_slow(const LeastPace& least, Clock::time_point now) {

@@ -47,6 +47,8 @@ public:
     void abort(std::exception_ptr error);
     /// Waits until a frame may begin. Returns false if nobody will read it.
     bool wait_for_room();
+    /// Whether that would not wait.
+    bool has_room() const;
     /// None: the producer does not wait, or what waits is taken fast enough. Ask again and again.
     std::optional<Stall> too_slow(const LeastPace& least, Clock::time_point now);
 
@@ -59,6 +61,8 @@ public:
 
 private:
     void end(std::exception_ptr error, bool drop);
+    /// With the lock held.
+    bool is_room() const { return finished_ || closed_ || messages_.size() <= room_for_a_frame; }
 
     const std::function<void()> wake_;
     mutable std::mutex mutex_;  ///< for what follows

@@ -19,11 +19,6 @@ namespace {
 
 constexpr double steps = 65535.0;  // of a uint16
 
-std::uint64_t stride_for(std::uint64_t count, std::uint64_t max_particles) {
-    if (max_particles == 0 || count <= max_particles) return 1;
-    return (count - 1) / max_particles + 1;
-}
-
 /// Of every stride-th particle; of one point without any.
 Box bounds(std::span<const float> positions, std::size_t stride) {
     Box box{};
@@ -66,10 +61,14 @@ std::string bytes_of(const ParticleFrame& particles, const Box& box, std::size_t
 
 }  // namespace
 
+std::uint64_t stride_for(std::uint64_t count, std::uint64_t max_particles) {
+    if (max_particles == 0 || count <= max_particles) return 1;
+    return (count - 1) / max_particles + 1;
+}
+
 ParticleMessages encode_particles(const InputFrame& frame, std::uint64_t run_id, double particle_radius,
-                                  std::uint64_t max_particles) {
+                                  std::uint64_t stride) {
     const ParticleFrame particles = frame.view();
-    const std::uint64_t stride = stride_for(particles.count(), max_particles);
     const std::uint64_t sent = (particles.count() + stride - 1) / stride;
     const Box box = particles.is_quantized() ? particles.quantization_box : bounds(particles.positions, stride);
 

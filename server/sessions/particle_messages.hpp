@@ -18,9 +18,12 @@ struct ParticleMessages {
     std::size_t bytes = 0;                ///< of them
 };
 
+/// Of how many particles one is sent, so that of `count` no more than max_particles are; 0: all.
+std::uint64_t stride_for(std::uint64_t count, std::uint64_t max_particles);
+
 /// Positions that came quantized go out as they came; others are quantized over the box of those that are sent. All are
-/// finite. particle_radius: of level 0, world units. max_particles: of more, only every k-th is sent; 0: all.
+/// finite. particle_radius: of level 0, world units. stride: of stride_for().
 ParticleMessages encode_particles(const InputFrame& frame, std::uint64_t run_id, double particle_radius,
-                                  std::uint64_t max_particles);
+                                  std::uint64_t stride);
 
 }  // namespace meniscus::server

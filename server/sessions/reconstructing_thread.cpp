@@ -61,12 +61,8 @@ void ReconstructingThread::run() {
 void ReconstructingThread::pass_on(Received note) {
     if (note.release)
         release_buffers();
-    else if (note.meshes)
-        make_meshes_again();
-    else if (note.max_level != 0)
-        cap_levels_again(note.max_level);
-    else if (note.particles)
-        particles_.show_again();
+    else if (note.watchers)
+        serve_watchers();
     else if (note.dropped)
         encoding_.put(EncodingThread::ReportDrop{.upload = std::move(note.upload), .dropped = *note.dropped});
     else
@@ -97,13 +93,16 @@ bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn)
         encoding_.put(EncodingThread::EndUpload{.upload = failed_, .error = std::current_exception()});
         return true;
     }
-    if (particles_.show(input, *received.upload->run)) {
+    const bool shown = particles_.show(input, *received.upload->run);
+    if (shown) {
         shown_ = {.number = next_mesh_->number, .run_id = next_mesh_->run_id, .statistics = next_mesh_->statistics};
         meshes_released_ = false;
     }
-    inputs_.give_back(input);
+    // Its simulator's answer first: watchers may wish for much.
     encoding_.put(
         EncodingThread::Encode{.upload = std::move(received.upload), .frame = std::exchange(next_mesh_, nullptr)});
+    if (shown) particles_.encode(input);
+    inputs_.give_back(input);
     return true;
 }
 
@@ -159,17 +158,26 @@ void ReconstructingThread::cap_levels(ReconstructedFrame& frame) {
         auto& capped = frame.capped_at(max_level);
         capped.made = watchers_.wish_for_level(max_level) && emit_capped(max_level, capped.mesh);
         if (!capped.made) capped.mesh = {};  // nobody's memory
+        capped_.at(static_cast<std::size_t>(max_level - 1)) = capped.made;
     }
 }
 
+void ReconstructingThread::serve_watchers() {
+    particles_.show_again();
+    if (!watchers_.unpublished_formats().empty()) make_meshes_again();
+    for (const int max_level : {1, 2}) cap_levels_again(max_level);
+}
+
 void ReconstructingThread::cap_levels_again(int max_level) {
-    if (!has_surface_) return;
+    bool& made = capped_.at(static_cast<std::size_t>(max_level - 1));
+    if (!has_surface_ || made || !watchers_.wish_for_level(max_level)) return;
     const auto turn = begin_work();
     if (!turn) return;
     const FrameStop::UnderWay under_way(stop_, nullptr);
     EncodingThread::AddCapped task{.frame_number = progress_.frames, .max_level = max_level, .mesh = {}};
     try {
-        if (emit_capped(max_level, task.mesh)) encoding_.put(std::move(task));
+        made = emit_capped(max_level, task.mesh);
+        if (made) encoding_.put(std::move(task));
     } catch (const DeviceError& error) {
         log_error({.session = context_.identity.id}, "the session ends: {}", error.what());
         encoding_.put(EncodingThread::EndSession{std::current_exception()});

@@ -1,6 +1,7 @@
 // A session's first thread: frames, in their order and turn, become meshes.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -59,6 +60,8 @@ private:
     void rest();
     /// Gives back all memory but the newest particles, which meshes are made of again, and what is encoded.
     void release_buffers();
+    /// Makes what watchers that have come miss of the newest frame, unless they have gone again.
+    void serve_watchers();
     /// Makes the newest meshes again, for a watcher that has come since.
     void make_meshes_again();
     /// Adds the meshes of coarser levels that watchers wish for now.
@@ -86,6 +89,7 @@ private:
     bool meshes_released_ = false;
     ReconstructedFrame* next_mesh_ = nullptr;  ///< taken before it is needed
     bool has_surface_ = false;                 ///< of a frame, so that it can be emitted again
+    std::array<bool, 2> capped_{};             ///< whether that was done at levels 1 and 2
     std::shared_ptr<Upload> failed_;           ///< its frames that follow are dropped
 
     std::atomic<bool> waits_for_turn_{false};

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <set>
 #include <utility>
+#include <variant>
 
 #include "call_log.hpp"
 #include "log.hpp"
@@ -13,6 +16,25 @@
 #include "sessions/stream_notices.hpp"
 
 namespace meniscus::server {
+
+namespace {
+
+std::string described(const std::set<WatchForm>& forms) {
+    struct Description {
+        std::string operator()(const MeshFormat& format) const {
+            return fmt::format("(max_level {}, position_bits {}, normal_bits {}, codec {})", format.max_level,
+                               format.position_bits, format.normal_bits, name_of(format.codec));
+        }
+        std::string operator()(std::uint64_t max_particles) const {
+            return fmt::format("(max_particles {})", max_particles);
+        }
+    };
+    std::string list;
+    for (const WatchForm& form : forms) list += (list.empty() ? "" : ", ") + std::visit(Description{}, form);
+    return list;
+}
+
+}  // namespace
 
 Session::Session(SessionIdentity identity, const Settings& settings, const Limits& limits,
                  ReconstructFunctions functions, SharedResources shared, std::shared_ptr<SessionObserver> observer)
@@ -173,33 +195,48 @@ void Session::cancel_upload(const std::shared_ptr<Upload>& upload, bool vanished
 
 std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::function<void()> wake,
                                            const std::shared_ptr<const NameAccount>& watcher) {
-    const std::uint32_t share = watcher ? watcher->shares().watchers : 0;
     auto watch = std::make_shared<Watch>(wishes, std::move(wake), context_.shared.metrics, watcher);
     const std::lock_guard lock(mutex_);
     if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
     if (draining_) throw shutting_down();
-    const std::size_t watchers = watchers_.count();
-    if (limits().watchers_per_session != 0 && watchers >= limits().watchers_per_session)
+    require_room_for(wishes, watcher.get());
+    if (watchers_.add(watch)) return watch;
+    if (!wishes.max_particles) encoding_.look_for_watchers();
+    received_.put({.watchers = true});
+    return watch;
+}
+
+void Session::require_room_for(const WatchWishes& wishes, const NameAccount* watcher) const {
+    const auto watches = watchers_.list();
+    const auto is_of_the_name = [&](const auto& watch) { return watch->account().get() == watcher; };
+    if (limits().watchers_per_session != 0 && watches.size() >= limits().watchers_per_session)
         throw LimitReached(LimitName::watchers,
                            fmt::format("session {} has {} watchers; the server takes at most {} per session", id(),
-                                       watchers, limits().watchers_per_session));
-    if (share != 0) {
-        const auto watches = watchers_.list();
-        if (std::ranges::count(watches, watcher, &Watch::account) >= static_cast<std::ptrdiff_t>(share))
-            throw LimitReached(LimitName::watchers_per_name,
-                               fmt::format("{} has {} watchers of session {}; the server takes at most {} of one "
-                                           "caller per session",
-                                           watcher->name(), share, id(), share));
+                                       watches.size(), limits().watchers_per_session));
+    const NameShares shares = watcher != nullptr ? watcher->shares() : NameShares{};
+    if (shares.watchers != 0 && std::ranges::count_if(watches, is_of_the_name) >= std::ptrdiff_t{shares.watchers})
+        throw LimitReached(LimitName::watchers_per_name,
+                           fmt::format("{} has {} watchers of session {}; the server takes at most {} of one caller "
+                                       "per session",
+                                       watcher->name(), shares.watchers, id(), shares.watchers));
+    std::set<WatchForm> forms;
+    std::set<WatchForm> forms_of_the_name;
+    for (const auto& watch : watches) {
+        forms.insert(watch->wishes().form());
+        if (is_of_the_name(watch)) forms_of_the_name.insert(watch->wishes().form());
     }
-    if (watchers_.add(watch)) return watch;
-    if (wishes.max_particles) {
-        received_.put({.particles = true});
-        return watch;
-    }
-    encoding_.put(EncodingThread::EncodeForWatchers{});
-    received_.put({.meshes = true});
-    if (wishes.format.max_level < 3) received_.put({.max_level = wishes.format.max_level});
-    return watch;
+    if (forms.contains(wishes.form())) return;
+    if (limits().formats_per_session != 0 && forms.size() >= limits().formats_per_session)
+        throw LimitReached(LimitName::formats,
+                           fmt::format("the watchers of session {} have {} formats; the server takes at most {} per "
+                                       "session: wish for one of {}",
+                                       id(), forms.size(), limits().formats_per_session, described(forms)));
+    if (shares.formats != 0 && forms_of_the_name.size() >= shares.formats)
+        throw LimitReached(
+            LimitName::formats_per_name,
+            fmt::format("the watchers of {} have {} formats of session {}; the server takes at most {} "
+                        "of one caller per session: wish for one of {}",
+                        watcher->name(), forms_of_the_name.size(), id(), shares.formats, described(forms)));
 }
 
 void Session::close_watch(const std::shared_ptr<Watch>& watch) {

@@ -131,6 +131,9 @@ private:
     Attached detach();
 
     // With the lock held.
+
+    /// Throws LimitReached for one watcher too many, or one format.
+    void require_room_for(const WatchWishes& wishes, const NameAccount* watcher) const;
     std::shared_ptr<Run> run_of(const UploadOptions& options) const;
     /// The stream that sends from now on; may be none.
     void set_upload(std::shared_ptr<Upload> upload);

@@ -23,12 +23,12 @@ bool ShownParticles::show(InputFrame& input, Run& run) {
     input.shown_in_run = run.id;
     if (newest_ == &kept_) kept_.free_memory();
     newest_ = &input;
-    watchers_.forget_particles();
-    encode(input);
+    watchers_.forget_particles(input.particle_count);
     return true;
 }
 
 void ShownParticles::show_again() {
+    if (watchers_.unpublished_strides().empty()) return;
     if (kept() != nullptr) return encode(kept_);
     if (newest_ == nullptr || !inputs_.take_back(*newest_)) return;
     if (newest_->shown_in_run) encode(*newest_);
@@ -49,9 +49,10 @@ bool ShownParticles::keep() {
 
 void ShownParticles::encode(const InputFrame& input) {
     try {
-        while (const auto max_particles = watchers_.unpublished_particles())
-            watchers_.publish(*max_particles, std::make_shared<const ParticleMessages>(encode_particles(
-                                                  input, *input.shown_in_run, particle_radius_, *max_particles)));
+        // Each once: whoever comes meanwhile has left a note behind the frames.
+        for (const std::uint64_t stride : watchers_.unpublished_strides())
+            watchers_.publish(stride, std::make_shared<const ParticleMessages>(
+                                          encode_particles(input, *input.shown_in_run, particle_radius_, stride)));
     } catch (const std::exception& error) {
         log_error({.session = session_, .frame = input.index},
                   "no particles for its watchers, who keep those before: {}", error.what());

@@ -11,16 +11,18 @@
 
 namespace meniscus::server {
 
-/// Of the reconstructing thread. Particles are encoded once for each limit that watchers wish for.
+/// Of the reconstructing thread. Particles are encoded once for each stride that watchers wish for.
 class ShownParticles {
 public:
     /// session: its id, for the log. particle_radius: of level 0, world units. observer: may be none.
     ShownParticles(std::string session, double particle_radius, InputSlots& inputs, Watchers& watchers,
                    std::shared_ptr<SessionObserver> observer);
 
-    /// The frame was reconstructed. Does nothing, and returns false, if the run has shown the frame already, before it
-    /// was resumed.
+    /// The frame was reconstructed: for the observer. Does nothing, and returns false, if the run has shown the frame
+    /// already, before it was resumed.
     bool show(InputFrame& input, Run& run);
+    /// For watchers: the frame that was shown last.
+    void encode(const InputFrame& input);
     /// Shows the newest frame to a watcher that has come since, unless another frame is on its way into its slot.
     void show_again();
 
@@ -36,8 +38,6 @@ public:
     }
 
 private:
-    void encode(const InputFrame& input);
-
     const std::string session_;
     const double particle_radius_;
     InputSlots& inputs_;

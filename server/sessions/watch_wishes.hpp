@@ -4,11 +4,15 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <variant>
 
 #include "meniscus/settings.hpp"
 #include "sessions/encoded_frame.hpp"
 
 namespace meniscus::server {
+
+/// What is encoded for a watcher: a format of meshes, or a number of particles.
+using WatchForm = std::variant<MeshFormat, std::uint64_t>;
 
 struct WatchWishes {
     MeshFormat format;
@@ -20,7 +24,9 @@ struct WatchWishes {
     std::optional<std::array<double, 3>>
         viewpoint{};  ///< world units: nearest bricks first; else those with the most triangles
 
-    bool wants(const MeshFormat& mesh) const { return !max_particles && format == mesh; }
+    WatchForm form() const { return max_particles ? WatchForm(*max_particles) : WatchForm(format); }
+    bool wants_meshes() const { return !max_particles; }
+    bool wants(const MeshFormat& mesh) const { return wants_meshes() && format == mesh; }
 };
 
 }  // namespace meniscus::server

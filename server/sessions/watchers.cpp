@@ -9,26 +9,29 @@ namespace meniscus::server {
 bool Watchers::add(const std::shared_ptr<Watch>& watch) {
     const std::lock_guard lock(mutex_);
     watches_.push_back(watch);
-    const WatchWishes& wishes = watch->wishes();
-    if (wishes.max_particles) {
-        const auto found = particles_.find(*wishes.max_particles);
+    if (!watch->wishes().wants_meshes()) {
+        const auto stride = stride_of(*watch);
+        const auto found = stride ? particles_.find(*stride) : particles_.end();
         if (found == particles_.end()) return false;
         watch->put(found->second);
         return true;
     }
-    const auto found = meshes_.find(wishes.format);
+    const auto found = meshes_.find(watch->wishes().format);
     if (found == meshes_.end()) return false;
     watch->put(found->second);
     return true;
 }
 
 void Watchers::remove(const std::shared_ptr<Watch>& watch) {
+    // Destroyed outside of the lock.
+    Encodings::node_type mesh;
+    decltype(particles_)::node_type particles;
     const std::lock_guard lock(mutex_);
     if (std::erase(watches_, watch) != 0) skipped_by_the_gone_ += watch->progress().frames_skipped;
-    const auto& wish = watch->wishes().max_particles;
-    if (wish &&
-        std::ranges::none_of(watches_, [&](const auto& other) { return other->wishes().max_particles == wish; }))
-        particles_.erase(*wish);
+    const MeshFormat& format = watch->wishes().format;
+    if (!wish_for(format) && !kept_.contains(format)) mesh = meshes_.extract(format);
+    if (const auto stride = stride_of(*watch); stride && !wish_for_stride(*stride))
+        particles = particles_.extract(*stride);
 }
 
 std::size_t Watchers::count() const {
@@ -52,32 +55,48 @@ Watchers::Progress Watchers::progress() const {
     return sum;
 }
 
-void Watchers::forget_particles() {
+std::optional<std::uint64_t> Watchers::stride_of(const Watch& watch) const {
+    if (watch.wishes().wants_meshes() || !particle_count_) return std::nullopt;
+    return stride_for(*particle_count_, *watch.wishes().max_particles);
+}
+
+bool Watchers::wish_for(const MeshFormat& format) const {
+    return std::ranges::any_of(watches_, [&](const auto& watch) { return watch->wishes().wants(format); });
+}
+
+bool Watchers::wish_for_stride(std::uint64_t stride) const {
+    return std::ranges::any_of(watches_, [&](const auto& watch) { return stride_of(*watch) == stride; });
+}
+
+void Watchers::forget_particles(std::uint64_t particle_count) {
     decltype(particles_) before;  // destroyed outside of the lock
     const std::lock_guard lock(mutex_);
     particles_.swap(before);
+    particle_count_ = particle_count;
 }
 
-std::optional<std::uint64_t> Watchers::unpublished_particles() const {
+std::set<std::uint64_t> Watchers::unpublished_strides() const {
+    std::set<std::uint64_t> strides;
     const std::lock_guard lock(mutex_);
     for (const auto& watch : watches_)
-        if (const auto& wish = watch->wishes().max_particles; wish && !particles_.contains(*wish)) return wish;
-    return std::nullopt;
+        if (const auto stride = stride_of(*watch); stride && !particles_.contains(*stride)) strides.insert(*stride);
+    return strides;
 }
 
-void Watchers::publish(std::uint64_t max_particles, const std::shared_ptr<const ParticleMessages>& particles) {
+void Watchers::publish(std::uint64_t stride, const std::shared_ptr<const ParticleMessages>& particles) {
     std::vector<std::shared_ptr<Watch>> watches;
     {
         const std::lock_guard lock(mutex_);
-        particles_[max_particles] = particles;
+        if (wish_for_stride(stride)) particles_[stride] = particles;
         std::ranges::copy_if(watches_, std::back_inserter(watches),
-                             [&](const auto& watch) { return watch->wishes().max_particles == max_particles; });
+                             [&](const auto& watch) { return stride_of(*watch) == stride; });
     }
     for (const auto& watch : watches) watch->put(particles);
 }
 
 Encodings Watchers::replace_meshes() {
     const std::lock_guard lock(mutex_);
+    kept_.clear();
     return std::exchange(meshes_, {});
 }
 
@@ -87,19 +106,34 @@ bool Watchers::wish_for_level(int max_level) const {
                                [&](const auto& watch) { return watch->wishes().format.max_level == max_level; });
 }
 
-std::optional<MeshFormat> Watchers::unpublished_format(const std::function<bool(int max_level)>& is_there) const {
+std::set<MeshFormat> Watchers::unpublished_formats() const {
+    std::set<MeshFormat> formats;
     const std::lock_guard lock(mutex_);
     for (const auto& watch : watches_) {
         const MeshFormat& format = watch->wishes().format;
-        if (watch->wishes().wants(format) && !meshes_.contains(format) && is_there(format.max_level)) return format;
+        if (watch->wishes().wants(format) && !meshes_.contains(format)) formats.insert(format);
     }
-    return std::nullopt;
+    return formats;
 }
 
-void Watchers::publish(const MeshFormat& format, const std::shared_ptr<const EncodedFrame>& frame) {
+std::optional<MeshFormat> Watchers::next_unpublished_format(const std::function<bool(int max_level)>& is_there) {
+    const std::lock_guard lock(mutex_);
+    const auto next = std::ranges::find_if(watches_, [&](const auto& watch) {
+        const MeshFormat& format = watch->wishes().format;
+        return watch->wishes().wants_meshes() && !meshes_.contains(format) && is_there(format.max_level);
+    });
+    if (next == watches_.end()) return std::nullopt;
+    const MeshFormat format = (*next)->wishes().format;
+    std::ranges::stable_partition(watches_, [&](const auto& watch) { return !watch->wishes().wants(format); });
+    return format;
+}
+
+void Watchers::publish(const MeshFormat& format, const std::shared_ptr<const EncodedFrame>& frame, Keep keep) {
     std::vector<std::shared_ptr<Watch>> watches;
     {
         const std::lock_guard lock(mutex_);
+        if (keep == Keep::until_the_next_frame) kept_.insert(format);
+        if (!kept_.contains(format) && !wish_for(format)) return;
         meshes_[format] = frame;
         std::ranges::copy_if(watches_, std::back_inserter(watches),
                              [&](const auto& watch) { return watch->wishes().wants(format); });

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "sessions/encoded_frame.hpp"
@@ -20,7 +21,8 @@ namespace meniscus::server {
 /// A frame's meshes by their format, each encoded once.
 using Encodings = std::map<MeshFormat, std::shared_ptr<const EncodedFrame>>;
 
-/// Thread-safe. A frame that is published goes to all watchers that wish for its form, and to each that comes later.
+/// Thread-safe. A frame that is published goes to all watchers that wish for its form, and to each that comes later. It
+/// is forgotten once no watcher wishes for that form any more.
 class Watchers {
 public:
     struct Progress {
@@ -39,30 +41,43 @@ public:
 
     // Particles.
 
-    /// Another frame's particles are about to be published.
-    void forget_particles();
-    /// A limit of particles that a watcher wishes for and nobody has published.
-    std::optional<std::uint64_t> unpublished_particles() const;
-    void publish(std::uint64_t max_particles, const std::shared_ptr<const ParticleMessages>& particles);
+    /// Particles of another frame with this number of them are about to be published.
+    void forget_particles(std::uint64_t particle_count);
+    /// Strides that watchers wish for and nobody has published.
+    std::set<std::uint64_t> unpublished_strides() const;
+    void publish(std::uint64_t stride, const std::shared_ptr<const ParticleMessages>& particles);
 
     // Meshes.
+
+    enum class Keep : std::uint8_t { while_wished_for, until_the_next_frame };
 
     /// Another frame's meshes are about to be published. Returns those of the frame before.
     Encodings replace_meshes();
     /// Whether a watcher wishes for meshes of this finest level.
     bool wish_for_level(int max_level) const;
-    /// A format that a watcher wishes for and nobody has published, of those whose finest level is there.
-    std::optional<MeshFormat> unpublished_format(const std::function<bool(int max_level)>& is_there) const;
-    void publish(const MeshFormat& format, const std::shared_ptr<const EncodedFrame>& frame);
+    /// Formats that watchers wish for and nobody has published.
+    std::set<MeshFormat> unpublished_formats() const;
+    /// One of them, of those whose finest level is there: in turn, each as often as the others.
+    std::optional<MeshFormat> next_unpublished_format(const std::function<bool(int max_level)>& is_there);
+    void publish(const MeshFormat& format, const std::shared_ptr<const EncodedFrame>& frame,
+                 Keep keep = Keep::while_wished_for);
     /// None if it was not published.
     std::shared_ptr<const EncodedFrame> published(const MeshFormat& format) const;
 
 private:
-    mutable std::mutex mutex_;  ///< for what follows
-    std::vector<std::shared_ptr<Watch>> watches_;
+    // With the lock held.
+    /// Of the particles that the watch wishes for; none if it wishes for meshes, or no frame has come.
+    std::optional<std::uint64_t> stride_of(const Watch& watch) const;
+    bool wish_for(const MeshFormat& format) const;
+    bool wish_for_stride(std::uint64_t stride) const;
+
+    mutable std::mutex mutex_;                     ///< for what follows
+    std::vector<std::shared_ptr<Watch>> watches_;  ///< those first whose format has waited longest for its turn
     std::uint64_t skipped_by_the_gone_ = 0;
     Encodings meshes_;
-    std::map<std::uint64_t, std::shared_ptr<const ParticleMessages>> particles_;  ///< by max_particles
+    std::set<MeshFormat> kept_;  ///< of those, until the next frame
+    std::optional<std::uint64_t> particle_count_;
+    std::map<std::uint64_t, std::shared_ptr<const ParticleMessages>> particles_;  ///< by stride
 };
 
 }  // namespace meniscus::server

@@ -14,6 +14,8 @@ enum class LimitName : std::uint8_t {
     sessions_per_name,
     watchers,
     watchers_per_name,
+    formats,
+    formats_per_name,
     frames_per_second,
     frames_per_second_per_name,
     bytes_in_flight,
@@ -33,6 +35,10 @@ constexpr std::string_view name_of(LimitName limit) {
             return "watchers";
         case LimitName::watchers_per_name:
             return "watchers_per_name";
+        case LimitName::formats:
+            return "formats";
+        case LimitName::formats_per_name:
+            return "formats_per_name";
         case LimitName::frames_per_second:
             return "frames_per_second";
         case LimitName::frames_per_second_per_name:

@@ -18,6 +18,8 @@ struct Limits {
     /// Of one token's name, or without tokens of one peer address.
     NameShares per_name{};
     std::uint32_t watchers_per_session = 64;
+    /// Of all watchers of a session: each is encoded once for each frame; see WatchForm.
+    std::uint32_t formats_per_session = 8;
     /// Connections to the gRPC port, as far as the process's descriptors are enough.
     std::uint32_t connections = 4096;
     /// Connections from one address to one port; not of loopback, Unix sockets and trusted proxies.

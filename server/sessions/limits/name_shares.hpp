@@ -11,6 +11,7 @@ namespace meniscus::server {
 struct NameShares {
     std::uint32_t sessions = 0;
     std::uint32_t watchers = 0;           ///< of one session
+    std::uint32_t formats = 0;            ///< of those watchers
     std::uint32_t frames_per_second = 0;  ///< over all sessions
     std::size_t bytes_in_flight = 0;      ///< over all sessions
 
@@ -27,6 +28,7 @@ struct OwnShares {
     NameShares over(const NameShares& everybody) const {
         return {.sessions = sessions.value_or(everybody.sessions),
                 .watchers = watchers.value_or(everybody.watchers),
+                .formats = everybody.formats,
                 .frames_per_second = frames_per_second.value_or(everybody.frames_per_second),
                 .bytes_in_flight = bytes_in_flight.value_or(everybody.bytes_in_flight)};
     }

@@ -56,6 +56,16 @@ TEST_F(Queue, GivesNothingInPlaceOfAFrameThatWentWhileItsTakerMadeReady) {
     EXPECT_EQ(queue.wait(), Next::note);
 }
 
+TEST_F(Queue, HasOneNoteOfWatchersHoweverManyCome) {
+    for (int i = 0; i < 3; ++i) queue.put({.watchers = true});
+    queue.put({.upload = mine, .input = &inputs[0]});
+    EXPECT_TRUE(queue.take(Next::note)->watchers);
+    EXPECT_EQ(queue.wait(), Next::frame);
+    queue.put({.watchers = true});
+    EXPECT_TRUE(queue.take(Next::frame));
+    EXPECT_TRUE(queue.take(Next::note)->watchers) << "of one that came after the note before was taken";
+}
+
 TEST_F(Queue, EndsAWaitWhenClosed) {
     std::thread closing([&] { queue.close(); });
     EXPECT_EQ(queue.wait(), Next::closed);

@@ -75,6 +75,21 @@ TEST_F(SessionParticles, AreEncodedOnceForAllWhoWishForAsMany) {
     EXPECT_EQ(late.receive(), messages);
 }
 
+TEST_F(SessionParticles, AreEncodedOnceForAllNumbersThatAskForTheSameOfThem) {
+    ParticleSpectator all(session, 0);
+    ParticleSpectator more_than_there_are(session, 1'000'000);
+    ParticleSpectator half(session, 32);
+    ParticleSpectator a_little_more_than_half(session, 40);  // of 64: every second one, too
+    send_one(0);
+    const auto messages = all.receive();
+    EXPECT_EQ(more_than_there_are.receive(), messages);
+    const auto every_second = half.receive();
+    EXPECT_NE(every_second, messages);
+    EXPECT_EQ(a_little_more_than_half.receive(), every_second);
+    ParticleSpectator late(session, 64);
+    EXPECT_EQ(late.receive(), messages);
+}
+
 TEST_F(SessionParticles, TakeNoMemoryOnceNobodyWatchesThem) {
     std::weak_ptr<const std::string> message;
     {
