@@ -15,8 +15,8 @@ inline void keep_arrays_out_of_the_heaps() {
     mallopt(M_TRIM_THRESHOLD, kept_at_the_top);
 }
 
-/// Gives the free pages within the heaps back, all but those at their tops. Other threads that allocate wait for it, for
-/// milliseconds.
+/// Gives the free pages within the heaps back, all but those at their tops. Other threads that allocate wait for it,
+/// for milliseconds.
 inline void return_free_pages() {
     malloc_trim(0);
 }

@@ -50,6 +50,7 @@ void print_server(const ServerFlags& server) {
               << "codecs                 " << codec_names(info.codecs) << '\n'
               << "sessions               " << limit(info.max_sessions) << '\n'
               << "watchers per session   " << limit(info.max_watchers_per_session) << '\n'
+              << "  formats of them      " << limit(info.max_formats_per_session) << '\n'
               << "particles per frame    " << limit(info.max_particles_per_frame) << '\n'
               << "work per frame         " << seconds_limit(info.max_frame_work) << '\n'
               << "seconds per frame      " << seconds_limit(info.max_frame_seconds) << '\n'

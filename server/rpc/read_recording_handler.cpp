@@ -22,6 +22,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/v1/recording_service.pb.h"
 #include "rpc/caller.hpp"
+#include "rpc/cancel_timer.hpp"
 #include "rpc/one_request.hpp"
 #include "rpc/session_id.hpp"
 #include "rpc/status.hpp"
@@ -89,7 +90,12 @@ private:
 class ReadRecordingReactor final : public ByteReactor, public std::enable_shared_from_this<ReadRecordingReactor> {
 public:
     ReadRecordingReactor(Refusals& refusals, Metrics& metrics, ActiveCalls& calls, grpc::CallbackServerContext& context)
-        : refusals_(refusals), metrics_(metrics), active_(calls), peer_(peer_of(context)), context_(&context) {}
+        : refusals_(refusals),
+          metrics_(metrics),
+          active_(calls),
+          peer_(peer_of(context)),
+          first_message_(context),
+          context_(&context) {}
 
     void start(RecordingReads* reads, const Authorizer& authorizer) {
         self_ = shared_from_this();
@@ -100,10 +106,12 @@ public:
         } catch (...) {
             return refuse(std::current_exception());
         }
+        first_message_.start(first_message_patience);
         StartRead(&incoming_);
     }
 
     void OnReadDone(bool ok) override {
+        first_message_.stop();
         if (!ok && context_->IsCancelled()) return Finish(client_gone());
         try {
             request_ = received<v1::ReadRecordingRequest>(ok, incoming_);
@@ -130,6 +138,7 @@ public:
     void OnCancel() override { canceled_ = true; }
 
     void OnDone() override {
+        first_message_.call_is_done();
         {
             const std::lock_guard lock(mutex_);
             context_ = nullptr;
@@ -193,6 +202,7 @@ private:
     Metrics& metrics_;
     const ActiveCalls::Token active_;
     const std::string peer_;
+    CancelTimer first_message_;
     std::shared_ptr<ReadRecordingReactor> self_;  ///< until OnDone
     RecordingReads* reads_ = nullptr;
     RecordingReads::Place place_;

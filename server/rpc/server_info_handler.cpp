@@ -40,6 +40,7 @@ v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, uns
     wire.set_bytes_in_flight_per_name(limits.per_name.bytes_in_flight);
     wire.set_connections(limits.connections);
     wire.set_connections_per_peer(limits.connections_per_peer);
+    wire.set_formats_per_session(limits.formats_per_session);
     wire.set_recording_readers(limits.recording_readers);
     return response;
 }

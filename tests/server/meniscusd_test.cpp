@@ -376,6 +376,8 @@ TEST(Meniscusd, TakesLimitsWithUnits) {
                                   "123",
                                   "--max-connections-per-peer",
                                   "45",
+                                  "--max-formats",
+                                  "3",
                                   "--max-recording-readers",
                                   "6",
                                   "--max-message-bytes",
@@ -402,6 +404,7 @@ TEST(Meniscusd, TakesLimitsWithUnits) {
     EXPECT_EQ(info.max_bytes_in_flight_per_name, std::uint64_t{5} << 20U);
     EXPECT_EQ(info.max_connections, 123U);
     EXPECT_EQ(info.max_connections_per_peer, 45U);
+    EXPECT_EQ(info.max_formats_per_session, 3U);
     EXPECT_EQ(info.max_recording_readers, 6U);
     EXPECT_EQ(info.max_message_bytes, std::uint64_t{2} << 20U);
 }

@@ -115,6 +115,7 @@ ServerInfo Client::server_info() {
     info.max_bytes_in_flight_per_name = response.limits().bytes_in_flight_per_name();
     info.max_connections = response.limits().connections();
     info.max_connections_per_peer = response.limits().connections_per_peer();
+    info.max_formats_per_session = response.limits().formats_per_session();
     info.max_recording_readers = response.limits().recording_readers();
     info.max_message_bytes = response.limits().message_bytes();
     info.codecs.assign(response.codecs().begin(), response.codecs().end());

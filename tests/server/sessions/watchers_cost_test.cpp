@@ -82,7 +82,7 @@ TEST_F(WatchersCost, OfCoarserLevelsIsOneMeshForEachHoweverManyComeAndGoBeforeTh
     EXPECT_EQ(answer(simulator), 0U);
     {
         // The device is another session's meanwhile.
-        const auto turn = shared.turns->wait({});
+        const auto turn = shared.turns->wait({}, "another");
         for (int i = 0; i < 200; ++i)
             for (const int max_level : {1, 2}) session.close_watch(session.open_watch(at_most(max_level), [] {}));
     }
