@@ -132,6 +132,13 @@ protected:
 };
 
 TEST_F(AFrame, HasTheSameBytesByNativeGrpcByGrpcWebAndThroughNginx) {
+    // What is encoded is kept for as long as somebody watches it; the statistics have the time that it took.
+    client::Connection connection(running.server.address());
+    grpc::ClientContext context;
+    client::add_session_id(context, id);
+    const auto keeps = connection.surfaces->Watch(&context, watch_request(id));
+    v1::WatchResponse first;
+    ASSERT_TRUE(keeps->Read(&first));
     const std::vector<std::string> native = native_frame(running.server.address(), id);
     ASSERT_GT(native.size(), 2U);
     EXPECT_TRUE(web_frame(running.server.http_address(), id) == native);
