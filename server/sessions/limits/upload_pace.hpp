@@ -17,33 +17,33 @@ struct LeastPace {
     std::size_t bytes_per_second = 0;      ///< 0: a frame that takes longer is too slow
 };
 
-/// Measures a transfer against its least pace, whenever it is asked.
+/// Measures a transfer against its least pace, in windows of five seconds, or of the time that it has if that is less.
+/// Ask again and again.
 class PaceCheck {
 public:
     using Seconds = std::chrono::duration<double>;
 
     /// taken: of time, by the transfer up to now. bytes: transferred by now.
     bool too_slow(const LeastPace& least, Seconds taken, std::size_t bytes) {
-        if (least.time.count() == 0 || taken < least.time) return false;
-        if (least.bytes_per_second == 0) return true;
-        if (!window_) window_ = Window{taken, bytes};
-        const Seconds passed = taken - window_->begin;
+        if (least.time.count() == 0) return false;
+        const bool is_up = taken >= least.time;
+        if (least.bytes_per_second == 0) return is_up;
+        const Seconds passed = taken - begin_;
         if (passed < std::min(least.time, longest_window)) return false;
-        const auto wanted = passed.count() * static_cast<double>(least.bytes_per_second);
-        const bool is_slow = static_cast<double>(bytes - window_->bytes) < wanted;
-        window_ = Window{taken, bytes};
-        return is_slow;
+        const bool is_slow =
+            static_cast<double>(bytes - bytes_) < passed.count() * static_cast<double>(least.bytes_per_second);
+        begin_ = taken;
+        bytes_ = bytes;
+        return is_up && is_slow;
     }
 
 private:
-    struct Window {
-        Seconds begin;
-        std::size_t bytes = 0;
-    };
     /// Pauses of a connection are shorter.
     static constexpr Seconds longest_window{5.0};
 
-    std::optional<Window> window_;  ///< none: the time is not up
+    // Of the present window.
+    Seconds begin_{};
+    std::size_t bytes_ = 0;  ///< transferred before it
 };
 
 /// The clock stands still while the frame waits for the server. Thread-safe.
