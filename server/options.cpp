@@ -252,8 +252,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->type_name("BYTES");
     app.add_option("--total-memory-limit", server.limits.total_bytes,
                    "Memory of all sessions' reconstructions, of encoding, and of what is kept of frames; 0: no limit. "
-                   "Default: half of the machine's, or of the "
-                   "container's")
+                   "Default: half of the machine's, or of the container's")
         ->transform(CLI::AsSizeValue(false))
         ->transform(whole_number())
         ->type_name("BYTES");

@@ -5,8 +5,10 @@
 #include <grpcpp/server_context.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 namespace meniscus::server {
 
@@ -20,13 +22,16 @@ class CancelTimer {
 public:
     explicit CancelTimer(grpc::CallbackServerContext& context) : call_(std::make_shared<Call>(context)) {}
 
-    /// Cancels the call after this time, unless it is stopped before.
-    void start(std::chrono::milliseconds patience) {
+    /// Cancels the call after this time, unless it is stopped before. report: called first, if it comes to that.
+    void start(std::chrono::milliseconds patience, std::function<void()> report = nullptr) {
         // A new alarm each time: one that has been set is not set again, only given up.
         alarm_ = std::make_unique<grpc::Alarm>();
-        alarm_->Set(std::chrono::system_clock::now() + patience, [call = call_](bool rang) {
+        alarm_->Set(std::chrono::system_clock::now() + patience, [call = call_, report = std::move(report)](bool rang) {
+            if (!rang) return;
             const std::lock_guard lock(call->mutex);
-            if (rang && call->context != nullptr) call->context->TryCancel();
+            if (call->context == nullptr) return;
+            if (report) report();
+            call->context->TryCancel();
         });
     }
     void stop() { alarm_.reset(); }

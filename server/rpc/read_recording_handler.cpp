@@ -1,7 +1,6 @@
 #include "rpc/read_recording_handler.hpp"
 
 #include <fmt/format.h>
-#include <grpcpp/alarm.h>
 
 #include <algorithm>
 #include <atomic>
@@ -9,7 +8,6 @@
 #include <cstddef>
 #include <exception>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -94,25 +92,25 @@ public:
           metrics_(metrics),
           active_(calls),
           peer_(peer_of(context)),
-          first_message_(context),
-          context_(&context) {}
+          context_(context),
+          timer_(context) {}
 
     void start(RecordingReads* reads, const Authorizer& authorizer) {
         self_ = shared_from_this();
         try {
-            caller_ = admit(authorizer, *context_, Action::read_recording);
+            caller_ = admit(authorizer, context_, Action::read_recording);
             reads_ = &require_recorded(reads);
-            session_id_ = metadata_session_id(*context_);
+            session_id_ = metadata_session_id(context_);
         } catch (...) {
             return refuse(std::current_exception());
         }
-        first_message_.start(first_message_patience);
+        timer_.start(first_message_patience);
         StartRead(&incoming_);
     }
 
     void OnReadDone(bool ok) override {
-        first_message_.stop();
-        if (!ok && context_->IsCancelled()) return Finish(client_gone());
+        timer_.stop();
+        if (!ok && context_.IsCancelled()) return Finish(client_gone());
         try {
             request_ = received<v1::ReadRecordingRequest>(ok, incoming_);
             require_same_session(session_id_, request_.session_id());
@@ -121,7 +119,7 @@ public:
             go_on([this](RecordingCatalog& catalog) {
                 open(catalog);
                 // With metadata, as a refusal has none.
-                context_->AddInitialMetadata("x-session-id", session_id_);
+                context_.AddInitialMetadata("x-session-id", session_id_);
                 StartSendInitialMetadata();
             });
         } catch (...) {
@@ -130,7 +128,7 @@ public:
     }
 
     void OnWriteDone(bool ok) override {
-        stalled_.reset();
+        timer_.stop();
         if (!ok) canceled_ = true;
         go_on([](RecordingCatalog&) {});
     }
@@ -138,11 +136,7 @@ public:
     void OnCancel() override { canceled_ = true; }
 
     void OnDone() override {
-        first_message_.call_is_done();
-        {
-            const std::lock_guard lock(mutex_);
-            context_ = nullptr;
-        }
+        timer_.call_is_done();
         const auto self = std::move(self_);
     }
 
@@ -180,16 +174,10 @@ private:
     /// A client that takes nothing keeps its place from others. What is under way can only be canceled.
     void await_client() {
         if (reads_->patience().count() == 0) return;
-        stalled_ = std::make_unique<grpc::Alarm>();
-        stalled_->Set(std::chrono::system_clock::now() + reads_->patience(), [weak = weak_from_this()](bool rang) {
-            const auto self = rang ? weak.lock() : nullptr;
-            if (!self) return;
-            const std::lock_guard lock(self->mutex_);
-            if (self->context_ == nullptr) return;
-            log_info({.session = self->session_id_},
-                     "a reader of its recording from {} has taken nothing for {:.3g} s: its call ends", self->peer_,
-                     std::chrono::duration<double>(self->reads_->patience()).count());
-            self->context_->TryCancel();
+        timer_.start(reads_->patience(), [session = session_id_, peer = peer_, patience = reads_->patience()] {
+            log_info({.session = session},
+                     "a reader of its recording from {} has taken nothing for {:.3g} s: its call ends", peer,
+                     std::chrono::duration<double>(patience).count());
         });
     }
 
@@ -202,7 +190,8 @@ private:
     Metrics& metrics_;
     const ActiveCalls::Token active_;
     const std::string peer_;
-    CancelTimer first_message_;
+    grpc::CallbackServerContext& context_;        ///< gRPC keeps it until OnDone
+    CancelTimer timer_;                           ///< for the request, and for the write under way
     std::shared_ptr<ReadRecordingReactor> self_;  ///< until OnDone
     RecordingReads* reads_ = nullptr;
     RecordingReads::Place place_;
@@ -212,11 +201,7 @@ private:
     v1::ReadRecordingRequest request_;
     std::optional<RecordedMessages> messages_;
     grpc::ByteBuffer outgoing_;
-    std::unique_ptr<grpc::Alarm> stalled_;  ///< of the write under way
     std::atomic<bool> canceled_{false};
-
-    std::mutex mutex_;
-    grpc::CallbackServerContext* context_;  ///< set to none, with the lock held, when gRPC is done with it
 };
 
 }  // namespace

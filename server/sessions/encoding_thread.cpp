@@ -116,7 +116,7 @@ void EncodingThread::perform(Encode& task) {
     answered(upload);
     if (context_.observer) encode_for_observer();
     // One whatever waits, so that each format has its turn.
-    encode_for_some_watchers();
+    encode_in_one_format();
     encode_for_watchers();
 }
 
@@ -141,7 +141,7 @@ void EncodingThread::answer_again(Encode& task) {
 }
 
 void EncodingThread::wait_for_room(Upload& upload) {
-    while (!upload.output.has_room() && encode_for_some_watchers()) {
+    while (!upload.output.has_room() && encode_in_one_format()) {
     }
     upload.output.wait_for_room();
 }
@@ -224,13 +224,13 @@ std::shared_ptr<const EncodedFrame> EncodingThread::encode_newest(const MeshForm
 void EncodingThread::encode_for_watchers() {
     // Each once: whoever comes meanwhile has put a task behind the others.
     std::size_t formats = watchers_.unpublished_formats().size();
-    while (formats-- > 0 && frames_waiting_ == 0 && encode_for_some_watchers()) {
+    while (formats-- > 0 && frames_waiting_ == 0 && encode_in_one_format()) {
     }
     const auto awaited = watchers_.unpublished_formats();
     std::erase_if(before_, [&](const auto& entry) { return !awaited.contains(entry.first); });
 }
 
-bool EncodingThread::encode_for_some_watchers() {
+bool EncodingThread::encode_in_one_format() {
     if (newest_ == nullptr) return false;
     try {
         const auto format =

@@ -129,8 +129,8 @@ private:
     /// Encodes the newest mesh in formats that watchers wish for and nobody has published, until a frame waits: the
     /// simulator comes first, and a format may skip frames.
     void encode_for_watchers();
-    /// In the one format whose turn it is. Returns false if there is none, or it failed.
-    bool encode_for_some_watchers();
+    /// For the watchers whose turn it is. Returns false if there is none, or it failed.
+    bool encode_in_one_format();
     void encode_for_observer();
 
     const SessionContext& context_;

@@ -12,42 +12,9 @@
 #include "meniscus/memory.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "sessions/limits/bytes_in_flight.hpp"
+#include "sessions/limits/retained_memory.hpp"
 
 namespace meniscus::server {
-
-/// Memory of all that one frame keeps, once it is not in flight.
-class RetainedMemory {
-public:
-    /// memory: may be none, which counts nothing.
-    explicit RetainedMemory(std::shared_ptr<SharedMemory> memory = nullptr) : memory_(std::move(memory)) {}
-    ~RetainedMemory() { drop(); }
-    RetainedMemory(const RetainedMemory&) = delete;
-    RetainedMemory& operator=(const RetainedMemory&) = delete;
-    /// The other one holds nothing afterwards.
-    RetainedMemory(RetainedMemory&& other) noexcept : memory_(other.memory_), bytes_(std::exchange(other.bytes_, 0)) {}
-    RetainedMemory& operator=(RetainedMemory&& other) noexcept {
-        drop();
-        memory_ = other.memory_;
-        bytes_ = std::exchange(other.bytes_, 0);
-        return *this;
-    }
-
-    /// Returns whether there was room.
-    bool hold(std::size_t bytes) noexcept {
-        drop();
-        if (memory_ == nullptr) return true;
-        if (memory_->try_charge(bytes) != 0) return false;
-        bytes_ = bytes;
-        return true;
-    }
-    void drop() noexcept {
-        if (memory_ != nullptr) memory_->release(std::exchange(bytes_, 0));
-    }
-
-private:
-    std::shared_ptr<SharedMemory> memory_;
-    std::size_t bytes_ = 0;
-};
 
 struct InputFrame {
     /// memory: counts what stays here between two frames; may be none.

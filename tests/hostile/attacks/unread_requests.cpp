@@ -1,9 +1,7 @@
 // Huge messages, not compressed, of strangers: to every call, at once (D2).
-#include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "../attacks.hpp"
+#include "../one_message.hpp"
 #include "../recorded_session.hpp"
 #include "../target.hpp"
 
@@ -51,25 +50,6 @@ grpc::ByteBuffer huge() {
     return {slices.data(), slices.size()};
 }
 
-grpc::StatusCode send(const std::string& address, const std::string& method, const grpc::ByteBuffer& message) {
-    grpc::ChannelArguments arguments;
-    arguments.SetMaxSendMessageSize(-1);
-    arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-    grpc::GenericStub stub(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
-    grpc::ClientContext context;
-    context.set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(2));
-    grpc::CompletionQueue queue;
-    const auto call = stub.PrepareUnaryCall(&context, method, message, &queue);
-    call->StartCall();
-    grpc::ByteBuffer answer;
-    grpc::Status status;
-    call->Finish(&answer, &status, nullptr);
-    void* tag = nullptr;
-    bool ok = false;
-    queue.Next(&tag, &ok);
-    return status.error_code();
-}
-
 }  // namespace
 
 std::vector<Figure> unread_requests(const std::string& program) {
@@ -84,7 +64,7 @@ std::vector<Figure> unread_requests(const std::string& program) {
     for (const char* method : methods)
         threads.emplace_back([&, method] {
             for (int i = 0; i < rounds; ++i) {
-                const grpc::StatusCode code = send(target.address(), method, message);
+                const grpc::StatusCode code = send_one_message(target.address(), method, message, GRPC_COMPRESS_NONE);
                 // A health check is OK.
                 if (code != grpc::StatusCode::UNAUTHENTICATED && code != grpc::StatusCode::OK) ++failed;
             }
