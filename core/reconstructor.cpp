@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "engine/cuda/device.hpp"
+#include "instruction_set.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/memory.hpp"
 #include "pipeline/backend.hpp"
@@ -49,8 +50,9 @@ BackendDescription describe_backend(Backend choice, int device) {
     const char* const asked_for = "asked for";
     if (choice != Backend::cpu && without_gpu.empty())
         return {Backend::cuda, "cuda", cuda::device_name(device), choice == Backend::cuda ? asked_for : "a usable GPU"};
-    require_supported_processor();
-    return {Backend::cpu, "cpu", processor_name(), choice == Backend::cpu ? asked_for : without_gpu};
+    const std::string instructions(name_of(chosen_instruction_set()));
+    return {Backend::cpu, "cpu", processor_name() + ", " + instructions,
+            choice == Backend::cpu ? asked_for : without_gpu};
 }
 
 class Reconstructor::Impl {

@@ -27,6 +27,8 @@ struct Units3 {
 
 inline constexpr int units_per_cell = 4096;
 inline constexpr int units_per_base_cell = units_per_cell * base_cell_size;
+/// The same as a coordinate.
+inline constexpr float base_edge = units_per_base_cell;
 
 /// Base cells are addressed with 21 bits a side, so that three coordinates and thirteen more bits fit a 64-bit key
 /// and a vertex on the lattice refined 64-fold fits int32.

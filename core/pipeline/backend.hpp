@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "instruction_set.hpp"
 #include "meniscus/backend_options.hpp"
 #include "meniscus/device_mesh.hpp"
 #include "meniscus/error.hpp"
@@ -30,7 +31,11 @@ public:
 };
 
 namespace cpu {
-/// Throws InvalidInput on a processor without what the kernels need.
+/// With the loops for one instruction set. The processor has it.
+template <InstructionSet>
+std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, const BackendOptions& options,
+                                                           const std::shared_ptr<MemoryAccount>& account);
+/// With those of chosen_instruction_set().
 std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, const BackendOptions& options,
                                                            const std::shared_ptr<MemoryAccount>& account);
 }  // namespace cpu

@@ -6,7 +6,6 @@
 #include "pipeline/cpu_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/stage_clock.hpp"
-#include "processor.hpp"
 
 namespace meniscus::cpu {
 namespace {
@@ -71,9 +70,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, const BackendOptions& options,
-                                                           const std::shared_ptr<MemoryAccount>& account) {
-    require_supported_processor();
+template <>
+std::unique_ptr<BackendReconstruction> make_reconstruction<InstructionSet::MENISCUS_INSTRUCTION_SET>(
+    const Settings& settings, const BackendOptions& options, const std::shared_ptr<MemoryAccount>& account) {
     return std::make_unique<Reconstruction>(settings, options, account);
 }
 

@@ -194,12 +194,12 @@ TEST(Field, ParticleLevelsScaleRadiusSupportAndMass) {
 template <class Kernel>
 void expect_bits_of_one_float(const Kernel& kernel, const float (&x)[8], const float (&y)[8], const float (&z)[8]) {
     alignas(32) float values[8], gradients[8], hessians[8];
-    const Lanes lx = Lanes::load(x), ly = Lanes::load(y), lz = Lanes::load(z);
-    kernel.add_value(Lanes(0.25F), lx, ly, lz).store(values);
-    Lanes gx(0.0F), gy(0.0F), gz(0.0F);
+    const Lanes<8> lx = Lanes<8>::load(x), ly = Lanes<8>::load(y), lz = Lanes<8>::load(z);
+    kernel.add_value(Lanes<8>(0.25F), lx, ly, lz).store(values);
+    Lanes<8> gx(0.0F), gy(0.0F), gz(0.0F);
     kernel.add_gradient(gx, gy, gz, lx, ly, lz);
     gy.store(gradients);
-    FieldJet<Lanes> jets;
+    FieldJet<Lanes<8>> jets;
     kernel.add_jet(jets, lx, ly, lz);
     jets.xz.store(hessians);
     for (int i = 0; i < 8; ++i) {

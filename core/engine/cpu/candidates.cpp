@@ -1,4 +1,4 @@
-// Lists of particles near a box, culled eight at a time.
+// Lists of particles near a box, culled by whole registers.
 #include "engine/cpu/candidates.hpp"
 
 #include <algorithm>
@@ -8,26 +8,26 @@
 
 namespace meniscus::cpu {
 
-/// A box, to find the distances of eight points from it.
+/// A box, to find the distances of points from it.
 class Candidates::UnitBoxLanes {
 public:
     explicit UnitBoxLanes(const UnitBox& box) {
         for (int axis = 0; axis < 3; ++axis) {
-            low_[axis] = Lanes(box.low[axis]);
-            high_[axis] = Lanes(box.high[axis]);
+            low_[axis] = WideLanes(box.low[axis]);
+            high_[axis] = WideLanes(box.high[axis]);
         }
     }
-    Lanes squared_distance(Lanes x, Lanes y, Lanes z) const {
-        const Lanes dx = from_box(0, x);
-        const Lanes dy = from_box(1, y);
-        const Lanes dz = from_box(2, z);
+    WideLanes squared_distance(WideLanes x, WideLanes y, WideLanes z) const {
+        const WideLanes dx = from_box(0, x);
+        const WideLanes dy = from_box(1, y);
+        const WideLanes dz = from_box(2, z);
         return fma(dx, dx, fma(dy, dy, dz * dz));
     }
 
 private:
-    Lanes from_box(int axis, Lanes p) const { return p - max(min(p, high_[axis]), low_[axis]); }
+    WideLanes from_box(int axis, WideLanes p) const { return p - max(min(p, high_[axis]), low_[axis]); }
 
-    Lanes low_[3], high_[3];
+    WideLanes low_[3], high_[3];
 };
 
 Candidates::Candidates(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports)
@@ -53,37 +53,38 @@ void Candidates::append(const CandidateView& from, const std::array<float, 3>& s
     float* const to_weight = weight_.data();
     float* const to_fall = fall_.data();
     std::size_t count = count_;
-    const Lanes shift_x(shift[0]), shift_y(shift[1]), shift_z(shift[2]);
-    const auto append_eight = [&, own = from](std::size_t i, unsigned of) {
-        const Lanes x = Lanes::load(own.x + i) + shift_x;
-        const Lanes y = Lanes::load(own.y + i) + shift_y;
-        const Lanes z = Lanes::load(own.z + i) + shift_z;
+    const WideLanes shift_x(shift[0]), shift_y(shift[1]), shift_z(shift[2]);
+    const auto append_lanes = [&, own = from](std::size_t i, unsigned of) {
+        const WideLanes x = WideLanes::load(own.x + i) + shift_x;
+        const WideLanes y = WideLanes::load(own.y + i) + shift_y;
+        const WideLanes z = WideLanes::load(own.z + i) + shift_z;
         const unsigned near = is_near(i, box.squared_distance(x, y, z)) & of;
         compress_store(to_x + count, x, near);
         compress_store(to_y + count, y, near);
         compress_store(to_z + count, z, near);
-        compress_store(to_weight + count, Lanes::load(own.weight + i), near);
-        if constexpr (has_own_supports) compress_store(to_fall + count, Lanes::load(own.fall + i), near);
+        compress_store(to_weight + count, WideLanes::load(own.weight + i), near);
+        if constexpr (has_own_supports) compress_store(to_fall + count, WideLanes::load(own.fall + i), near);
         count += static_cast<std::size_t>(popcount(near));
     };
-    const std::size_t rest = from.count % Lanes::count;
+    const std::size_t rest = from.count % WideLanes::count;
     const std::size_t whole = from.count - rest;
-    for (std::size_t i = 0; i < whole; i += Lanes::count) append_eight(i, 0xFF);
-    if (rest != 0) append_eight(whole, (1U << rest) - 1);
+    for (std::size_t i = 0; i < whole; i += WideLanes::count) append_lanes(i, (1U << WideLanes::count) - 1);
+    if (rest != 0) append_lanes(whole, (1U << rest) - 1);
     count_ = count;
 }
 
 void Candidates::append_near(const CandidateView& from, const std::array<float, 3>& shift, const UnitBoxLanes& box) {
-    if (count_ + from.count + Lanes::count > x_.size())
-        reserve(std::max(count_ + from.count + Lanes::count, 2 * x_.size()));
+    if (count_ + from.count + WideLanes::count > x_.size())
+        reserve(std::max(count_ + from.count + WideLanes::count, 2 * x_.size()));
     if (has_own_supports_) {
         // A little farther than the support, since distances are rounded.
-        append<true>(from, shift, box, [&](std::size_t i, Lanes d2) {
-            return less_equal(Lanes::load(from.fall + i) * d2, Lanes::load(from.weight + i) * Lanes(1.0001F));
+        append<true>(from, shift, box, [&](std::size_t i, WideLanes d2) {
+            return less_equal(WideLanes::load(from.fall + i) * d2,
+                              WideLanes::load(from.weight + i) * WideLanes(1.0001F));
         });
     } else {
-        const Lanes reach2(reach_ * reach_);
-        append<false>(from, shift, box, [&](std::size_t, Lanes d2) { return less_equal(d2, reach2); });
+        const WideLanes reach2(reach_ * reach_);
+        append<false>(from, shift, box, [&](std::size_t, WideLanes d2) { return less_equal(d2, reach2); });
     }
 }
 

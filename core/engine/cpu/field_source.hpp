@@ -15,9 +15,9 @@ inline constexpr std::size_t max_points = 3 * 64;
 /// Points in units from a base cell's corner; room for whole lanes.
 struct PointList {
     std::size_t count = 0;
-    alignas(32) float x[max_points];
-    alignas(32) float y[max_points];
-    alignas(32) float z[max_points];
+    alignas(64) float x[max_points];
+    alignas(64) float y[max_points];
+    alignas(64) float z[max_points];
 
     void add(float px, float py, float pz) {
         x[count] = px;

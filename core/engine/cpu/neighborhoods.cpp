@@ -4,12 +4,6 @@
 #include <algorithm>
 
 namespace meniscus::cpu {
-namespace {
-
-constexpr float base_edge = units_per_base_cell;
-
-}  // namespace
-
 Neighborhoods::Neighborhoods(const std::shared_ptr<MemoryAccount>& account, unsigned workers, ParticleSets& sets)
     : sets_(sets) {
     for (unsigned i = 0; i < workers; ++i) lists_.emplace_back(account, sets.settings.has_own_supports);

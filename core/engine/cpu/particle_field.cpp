@@ -8,8 +8,6 @@
 namespace meniscus::cpu {
 namespace {
 
-constexpr float base_edge = units_per_base_cell;
-
 /// The smallest box around points of a block.
 UnitBox box_of(BlockMask points) {
     UnitBox box;
@@ -51,7 +49,7 @@ void ParticleField<Kernel>::cluster_values(const Int3& lowest_base_cell, const C
                                            ClusterValues& values, unsigned worker) {
     // A block with few points would fill registers badly, and its own list of particles would cost more than it saves
     // (core/README.md#sampling-clusters-16-and-48).
-    constexpr int few = 2 * Lanes::count;
+    constexpr int few = 16;
     // Above this number of points, the regular grid of all 64 costs less than a list of these.
     constexpr int most = 48;
     PointList pool;
@@ -70,7 +68,7 @@ void ParticleField<Kernel>::cluster_values(const Int3& lowest_base_cell, const C
     }
     if (pool.count == 0) return;
     pad(pool);
-    alignas(32) float sums[max_points];
+    alignas(64) float sums[max_points];
     sum_points<Kernel>(near_.near_box(lowest_base_cell, box_of(pool), worker), pool, sums);
     const float* next = sums;
     for (std::size_t i = 0; i < 8; ++i)
@@ -82,7 +80,7 @@ void ParticleField<Kernel>::block_values(const Int3& base_cell, BlockMask points
     PointList list;
     list_block_points(points, {0, 0, 0}, list);
     pad(list);
-    alignas(32) float sums[max_points];
+    alignas(64) float sums[max_points];
     sum_points<Kernel>(near_.near_box(base_cell, box_of(points), worker), list, sums);
     scatter(points, sums, values);
 }
@@ -90,18 +88,20 @@ void ParticleField<Kernel>::block_values(const Int3& base_cell, BlockMask points
 template <class Kernel>
 void ParticleField<Kernel>::whole_block_values(const Int3& base_cell, float* values, unsigned worker) {
     constexpr float cell = units_per_cell;
-    static constexpr float row_x[8] = {0, cell, 2 * cell, 3 * cell, 0, cell, 2 * cell, 3 * cell};
-    static constexpr float row_y[8] = {0, 0, 0, 0, cell, cell, cell, cell};
-    const Lanes x = Lanes::load(row_x);
-    const Lanes y[2] = {Lanes::load(row_y), Lanes::load(row_y) + Lanes(2 * cell)};
+    constexpr int rows = WideLanes::count / base_cell_size;  // along y, in a register
+    constexpr int registers = base_cell_size / rows;         // for a slab of the block
+    const WideLanes x = WideLanes::load(block_points.coordinate[0]);
+    WideLanes y[registers];
+    for (int i = 0; i < registers; ++i) y[i] = WideLanes::load(block_points.coordinate[1] + i * WideLanes::count);
     // Each half of the block has so much fewer particles near it that a search of its own pays.
     for (int slab = 0; slab < base_cell_size; slab += 2) {
         const float low = static_cast<float>(slab) * cell;
         const float z[2] = {low, low + cell};
-        Lanes sum[4] = {Lanes(0.0F), Lanes(0.0F), Lanes(0.0F), Lanes(0.0F)};
+        WideLanes sum[2 * registers];
+        for (WideLanes& s : sum) s = WideLanes(0.0F);
         for (const Candidates& c : near_.near_box(base_cell, {{0.0F, 0.0F, z[0]}, {3 * cell, 3 * cell, z[1]}}, worker))
-            sum_grid_values<Kernel, 2, 2>(c.view(), x, y, z, sum);
-        for (int i = 0; i < 4; ++i) sum[i].store(values + (2 * slab + i) * Lanes::count);
+            sum_grid_values<Kernel, registers, 2>(c.view(), x, y, z, sum);
+        for (int i = 0; i < 2 * registers; ++i) sum[i].store(values + (slab * registers + i) * WideLanes::count);
     }
 }
 
@@ -110,9 +110,10 @@ void ParticleField<Kernel>::normals(const Int3& base_cell, PointList& points, fl
                                     unsigned worker) {
     pad(points);
     const CandidateLists::Levels& near = near_.near_box(base_cell, box_of(points), worker);
-    for (std::size_t i = 0; i < points.count; i += Lanes::count) {
-        const Lanes px = Lanes::load(points.x + i), py = Lanes::load(points.y + i), pz = Lanes::load(points.z + i);
-        Lanes gx(0.0F), gy(0.0F), gz(0.0F);
+    for (std::size_t i = 0; i < points.count; i += WideLanes::count) {
+        const WideLanes px = WideLanes::load(points.x + i), py = WideLanes::load(points.y + i),
+                        pz = WideLanes::load(points.z + i);
+        WideLanes gx(0.0F), gy(0.0F), gz(0.0F);
         for (const Candidates& c : near) sum_gradients<Kernel>(c.view(), px, py, pz, gx, gy, gz);
         turn_outward(gx, gy, gz);
         gx.store(x + i);

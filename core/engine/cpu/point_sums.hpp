@@ -1,4 +1,4 @@
-// Values of the field at lists of points, eight points at a time.
+// Values of the field at lists of points, by whole registers.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@ inline UnitBox box_of(const PointList& points) {
     UnitBox box;
     const float* coordinates[3] = {points.x, points.y, points.z};
     for (int axis = 0; axis < 3; ++axis) {
-        Lanes low = Lanes::load(coordinates[axis]);
-        Lanes high = low;
-        for (std::size_t i = Lanes::count; i < points.count; i += Lanes::count) {
-            low = min(low, Lanes::load(coordinates[axis] + i));
-            high = max(high, Lanes::load(coordinates[axis] + i));
+        WideLanes low = WideLanes::load(coordinates[axis]);
+        WideLanes high = low;
+        for (std::size_t i = WideLanes::count; i < points.count; i += WideLanes::count) {
+            low = min(low, WideLanes::load(coordinates[axis] + i));
+            high = max(high, WideLanes::load(coordinates[axis] + i));
         }
         box.low[axis] = reduce_min(low);
         box.high[axis] = reduce_max(high);
@@ -29,7 +29,7 @@ inline UnitBox box_of(const PointList& points) {
 
 /// Lanes beyond the last point repeat it.
 inline void pad(PointList& points) {
-    for (std::size_t i = points.count; i % Lanes::count != 0; ++i) {
+    for (std::size_t i = points.count; i % WideLanes::count != 0; ++i) {
         points.x[i] = points.x[points.count - 1];
         points.y[i] = points.y[points.count - 1];
         points.z[i] = points.z[points.count - 1];
@@ -39,22 +39,22 @@ inline void pad(PointList& points) {
 /// Values at G registers of points from the i-th on.
 template <class Kernel, int G>
 void sum_group(const CandidateLists::Levels& near, const PointList& points, std::size_t i, float* out) {
-    Lanes x[G], y[G], z[G], sum[G];
+    WideLanes x[G], y[G], z[G], sum[G];
     for (int g = 0; g < G; ++g) {
-        const std::size_t at = i + static_cast<std::size_t>(g) * Lanes::count;
-        x[g] = Lanes::load(points.x + at);
-        y[g] = Lanes::load(points.y + at);
-        z[g] = Lanes::load(points.z + at);
-        sum[g] = Lanes(0.0F);
+        const std::size_t at = i + static_cast<std::size_t>(g) * WideLanes::count;
+        x[g] = WideLanes::load(points.x + at);
+        y[g] = WideLanes::load(points.y + at);
+        z[g] = WideLanes::load(points.z + at);
+        sum[g] = WideLanes(0.0F);
     }
     for (const Candidates& c : near) sum_values<Kernel, G>(c.view(), x, y, z, sum);
-    for (int g = 0; g < G; ++g) sum[g].store(out + i + static_cast<std::size_t>(g) * Lanes::count);
+    for (int g = 0; g < G; ++g) sum[g].store(out + i + static_cast<std::size_t>(g) * WideLanes::count);
 }
 
 template <class Kernel>
 void sum_points(const CandidateLists::Levels& near, const PointList& points, float* out) {
     std::size_t i = 0;
-    for (; points.count > i + Lanes::count; i += 2 * Lanes::count) sum_group<Kernel, 2>(near, points, i, out);
+    for (; points.count > i + WideLanes::count; i += 2 * WideLanes::count) sum_group<Kernel, 2>(near, points, i, out);
     if (points.count > i) sum_group<Kernel, 1>(near, points, i, out);
 }
 

@@ -44,8 +44,8 @@ struct BlockVertices {
     std::size_t count = 0;
     std::size_t first[4];                                 ///< of every axis, and one past the last
     std::uint8_t bit[max_points];                         ///< lower end of the edge
-    alignas(32) float low[max_points], high[max_points];  ///< field values at the edge's ends
-    alignas(32) float offset[max_points];                 ///< in steps of c / 2^bits
+    alignas(64) float low[max_points], high[max_points];  ///< field values at the edge's ends
+    alignas(64) float offset[max_points];                 ///< in steps of c / 2^bits
 };
 
 void find_vertices(const BlocksView& blocks, std::uint32_t block, BlockVertices& vertices) {
@@ -69,7 +69,7 @@ void find_vertices(const BlocksView& blocks, std::uint32_t block, BlockVertices&
         }
     }
     vertices.first[3] = vertices.count = count;
-    for (std::size_t i = count; i % Lanes::count != 0; ++i) {
+    for (std::size_t i = count; i % WideLanes::count != 0; ++i) {
         vertices.low[i] = 0.0F;
         vertices.high[i] = 1.0F;
     }
@@ -82,8 +82,8 @@ bool is_low_inside(const BlocksView& blocks, std::uint32_t block, const BlockVer
 void interpolate(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings,
                  BlockVertices& vertices) {
     const int bits = static_cast<int>(settings.offset_bits);
-    for (std::size_t i = 0; i < vertices.count; i += Lanes::count)
-        interpolated_offset(Lanes::load(vertices.low + i), Lanes::load(vertices.high + i), settings.iso, bits)
+    for (std::size_t i = 0; i < vertices.count; i += WideLanes::count)
+        interpolated_offset(WideLanes::load(vertices.low + i), WideLanes::load(vertices.high + i), settings.iso, bits)
             .store(vertices.offset + i);
     if (!settings.has_domain) return;
     for (std::size_t i = 0; i < vertices.count; ++i)
@@ -109,7 +109,7 @@ void list_points(const BlockVertices& vertices, std::uint32_t bits, PointList& p
 void bisect(FieldSource& field, const Int3& at, const BlocksView& blocks, std::uint32_t block,
             const LatticeSettings& settings, unsigned worker, BlockVertices& vertices) {
     PointList points;
-    alignas(32) float values[max_points];
+    alignas(64) float values[max_points];
     const int bits = static_cast<int>(settings.offset_bits);
     for (std::size_t i = 0; i < vertices.count; ++i) vertices.offset[i] = bisection_start(bits);
     for (int step = first_bisection_step(bits); step >= 1; step /= 2) {
@@ -197,9 +197,9 @@ void place_vertices(State& s, FieldSource& field, Mesh& mesh) {
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         BlockVertices vertices;
         PointList points;
-        alignas(32) float nx[max_points];
-        alignas(32) float ny[max_points];
-        alignas(32) float nz[max_points];
+        alignas(64) float nx[max_points];
+        alignas(64) float ny[max_points];
+        alignas(64) float nz[max_points];
         const auto place_block = [&](std::uint32_t block) {
             find_vertices(blocks, block, vertices);
             const Int3 at = blocks.coordinate(block);

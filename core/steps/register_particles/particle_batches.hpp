@@ -22,13 +22,13 @@ void sum_at_particles(ParticleSets& sets, unsigned level, const Sum& sum) {
         const Units3 origin{(2 * brick.coordinate.x + 1) * half, (2 * brick.coordinate.y + 1) * half,
                             (2 * brick.coordinate.z + 1) * half};
         PointList points;
-        alignas(32) float out[2 * Lanes::count];
+        alignas(64) float out[2 * WideLanes::count];
         // Particles in a row of cells follow one another: they fill the lanes whatever cells they are in.
         const auto sum_in_row = [&](std::uint32_t cell, std::uint32_t count) {
             const std::uint32_t end = set.first[cell + count];
-            for (std::uint32_t begin = set.first[cell]; begin < end; begin += 2 * Lanes::count) {
+            for (std::uint32_t begin = set.first[cell]; begin < end; begin += 2 * WideLanes::count) {
                 points.count = 0;
-                for (std::uint32_t i = begin; i < end && points.count < 2 * Lanes::count; ++i)
+                for (std::uint32_t i = begin; i < end && points.count < 2 * WideLanes::count; ++i)
                     points.add(set.x[i] - middle, set.y[i] - middle, set.z[i] - middle);
                 pad(points);
                 sum(origin, points, out, worker);

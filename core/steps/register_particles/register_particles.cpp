@@ -78,8 +78,8 @@ void sort_particles(ParticleSets& sets, const ParticleFrame& frame, unsigned lev
     else
         sort_identified_keys(sets, set, frame, level);
     for (Array<float>* a : {&set.x, &set.y, &set.z, &set.weight}) {
-        resize_for_overwrite(*a, set.count() + Lanes::count);
-        std::fill(a->end() - Lanes::count, a->end(), 0.0F);
+        resize_for_overwrite(*a, set.count() + WideLanes::count);
+        std::fill(a->end() - WideLanes::count, a->end(), 0.0F);
     }
     sets.workers.for_ranges(set.count(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {

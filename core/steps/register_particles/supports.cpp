@@ -46,8 +46,8 @@ void find_spray(ParticleSets& sets) {
 
 void fit_supports(ParticleSets& sets, Neighborhoods& near) {
     for (unsigned k = 0; k < particle_level_count; ++k) {
-        resize_for_overwrite(sets[k].fall, sets[k].count() + Lanes::count);
-        std::fill(sets[k].fall.end() - Lanes::count, sets[k].fall.end(), 0.0F);
+        resize_for_overwrite(sets[k].fall, sets[k].count() + WideLanes::count);
+        std::fill(sets[k].fall.end() - WideLanes::count, sets[k].fall.end(), 0.0F);
         sum_at_particles(sets, k, [&](const Units3& origin, const PointList& points, float* out, unsigned worker) {
             sum_points<Company>(near.company_near_box(origin, box_of(points), worker), points, out);
         });

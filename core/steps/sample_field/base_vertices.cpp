@@ -8,8 +8,6 @@
 namespace meniscus::cpu {
 namespace {
 
-constexpr float base_edge = units_per_base_cell;
-
 template <class Kernel>
 void sample(State& s, Neighborhoods& near) {
     resize_for_overwrite(s.reaches, s.block_count());
@@ -23,15 +21,16 @@ void sample(State& s, Neighborhoods& near) {
         lane_z[i] = static_cast<float>(i >> 2) * base_edge;
     }
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
-        const Lanes x[1] = {Lanes::load(lane_x)}, y[1] = {Lanes::load(lane_y)}, z[1] = {Lanes::load(lane_z)};
-        const Lanes half(base_edge / 2);
+        const Lanes<8> x[1] = {Lanes<8>::load(lane_x)}, y[1] = {Lanes<8>::load(lane_y)},
+                       z[1] = {Lanes<8>::load(lane_z)};
+        const Lanes<8> half(base_edge / 2);
         alignas(32) float value[8], bound[8], closest[8];
         for (std::size_t b = begin; b < end; ++b) {
             const Brick& brick = s.grid.bricks[b];
             for_each_cluster(brick.occupied, [&](const Int3& corner) {
                 const Int3 base = brick.corner() + corner;
-                Lanes sum[1] = {Lanes(0.0F)};
-                Lanes most(0.0F), nearest(0.0F);
+                Lanes<8> sum[1] = {Lanes<8>(0.0F)};
+                Lanes<8> most(0.0F), nearest(0.0F);
                 for (const Candidates& c : near.near_cluster(base, worker)) {
                     sum_values<Kernel, 1>(c.view(), x, y, z, sum);
                     sum_bounds<Kernel>(c.view(), x[0] + half, y[0] + half, z[0] + half, base_edge / 2, most, nearest);

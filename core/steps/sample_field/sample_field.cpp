@@ -25,8 +25,8 @@ void enter_samples(State& s, std::uint32_t block, BlockMask missing, std::array<
     BlockMask above = 0;
     if (sampled == ~BlockMask{0}) {
         std::copy(values.begin(), values.end(), out);
-        for (int i = 0; i < 64; i += Lanes::count)
-            above |= BlockMask{less_equal(Lanes::load(out + i), Lanes(s.settings.iso))} << i;
+        for (int i = 0; i < 64; i += WideLanes::count)
+            above |= BlockMask{less_equal(WideLanes::load(out + i), WideLanes(s.settings.iso))} << i;
         above = ~above;
     } else {
         for (BlockMask left = sampled; left != 0; left &= left - 1) {

@@ -11,10 +11,8 @@
 namespace meniscus::cpu {
 namespace {
 
-constexpr float base_edge = units_per_base_cell;
-
 /// The smallest box around eight points.
-UnitBox box_of(const Point3<Lanes>& points) {
+UnitBox box_of(const Point3<Lanes<8>>& points) {
     return {{reduce_min(points.x), reduce_min(points.y), reduce_min(points.z)},
             {reduce_max(points.x), reduce_max(points.y), reduce_max(points.z)}};
 }
@@ -54,7 +52,7 @@ void measure(State& s, Neighborhoods& near) {
                 alignas(32) float corners[8][8], starts[3][8], mixed[8];  // [corner][cell]
                 int inside_corners[8];
                 for (int i = 0; i < 8; ++i) {
-                    // Lanes of cells outside the band repeat another's, so that the box around their points stays
+                    // Lanes<8> of cells outside the band repeat another's, so that the box around their points stays
                     // small.
                     const Int3 step = cluster_step(block[i] != no_index ? i : first);
                     inside_corners[i] = 0;
@@ -70,16 +68,18 @@ void measure(State& s, Neighborhoods& near) {
                 }
                 evaluations.fetch_add(2 * cells, std::memory_order_relaxed);
                 const Int3 base = brick.corner() + corner;
-                const auto jet_at = [&](const Point3<Lanes>& p) {
-                    FieldJet<Lanes> jet;
+                const auto jet_at = [&](const Point3<Lanes<8>>& p) {
+                    FieldJet<Lanes<8>> jet;
                     for (const Candidates& c : near.near_box(base, box_of(p), worker))
                         sum_jets<Kernel>(c.view(), p.x, p.y, p.z, jet);
                     return jet;
                 };
-                CellCorners<Lanes> values;
-                for (int k = 0; k < 8; ++k) values.value[k] = Lanes::load(corners[k]);
-                const Point3<Lanes> origin{Lanes::load(starts[0]), Lanes::load(starts[1]), Lanes::load(starts[2])};
-                const SurfaceSearch<Lanes> search = search_surface(values, Lanes::load(mixed), origin, iso, jet_at);
+                CellCorners<Lanes<8>> values;
+                for (int k = 0; k < 8; ++k) values.value[k] = Lanes<8>::load(corners[k]);
+                const Point3<Lanes<8>> origin{Lanes<8>::load(starts[0]), Lanes<8>::load(starts[1]),
+                                              Lanes<8>::load(starts[2])};
+                const SurfaceSearch<Lanes<8>> search =
+                    search_surface(values, Lanes<8>::load(mixed), origin, iso, jet_at);
                 alignas(32) float curvature[8], inside[8];
                 search.curvature.store(curvature);
                 search.inside.store(inside);

@@ -1,0 +1,56 @@
+// Sixteen floats in a register of AVX-512.
+#pragma once
+
+#include <immintrin.h>
+
+#include "field/lanes_base.hpp"
+
+namespace meniscus {
+
+template <>
+struct Lanes<16> {
+    static constexpr int count = 16;
+    __m512 v;
+    Lanes() = default;
+    Lanes(__m512 value) : v(value) {}
+    Lanes(float value) : v(_mm512_set1_ps(value)) {}
+    static Lanes load(const float* p) { return _mm512_loadu_ps(p); }
+    void store(float* p) const { _mm512_storeu_ps(p, v); }
+    friend Lanes operator+(Lanes a, Lanes b) { return _mm512_add_ps(a.v, b.v); }
+    friend Lanes operator-(Lanes a, Lanes b) { return _mm512_sub_ps(a.v, b.v); }
+    friend Lanes operator*(Lanes a, Lanes b) { return _mm512_mul_ps(a.v, b.v); }
+    friend Lanes operator/(Lanes a, Lanes b) { return _mm512_div_ps(a.v, b.v); }
+};
+inline Lanes<16> fma(Lanes<16> a, Lanes<16> b, Lanes<16> c) {
+    return _mm512_fmadd_ps(a.v, b.v, c.v);
+}
+/// c - a b, rounded once.
+inline Lanes<16> fnma(Lanes<16> a, Lanes<16> b, Lanes<16> c) {
+    return _mm512_fnmadd_ps(a.v, b.v, c.v);
+}
+inline Lanes<16> sqrt(Lanes<16> a) {
+    return _mm512_sqrt_ps(a.v);
+}
+inline Lanes<16> max(Lanes<16> a, Lanes<16> b) {
+    return _mm512_max_ps(a.v, b.v);
+}
+inline Lanes<16> min(Lanes<16> a, Lanes<16> b) {
+    return _mm512_min_ps(a.v, b.v);
+}
+/// Rounded toward zero.
+inline Lanes<16> trunc(Lanes<16> a) {
+    return _mm512_roundscale_ps(a.v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+}
+/// The set of lanes in which a <= b.
+inline unsigned less_equal(Lanes<16> a, Lanes<16> b) {
+    return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ);
+}
+/// Stores the lanes of a set one after the other; writes sixteen floats in all.
+inline void compress_store(float* p, Lanes<16> a, unsigned set) {
+    _mm512_storeu_ps(p, _mm512_maskz_compress_ps(static_cast<__mmask16>(set), a.v));
+}
+inline float reduce_min(Lanes<16> a) {
+    return _mm512_reduce_min_ps(a.v);
+}
+
+}  // namespace meniscus
