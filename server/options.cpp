@@ -15,6 +15,7 @@
 
 #include "available_memory.hpp"
 #include "meniscus/names.hpp"
+#include "meniscus/reconstructor.hpp"
 #include "settings_sources.hpp"
 
 namespace meniscus::server {

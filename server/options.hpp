@@ -5,7 +5,7 @@
 #include <string>
 
 #include "log.hpp"
-#include "server.hpp"
+#include "server_options.hpp"
 
 namespace meniscus::server {
 

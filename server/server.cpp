@@ -1,14 +1,19 @@
 #include "server.hpp"
 
 #include <fmt/format.h>
+#include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <iterator>
 #include <thread>
 
+#include "connections/descriptors.hpp"
+#include "connections/grpc_port.hpp"
+#include "connections/port_check.hpp"
 #include "listen_address.hpp"
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
@@ -16,13 +21,21 @@
 #include "metrics/gauge_family.hpp"
 #include "metrics/limit_gauges.hpp"
 #include "metrics/process_metrics.hpp"
+#include "metrics/prometheus_metrics.hpp"
 #include "metrics/recording_metrics.hpp"
 #include "metrics/session_gauges.hpp"
 #include "open_work.hpp"
+#include "recording/recording_reads.hpp"
+#include "recording/recording_writer.hpp"
 #include "recording/session_recording.hpp"
 #include "rpc/call_counter.hpp"
+#include "rpc/health_service.hpp"
 #include "rpc/server_instance.hpp"
+#include "rpc/services.hpp"
+#include "security/access.hpp"
 #include "security/trusted_peers.hpp"
+#include "sessions/session_registry.hpp"
+#include "web/http_server.hpp"
 #include "web/observation_pages.hpp"
 #include "web/viewer_pages.hpp"
 
@@ -153,7 +166,53 @@ std::vector<std::string> problems_of(const ServerOptions& options) {
     return problems;
 }
 
-Server::Server(const ServerOptions& options)
+class Server::Impl {
+public:
+    explicit Impl(const ServerOptions& options);
+    ~Impl();
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    const std::string& address() const noexcept { return port_.address(); }
+    std::string http_address() const { return http_ ? http_->address() : std::string(); }
+    std::string probes_address() const { return probes_ ? probes_->address() : std::string(); }
+    const BackendDescription& backend() const noexcept { return backend_; }
+    const RecordingWriter* recordings() const noexcept { return recordings_.get(); }
+    void reload() { access_.reload(); }
+    void shutdown();
+
+private:
+    std::vector<prometheus::MetricFamily> metrics();
+    void add_observation(Router& router);
+    void serve_http(const AllowedOrigins& origins);
+    void serve_probes();
+
+    const ServerOptions options_;
+    Access access_;
+    const BackendDescription backend_;
+    const ConnectionShares shares_;
+    const Limits limits_;  ///< in force: connections as far as there are descriptors
+    const std::shared_ptr<PrometheusMetrics> metrics_;
+    const std::unique_ptr<RecordingWriter> recordings_;  ///< none: nothing is recorded
+    SessionRegistry registry_;
+    const std::unique_ptr<RecordingReads> recording_reads_;  ///< none: nothing is recorded
+    ActiveCalls streams_;
+    ActiveCalls receivers_;  ///< calls of watchers and readers
+    Refusals refusals_;
+    HealthService health_service_;
+    ServerServiceImpl server_service_;
+    SessionServiceImpl session_service_;
+    SurfaceServiceImpl surface_service_;
+    RecordingServiceImpl recording_service_;
+    GrpcPort port_;
+    std::unique_ptr<grpc::Server> grpc_;
+    std::unique_ptr<PortCheck> check_;
+    std::atomic<bool> draining_{false};
+    std::unique_ptr<HttpServer> http_;  ///< these last: their pages read the rest
+    std::unique_ptr<HttpServer> probes_;
+};
+
+Server::Impl::Impl(const ServerOptions& options)
     : options_((require_closed_to_others(options), options)),
       access_(options.tls, options.tokens, options.trusted_proxies),
       backend_(describe(options)),
@@ -206,11 +265,11 @@ Server::Server(const ServerOptions& options)
                  descriptor_limit());
 }
 
-Server::~Server() {
+Server::Impl::~Impl() {
     shutdown();
 }
 
-void Server::shutdown() {
+void Server::Impl::shutdown() {
     if (!grpc_) return;
     const auto time = options_.shutdown_grace - canceling_time(options_.shutdown_grace);
     const auto deadline = std::chrono::system_clock::now() + time;
@@ -243,7 +302,7 @@ void Server::shutdown() {
     probes_.reset();
 }
 
-void Server::serve_http(const AllowedOrigins& origins) {
+void Server::Impl::serve_http(const AllowedOrigins& origins) {
     const std::shared_ptr<const TlsContext> tls = access_.http_tls();
     Router router;
     add_viewer_pages(router);
@@ -260,7 +319,7 @@ void Server::serve_http(const AllowedOrigins& origins) {
                                          TrustedPeers(options_.trusted_proxies));
 }
 
-void Server::serve_probes() {
+void Server::Impl::serve_probes() {
     Router router;
     add_observation(router);
     HttpLimits limits;
@@ -269,7 +328,7 @@ void Server::serve_probes() {
     probes_ = std::make_unique<HttpServer>(options_.probes, std::move(router), GrpcWeb{}, limits);
 }
 
-std::vector<prometheus::MetricFamily> Server::metrics() {
+std::vector<prometheus::MetricFamily> Server::Impl::metrics() {
     std::vector<prometheus::MetricFamily> all = metrics_->collect();
     const auto add = [&all](std::vector<prometheus::MetricFamily> more) {
         all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
@@ -289,9 +348,41 @@ std::vector<prometheus::MetricFamily> Server::metrics() {
     return all;
 }
 
-void Server::add_observation(Router& router) {
+void Server::Impl::add_observation(Router& router) {
     add_observation_pages(
         router, [this] { return metrics(); }, [this] { return check_->answers(); }, [this] { return !draining_; });
+}
+
+Server::Server(const ServerOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+
+Server::~Server() = default;
+
+const std::string& Server::address() const noexcept {
+    return impl_->address();
+}
+
+std::string Server::http_address() const {
+    return impl_->http_address();
+}
+
+std::string Server::probes_address() const {
+    return impl_->probes_address();
+}
+
+const BackendDescription& Server::backend() const noexcept {
+    return impl_->backend();
+}
+
+const RecordingWriter* Server::recordings() const noexcept {
+    return impl_->recordings();
+}
+
+void Server::reload() {
+    impl_->reload();
+}
+
+void Server::shutdown() {
+    impl_->shutdown();
 }
 
 }  // namespace meniscus::server

@@ -1,5 +1,7 @@
 #include "rpc/standard_services.hpp"
 
+#include <grpcpp/server_builder.h>
+
 #include <grpc/grpc.h>
 #include <grpcpp/ext/channelz_service_plugin.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>

@@ -1,7 +1,9 @@
 // gRPC's own services, on demand: reflection and channelz.
 #pragma once
 
-#include <grpcpp/server_builder.h>
+namespace grpc {
+class ServerBuilder;
+}
 
 namespace meniscus::server {
 

@@ -93,15 +93,17 @@ void ParticleField<Kernel>::whole_block_values(const Int3& base_cell, float* val
     const WideLanes x = WideLanes::load(block_points.coordinate[0]);
     WideLanes y[registers];
     for (int i = 0; i < registers; ++i) y[i] = WideLanes::load(block_points.coordinate[1] + i * WideLanes::count);
-    // Each half of the block has so much fewer particles near it that a search of its own pays.
-    for (int slab = 0; slab < base_cell_size; slab += 2) {
-        const float low = static_cast<float>(slab) * cell;
-        const float z[2] = {low, low + cell};
-        WideLanes sum[2 * registers];
+    // Fewer searches pay where a register holds a whole slab.
+    constexpr int slabs = rows == base_cell_size ? 4 : 2;
+    for (int slab = 0; slab < base_cell_size; slab += slabs) {
+        float z[slabs];
+        for (int k = 0; k < slabs; ++k) z[k] = static_cast<float>(slab + k) * cell;
+        WideLanes sum[slabs * registers];
         for (WideLanes& s : sum) s = WideLanes(0.0F);
-        for (const Candidates& c : near_.near_box(base_cell, {{0.0F, 0.0F, z[0]}, {3 * cell, 3 * cell, z[1]}}, worker))
-            sum_grid_values<Kernel, registers, 2>(c.view(), x, y, z, sum);
-        for (int i = 0; i < 2 * registers; ++i) sum[i].store(values + (slab * registers + i) * WideLanes::count);
+        for (const Candidates& c :
+             near_.near_box(base_cell, {{0.0F, 0.0F, z[0]}, {3 * cell, 3 * cell, z[slabs - 1]}}, worker))
+            sum_grid_values<Kernel, registers, slabs>(c.view(), x, y, z, sum);
+        for (int i = 0; i < slabs * registers; ++i) sum[i].store(values + (slab * registers + i) * WideLanes::count);
     }
 }
 

@@ -16,6 +16,7 @@
 #include "formats/recording.hpp"
 #include "meniscus/error.hpp"
 #include "observation/metrics.hpp"
+#include "recording/recording_writer.hpp"
 #include "running_server.hpp"
 #include "sample_files.hpp"
 

@@ -8,6 +8,7 @@
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "running_server.hpp"
+#include "security/authorizer.hpp"
 #include "security/tokens.hpp"
 #include "test_certificates.hpp"
 

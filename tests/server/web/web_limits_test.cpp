@@ -10,6 +10,7 @@
 #include "meniscus/v1/server_service.pb.h"
 #include "meniscus/v1/surface_service.pb.h"
 #include "running_server.hpp"
+#include "web/http_server.hpp"
 #include "web/web_call.hpp"
 
 namespace meniscus::server::test {
