@@ -178,7 +178,7 @@ TEST(FrameOfARealSession, IsStoppedAfterItsTimeAndTheNextIsAnswered) {
     EXPECT_LT(std::chrono::steady_clock::now() - start, milliseconds(300) + 5 * milliseconds(200));
     simulator.end();
     Simulator next(*session, {});
-    next.send(1, test::wave(3, 0.0));
+    next.send(1, test::wave(1, 0.0));
     next.end();
     EXPECT_EQ(next.receive_all(), std::vector<std::uint64_t>{1});
 }
