@@ -30,15 +30,13 @@ void for_each_cluster(const std::uint64_t* cells, const Visit& visit) {
         }
 }
 
-/// Calls visit(number) for some members of a brick, cluster by cluster.
+/// Calls visit(number) for those of some members of a brick that are in the cluster at `corner`.
 template <class Visit>
-void for_each_clustered_member(const Brick& brick, const std::uint64_t* cells, const Visit& visit) {
-    for_each_cluster(cells, [&](const Int3& corner) {
-        for (int i = 0; i < 8; ++i) {
-            const int index = index_in_brick(corner + cluster_step(i));
-            if ((cells[index >> 6] >> (index & 63) & 1) != 0) visit(brick.number(index));
-        }
-    });
+void for_each_member(const Brick& brick, const std::uint64_t* cells, const Int3& corner, const Visit& visit) {
+    for (int i = 0; i < 8; ++i) {
+        const int index = index_in_brick(corner + cluster_step(i));
+        if ((cells[index >> 6] >> (index & 63) & 1) != 0) visit(brick.number(index));
+    }
 }
 
 }  // namespace meniscus::cpu

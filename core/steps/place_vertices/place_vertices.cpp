@@ -122,23 +122,81 @@ void bisect(FieldSource& field, const Int3& at, const BlocksView& blocks, std::u
     }
 }
 
-/// The field's normals, or along the edge where the domain's border or a vanishing gradient leaves none.
-void write_normals(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings,
-                   const BlockVertices& vertices, const float* x, const float* y, const float* z, Normal* out) {
-    float sum = 0.0F;
-    for (std::size_t i = 0; i < vertices.count; ++i) {
-        out[i] = {x[i], y[i], z[i]};
-        sum += x[i] + y[i] + z[i];
-    }
-    if (std::isfinite(sum) && !settings.has_domain) return;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i) {
-            const bool is_cropped =
-                settings.has_domain && EdgeValues{vertices.low[i], vertices.high[i]}.cropped(settings.iso);
-            out[i] =
-                outward_normal(out[i], is_cropped, static_cast<int>(axis), is_low_inside(blocks, block, vertices, i));
+/// Normals of a cluster's vertices: most blocks have too few of them to fill registers, and neighbors share the
+/// particles near them.
+class ClusterNormals {
+public:
+    ClusterNormals(const BlocksView& blocks, const LatticeSettings& settings, FieldSource& field, Mesh& mesh,
+                   unsigned worker)
+        : blocks_(blocks), settings_(settings), field_(field), mesh_(mesh), worker_(worker) {}
+
+    /// lowest: base cell of the cluster.
+    void begin(const Int3& lowest) { lowest_ = lowest; }
+
+    /// points: those of a block's vertices, relative to the block's corner.
+    void add(std::uint32_t block, const PointList& points) {
+        if (points_.count + points.count > max_points) finish();
+        const Int3 step = blocks_.coordinate(block) - lowest_;
+        const float x = static_cast<float>(step.x) * base_edge, y = static_cast<float>(step.y) * base_edge,
+                    z = static_cast<float>(step.z) * base_edge;
+        members_[member_count_++] = {block, points_.count, points.count};
+        for (std::size_t i = 0; i < points.count; ++i) {
+            points_.x[points_.count + i] = points.x[i] + x;
+            points_.y[points_.count + i] = points.y[i] + y;
+            points_.z[points_.count + i] = points.z[i] + z;
         }
-}
+        points_.count += points.count;
+    }
+
+    /// Writes those of all blocks added.
+    void finish() {
+        if (member_count_ == 0) return;
+        field_.normals(lowest_, points_, x_, y_, z_, worker_);
+        for (std::size_t m = 0; m < member_count_; ++m) write(members_[m]);
+        member_count_ = 0;
+        points_.count = 0;
+    }
+
+private:
+    struct Member {
+        std::uint32_t block;
+        std::size_t first, count;  ///< of its points
+    };
+
+    /// The field's normals, or along the edge where the domain's border or a vanishing gradient leaves none.
+    void write(const Member& member) {
+        Normal* const out = mesh_.normals.data() + blocks_.first_vertex[member.block];
+        float sum = 0.0F;
+        for (std::size_t i = 0; i < member.count; ++i) {
+            const std::size_t at = member.first + i;
+            out[i] = {x_[at], y_[at], z_[at]};
+            sum += x_[at] + y_[at] + z_[at];
+        }
+        if (std::isfinite(sum) && !settings_.has_domain) return;
+        BlockVertices vertices;
+        find_vertices(blocks_, member.block, vertices);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i) {
+                const bool is_cropped =
+                    settings_.has_domain && EdgeValues{vertices.low[i], vertices.high[i]}.cropped(settings_.iso);
+                out[i] = outward_normal(out[i], is_cropped, static_cast<int>(axis),
+                                        is_low_inside(blocks_, member.block, vertices, i));
+            }
+    }
+
+    const BlocksView& blocks_;
+    const LatticeSettings& settings_;
+    FieldSource& field_;
+    Mesh& mesh_;
+    unsigned worker_;
+    Int3 lowest_{};
+    PointList points_;
+    Member members_[8];
+    std::size_t member_count_ = 0;
+    alignas(64) float x_[max_points];
+    alignas(64) float y_[max_points];
+    alignas(64) float z_[max_points];
+};
 
 void write_positions(const Int3& at, int bits, const PointList& points, LatticePosition* out) {
     for (std::size_t i = 0; i < points.count; ++i)
@@ -197,9 +255,7 @@ void place_vertices(State& s, FieldSource& field, Mesh& mesh) {
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         BlockVertices vertices;
         PointList points;
-        alignas(64) float nx[max_points];
-        alignas(64) float ny[max_points];
-        alignas(64) float nz[max_points];
+        ClusterNormals normals(blocks, s.settings, field, mesh, worker);
         const auto place_block = [&](std::uint32_t block) {
             find_vertices(blocks, block, vertices);
             const Int3 at = blocks.coordinate(block);
@@ -212,13 +268,17 @@ void place_vertices(State& s, FieldSource& field, Mesh& mesh) {
             list_points(vertices, s.settings.offset_bits, points);
             write_positions(at, static_cast<int>(s.settings.offset_bits), points,
                             mesh.vertices.data() + s.first_vertex[block]);
-            if (!s.settings.has_normals) return;
-            field.normals(at, points, nx, ny, nz, worker);
-            write_normals(blocks, block, s.settings, vertices, nx, ny, nz, mesh.normals.data() + s.first_vertex[block]);
+            if (s.settings.has_normals) normals.add(block, points);
         };
-        for (std::size_t brick = begin; brick < end; ++brick)
-            for_each_clustered_member(s.grid.bricks[brick],
-                                      &s.chosen_cells().word(static_cast<std::uint32_t>(brick), 0), place_block);
+        for (std::size_t b = begin; b < end; ++b) {
+            const Brick& brick = s.grid.bricks[b];
+            const std::uint64_t* const chosen = &s.chosen_cells().word(static_cast<std::uint32_t>(b), 0);
+            for_each_cluster(chosen, [&](const Int3& corner) {
+                normals.begin(brick.corner() + corner);
+                for_each_member(brick, chosen, corner, place_block);
+                normals.finish();
+            });
+        }
     });
     s.field_evaluations += evaluations.load(std::memory_order_relaxed);
 }

@@ -68,8 +68,7 @@ void measure(State& s, Neighborhoods& near) {
                 }
                 evaluations.fetch_add(2 * cells, std::memory_order_relaxed);
                 const Int3 base = brick.corner() + corner;
-                const auto jet_at = [&](const Point3<Lanes<8>>& p) {
-                    FieldJet<Lanes<8>> jet;
+                const auto jet_at = [&]<class Jet>(const Point3<Lanes<8>>& p, Jet jet) {
                     for (const Candidates& c : near.near_box(base, box_of(p), worker))
                         sum_jets<Kernel>(c.view(), p.x, p.y, p.z, jet);
                     return jet;

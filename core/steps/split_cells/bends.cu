@@ -33,8 +33,7 @@ __global__ void __launch_bounds__(block_threads, 2) measure_listed(const __grid_
         const Point3<float> corner{static_cast<float>(at.x - cluster.x) * edge,
                                    static_cast<float>(at.y - cluster.y) * edge,
                                    static_cast<float>(at.z - cluster.z) * edge};
-        const auto jet_at = [&](const Point3<float>& p) {
-            FieldJet<float> jet;
+        const auto jet_at = [&]<class Jet>(const Point3<float>& p, Jet jet) {
             // Wider by a unit, since the sides of the box are rounded.
             const UnitBox box{{p.x - 1.0F, p.y - 1.0F, p.z - 1.0F}, {p.x + 1.0F, p.y + 1.0F, p.z + 1.0F}};
             for_each_candidate<Kernel>(f, base_cell_origin(cluster), box,

@@ -69,8 +69,8 @@ MENISCUS_HD inline Point3<F> trilinear_root(const CellCorners<F>& corners) {
 }
 
 /// One Newton step of the field toward the iso-value, along the gradient. Units.
-template <class F>
-MENISCUS_HD inline Point3<F> newton_step(const FieldJet<F>& jet, float iso, const Point3<F>& p) {
+template <class Jet, class F>
+MENISCUS_HD inline Point3<F> newton_step(const Jet& jet, float iso, const Point3<F>& p) {
     const F t = (jet.value - F(iso)) / curvature_detail::divisor(jet.x, jet.y, jet.z);
     return {p.x - t * jet.x, p.y - t * jet.y, p.z - t * jet.z};
 }
@@ -120,7 +120,7 @@ struct SurfaceSearch {
 
 /// Looks for the surface in a cell: from the trilinear root where the corners' signs are mixed (1), from the middle
 /// where they agree (0), one Newton step, held inside the cell; then curvature, and where a second step leads. corner:
-/// the cell's lowest point, units. jet_at: from a Point3<F> to the FieldJet<F> there.
+/// the cell's lowest point, units. jet_at: from a Point3<F> and an empty FieldSlope<F> or FieldJet<F> to the one there.
 template <class F, class JetAt>
 MENISCUS_HD inline SurfaceSearch<F> search_surface(const CellCorners<F>& corners, F mixed, const Point3<F>& corner,
                                                    float iso, const JetAt& jet_at) {
@@ -128,8 +128,8 @@ MENISCUS_HD inline SurfaceSearch<F> search_surface(const CellCorners<F>& corners
     const Point3<F> start = trilinear_root(corners);
     const auto blend = [&](F from, F s) { return from + edge * fma(mixed, s - F(0.5F), F(0.5F)); };
     Point3<F> p{blend(corner.x, start.x), blend(corner.y, start.y), blend(corner.z, start.z)};
-    p = clamped_to_cell(newton_step(jet_at(p), iso, p), corner);
-    const FieldJet<F> jet = jet_at(p);
+    p = clamped_to_cell(newton_step(jet_at(p, FieldSlope<F>()), iso, p), corner);
+    const FieldJet<F> jet = jet_at(p, FieldJet<F>());
     const Point3<F> end = newton_step(jet, iso, p);
     const auto depth = [&](F v, F low) { return F(0.0F) - max(low - v, v - (low + edge)); };
     const F depth_x = depth(end.x, corner.x), depth_y = depth(end.y, corner.y), depth_z = depth(end.z, corner.z);
