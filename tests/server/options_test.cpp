@@ -112,6 +112,12 @@ TEST(Options, OfEachKindComeFromEachSource) {
     EXPECT_EQ(options.listen, from_file.listen) << "an empty variable is none";
 }
 
+TEST(Options, AreNotTheVariablesOfTheLibraryAndTheClient) {
+    const Variable instructions("MENISCUS_INSTRUCTIONS", "portable");
+    const Variable token("MENISCUS_TOKEN", "secret");
+    parse({});
+}
+
 TEST(Options, ThatAreWrongAreRefusedWithTheirSource) {
     const test::TestFolder folder;
     const std::string file = folder / "config";
