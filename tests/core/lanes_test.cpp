@@ -72,7 +72,8 @@ TEST(Lanes, ASetIsStoredInItsOrder) {
     for (int round = 0; round < 20'000; ++round) {
         const Operands x(random);
         unsigned expected = 0;
-        for (std::size_t i = 0; i < count; ++i) expected |= (x.a[i] <= x.b[i] ? 1U : 0U) << i;
+        for (std::size_t i = 0; i < count; ++i)
+            if (x.a[i] <= x.b[i]) expected |= 1U << i;
         const unsigned set = less_equal(WideLanes::load(x.a), WideLanes::load(x.b));
         ASSERT_EQ(set, expected);
         float stored[count];
