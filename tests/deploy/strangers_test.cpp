@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -42,7 +43,7 @@ protected:
         if (::access(Proxy::program(GetParam()), X_OK) != 0)
             GTEST_SKIP() << Proxy::program(GetParam()) << " is not there";
         server.emplace(std::vector<std::string>{"--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--threads", "1",
-                                                "--backend", "cpu", "--max-sessions", "64"});
+                                                "--backend", "cpu", "--max-sessions", "256"});
         const std::string address = server->address();
         const std::string http = server->http_address();
         std::map<std::string, std::string> ports;
@@ -87,6 +88,30 @@ TEST_P(Strangers, WhoseHeadersHaveNoEndDoNotReachTheServer) {
     for (const bool one : {true, false}) EXPECT_LT(Http2Attack(proxy->address()).endless_headers(bytes, one), bytes);
     EXPECT_EQ(client->server_info().version, version());
     EXPECT_LT(processor_seconds(server->pid()) - before, 1.0);
+}
+
+TEST_P(Strangers, AreNotAHundredClientsOfOneMachine) {
+    struct User {
+        explicit User(const std::string& address) : client(address), id(client::new_session_id()) {}
+        client::Client client;
+        std::string id;
+        std::optional<client::Stream> stream;
+        std::optional<client::Watcher> watcher;
+    };
+    std::vector<std::unique_ptr<User>> users;
+    for (int i = 0; i < 100; ++i) {
+        User& user = *users.emplace_back(std::make_unique<User>(proxy->address()));
+        user.client.create_session(user.id, settings());
+        user.stream = user.client.stream(user.id);
+        user.watcher = user.client.watch(user.id);
+    }
+    const Particles particles = wave(3, 0.0);
+    for (std::uint64_t frame = 0; frame < 3; ++frame) {
+        for (const auto& user : users) user->stream->push(particles.view(), frame, 0.0);
+        for (const auto& user : users) EXPECT_EQ(user->stream->next()->index, frame);
+    }
+    for (const auto& user : users) EXPECT_TRUE(user->watcher->next());
+    EXPECT_EQ(client->sessions().size(), 100U);
 }
 
 TEST_P(Strangers, AreNotTwentyStreamsOfOneClient) {
