@@ -1,5 +1,5 @@
-"""What is compiled for a wider instruction set than the processor may have cannot run by accident: an object with the CPU's
-loops shares no symbol with the program but its entry, and nothing in it runs before it is called.
+"""What is compiled for a wider instruction set than the processor may have cannot run by accident: an object with the
+CPU's loops shares no symbol with the program but its entry, and nothing in it runs before it is called.
 
     instruction_sets_test.py NM READELF OBJECT...
 """

@@ -73,7 +73,7 @@ struct BackendDescription {
     std::string reason;  ///< why this backend, in one line
 };
 /// choice: Backend::automatic takes the GPU if it can be used. device: index of that GPU. Throws InvalidInput for
-/// Backend::cuda without a GPU that can be used, and where MENISCUS_INSTRUCTIONS names instructions that cannot be used.
+/// Backend::cuda without a GPU that can be used, and where MENISCUS_INSTRUCTIONS names a set that cannot be used.
 BackendDescription describe_backend(Backend choice, int device = 0);
 
 /// This library's version, "major.minor.patch".
