@@ -188,11 +188,11 @@ private:
     const LatticeSettings& settings_;
     FieldSource& field_;
     Mesh& mesh_;
-    unsigned worker_;
-    Int3 lowest_{};
-    PointList points_;
-    Member members_[8];
     std::size_t member_count_ = 0;
+    Int3 lowest_{};
+    unsigned worker_;
+    Member members_[8];
+    PointList points_;
     alignas(64) float x_[max_points];
     alignas(64) float y_[max_points];
     alignas(64) float z_[max_points];
