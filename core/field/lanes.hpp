@@ -59,6 +59,10 @@ MENISCUS_HD inline float trunc(float a) {
     return __builtin_truncf(a);
 #endif
 }
+/// The set of one lane, or none.
+MENISCUS_HD inline unsigned less_equal(float a, float b) {
+    return a <= b ? 1 : 0;
+}
 MENISCUS_HD inline float max(float a, float b) {
     return a > b ? a : b;
 }

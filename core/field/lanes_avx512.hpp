@@ -49,6 +49,14 @@ inline unsigned less_equal(Lanes<16> a, Lanes<16> b) {
 inline void compress_store(float* p, Lanes<16> a, unsigned set) {
     _mm512_storeu_ps(p, _mm512_maskz_compress_ps(static_cast<__mmask16>(set), a.v));
 }
+/// Adds to a row for each lane of a set the bits from `first` to `last`, whole numbers of 0 to 15.
+inline void add_spans(std::uint16_t* rows, Lanes<16> first, Lanes<16> last, unsigned set) {
+    const __m512i above = _mm512_sllv_epi32(_mm512_set1_epi32(2), _mm512_cvttps_epi32(last.v));
+    const __m512i below = _mm512_sllv_epi32(_mm512_set1_epi32(1), _mm512_cvttps_epi32(first.v));
+    const __m512i spans = _mm512_maskz_sub_epi32(static_cast<__mmask16>(set), above, below);
+    auto* const all = reinterpret_cast<__m256i*>(rows);
+    _mm256_storeu_si256(all, _mm256_or_si256(_mm256_loadu_si256(all), _mm512_cvtepi32_epi16(spans)));
+}
 inline float reduce_min(Lanes<16> a) {
     return _mm512_reduce_min_ps(a.v);
 }

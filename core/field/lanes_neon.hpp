@@ -58,6 +58,15 @@ inline void compress_store(float* p, Lanes<8> a, unsigned set) {
     a.store(values);
     for (std::size_t i = 0; i < 8; ++i) p[i] = values[lanes_of_set[set][i]];
 }
+/// Adds to a row for each lane of a set the bits from `first` to `last`, whole numbers of 0 to 15.
+inline void add_spans(std::uint16_t* rows, Lanes<8> first, Lanes<8> last, unsigned set) {
+    float from[8], to[8];
+    first.store(from);
+    last.store(to);
+    for (std::size_t i = 0; i < 8; ++i)
+        if ((set >> i & 1) != 0)
+            rows[i] |= static_cast<std::uint16_t>((2U << static_cast<int>(to[i])) - (1U << static_cast<int>(from[i])));
+}
 inline float reduce_min(Lanes<8> a) {
     return vminvq_f32(vminq_f32(a.low, a.high));
 }

@@ -68,6 +68,12 @@ inline unsigned less_equal(const Lanes<8>& a, const Lanes<8>& b) {
 inline void compress_store(float* p, const Lanes<8>& a, unsigned set) {
     for (std::size_t i = 0; i < Lanes<8>::count; ++i) p[i] = a.v[lanes_of_set[set][i]];
 }
+inline void add_spans(std::uint16_t* rows, const Lanes<8>& first, const Lanes<8>& last, unsigned set) {
+    for (std::size_t i = 0; i < Lanes<8>::count; ++i)
+        if ((set >> i & 1) != 0)
+            rows[i] |=
+                static_cast<std::uint16_t>((2U << static_cast<int>(last.v[i])) - (1U << static_cast<int>(first.v[i])));
+}
 inline float reduce_min(const Lanes<8>& a) {
     float result = a.v[0];
     for (const float x : a.v) result = x < result ? x : result;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <utility>
 
 #include "field/lanes.hpp"
 
@@ -64,6 +65,28 @@ TEST(Lanes, EveryOperationGivesTheScalarsBits) {
         expect_same("sqrt", x, sqrt(a), [](float p, float, float) { return sqrt(p); });
         expect_same("trunc", x, trunc(a), [](float p, float, float) { return trunc(p); });
         if (HasFatalFailure()) return;
+    }
+}
+
+TEST(Lanes, SpansAreAddedToTheRowsOfASet) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> place(0.0F, 15.999F);
+    for (int round = 0; round < 20'000; ++round) {
+        float first[count], last[count];
+        std::uint16_t rows[count + 1], expected[count + 1];
+        const auto set = static_cast<unsigned>(random()) & ((1U << count) - 1);
+        for (std::size_t i = 0; i <= count; ++i) expected[i] = rows[i] = static_cast<std::uint16_t>(random());
+        for (std::size_t i = 0; i < count; ++i) {
+            const bool in_set = (set >> i & 1) != 0;
+            first[i] = std::trunc(place(random));
+            last[i] = std::trunc(place(random));
+            if (in_set && first[i] > last[i]) std::swap(first[i], last[i]);
+            for (int bit = 0; in_set && bit < 16; ++bit)
+                if (static_cast<float>(bit) >= first[i] && static_cast<float>(bit) <= last[i])
+                    expected[i] |= static_cast<std::uint16_t>(1U << bit);
+        }
+        add_spans(rows, WideLanes::load(first), WideLanes::load(last), set);
+        for (std::size_t i = 0; i <= count; ++i) ASSERT_EQ(rows[i], expected[i]) << "lane " << i;
     }
 }
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "engine/cpu/words.hpp"
 #include "engine/index_limit.hpp"
@@ -207,6 +209,49 @@ void require_bearable_base_cells(const ParticleSets& sets, std::uint64_t pairs, 
         throw_too_much_work("the base cells", static_cast<double>(pairs), even, sets.settings);
 }
 
+/// A slice of a brick at one z: its rows one after the other, four in a word.
+constexpr int words_of_slice = Brick::words / brick_size;
+static_assert(std::endian::native == std::endian::little);
+
+/// Marks the base cells of a brick that a particle reaches, a slice at a time; returns ReachedBox::count().
+std::uint32_t mark_reached(Brick& brick, float x, float y, float z, float support) {
+    const float reach = support + 16.0F;
+    const ReachedBox box({x, y, z}, reach);
+    if (box.empty()) return 0;
+    const std::uint64_t rows = row_bits(box.low[1], box.high[1]);
+    std::uint64_t widest[words_of_slice];
+    for (int w = 0; w < words_of_slice; ++w) {
+        // Of four bits, each to the end of its row.
+        const std::uint64_t four = rows >> (4 * w);
+        const std::uint64_t starts = (four & 1) | (four & 2) << 15 | (four & 4) << 30 | (four & 8) << 45;
+        widest[w] = starts * row_bits(box.low[0], box.high[0]);
+    }
+    WideLanes gap_y[brick_size / WideLanes::count];
+    alignas(64) float row_numbers[brick_size];
+    for (int i = 0; i < brick_size; ++i) row_numbers[i] = static_cast<float>(i);
+    for (int r = 0; r < brick_size / WideLanes::count; ++r)
+        gap_y[r] = gap_to_cells(y, WideLanes::load(row_numbers + r * WideLanes::count));
+    for (int cz = box.low[2]; cz <= box.high[2]; ++cz) {
+        std::uint64_t* const slice = brick.occupied + cz * words_of_slice;
+        // Most particles lie among others, which have marked all this.
+        std::uint64_t unmarked = 0;
+        for (int w = 0; w < words_of_slice; ++w) unmarked |= widest[w] & ~slice[w];
+        if (unmarked == 0) continue;
+        const float gap_z = gap_to_cells(z, static_cast<float>(cz));
+        std::uint16_t reached[brick_size] = {};
+        for (int r = 0; r < brick_size / WideLanes::count; ++r) {
+            const int first = r * WideLanes::count;
+            const ReachedRows<WideLanes> cells(x, gap_y[r], gap_z, reach);
+            add_spans(reached + first, cells.first, cells.last,
+                      cells.set & static_cast<unsigned>(rows >> first) & ((1U << WideLanes::count) - 1));
+        }
+        std::uint64_t of_words[words_of_slice];
+        std::memcpy(of_words, reached, sizeof of_words);
+        for (int w = 0; w < words_of_slice; ++w) slice[w] |= of_words[w];
+    }
+    return box.count();
+}
+
 /// Fills `grid` with the base cells that a particle's support reaches; numbers stay to be given. Returns the pairs of a
 /// base cell and a particle near it, about.
 std::uint64_t mark_reached_cells(ParticleSets& sets, BrickGrid& grid) {
@@ -253,7 +298,7 @@ std::uint64_t mark_reached_cells(ParticleSets& sets, BrickGrid& grid) {
                                              if (particle % 16384 == 0) sets.workers.go_on();
                                              const float support = view.support_of(particle);
                                              if (x != last[0] || y != last[1] || z != last[2] || support != last[3])
-                                                 by_last = mark_reached(BrickMarks{brick}, x, y, z, support);
+                                                 by_last = mark_reached(brick, x, y, z, support);
                                              marked += by_last;
                                              last[0] = x;
                                              last[1] = y;

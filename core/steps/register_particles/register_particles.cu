@@ -258,6 +258,33 @@ struct SharedMarks {
     }
 };
 
+/// Marks the base cells of a brick that a particle reaches; returns ReachedBox::count().
+__device__ std::uint32_t mark_reached(const SharedMarks& marks, float x, float y, float z, float support) {
+    const float reach = support + 16.0F;
+    const ReachedBox box({x, y, z}, reach);
+    if (box.empty()) return 0;
+    // Most particles lie among others: rows that those have marked are passed over, four at a time.
+    const std::uint64_t widest = row_bits(box.low[0], box.high[0]) * first_of_rows;
+    for (int cz = box.low[2]; cz <= box.high[2]; ++cz) {
+        const float gap_z = gap_to_cells(z, static_cast<float>(cz));
+        for (int rows = box.low[1] & ~3; rows <= box.high[1]; rows += 4) {
+            const int w = rows >> 2 | cz << 2;
+            const std::uint64_t unmarked = widest & ~marks.word(w);
+            if (unmarked == 0) continue;
+            std::uint64_t reached = 0;
+            for (int cy = max(box.low[1], rows); cy <= min(box.high[1], rows + 3); ++cy) {
+                const int row = (cy & 3) << 4;
+                if (unmarked >> row << 48 == 0) continue;
+                const ReachedRows<float> cells(x, gap_to_cells(y, static_cast<float>(cy)), gap_z, reach);
+                if (cells.set != 0)
+                    reached |= row_bits(static_cast<int>(cells.first), static_cast<int>(cells.last)) << row;
+            }
+            marks.add(w, reached);
+        }
+    }
+    return box.count();
+}
+
 /// A block of threads for every brick: its warps share the runs of particles near it.
 __global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __grid_constant__ State f) {
     __shared__ unsigned halves[2 * Brick::words];

@@ -23,7 +23,7 @@ struct ReachedBricks {
     }
 };
 
-/// 32 units more than the support, as mark_reached() widens it along x
+/// 32 units more than the support, as ReachedBox widens it along x
 /// (core/README.md#margins-of-registration-16-32-1).
 MENISCUS_HD inline ReachedBricks reached_bricks(std::uint64_t cell_key, std::int64_t cell_units, float support) {
     constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
@@ -36,74 +36,62 @@ MENISCUS_HD inline ReachedBricks reached_bricks(std::uint64_t cell_key, std::int
     return {{low(corner.x), low(corner.y), low(corner.z)}, {high(corner.x), high(corner.y), high(corner.z)}};
 }
 
-/// Marks in a brick that one thread alone works on.
-struct BrickMarks {
-    Brick& brick;
-    MENISCUS_HD std::uint64_t word(int w) const { return brick.occupied[w]; }
-    MENISCUS_HD void add(int w, std::uint64_t cells) const { brick.occupied[w] |= cells; }
-};
+// A particle reaches the base cells whose closed box lies within its support. Position and support in units, relative
+// to a brick's corner; rounded outward by 16 units, more than float32 can be off
+// (core/README.md#margins-of-registration-16-32-1).
 
-/// Marks the base cells of a brick whose closed box lies within a particle's support. Position and support in units,
-/// relative to the brick's corner; rounded outward by 16 units, more than float32 can be off
-/// (core/README.md#margins-of-registration-16-32-1). marks: word(w) reads a word of Brick::occupied, add(w, cells) adds
-/// to it.
-/// Returns how many there are at most: those of the brick that the cube around the support meets.
-template <class Marks>
-MENISCUS_HD inline std::uint32_t mark_reached(const Marks& marks, float x, float y, float z, float support) {
-    constexpr float edge = units_per_base_cell;
-    const float reach = support + 16.0F;
-    const auto first = [&](float p) {
-        const auto i = static_cast<int>(p / edge);
-        return p < 0.0F ? 0 : i;
-    };
-    const auto last = [&](float p) {
-        const auto i = static_cast<int>(p / edge);
-        return i > brick_size - 1 ? brick_size - 1 : i;
-    };
-    // A cell's closed box also touches the plane below it.
-    const auto gap = [&](float p, int i) {
-        const float low = static_cast<float>(i) * edge;
-        return max(max(low - p, p - (low + edge)), 0.0F);
-    };
-    if (z + reach < 0.0F || y + reach < 0.0F || x + reach < 0.0F) return 0;
-    const int z0 = first(z - reach - 1.0F);
-    const int z1 = last(z + reach);
-    const int y0 = first(y - reach - 1.0F);
-    const int y1 = last(y + reach);
-    const int x_low = first(x - (reach + 16.0F));
-    const int x_high = last(x + (reach + 16.0F));
-    if (x_low > x_high || y0 > y1 || z0 > z1) return 0;
-    // Most particles lie among others: rows that those have marked are passed over, four at a time.
-    const std::uint64_t widest = ((std::uint64_t{2} << x_high) - (std::uint64_t{1} << x_low)) * first_of_rows;
-    for (int cz = z0; cz <= z1; ++cz) {
-        const float dz = gap(z, cz);
-        for (int rows = y0 & ~3; rows <= y1; rows += 4) {
-            const int w = rows >> 2 | cz << 2;
-            const std::uint64_t occupied = marks.word(w);
-            if ((widest & ~occupied) == 0) continue;
-            std::uint64_t reached = 0;
-            const int y_end = y1 < rows + 3 ? y1 : rows + 3;
-            for (int cy = y0 > rows ? y0 : rows; cy <= y_end; ++cy) {
-                const int row = (cy & 3) << 4;
-                if ((widest & ~occupied) >> row << 48 == 0) continue;
-                const float dy = gap(y, cy);
-                const float left = reach * reach - dz * dz - dy * dy;
-                if (left < 0.0F) continue;
-                const float span = sqrt(left) + 16.0F;
-                if (x + span < 0.0F) continue;
-                const int x0 = first(x - span);
-                const int x1 = last(x + span);
-                if (x0 > x1) continue;
-                reached |= ((std::uint64_t{2} << x1) - (std::uint64_t{1} << x0)) << row;
-            }
-            marks.add(w, reached);
+/// The cells of a brick that the cube around a particle's support meets, from `low` to `high`.
+struct ReachedBox {
+    int low[3], high[3];
+
+    MENISCUS_HD ReachedBox(const float (&p)[3], float reach) {
+        constexpr float edge = units_per_base_cell;
+        for (int axis = 0; axis < 3; ++axis) {
+            // A cell's closed box also touches the plane below it; a row may be found longer than it is.
+            const float first = p[axis] - reach - (axis == 0 ? 16.0F : 1.0F);
+            const float last = p[axis] + reach + (axis == 0 ? 16.0F : 0.0F);
+            low[axis] = first < 0.0F ? 0 : static_cast<int>(first / edge);
+            high[axis] = p[axis] + reach < 0.0F ? -1 : static_cast<int>(min(last / edge, float{brick_size - 1}));
         }
     }
-    return static_cast<std::uint32_t>((x_high - x_low + 1) * (y1 - y0 + 1) * (z1 - z0 + 1));
+    MENISCUS_HD bool empty() const { return low[0] > high[0] || low[1] > high[1] || low[2] > high[2]; }
+    MENISCUS_HD std::uint32_t count() const {
+        return static_cast<std::uint32_t>((high[0] - low[0] + 1) * (high[1] - low[1] + 1) * (high[2] - low[2] + 1));
+    }
+};
+
+/// A row of a brick's cells from `first` to `last`, as bits.
+MENISCUS_HD constexpr std::uint64_t row_bits(int first, int last) {
+    return (std::uint64_t{2} << last) - (std::uint64_t{1} << first);
 }
 
+/// The distance of a place from the slice of cells i along an axis. F is float or Lanes.
+template <class F>
+MENISCUS_HD inline F gap_to_cells(float p, F i) {
+    constexpr float edge = units_per_base_cell;
+    const F low = i * F(edge);
+    return max(max(low - F(p), F(p) - (low + F(edge))), F(0.0F));
+}
+
+/// The reached cells of rows along x, from `first` to `last` where they are whole numbers; none for lanes out of `set`.
+template <class F>
+struct ReachedRows {
+    F first, last;
+    unsigned set;
+
+    /// x: the particle's place along the rows; gap_y, gap_z: its distances from them.
+    MENISCUS_HD ReachedRows(float x, F gap_y, float gap_z, float reach) {
+        constexpr float edge = units_per_base_cell;
+        const F left = F(reach * reach - gap_z * gap_z) - gap_y * gap_y;
+        const F span = sqrt(max(left, F(0.0F))) + F(16.0F);
+        first = max(trunc((F(x) - span) / F(edge)), F(0.0F));
+        last = min(trunc((F(x) + span) / F(edge)), F(float{brick_size - 1}));
+        set = less_equal(F(0.0F), left) & less_equal(F(0.0F), F(x) + span) & less_equal(first, last);
+    }
+};
+
 /// Pairs of a brick's base cells and particles near them, where only `members` of its cells are stored, by the sum of
-/// what mark_reached() returned. A domain leaves cells out however near particles are.
+/// ReachedBox::count(). A domain leaves cells out however near particles are.
 MENISCUS_HD inline std::uint64_t pairs_in_brick(std::uint64_t marked, std::uint32_t members, bool has_domain) {
     return has_domain ? marked / brick_volume * members + marked % brick_volume * members / brick_volume : marked;
 }
