@@ -113,10 +113,18 @@ void Candidates::cull(const Candidates& from, const std::array<float, 3>& shift,
     append_near(from.view(), shift, UnitBoxLanes(box));
 }
 
+namespace {
+
+CandidateLists::Levels lists_of_levels(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports) {
+    return {Candidates(account, has_own_supports), Candidates(account, has_own_supports),
+            Candidates(account, has_own_supports), Candidates(account, has_own_supports)};
+}
+
+}  // namespace
+
 CandidateLists::CandidateLists(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports)
-    : cluster{Candidates(account, has_own_supports), Candidates(account, has_own_supports),
-              Candidates(account, has_own_supports), Candidates(account, has_own_supports)},
-      near{Candidates(account, has_own_supports), Candidates(account, has_own_supports),
-           Candidates(account, has_own_supports), Candidates(account, has_own_supports)} {}
+    : group(lists_of_levels(account, has_own_supports)),
+      cluster(lists_of_levels(account, has_own_supports)),
+      near(lists_of_levels(account, has_own_supports)) {}
 
 }  // namespace meniscus::cpu

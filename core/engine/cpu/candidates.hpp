@@ -49,15 +49,16 @@ private:
     float inverse_support_ = 0.0F;
 };
 
-/// Of all particle levels: near a cluster of blocks, and near some points in one of its blocks.
+/// Of all particle levels: near a group of clusters (clusters.hpp), near one of them, and near some points in it.
 struct CandidateLists {
     CandidateLists(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports);
 
     using Levels = std::array<Candidates, particle_level_count>;
+    Levels group;
     Levels cluster;
     Levels near;
-    Int3 corner;               ///< lowest base cell of the cluster
-    bool has_cluster = false;  ///< whether `cluster` holds the particles near it
+    Int3 group_corner, cluster_corner;  ///< lowest base cells
+    bool has_cluster = false;           ///< whether `group` and `cluster` hold the particles near them
 };
 
 }  // namespace meniscus::cpu

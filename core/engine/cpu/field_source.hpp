@@ -1,16 +1,18 @@
 // What the surface stages ask of a field. Tests put white noise in place of particles.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
+#include "engine/cpu/clusters.hpp"
 #include "lattice/block_mask.hpp"
 #include "lattice/coordinates.hpp"
 
 namespace meniscus::cpu {
 
-/// Most points asked for at once: a block's vertices.
-inline constexpr std::size_t max_points = 3 * 64;
+/// Most points asked for at once: a block's vertices, or sixteen points of every block of a cluster.
+inline constexpr std::size_t max_points = std::max(3 * 64, 16 * cluster_blocks);
 
 /// Points in units from a base cell's corner; room for whole lanes.
 struct PointList {
@@ -27,8 +29,8 @@ struct PointList {
     }
 };
 
-using ClusterPoints = std::array<BlockMask, 8>;
-using ClusterValues = std::array<std::array<float, 64>, 8>;
+using ClusterPoints = std::array<BlockMask, cluster_blocks>;
+using ClusterValues = std::array<std::array<float, 64>, cluster_blocks>;
 
 /// Arrays have room for max_points elements; a list's lanes beyond its points may be overwritten. A value is a pure
 /// function of the point's place in the world.
@@ -36,7 +38,7 @@ class FieldSource {
 public:
     virtual ~FieldSource() = default;
     virtual void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) = 0;
-    /// Those of some lattice points of the eight blocks of a cluster (clusters.hpp): each block's by the points' bits;
+    /// Those of some lattice points of the blocks of a cluster (clusters.hpp): each block's by the points' bits;
     /// what lies between them may be overwritten.
     virtual void cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values,
                                 unsigned worker) = 0;

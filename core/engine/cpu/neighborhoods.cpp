@@ -1,9 +1,28 @@
-// One search for a cluster of eight base cells serves all boxes in it.
+// One search for a group of clusters serves all of them, and one list of a cluster all boxes in it.
 #include "engine/cpu/neighborhoods.hpp"
 
 #include <algorithm>
 
+#include "engine/cpu/clusters.hpp"
+
 namespace meniscus::cpu {
+namespace {
+
+UnitBox box_of_cells(const Int3& size) {
+    return {{0.0F, 0.0F, 0.0F},
+            {static_cast<float>(size.x) * base_edge, static_cast<float>(size.y) * base_edge,
+             static_cast<float>(size.z) * base_edge}};
+}
+
+/// What moves positions relative to one base cell to those relative to another.
+std::array<float, 3> shift_between(const Int3& from, const Int3& to) {
+    const Int3 step = from - to;
+    return {static_cast<float>(step.x) * base_edge, static_cast<float>(step.y) * base_edge,
+            static_cast<float>(step.z) * base_edge};
+}
+
+}  // namespace
+
 Neighborhoods::Neighborhoods(const std::shared_ptr<MemoryAccount>& account, unsigned workers, ParticleSets& sets)
     : sets_(sets) {
     for (unsigned i = 0; i < workers; ++i) lists_.emplace_back(account, sets.settings.has_own_supports);
@@ -16,24 +35,27 @@ void Neighborhoods::forget() {
 const CandidateLists::Levels& Neighborhoods::near_cluster(const Int3& base_cell, unsigned worker) {
     sets_.workers.go_on();
     CandidateLists& lists = lists_[worker];
-    const Int3 corner{base_cell.x & ~1, base_cell.y & ~1, base_cell.z & ~1};
-    if (!lists.has_cluster || !(lists.corner == corner)) {
-        const UnitBox box{{0.0F, 0.0F, 0.0F}, {2 * base_edge, 2 * base_edge, 2 * base_edge}};
+    const Int3 corner = cluster_corner(base_cell);
+    if (lists.has_cluster && lists.cluster_corner == corner) return lists.cluster;
+    const Int3 group = group_corner(base_cell);
+    if (!lists.has_cluster || !(lists.group_corner == group)) {
+        const UnitBox box = box_of_cells({group_size, group_size, group_size});
         for (std::size_t k = 0; k < particle_level_count; ++k)
-            lists.cluster[k].gather(sets_[k].view(), base_cell_origin(corner), box);
-        lists.corner = corner;
-        lists.has_cluster = true;
+            lists.group[k].gather(sets_[k].view(), base_cell_origin(group), box);
+        lists.group_corner = group;
     }
+    const std::array<float, 3> shift = shift_between(group, corner);
+    for (std::size_t k = 0; k < particle_level_count; ++k)
+        lists.cluster[k].cull(lists.group[k], shift, box_of_cells(cluster_size));
+    lists.cluster_corner = corner;
+    lists.has_cluster = true;
     return lists.cluster;
 }
 
 const CandidateLists::Levels& Neighborhoods::near_box(const Int3& base_cell, const UnitBox& box, unsigned worker) {
     const CandidateLists::Levels& cluster = near_cluster(base_cell, worker);
     CandidateLists& lists = lists_[worker];
-    const Int3 offset = base_cell - lists.corner;
-    const std::array<float, 3> shift{static_cast<float>(-offset.x) * base_edge,
-                                     static_cast<float>(-offset.y) * base_edge,
-                                     static_cast<float>(-offset.z) * base_edge};
+    const std::array<float, 3> shift = shift_between(lists.cluster_corner, base_cell);
     for (std::size_t k = 0; k < particle_level_count; ++k) lists.near[k].cull(cluster[k], shift, box);
     return lists.near;
 }
@@ -54,7 +76,7 @@ const CandidateLists::Levels& Neighborhoods::company_near_box(const Units3& orig
 }
 
 void Neighborhoods::even_out() {
-    for (const auto levels : {&CandidateLists::cluster, &CandidateLists::near})
+    for (const auto levels : {&CandidateLists::group, &CandidateLists::cluster, &CandidateLists::near})
         for (std::size_t k = 0; k < particle_level_count; ++k) {
             std::size_t most = 0;
             for (const CandidateLists& lists : lists_) most = std::max(most, (lists.*levels)[k].capacity());

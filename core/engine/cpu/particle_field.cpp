@@ -52,8 +52,9 @@ void ParticleField<Kernel>::cluster_values(const Int3& lowest_base_cell, const C
     constexpr int few = 16;
     // Above this number of points, the regular grid of all 64 costs less than a list of these.
     constexpr int most = 48;
+    static_assert(few * cluster_blocks <= max_points);
     PointList pool;
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < cluster_blocks; ++i) {
         const BlockMask own = points[static_cast<std::size_t>(i)];
         const int count = popcount(own);
         if (count <= few) {
@@ -71,7 +72,7 @@ void ParticleField<Kernel>::cluster_values(const Int3& lowest_base_cell, const C
     alignas(64) float sums[max_points];
     sum_points<Kernel>(near_.near_box(lowest_base_cell, box_of(pool), worker), pool, sums);
     const float* next = sums;
-    for (std::size_t i = 0; i < 8; ++i)
+    for (std::size_t i = 0; i < points.size(); ++i)
         if (popcount(points[i]) <= few) next = scatter(points[i], next, values[i].data());
 }
 

@@ -191,7 +191,7 @@ private:
     std::size_t member_count_ = 0;
     Int3 lowest_{};
     unsigned worker_;
-    Member members_[8];
+    Member members_[cluster_blocks];
     PointList points_;
     alignas(64) float x_[max_points];
     alignas(64) float y_[max_points];

@@ -13,24 +13,24 @@ void sample(State& s, Neighborhoods& near) {
     resize_for_overwrite(s.reaches, s.block_count());
     s.samples.reserve(s.block_count());
     s.samples.resize(s.block_count());
-    // Base vertices of 2 x 2 x 2 cells fill the lanes; their cells' bounds need the same particles.
-    alignas(32) float lane_x[8], lane_y[8], lane_z[8];
-    for (int i = 0; i < 8; ++i) {
-        lane_x[i] = static_cast<float>(i & 1) * base_edge;
-        lane_y[i] = static_cast<float>(i >> 1 & 1) * base_edge;
-        lane_z[i] = static_cast<float>(i >> 2) * base_edge;
+    // Base vertices of a cluster fill the lanes; their cells' bounds need the same particles.
+    alignas(64) float lane_x[cluster_blocks], lane_y[cluster_blocks], lane_z[cluster_blocks];
+    for (int i = 0; i < cluster_blocks; ++i) {
+        lane_x[i] = static_cast<float>(cluster_step(i).x) * base_edge;
+        lane_y[i] = static_cast<float>(cluster_step(i).y) * base_edge;
+        lane_z[i] = static_cast<float>(cluster_step(i).z) * base_edge;
     }
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
-        const Lanes<8> x[1] = {Lanes<8>::load(lane_x)}, y[1] = {Lanes<8>::load(lane_y)},
-                       z[1] = {Lanes<8>::load(lane_z)};
-        const Lanes<8> half(base_edge / 2);
-        alignas(32) float value[8], bound[8], closest[8];
+        const WideLanes x[1] = {WideLanes::load(lane_x)}, y[1] = {WideLanes::load(lane_y)},
+                        z[1] = {WideLanes::load(lane_z)};
+        const WideLanes half(base_edge / 2);
+        alignas(64) float value[cluster_blocks], bound[cluster_blocks], closest[cluster_blocks];
         for (std::size_t b = begin; b < end; ++b) {
             const Brick& brick = s.grid.bricks[b];
             for_each_cluster(brick.occupied, [&](const Int3& corner) {
                 const Int3 base = brick.corner() + corner;
-                Lanes<8> sum[1] = {Lanes<8>(0.0F)};
-                Lanes<8> most(0.0F), nearest(0.0F);
+                WideLanes sum[1] = {WideLanes(0.0F)};
+                WideLanes most(0.0F), nearest(0.0F);
                 for (const Candidates& c : near.near_cluster(base, worker)) {
                     sum_values<Kernel, 1>(c.view(), x, y, z, sum);
                     sum_bounds<Kernel>(c.view(), x[0] + half, y[0] + half, z[0] + half, base_edge / 2, most, nearest);
@@ -38,8 +38,8 @@ void sample(State& s, Neighborhoods& near) {
                 sum[0].store(value);
                 most.store(bound);
                 nearest.store(closest);
-                for (int i = 0; i < 8; ++i) {
-                    const Int3 step{i & 1, i >> 1 & 1, i >> 2};
+                for (int i = 0; i < cluster_blocks; ++i) {
+                    const Int3 step = cluster_step(i);
                     const int place = index_in_brick(corner + step);
                     if (!brick.holds(place)) continue;
                     const std::uint32_t block = brick.number(place);

@@ -1,4 +1,4 @@
-// Step 4 on the CPU: blocks are sampled in clusters of eight, which share the particles near them.
+// Step 4 on the CPU: blocks are sampled in clusters, which share the particles near them.
 #include "steps/sample_field/sample_field.hpp"
 
 #include <algorithm>
@@ -59,10 +59,10 @@ BlockMask followed_points(Wanted wanted, BlockMask missing) {
 std::uint64_t sample_cluster(State& s, FieldSource& field, Wanted wanted, const Brick& brick, const Int3& corner,
                              const std::uint64_t* chosen, std::uint64_t& room, unsigned worker) {
     const Int3 lowest = brick.corner() + corner;
-    std::uint32_t block[8];
+    std::uint32_t block[cluster_blocks];
     ClusterPoints missing{};
     ClusterPoints followed{};
-    for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t i = 0; i < cluster_blocks; ++i) {
         const int place = index_in_brick(corner + cluster_step(static_cast<int>(i)));
         if ((chosen[place >> 6] >> (place & 63) & 1) == 0) continue;
         block[i] = brick.number(place);
@@ -73,7 +73,7 @@ std::uint64_t sample_cluster(State& s, FieldSource& field, Wanted wanted, const 
     std::uint64_t evaluations = 0;
     const auto sample = [&](const ClusterPoints& points, const auto& room_of) {
         field.cluster_values(lowest, points, values, worker);
-        for (std::size_t i = 0; i < 8; ++i) {
+        for (std::size_t i = 0; i < cluster_blocks; ++i) {
             if (points[i] == 0) continue;
             evaluations += static_cast<std::uint64_t>(popcount(points[i]));
             enter_samples(s, block[i], points[i], values[i], room_of(i));
@@ -85,7 +85,7 @@ std::uint64_t sample_cluster(State& s, FieldSource& field, Wanted wanted, const 
         return first;
     });
     bool any = false;
-    for (std::size_t i = 0; i < 8; ++i)
+    for (std::size_t i = 0; i < cluster_blocks; ++i)
         if (followed[i] != 0) {
             followed[i] = half_edge_middles(s.inside[block[i]], followed[i]);
             any = true;
