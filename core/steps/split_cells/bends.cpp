@@ -1,4 +1,5 @@
 // Curvature at a point of the surface in every cell of the band, the cells of a cluster at once.
+#include <algorithm>
 #include <atomic>
 
 #include "engine/cpu/clusters.hpp"
@@ -17,59 +18,89 @@ UnitBox box_of(const Point3<WideLanes>& points) {
             {reduce_max(points.x), reduce_max(points.y), reduce_max(points.z)}};
 }
 
+/// The base vertices at the corners of a cluster's cells: by x, then y, then z.
+struct ClusterVertices {
+    static constexpr int row = cluster_size.x + 1;
+    static constexpr int count = 9 * row;
+    float value[count];        ///< zero where no block is stored
+    std::uint64_t inside = 0;  ///< as bits
+
+    /// corner: lowest cell of the cluster, in this brick.
+    ClusterVertices(const BlocksView& blocks, std::uint32_t brick, const Int3& corner) {
+        for (int i = 0; i < 9; ++i) {
+            const Int3 to = corner + Int3{0, i % 3, i / 3};
+            const Int3 beyond = brick_of(to);
+            read(blocks, blocks.grid.neighbors[brick].brick[neighbor_slot(0, beyond.y, beyond.z)], to, cluster_size.x,
+                 row * i);
+            const int last = corner.x + cluster_size.x;
+            read(blocks,
+                 blocks.grid.neighbors[brick].brick[neighbor_slot(last >> brick_axis_shift, beyond.y, beyond.z)],
+                 {last, to.y, to.z}, 1, row * i + cluster_size.x);
+        }
+    }
+
+private:
+    /// Some vertices in a row of one brick, from a place on. A block's first sample is that of its base vertex.
+    void read(const BlocksView& blocks, std::uint32_t brick, const Int3& place, int vertices, int at) {
+        if (brick == no_index) {
+            std::fill(value + at, value + at + vertices, 0.0F);
+            return;
+        }
+        const int index = index_in_brick(place);
+        const std::uint64_t members = blocks.grid.bricks[brick].occupied[index >> 6] >> (index & 63);
+        std::uint32_t block = blocks.grid.bricks[brick].number(index);
+        for (int i = 0; i < vertices; ++i) {
+            const bool is_stored = (members >> i & 1) != 0;
+            value[at + i] = is_stored ? blocks.samples[blocks.first_sample[block]] : 0.0F;
+            inside |= std::uint64_t{is_stored && (blocks.inside[block] & 1) != 0} << (at + i);
+            block += is_stored ? 1 : 0;
+        }
+    }
+};
+
+/// Of the chosen cells.
 template <class Kernel>
 void measure(State& s, Neighborhoods& near) {
-    resize_for_overwrite(s.bends, s.block_count());
+    s.bends.assign(s.block_count(), {0.0F, 1});
     const BlocksView blocks = s.blocks();
     const BlobRule blobs{s.settings.blob_closest, s.settings.blob_level};
     const float iso = s.settings.iso;
     std::atomic<std::uint64_t> evaluations{0};
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+        std::uint64_t here = 0;
         for (std::size_t b = begin; b < end; ++b) {
             const Brick& brick = s.grid.bricks[b];
-            for_each_cluster(brick.occupied, [&](const Int3& corner) {
+            const std::uint64_t* const chosen = &s.chosen_cells().word(static_cast<std::uint32_t>(b), 0);
+            for_each_cluster(chosen, [&](const Int3& corner) {
                 std::uint32_t block[cluster_blocks];
-                std::uint64_t cells = 0;
-                int first = 0;
+                int first = cluster_blocks;
                 for (int i = 0; i < cluster_blocks; ++i) {
                     const int place = index_in_brick(corner + cluster_step(i));
-                    block[i] = brick.holds(place) ? brick.number(place) : no_index;
-                    if (block[i] != no_index) s.bends[block[i]] = {0.0F, 1};
-                    const bool in_band = blocks.level_or_none(block[i]) != 0;
-                    if (in_band && cells++ == 0) first = i;
-                    if (!in_band) block[i] = no_index;
+                    const bool is_chosen = (chosen[place >> 6] >> (place & 63) & 1) != 0;
+                    block[i] = is_chosen ? brick.number(place) : no_index;
+                    first = is_chosen ? std::min(first, i) : first;
+                    here += is_chosen ? 2 : 0;
                 }
-                if (cells == 0) return;
-                // The cells share their corners: by x, then y, then z.
-                constexpr int row = cluster_size.x + 1;
-                constexpr int vertex_count = 9 * row;
-                float vertices[vertex_count];
-                std::uint64_t inside_vertices = 0;
-                for (int i = 0; i < vertex_count; ++i) {
-                    const std::uint32_t owner = blocks.grid.neighbor(
-                        static_cast<std::uint32_t>(b), index_in_brick(corner), {i % row, i / row % 3, i / row / 3});
-                    vertices[i] = (owner == no_index ? 0.0F : blocks.value(owner, 0)) - iso;
-                    inside_vertices |= (blocks.inside_or_none(owner) & 1) << i;
-                }
+                const ClusterVertices vertices(blocks, static_cast<std::uint32_t>(b), corner);
                 alignas(64) float corners[8][cluster_blocks], starts[3][cluster_blocks],
                     mixed[cluster_blocks];  // [corner][cell]
                 int inside_corners[cluster_blocks];
                 for (int i = 0; i < cluster_blocks; ++i) {
-                    // Lanes of cells outside the band repeat another's, so that the box around their points stays
+                    // Lanes of cells that are not chosen repeat another's, so that the box around their points stays
                     // small.
                     const Int3 step = cluster_step(block[i] != no_index ? i : first);
                     inside_corners[i] = 0;
                     for (int k = 0; k < 8; ++k) {
-                        const int vertex = step.x + (k & 1) + row * (step.y + (k >> 1 & 1) + 3 * (step.z + (k >> 2)));
-                        corners[k][i] = vertices[vertex];
-                        inside_corners[i] += static_cast<int>(inside_vertices >> vertex & 1);
+                        const int vertex =
+                            step.x + (k & 1) + ClusterVertices::row * (step.y + (k >> 1 & 1) + 3 * (step.z + (k >> 2)));
+                        corners[k][i] = vertices.value[vertex] - iso;
+                        inside_corners[i] += static_cast<int>(vertices.inside >> vertex & 1);
                     }
                     mixed[i] = is_mixed(inside_corners[i]) ? 1.0F : 0.0F;
                     starts[0][i] = static_cast<float>(step.x) * base_edge;
                     starts[1][i] = static_cast<float>(step.y) * base_edge;
                     starts[2][i] = static_cast<float>(step.z) * base_edge;
                 }
-                evaluations.fetch_add(2 * cells, std::memory_order_relaxed);
                 const Int3 base = brick.corner() + corner;
                 const auto jet_at = [&]<class Jet>(const Point3<WideLanes>& p, Jet jet) {
                     for (const Candidates& c : near.near_box(base, box_of(p), worker))
@@ -92,6 +123,7 @@ void measure(State& s, Neighborhoods& near) {
                 }
             });
         }
+        evaluations.fetch_add(here, std::memory_order_relaxed);
     });
     s.field_evaluations += evaluations.load(std::memory_order_relaxed);
     near.even_out();

@@ -7,7 +7,7 @@
 namespace meniscus::cpu {
 namespace {
 
-/// Puts the stored cells that may hold surface into the band, at level 1.
+/// Puts the stored cells that may hold surface into the band, at level 1, and chooses them.
 void find_band(State& s) {
     const BlocksView blocks = s.blocks();
     const BandTest test{s.settings.iso, s.settings.deep_inside};
@@ -30,9 +30,13 @@ void find_band(State& s) {
     });
     for_each_word(s, [&](std::uint32_t brick, int w) {
         const CornerSets corners(vertices, brick, w);
+        std::uint64_t band = 0;
         for_each_cell(s.grid.bricks[brick], w, s.grid.bricks[brick].occupied[w], [&](std::uint32_t block, int bit) {
-            s.level[block] = corners.may_hold_surface(bit, test, s.reaches[block].bound) ? 1 : 0;
+            const bool in_band = corners.may_hold_surface(bit, test, s.reaches[block].bound);
+            s.level[block] = in_band ? 1 : 0;
+            band |= std::uint64_t{in_band} << bit;
         });
+        s.chosen_cells().word(brick, w) = band;
     });
 }
 
