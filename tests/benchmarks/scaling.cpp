@@ -1,13 +1,18 @@
 // meniscus-bench scaling: how time and memory grow with the particles, and how far they are from the floor.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "backend_options.hpp"
 #include "benchmarks.hpp"
 #include "device_peaks.hpp"
+#include "formats/particles.hpp"
 #include "machine_peaks.hpp"
 #include "neighbors.hpp"
 #include "report.hpp"
@@ -24,42 +29,53 @@ struct ScalingOptions {
     std::optional<double> tolerance;
     RepeatLimits limits;
     std::string out = "tests/benchmarks/results";
+    std::string frame;  ///< a file, in place of generated water
+    double particle_radius = 0.025;
 };
 
-constexpr double particle_radius = 0.025;
 /// From one size to the next.
 constexpr std::size_t growth = 4;
 /// Cell sizes in radii.
 constexpr double coarse = 1.0;
 constexpr double fine = 0.5;
-/// Vector instructions for one particle's share in the field at a point: distance 7, kernel 10, sum 1.
-constexpr double instructions_per_kernel = 18.0;
+/// Vector instructions for one particle's share in the field at a point. Color: distance 7, kernel 10, sum 1. Smooth:
+/// squared distance 6, kernel 3, sum 1.
+double instructions_per_kernel(const Settings& settings) {
+    return settings.field == Field::smooth ? 10.0 : 18.0;
+}
 
-/// Particles within the kernel's support, on average.
+/// Particles within whose support a place lies, on average.
 struct Neighborhood {
-    double of_particle = 0.0;
+    double of_particle = 0.0;  ///< see ParticlesNear::summed_at_particle()
     double of_vertex = 0.0;
 };
 
 Neighborhood sample_neighborhood(const std::vector<float>& positions, const Mesh& mesh, const Settings& settings) {
     constexpr std::size_t samples = 2000;
-    std::vector<float> particles;
-    for (const std::size_t i : pick_evenly(positions.size() / 3, samples))
-        for (std::size_t axis = 0; axis < 3; ++axis) particles.push_back(positions[3 * i + axis]);
-    std::vector<float> vertices;
-    for (const std::size_t i : pick_evenly(mesh.vertices.size(), samples))
-        for (const double coordinate : mesh.world(mesh.vertices[i])) vertices.push_back(static_cast<float>(coordinate));
-    const auto reach = static_cast<float>(support(settings) * settings.particle_radius);
-    return {mean_neighbors(positions, particles, reach), mean_neighbors(positions, vertices, reach)};
+    ParticlesNear near(positions, settings);
+    Neighborhood sums;
+    const std::vector<std::size_t> particles = pick_evenly(positions.size() / 3, samples);
+    for (const std::size_t i : particles) sums.of_particle += static_cast<double>(near.summed_at_particle(i));
+    const std::vector<std::size_t> vertices = pick_evenly(mesh.vertices.size(), samples);
+    for (const std::size_t i : vertices) {
+        const auto place = mesh.world(mesh.vertices[i]);
+        const float at[3] = {static_cast<float>(place[0]), static_cast<float>(place[1]), static_cast<float>(place[2])};
+        sums.of_vertex += static_cast<double>(near.reaching(at));
+    }
+    const auto mean = [](double sum, std::size_t n) { return n == 0 ? 0.0 : sum / static_cast<double>(n); };
+    return {mean(sums.of_particle, particles.size()), mean(sums.of_vertex, vertices.size())};
 }
 
-/// What could not be done in less time: the kernel for every pair within its support (densities at the particles, the
-/// field at its points, whose neighborhoods are taken to be like the vertices'), and one pass over the memory.
-void add_floor(Row& row, const Statistics& s, const Neighborhood& neighbors, const MachinePeaks& peaks) {
+/// What could not be done in less time: the kernel for every pair within a particle's own support (the sums at the
+/// particles, the field at its points, whose neighborhoods are taken to be like the vertices'), and one pass over the
+/// memory.
+void add_floor(Row& row, const Statistics& s, const Settings& settings, const Neighborhood& neighbors,
+               const MachinePeaks& peaks) {
     const double kernels = static_cast<double>(s.particles) * neighbors.of_particle +
                            static_cast<double>(s.field_evaluations) * neighbors.of_vertex;
     const unsigned cores = s.backend == "cuda" ? 1 : s.threads;  // a device's peaks are those of all of it
-    const double kernel_seconds = kernels * instructions_per_kernel / (peaks.multiply_adds_per_second * cores);
+    const double kernel_seconds =
+        kernels * instructions_per_kernel(settings) / (peaks.multiply_adds_per_second * cores);
     const double copy_seconds = static_cast<double>(reconstruction_bytes(s)) / peaks.copied_bytes_per_second;
     row["particles_in_support_of_particle"] = neighbors.of_particle;
     row["particles_in_support_of_vertex"] = neighbors.of_vertex;
@@ -68,10 +84,10 @@ void add_floor(Row& row, const Statistics& s, const Neighborhood& neighbors, con
     row["share_of_copy_bandwidth"] = copy_seconds / reconstruction_seconds(s);
 }
 
-Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<float>& positions, double cell_size,
-            Mode mode, const MachinePeaks& peaks) {
+Row measure(const ScalingOptions& options, const std::string& scene, const std::vector<float>& positions,
+            double cell_size, Mode mode, const MachinePeaks& peaks) {
     Settings settings;
-    settings.particle_radius = particle_radius;
+    settings.particle_radius = options.particle_radius;
     settings.cell_size = cell_size;
     settings.mode = mode;
     settings.criterion = CurvatureCriterion{options.tolerance};
@@ -83,7 +99,7 @@ Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<flo
     const auto particles = static_cast<double>(s.particles);
 
     Row row;
-    row["water"] = name_of(kind);
+    row["water"] = scene;
     row["cell_size"] = cell_size;
     row["mode"] = name_of(mode);
     row["particles"] = s.particles;
@@ -94,7 +110,7 @@ Row measure(const ScalingOptions& options, WaterKind kind, const std::vector<flo
     row["seconds_per_million_particles"] = 1e6 * reconstruction_seconds(s) / particles;
     row["bytes_per_particle"] = static_cast<double>(reconstruction_bytes(s)) / particles;
     row["bytes_per_triangle"] = static_cast<double>(reconstruction_bytes(s)) / static_cast<double>(s.triangles);
-    add_floor(row, s, sample_neighborhood(positions, mesh, settings), peaks);
+    add_floor(row, s, settings, sample_neighborhood(positions, mesh, settings), peaks);
     return row;
 }
 
@@ -152,22 +168,29 @@ void run_scaling(const ScalingOptions& options) {
     summary["peaks_of"] = on_device ? "the device" : "one core";
     summary["multiply_adds_per_second"] = peaks.multiply_adds_per_second;
     summary["copied_bytes_per_second"] = peaks.copied_bytes_per_second;
-    summary["instructions_per_kernel"] = instructions_per_kernel;
+    summary["instructions_per_kernel"] = instructions_per_kernel(Settings{});
     std::cout << "multiply-add peak " << 1e-9 * peaks.multiply_adds_per_second << " G/s, copy bandwidth "
               << 1e-9 * peaks.copied_bytes_per_second << " GB/s, of " << summary["peaks_of"].get<std::string>() << '\n'
               << "water     c    mode      particles s/million   first  B/part.  B/triang.  allocs   mul-add   copy\n";
     Rows rows = Rows::array();
-    for (std::size_t particles = basin_particles; particles <= options.max_particles; particles *= growth)
-        for (const WaterKind kind : choices<WaterKind>) {
-            const std::vector<float> positions = make_water(kind, particles, static_cast<float>(particle_radius));
-            for (const double cell_size : {coarse, fine}) {
-                if (cell_size == fine && particles > options.max_particles_fine) continue;
-                for (const Mode mode : {Mode::uniform, Mode::adaptive}) {
-                    rows.push_back(measure(options, kind, positions, cell_size, mode, peaks));
-                    print(rows.back());
-                }
+    const auto measure_scene = [&](const std::string& scene, const std::vector<float>& positions) {
+        for (const double cell_size : {coarse, fine}) {
+            if (cell_size == fine && positions.size() / 3 > options.max_particles_fine) continue;
+            for (const Mode mode : {Mode::uniform, Mode::adaptive}) {
+                rows.push_back(measure(options, scene, positions, cell_size, mode, peaks));
+                print(rows.back());
             }
         }
+    };
+    if (!options.frame.empty()) {
+        measure_scene(std::filesystem::path(options.frame).stem(), formats::read_particles(options.frame).positions);
+        write_report(options.out, "scaling", summary, rows);
+        return;
+    }
+    for (std::size_t particles = basin_particles; particles <= options.max_particles; particles *= growth)
+        for (const WaterKind kind : choices<WaterKind>)
+            measure_scene(std::string(name_of(kind)),
+                          make_water(kind, particles, static_cast<float>(options.particle_radius)));
     const Rows comparison = compare_sizes(rows);
     std::cout << "\nper particle, largest over smallest: time, memory\n";
     for (const Row& row : comparison) print_comparison(row);
@@ -197,6 +220,11 @@ void add_scaling(CLI::App& app) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command.add_option("--out", options->out, "Folder for the results")->capture_default_str();
+    command.add_option("--frame", options->frame, "File of particles to measure on, in place of generated water")
+        ->check(CLI::ExistingFile);
+    command.add_option("--particle-radius", options->particle_radius, "World units")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     command.callback([options] { run_scaling(*options); });
 }
 
