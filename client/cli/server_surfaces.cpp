@@ -7,7 +7,7 @@ namespace meniscus::cli {
 namespace {
 
 /// Frames under way or waiting for this process: enough to keep the server busy, few enough to bound memory.
-constexpr std::size_t frames_ahead = 4;
+constexpr std::size_t frames_under_way = 4;
 
 }  // namespace
 
@@ -17,7 +17,7 @@ ServerSurfaces::ServerSurfaces(const ServerFlags& server, std::string session, c
       session_(session.empty() ? client::new_session_id() : std::move(session)),
       handler_(std::move(handler)) {
     client_.create_session(session_, settings);
-    options.waiting_limit = frames_ahead;
+    options.waiting_limit = frames_under_way;
     stream_ = client_.stream(session_, options);
     receiver_ = std::thread([this] { receive(); });
 }

@@ -16,7 +16,7 @@ struct SessionsOptions {
     bool json = false;
 };
 
-nlohmann::ordered_json to_json(const client::SessionInfo& session) {
+nlohmann::ordered_json session_json(const client::SessionInfo& session) {
     nlohmann::ordered_json out;
     out["id"] = session.id;
     out["owner"] = session.owner;
@@ -40,7 +40,7 @@ void print_sessions(const SessionsOptions& options) {
     const std::vector<client::SessionInfo> sessions = options.server.connect().sessions();
     if (options.json) {
         auto all = nlohmann::ordered_json::array();
-        for (const client::SessionInfo& session : sessions) all.push_back(to_json(session));
+        for (const client::SessionInfo& session : sessions) all.push_back(session_json(session));
         std::cout << all.dump(2) << '\n';
         return;
     }

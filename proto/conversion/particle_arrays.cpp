@@ -38,9 +38,9 @@ struct KnownArray {
 
 constexpr std::array position_forms{Form{v1::ELEMENT_TYPE_FLOAT32, 3}, Form{v1::ELEMENT_TYPE_UINT16, 3}};
 constexpr std::array level_forms{Form{v1::ELEMENT_TYPE_UINT8, 1}};
-constexpr KnownArray position{"position", position_forms};
-constexpr KnownArray level{"level", level_forms};
-constexpr std::array known_arrays{position, level};
+constexpr KnownArray position_array{"position", position_forms};
+constexpr KnownArray level_array{"level", level_forms};
+constexpr std::array known_arrays{position_array, level_array};
 
 std::string quoted(std::string_view name) {
     return '"' + std::string(name) + '"';
@@ -108,13 +108,14 @@ ParticleLayout particle_layout(const ParticleArrays& arrays, UnknownArrays unkno
     if (arrays.size() > max_announced_arrays)
         throw InvalidInput(std::to_string(arrays.size()) + " arrays; at most " + std::to_string(max_announced_arrays) +
                            " are taken");
-    if (arrays.empty()) throw InvalidInput("no arrays; the first must be " + quoted(position.name));
+    if (arrays.empty()) throw InvalidInput("no arrays; the first must be " + quoted(position_array.name));
     ParticleLayout layout;
     for (int i = 0; i < arrays.size(); ++i) {
         const v1::ParticleArray& array = arrays[i];
         require_name(array.name(), i);
-        if (i == 0 && array.name() != position.name)
-            throw InvalidInput("the first array is " + quoted(array.name()) + "; it must be " + quoted(position.name));
+        if (i == 0 && array.name() != position_array.name)
+            throw InvalidInput("the first array is " + quoted(array.name()) + "; it must be " +
+                               quoted(position_array.name));
         const auto before = arrays.begin() + i;
         if (std::any_of(arrays.begin(), before, [&](const auto& other) { return other.name() == array.name(); }))
             throw InvalidInput("array " + quoted(array.name()) + " comes twice; each comes once");
@@ -124,10 +125,10 @@ ParticleLayout particle_layout(const ParticleArrays& arrays, UnknownArrays unkno
             require_form(*known, array);
         else if (unknown == UnknownArrays::refuse)
             refuse_unknown(array.name());
-        if (array.name() == position.name) {
+        if (array.name() == position_array.name) {
             layout.quantized = array.type() == v1::ELEMENT_TYPE_UINT16;
             layout.position_bytes = bytes;
-        } else if (array.name() == level.name) {
+        } else if (array.name() == level_array.name) {
             layout.has_levels = true;
             layout.levels_after = layout.particle_bytes;
         }
@@ -138,8 +139,8 @@ ParticleLayout particle_layout(const ParticleArrays& arrays, UnknownArrays unkno
 
 ParticleArrays particle_arrays(bool quantized, bool has_levels) {
     ParticleArrays arrays;
-    add(arrays, position, position_forms.at(quantized ? 1 : 0));
-    if (has_levels) add(arrays, level, level_forms.front());
+    add(arrays, position_array, position_forms.at(quantized ? 1 : 0));
+    if (has_levels) add(arrays, level_array, level_forms.front());
     return arrays;
 }
 

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int failures_allowed = 2;
 
-struct Address {
+struct SocketAddress {
     sockaddr_storage storage{};
     socklen_t size = sizeof(sockaddr_storage);
 
@@ -32,8 +32,8 @@ struct Address {
     const sockaddr& get() const { return reinterpret_cast<const sockaddr&>(storage); }
 };
 
-Address loopback(std::uint16_t port) {
-    Address address;
+SocketAddress loopback(std::uint16_t port) {
+    SocketAddress address;
     auto& ipv4 = reinterpret_cast<sockaddr_in&>(address.storage);
     ipv4.sin_family = AF_INET;
     ipv4.sin_port = port;
@@ -43,8 +43,8 @@ Address loopback(std::uint16_t port) {
 }
 
 /// Where a client of this machine connects to.
-Address address_of(int listening) {
-    Address address;
+SocketAddress address_of(int listening) {
+    SocketAddress address;
     ::getsockname(listening, &address.get(), &address.size);
     if (const auto& ipv4 = reinterpret_cast<const sockaddr_in&>(address.storage);
         ipv4.sin_family == AF_INET && ipv4.sin_addr.s_addr == htonl(INADDR_ANY))
@@ -56,8 +56,8 @@ Address address_of(int listening) {
 }
 
 /// A place to connect from that is known before the connection is. Of Unix sockets a name that the kernel chooses.
-Address bind_near(int socket, const sockaddr& server, socklen_t size) {
-    Address own;
+SocketAddress bind_near(int socket, const sockaddr& server, socklen_t size) {
+    SocketAddress own;
     own.storage.ss_family = server.sa_family;
     own.size = server.sa_family == AF_UNIX ? sizeof(sa_family_t) : size;
     if (server.sa_family == AF_INET)
@@ -159,12 +159,12 @@ void PortCheck::stop() {
 }
 
 void PortCheck::run() {
-    std::vector<Address> servers;
+    std::vector<SocketAddress> servers;
     servers.reserve(sockets_.size());
     for (const int socket : sockets_) servers.push_back(address_of(socket));
     for (;;) {
         Result result = Result::answered;
-        for (const Address& server : servers)
+        for (const SocketAddress& server : servers)
             if (result == Result::answered) result = check(server.get(), server.size);
         std::unique_lock lock(mutex_);
         if (stopped_) return;
@@ -190,7 +190,7 @@ PortCheck::Result PortCheck::check(const sockaddr& server, socklen_t size) {
     const timeval limit{.tv_sec = patience / 1'000'000, .tv_usec = patience % 1'000'000};
     for (const int option : {SO_SNDTIMEO, SO_RCVTIMEO})  // the first one is also connect()'s
         ::setsockopt(connection, SOL_SOCKET, option, &limit, sizeof limit);
-    const Address own = bind_near(connection, server, size);
+    const SocketAddress own = bind_near(connection, server, size);
     own_.expect(own.get(), own.size);
     const bool answered = use(connection) && ::connect(connection, &server, size) == 0 &&
                           (protocol_ == Protocol::tls ? answers_hello(connection) : answers_ping(connection));

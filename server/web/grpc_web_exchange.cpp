@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "meniscus/error.hpp"
+#include "web/beast_text.hpp"
 #include "web/origins.hpp"
 
 namespace meniscus::server {
@@ -17,10 +18,6 @@ namespace meniscus::server {
 namespace http = boost::beast::http;
 
 namespace {
-
-std::string_view view(boost::beast::string_view text) {
-    return {text.data(), text.size()};
-}
 
 /// Throws InvalidInput for what gRPC cannot carry.
 std::vector<std::pair<std::string, std::string>> metadata_of(const GrpcWebRequest& request) {

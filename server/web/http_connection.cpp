@@ -16,6 +16,7 @@
 #include <string_view>
 #include <utility>
 
+#include "web/beast_text.hpp"
 #include "web/grpc_web_messages.hpp"
 #include "web/web_peer.hpp"
 
@@ -30,10 +31,6 @@ constexpr std::size_t linger_bytes = std::size_t{1} << 20;
 constexpr auto linger_time = std::chrono::seconds(2);
 /// Of what a client sent, in what it is told.
 constexpr std::size_t shown_bytes = 64;
-
-std::string_view view(boost::beast::string_view text) {
-    return {text.data(), text.size()};
-}
 
 constexpr std::string_view not_tls =
     "HTTP/1.1 400 Bad Request\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: 49\r\nConnection: "

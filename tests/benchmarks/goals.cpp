@@ -48,7 +48,7 @@ std::optional<double> median_frame(const Json& experiment) {
     return median(std::move(seconds));
 }
 
-std::optional<double> milliseconds(std::optional<double> seconds) {
+std::optional<double> in_milliseconds(std::optional<double> seconds) {
     if (seconds) *seconds *= 1e3;
     return seconds;
 }
@@ -82,11 +82,11 @@ Json judge(const std::filesystem::path& folder) {
     using enum WaterKind;
     return Json::array({
         row("a million splashing particles, c = 1.0, adaptive", "ms", Bound::at_most, 8.0,
-            milliseconds(figure(splashing, "adaptive", seconds))),
+            in_milliseconds(figure(splashing, "adaptive", seconds))),
         row("a million splashing particles, c = 1.0, uniform", "ms", Bound::at_most, 20.0,
-            milliseconds(figure(splashing, "uniform", seconds))),
+            in_milliseconds(figure(splashing, "uniform", seconds))),
         row("the paper's dam break, adaptive, median frame", "ms", Bound::at_most, 0.5,
-            milliseconds(median_frame(experiment))),
+            in_milliseconds(median_frame(experiment))),
         row("a million calm particles, c = 1.0: time of uniform over adaptive", "times", Bound::at_least, 3.0,
             ratio(figure(calm, "uniform", seconds), figure(calm, "adaptive", seconds))),
         row("a million calm particles, c = 1.0: memory of adaptive over uniform", "times", Bound::at_most, 1.0 / 3.0,

@@ -15,21 +15,17 @@
 #include "meniscus/meniscus.hpp"
 #include "pipeline/backend.hpp"
 #include "support/particles.hpp"
+#include "support/same_bytes.hpp"
 
 namespace meniscus {
 namespace {
 
-template <class T>
-bool same_bytes(const Array<T>& a, const Array<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
 void expect_equal(const Mesh& mesh, const Mesh& expected) {
     EXPECT_EQ(mesh_sha256(mesh), mesh_sha256(expected));
-    EXPECT_TRUE(same_bytes(mesh.vertices, expected.vertices));
-    EXPECT_TRUE(same_bytes(mesh.normals, expected.normals));
-    EXPECT_TRUE(same_bytes(mesh.triangles, expected.triangles));
-    EXPECT_TRUE(same_bytes(mesh.bricks, expected.bricks));
+    EXPECT_TRUE(test::same_bytes(mesh.vertices, expected.vertices));
+    EXPECT_TRUE(test::same_bytes(mesh.normals, expected.normals));
+    EXPECT_TRUE(test::same_bytes(mesh.triangles, expected.triangles));
+    EXPECT_TRUE(test::same_bytes(mesh.bricks, expected.bricks));
 }
 
 /// Particles, what the CPU makes of them, and what comes down of it.
@@ -121,9 +117,9 @@ TEST_F(CudaDownload, TrianglesComeDownBrickByBrickAfterTheVertices) {
     Frame frame(test::splash(4, 10), settings);
     begin(frame);
     frame.download.start();
-    EXPECT_TRUE(same_bytes(frame.mesh.vertices, frame.expected.vertices));
-    EXPECT_TRUE(same_bytes(frame.mesh.normals, frame.expected.normals));
-    EXPECT_TRUE(same_bytes(frame.mesh.bricks, frame.expected.bricks));
+    EXPECT_TRUE(test::same_bytes(frame.mesh.vertices, frame.expected.vertices));
+    EXPECT_TRUE(test::same_bytes(frame.mesh.normals, frame.expected.normals));
+    EXPECT_TRUE(test::same_bytes(frame.mesh.bricks, frame.expected.bricks));
     std::fill(frame.mesh.triangles.begin(), frame.mesh.triangles.end(), Triangle{});
     const auto is_there = [&](const MeshBrick& brick) {
         return std::all_of(brick.ranges.begin(), brick.ranges.end(), [&](const TriangleRange& range) {

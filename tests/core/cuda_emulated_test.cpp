@@ -7,14 +7,10 @@
 #include "meniscus/meniscus.hpp"
 #include "pipeline/backend.hpp"
 #include "support/particles.hpp"
+#include "support/same_bytes.hpp"
 
 namespace meniscus {
 namespace {
-
-template <class T>
-bool same_bytes(const Array<T>& a, const Array<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
 
 class EmulatedDevice {
 public:
@@ -34,7 +30,7 @@ public:
         Reconstructor cpu(settings_, {Backend::cpu, 1, 0});
         Mesh again;
         cpu.reconstruct(frame, again);
-        EXPECT_TRUE(same_bytes(mesh_.spray, again.spray));
+        EXPECT_TRUE(test::same_bytes(mesh_.spray, again.spray));
         EXPECT_EQ(statistics_.spray_particles, cpu.statistics().spray_particles);
         EXPECT_EQ(statistics_.field_evaluations, cpu.statistics().field_evaluations);
         EXPECT_EQ(statistics_.base_cells_by_level, cpu.statistics().base_cells_by_level);
@@ -56,10 +52,10 @@ public:
 private:
     void expect_equal(const Mesh& expected) const {
         EXPECT_EQ(mesh_sha256(mesh_), mesh_sha256(expected));
-        EXPECT_TRUE(same_bytes(mesh_.vertices, expected.vertices));
-        EXPECT_TRUE(same_bytes(mesh_.normals, expected.normals));
-        EXPECT_TRUE(same_bytes(mesh_.triangles, expected.triangles));
-        EXPECT_TRUE(same_bytes(mesh_.bricks, expected.bricks));
+        EXPECT_TRUE(test::same_bytes(mesh_.vertices, expected.vertices));
+        EXPECT_TRUE(test::same_bytes(mesh_.normals, expected.normals));
+        EXPECT_TRUE(test::same_bytes(mesh_.triangles, expected.triangles));
+        EXPECT_TRUE(test::same_bytes(mesh_.bricks, expected.bricks));
         for (std::size_t l = 0; l < triangle_level_count; ++l)
             EXPECT_EQ(mesh_.levels[l].first, expected.levels[l].first);
     }

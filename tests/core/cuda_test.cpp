@@ -9,14 +9,10 @@
 
 #include "meniscus/meniscus.hpp"
 #include "support/particles.hpp"
+#include "support/same_bytes.hpp"
 
 namespace meniscus {
 namespace {
-
-template <class T>
-bool same_bytes(const Array<T>& a, const Array<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
 
 /// Why there is no GPU; empty if there is one.
 std::string reason_without_gpu() {
@@ -39,10 +35,10 @@ protected:
             const Mesh expected = test::reconstruct(settings, frames[i]);
             gpu.reconstruct(frames[i], mesh);
             EXPECT_EQ(mesh_sha256(mesh), mesh_sha256(expected));
-            EXPECT_TRUE(same_bytes(mesh.vertices, expected.vertices));
-            EXPECT_TRUE(same_bytes(mesh.normals, expected.normals));
-            EXPECT_TRUE(same_bytes(mesh.triangles, expected.triangles));
-            EXPECT_TRUE(same_bytes(mesh.bricks, expected.bricks));
+            EXPECT_TRUE(test::same_bytes(mesh.vertices, expected.vertices));
+            EXPECT_TRUE(test::same_bytes(mesh.normals, expected.normals));
+            EXPECT_TRUE(test::same_bytes(mesh.triangles, expected.triangles));
+            EXPECT_TRUE(test::same_bytes(mesh.bricks, expected.bricks));
         }
     }
 };

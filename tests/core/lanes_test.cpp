@@ -12,11 +12,11 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t count = WideLanes::count;
+constexpr std::size_t lane_count = WideLanes::count;
 
 /// Numbers of every kind: of the field's size, any bits, zeros of both signs, some equal to their neighbors'.
 struct Operands {
-    float a[count], b[count], c[count];
+    float a[lane_count], b[lane_count], c[lane_count];
 
     explicit Operands(std::mt19937& random) {
         const auto number = [&] {
@@ -30,7 +30,7 @@ struct Operands {
                     return of_the_field(random);
             }
         };
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < lane_count; ++i) {
             a[i] = number();
             b[i] = random() % 8 == 0 ? a[i] : number();
             c[i] = number();
@@ -39,9 +39,9 @@ struct Operands {
 };
 
 void expect_same(const char* operation, const Operands& x, WideLanes lanes, float (*scalar)(float, float, float)) {
-    float of_lanes[count];
+    float of_lanes[lane_count];
     lanes.store(of_lanes);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < lane_count; ++i) {
         const float expected = scalar(x.a[i], x.b[i], x.c[i]);
         if (std::isnan(expected) && std::isnan(of_lanes[i])) continue;
         ASSERT_EQ(std::bit_cast<std::uint32_t>(of_lanes[i]), std::bit_cast<std::uint32_t>(expected))
@@ -72,11 +72,11 @@ TEST(Lanes, SpansAreAddedToTheRowsOfASet) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> place(0.0F, 15.999F);
     for (int round = 0; round < 20'000; ++round) {
-        float first[count], last[count];
-        std::uint16_t rows[count + 1], expected[count + 1];
-        const auto set = static_cast<unsigned>(random()) & ((1U << count) - 1);
-        for (std::size_t i = 0; i <= count; ++i) expected[i] = rows[i] = static_cast<std::uint16_t>(random());
-        for (std::size_t i = 0; i < count; ++i) {
+        float first[lane_count], last[lane_count];
+        std::uint16_t rows[lane_count + 1], expected[lane_count + 1];
+        const auto set = static_cast<unsigned>(random()) & ((1U << lane_count) - 1);
+        for (std::size_t i = 0; i <= lane_count; ++i) expected[i] = rows[i] = static_cast<std::uint16_t>(random());
+        for (std::size_t i = 0; i < lane_count; ++i) {
             const bool in_set = (set >> i & 1) != 0;
             first[i] = std::trunc(place(random));
             last[i] = std::trunc(place(random));
@@ -86,7 +86,7 @@ TEST(Lanes, SpansAreAddedToTheRowsOfASet) {
                     expected[i] |= static_cast<std::uint16_t>(1U << bit);
         }
         add_spans(rows, WideLanes::load(first), WideLanes::load(last), set);
-        for (std::size_t i = 0; i <= count; ++i) ASSERT_EQ(rows[i], expected[i]) << "lane " << i;
+        for (std::size_t i = 0; i <= lane_count; ++i) ASSERT_EQ(rows[i], expected[i]) << "lane " << i;
     }
 }
 
@@ -95,14 +95,14 @@ TEST(Lanes, ASetIsStoredInItsOrder) {
     for (int round = 0; round < 20'000; ++round) {
         const Operands x(random);
         unsigned expected = 0;
-        for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t i = 0; i < lane_count; ++i)
             if (x.a[i] <= x.b[i]) expected |= 1U << i;
         const unsigned set = less_equal(WideLanes::load(x.a), WideLanes::load(x.b));
         ASSERT_EQ(set, expected);
-        float stored[count];
+        float stored[lane_count];
         compress_store(stored, WideLanes::load(x.c), set);
         std::size_t next = 0;
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < lane_count; ++i) {
             if ((set >> i & 1) == 0) continue;
             ASSERT_EQ(std::bit_cast<std::uint32_t>(stored[next++]), std::bit_cast<std::uint32_t>(x.c[i]));
         }
@@ -113,7 +113,7 @@ TEST(Lanes, TheLeastAndTheGreatestAreFound) {
     std::mt19937 random(9);
     std::uniform_real_distribution<float> number(-100.0F, 100.0F);
     for (int round = 0; round < 1'000; ++round) {
-        float x[count];
+        float x[lane_count];
         float least = 1e9F, greatest = -1e9F;
         for (float& v : x) {
             v = number(random);

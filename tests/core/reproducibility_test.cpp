@@ -7,18 +7,14 @@
 
 #include "meniscus/meniscus.hpp"
 #include "support/particles.hpp"
+#include "support/same_bytes.hpp"
 
 namespace meniscus {
 namespace {
 
-template <class T>
-bool same_bytes(const Array<T>& a, const Array<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
 bool same(const Mesh& a, const Mesh& b) {
-    return same_bytes(a.vertices, b.vertices) && same_bytes(a.normals, b.normals) &&
-           same_bytes(a.triangles, b.triangles);
+    return test::same_bytes(a.vertices, b.vertices) && test::same_bytes(a.normals, b.normals) &&
+           test::same_bytes(a.triangles, b.triangles);
 }
 
 TEST(Reproducibility, AnyNumberOfThreadsGivesTheSameBytes) {
@@ -83,8 +79,8 @@ TEST(Reproducibility, AFluidMovedByWholeBricksKeepsItsShapeToTheBit) {
     const Mesh a = test::reconstruct(settings, here.frame(), 1);
     const Mesh b = test::reconstruct(settings, there.frame(), 1);
     ASSERT_FALSE(a.triangles.empty());
-    ASSERT_TRUE(same_bytes(a.triangles, b.triangles));
-    EXPECT_TRUE(same_bytes(a.normals, b.normals));
+    ASSERT_TRUE(test::same_bytes(a.triangles, b.triangles));
+    EXPECT_TRUE(test::same_bytes(a.normals, b.normals));
     const std::int32_t step = bricks * 64 * 64;
     for (std::size_t v = 0; v < a.vertices.size(); ++v)
         ASSERT_EQ(b.vertices[v],

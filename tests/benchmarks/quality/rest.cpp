@@ -16,13 +16,13 @@ using compare::add_scaled;
 using compare::dot;
 using compare::subtract;
 
-constexpr double around = 6.0;      ///< radii: particles that make the surface
+constexpr double near_by = 6.0;     ///< radii: particles that make the surface
 constexpr double still = 0.3;       ///< radii from one frame to the next, against the mean of those around
 constexpr std::size_t fewest = 20;  ///< particles around: lone drops say nothing
-constexpr std::size_t samples = 50000;
+constexpr std::size_t places = 50000;
 
 /// The box around the points.
-std::array<Point, 2> bounds_of(const std::vector<Point>& points) {
+std::array<Point, 2> corners_of(const std::vector<Point>& points) {
     std::array<Point, 2> box{points.at(0), points.at(0)};
     for (const Point& p : points)
         for (std::size_t a = 0; a < 3; ++a) {
@@ -38,17 +38,17 @@ Rest find_rest(compare::SurfaceView surface, const std::vector<Point>& particles
     if (particles.size() != next.size())
         throw InvalidInput("the next frame has " + std::to_string(next.size()) + " particles, but should have " +
                            std::to_string(particles.size()));
-    const auto [low, high] = bounds_of(particles);
-    Grid grid(low, high, around);
+    const auto [low, high] = corners_of(particles);
+    Grid grid(low, high, near_by);
     grid.fill(particles);
     Rest rest;
-    const compare::Samples looked_at = compare::sample(surface, compare::find_components(surface), samples);
+    const compare::Samples looked_at = compare::sample(surface, compare::find_components(surface), places);
     for (const Point& p : looked_at.points) {
         std::vector<Point> moves;
         Point mean{};
         grid.for_each_near(p, [&](std::size_t i) {
             const Point d = subtract(particles[i], p);
-            if (dot(d, d) >= around * around) return;
+            if (dot(d, d) >= near_by * near_by) return;
             moves.push_back(subtract(next[i], particles[i]));
             mean = add_scaled(mean, 1.0, moves.back());
         });

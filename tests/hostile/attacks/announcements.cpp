@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t limit = 16 << 20;
+constexpr std::size_t frame_limit = 16 << 20;
 constexpr double upload_seconds = 3.0;
 
 struct Honest {
@@ -81,7 +81,7 @@ int refused_large_frames(const Target& target) {
 
 std::vector<Figure> announcements(const std::string& program) {
     TargetOptions options;
-    options.arguments = {"--max-bytes-in-flight", std::to_string(limit), "--max-upload-seconds",
+    options.arguments = {"--max-bytes-in-flight", std::to_string(frame_limit), "--max-upload-seconds",
                          std::to_string(upload_seconds)};
     const Target target(program, options);
     client::Client client(target.address());
@@ -95,7 +95,7 @@ std::vector<Figure> announcements(const std::string& program) {
             const std::string id = client::new_session_id();
             own.create_session(id, settings_of_attacks());
             RawStream stream(target.address(), id);
-            stream.begin(0, limit / 12);
+            stream.begin(0, frame_limit / 12);
             // Somebody has to read: gRPC tells a client late that only writes.
             std::atomic<bool> ended{false};
             std::thread reader([&] {

@@ -17,12 +17,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int calls_of_each = 100;
-constexpr const char* methods[] = {
+constexpr const char* opened_methods[] = {
     "/meniscus.v1.SessionService/ListSessions",     "/meniscus.v1.SurfaceService/Watch",
     "/meniscus.v1.SurfaceService/WatchParticles",   "/meniscus.v1.SurfaceService/Stream",
     "/meniscus.v1.RecordingService/ListRecordings",
 };
-constexpr int calls = calls_of_each * static_cast<int>(std::size(methods));
+constexpr int calls = calls_of_each * static_cast<int>(std::size(opened_methods));
 
 double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -37,7 +37,7 @@ public:
             auto& call = calls_.emplace_back(std::make_unique<Call>());
             call->context.AddMetadata("x-session-id", "00000000-0000-4000-8000-00000000d3d3");
             call->context.AddMetadata("x-ballast", std::string(10'000, 'x'));
-            call->stream = stub_.PrepareCall(&call->context, methods[i % std::size(methods)], &queue_);
+            call->stream = stub_.PrepareCall(&call->context, opened_methods[i % std::size(opened_methods)], &queue_);
             call->stream->StartCall(nullptr);
             wait();
             call->stream->Finish(&call->status, nullptr);

@@ -11,7 +11,7 @@ namespace meniscus::hostile {
 
 namespace {
 
-constexpr std::size_t limit = std::size_t{250} << 20;  ///< the six large sessions would take 700 MB
+constexpr std::size_t sessions_limit = std::size_t{250} << 20;  ///< the six large sessions would take 700 MB
 constexpr int sessions = 16;
 constexpr int large_sessions_of_them = 6;
 
@@ -19,8 +19,9 @@ constexpr int large_sessions_of_them = 6;
 
 std::vector<Figure> large_sessions(const std::string& program) {
     TargetOptions options;
-    options.arguments = {"--total-memory-limit", std::to_string(limit), "--memory-limit",
-                         std::to_string(limit),  "--idle-buffers",      "3600"};
+    options.arguments = {"--total-memory-limit", std::to_string(sessions_limit),
+                         "--memory-limit",       std::to_string(sessions_limit),
+                         "--idle-buffers",       "3600"};
     const Target target(program, options);
     client::Client client(target.address());
     const auto before = static_cast<double>(target.peak_bytes());
@@ -56,8 +57,8 @@ std::vector<Figure> large_sessions(const std::string& program) {
     return {{"frames of small sessions refused", static_cast<double>(refused), 0.0, ""},
             {"frames of large sessions refused, for which others can make room", static_cast<double>(refused_to_large),
              0.0, ""},
-            {"memory at its peak, above that before", (after - before) / 1e6, 1.5 * static_cast<double>(limit) / 1e6,
-             "MB"}};
+            {"memory at its peak, above that before", (after - before) / 1e6,
+             1.5 * static_cast<double>(sessions_limit) / 1e6, "MB"}};
 }
 
 }  // namespace meniscus::hostile

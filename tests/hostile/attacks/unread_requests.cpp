@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t mebibyte = 1 << 20;
 constexpr std::size_t mebibytes = 512;
 constexpr int rounds = 3;
-constexpr const char* methods[] = {
+constexpr const char* answered_methods[] = {
     "/meniscus.v1.ServerService/GetServerInfo",
     "/meniscus.v1.SessionService/CreateSession",
     "/meniscus.v1.SessionService/GetSession",
@@ -61,7 +61,7 @@ std::vector<Figure> unread_requests(const std::string& program) {
     const double before = static_cast<double>(target.peak_bytes());
     std::atomic<int> failed{0};
     std::vector<std::thread> threads;
-    for (const char* method : methods)
+    for (const char* method : answered_methods)
         threads.emplace_back([&, method] {
             for (int i = 0; i < rounds; ++i) {
                 const grpc::StatusCode code = send_one_message(target.address(), method, message, GRPC_COMPRESS_NONE);
@@ -72,7 +72,7 @@ std::vector<Figure> unread_requests(const std::string& program) {
     for (std::thread& thread : threads) thread.join();
     const double after = static_cast<double>(target.peak_bytes());
     // gRPC's buffers for what comes in are each connection's own.
-    const double each = (after - before) / 1e6 / static_cast<double>(std::size(methods));
+    const double each = (after - before) / 1e6 / static_cast<double>(std::size(answered_methods));
     return {{"memory at its peak, above that before, for each of 11 connections", each, 16.0, "MB"},
             {"calls of 33 that were neither refused for want of a token nor OK", static_cast<double>(failed), 0.0, ""}};
 }

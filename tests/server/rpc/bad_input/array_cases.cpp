@@ -7,9 +7,6 @@ namespace meniscus::server::test {
 
 namespace {
 
-constexpr auto ok = grpc::StatusCode::OK;
-constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
-
 struct Array {
     std::string name;
     int type;

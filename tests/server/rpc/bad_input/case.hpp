@@ -10,6 +10,10 @@
 
 namespace meniscus::server::test {
 
+inline constexpr auto ok = grpc::StatusCode::OK;
+inline constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
+inline const std::string no_session = "00000000-0000-4000-8000-000000000000";
+
 /// Index of the good frame that a stream has sent before what is bad.
 inline constexpr std::uint64_t good_frame = 10;
 

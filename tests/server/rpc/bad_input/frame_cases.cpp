@@ -7,8 +7,6 @@ namespace meniscus::server::test {
 
 namespace {
 
-constexpr auto ok = grpc::StatusCode::OK;
-constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
 constexpr auto exhausted = grpc::StatusCode::RESOURCE_EXHAUSTED;
 constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
 

@@ -7,8 +7,6 @@ namespace meniscus::server::test {
 
 namespace {
 
-constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
-
 /// Of a stream that has not been opened.
 std::function<grpc::Status(RunningServer&)> instead_of_open(std::function<void(RawStream&)> send) {
     return [send = std::move(send)](RunningServer& running) {

@@ -7,11 +7,6 @@ namespace meniscus::server::test {
 
 namespace {
 
-constexpr auto ok = grpc::StatusCode::OK;
-constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
-
-const std::string no_session = "00000000-0000-4000-8000-000000000000";
-
 grpc::Status finish(RawStream& stream) {
     stream.call->WritesDone();
     return stream.finish();

@@ -10,8 +10,6 @@ namespace meniscus::server::test {
 
 namespace {
 
-constexpr auto ok = grpc::StatusCode::OK;
-constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 

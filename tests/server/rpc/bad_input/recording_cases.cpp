@@ -7,10 +7,6 @@ namespace meniscus::server::test {
 
 namespace {
 
-constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
-
-const std::string no_session = "00000000-0000-4000-8000-000000000000";
-
 /// Reads with this metadata.
 std::function<grpc::Status(RunningServer&)> read(std::string metadata,
                                                  std::function<void(v1::ReadRecordingRequest&)> change) {

@@ -12,11 +12,7 @@ namespace meniscus::server::test {
 
 namespace {
 
-constexpr auto ok = grpc::StatusCode::OK;
-constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-const std::string no_session = "00000000-0000-4000-8000-000000000000";
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 grpc::Status create(RunningServer& running, const std::string& metadata, const v1::CreateSessionRequest& request) {
     const client::Connection connection = connect(running);
@@ -133,7 +129,8 @@ std::vector<BadInputCase> session_cases() {
         {"NoSettings", invalid, "particle radius is 0, must be finite and greater than 0",
          settings_with([](v1::Settings& s) { s.Clear(); })},
         {"ARadiusBelowZero", invalid, "particle radius is -1, must be finite and greater than 0", radius_of(-1.0)},
-        {"ARadiusThatIsNoNumber", invalid, "particle radius is nan, must be finite and greater than 0", radius_of(nan)},
+        {"ARadiusThatIsNoNumber", invalid, "particle radius is nan, must be finite and greater than 0",
+         radius_of(no_number)},
         {"ARadiusWhoseCellIsBelowAllNumbers", invalid,
          "cell size in world units is 0, must be finite and greater than 0",
          field_with(v1::FIELD_COLOR,
@@ -181,7 +178,7 @@ std::vector<BadInputCase> session_cases() {
         {"NoBisectionSteps", invalid, "bisection steps are 0, must be 1 to 7", steps(0)},
         {"AFlatDomain", invalid, "domain runs from 1 to 1 along x, must be finite and run upward", domain(1.0, 1.0)},
         {"ADomainThatIsNoNumber", invalid, "domain runs from nan to 1 along x, must be finite and run upward",
-         domain(nan, 1.0)},
+         domain(no_number, 1.0)},
         {"AHugeDomain", ok, "", domain(-1e300, 1e300)},
         {"ADomainWithoutACorner", invalid, "settings.domain needs both its corners, min and max",
          settings_with([](v1::Settings& s) { s.mutable_domain()->mutable_max()->set_x(1.0); })},

@@ -8,11 +8,6 @@ namespace meniscus::server::test {
 
 namespace {
 
-constexpr auto ok = grpc::StatusCode::OK;
-constexpr auto invalid = grpc::StatusCode::INVALID_ARGUMENT;
-
-const std::string no_session = "00000000-0000-4000-8000-000000000000";
-
 /// Watches until the session ends.
 template <class Response>
 grpc::Status watch(RunningServer& running, const std::string& session, grpc::ClientReader<Response>& call) {
