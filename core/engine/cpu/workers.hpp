@@ -32,23 +32,38 @@ namespace meniscus::cpu {
 /// Subnormal numbers are kept: flushing them would make results depend on the host program's floating-point state.
 class ExactFloats {
 public:
-#if defined(__SSE2__)
-    ExactFloats() : before_(_mm_getcsr()) {
-        _mm_setcsr(before_ & ~0xE040U);
-    }
-    ~ExactFloats() {
-        _mm_setcsr(before_);
-    }
-#else
-    ExactFloats() = default;
-#endif
+    ExactFloats() : before_(state()) { set_state(before_ & ~inexact); }
+    ~ExactFloats() { set_state(before_); }
     ExactFloats(const ExactFloats&) = delete;
     ExactFloats& operator=(const ExactFloats&) = delete;
 
 private:
+    // inexact: flush-to-zero, denormals-are-zero, rounding other than to nearest.
 #if defined(__SSE2__)
-    unsigned before_;  // bits cleared: flush-to-zero, denormals-are-zero, rounding other than to nearest
+    static constexpr unsigned inexact = 0xE040;
+    static unsigned state() {
+        return _mm_getcsr();
+    }
+    static void set_state(unsigned bits) {
+        _mm_setcsr(bits);
+    }
+#elif defined(__aarch64__)
+    static constexpr unsigned inexact = 0x1C0'0000;
+    static unsigned state() {
+        return static_cast<unsigned>(__builtin_aarch64_get_fpcr());
+    }
+    static void set_state(unsigned bits) {
+        __builtin_aarch64_set_fpcr(bits);
+    }
+#else
+    static constexpr unsigned inexact = 0;
+    static unsigned state() {
+        return 0;
+    }
+    static void set_state(unsigned) {}
 #endif
+
+    unsigned before_;
 };
 
 class Workers {
