@@ -2,8 +2,6 @@
 // cuda_test.cpp.)
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "meniscus/meniscus.hpp"
 #include "pipeline/backend.hpp"
 #include "support/particles.hpp"
