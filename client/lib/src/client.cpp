@@ -17,8 +17,49 @@ namespace meniscus::client {
 
 namespace {
 
+std::chrono::system_clock::time_point time_from_wire(std::int64_t microseconds) {
+    using Time = std::chrono::system_clock::time_point;
+    constexpr auto last = std::chrono::duration_cast<std::chrono::microseconds>(Time::max().time_since_epoch()).count();
+    return Time(std::chrono::microseconds(std::clamp<std::int64_t>(microseconds, 0, last)));
+}
+
+SessionDescription from_wire(const v1::SessionDescription& wire) {
+    SessionDescription description;
+    description.name = wire.name();
+    description.length_unit = wire.length_unit();
+    if (wire.up_axis() == v1::UP_AXIS_X) description.up_axis = UpAxis::x;
+    if (wire.up_axis() == v1::UP_AXIS_Y) description.up_axis = UpAxis::y;
+    if (wire.up_axis() == v1::UP_AXIS_Z) description.up_axis = UpAxis::z;
+    return description;
+}
+
+v1::UpAxis to_wire(UpAxis axis) {
+    switch (axis) {
+        case UpAxis::unspecified:
+            return v1::UP_AXIS_UNSPECIFIED;
+        case UpAxis::x:
+            return v1::UP_AXIS_X;
+        case UpAxis::y:
+            return v1::UP_AXIS_Y;
+        case UpAxis::z:
+            return v1::UP_AXIS_Z;
+    }
+    return v1::UP_AXIS_UNSPECIFIED;
+}
+
+v1::SessionDescription to_wire(const SessionDescription& description) {
+    v1::SessionDescription wire;
+    wire.set_name(description.name);
+    wire.set_up_axis(to_wire(description.up_axis));
+    wire.set_length_unit(description.length_unit);
+    return wire;
+}
+
 SessionInfo from_wire(const v1::Session& wire) {
     SessionInfo info;
+    info.description = from_wire(wire.description());
+    info.ephemeral = wire.ephemeral();
+    info.created_at = time_from_wire(wire.created_at());
     info.id = wire.id();
     info.settings = conversion::from_wire(wire.settings());
     info.uploading = wire.uploading();
@@ -43,9 +84,8 @@ RecordingInfo from_wire(const v1::Recording& wire) {
     info.session_id = wire.session_id();
     info.number = wire.number();
     info.owner = wire.owner();
-    using Time = std::chrono::system_clock::time_point;
-    constexpr auto last = std::chrono::duration_cast<std::chrono::microseconds>(Time::max().time_since_epoch()).count();
-    info.started_at = Time(std::chrono::microseconds(std::clamp<std::int64_t>(wire.started_at(), 0, last)));
+    info.description = from_wire(wire.description());
+    info.started_at = time_from_wire(wire.started_at());
     info.frames = wire.frames();
     if (wire.has_first_frame_index()) info.first_frame_index = wire.first_frame_index();
     if (wire.has_last_frame_index()) info.last_frame_index = wire.last_frame_index();
@@ -129,12 +169,15 @@ bool Client::serving() {
     return response.status() == grpc::health::v1::HealthCheckResponse::SERVING;
 }
 
-void Client::create_session(const std::string& id, const Settings& settings) {
+bool Client::create_session(const std::string& id, const Settings& settings, const SessionOptions& options) {
     v1::CreateSessionRequest request;
     request.set_id(id);
     *request.mutable_settings() = conversion::to_wire(settings);
+    *request.mutable_description() = to_wire(options.description);
+    request.set_ephemeral(options.ephemeral);
     v1::CreateSessionResponse response;
     impl_->call(*impl_->connection()->sessions, &v1::SessionService::Stub::CreateSession, id, request, response);
+    return response.created();
 }
 
 SessionInfo Client::session(const std::string& id) {
@@ -185,6 +228,15 @@ std::vector<RecordingInfo> Client::recordings() {
 RecordingReader Client::read_recording(const std::string& session_id, std::uint32_t number,
                                        const ReadOptions& options) {
     return RecordingReader(std::make_unique<RecordingReader::Impl>(impl_->connection(), session_id, number, options));
+}
+
+void Client::delete_recording(const std::string& session_id, std::uint32_t number) {
+    v1::DeleteRecordingRequest request;
+    request.set_session_id(session_id);
+    request.set_number(number);
+    v1::DeleteRecordingResponse response;
+    impl_->call(*impl_->connection()->recordings, &v1::RecordingService::Stub::DeleteRecording, session_id, request,
+                response);
 }
 
 }  // namespace meniscus::client

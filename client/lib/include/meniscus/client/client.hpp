@@ -99,10 +99,44 @@ enum class SessionWait {
     something_else,   ///< that this version does not know
 };
 
+/// The axis of the coordinates that points up.
+enum class UpAxis { unspecified, x, y, z };
+constexpr std::string_view name_of(UpAxis axis) {
+    switch (axis) {
+        case UpAxis::unspecified:
+            return "unspecified";
+        case UpAxis::x:
+            return "x";
+        case UpAxis::y:
+            return "y";
+        case UpAxis::z:
+            return "z";
+    }
+    return {};
+}
+
+/// What people call a session, and how viewers show it. A session is told from others by its id alone.
+struct SessionDescription {
+    std::string name = {};  ///< UTF-8, 1 to 64 characters without control and direction characters; empty: none
+    UpAxis up_axis = UpAxis::unspecified;
+    std::string length_unit = {};  ///< of the coordinates, such as "m": 1 to 16 characters; empty: not said
+};
+
+/// What a session is beside its settings. None of it need be equal to join a session.
+struct SessionOptions {
+    SessionDescription description = {};
+    /// Whether the session ends, watched or not, 5 seconds after it was created or its stream ended, unless a stream is
+    /// open by then. Where the connection broke: after StreamOptions::reconnect, if that is longer.
+    bool ephemeral = false;
+};
+
 struct SessionInfo {
     std::string id;
     std::string owner;  ///< who made it; empty where nobody is asked
     Settings settings;  ///< as in_force() has them
+    SessionDescription description;
+    bool ephemeral = false;
+    std::chrono::system_clock::time_point created_at;
     bool uploading = false;
     unsigned watchers = 0;
     SessionWait waits_for = SessionWait::nothing;
@@ -295,6 +329,7 @@ struct RecordingInfo {
     std::string session_id;
     std::uint32_t number = 0;  ///< of the session's recordings, from 1
     std::string owner;         ///< who made the session; empty where nobody was asked
+    SessionDescription description;
     std::chrono::system_clock::time_point started_at;
     std::uint64_t frames = 0;  ///< those with a mesh, here and below
     std::optional<std::uint64_t> first_frame_index;
@@ -342,8 +377,8 @@ public:
     ServerInfo server_info();
     /// Whether the server takes calls: false once it shuts down.
     bool serving();
-    /// Creates the session, or joins it if it exists with equal settings.
-    void create_session(const std::string& id, const Settings& settings);
+    /// Creates the session (true), or joins it if it exists with equal settings (false); it then keeps its own options.
+    bool create_session(const std::string& id, const Settings& settings, const SessionOptions& options = {});
     SessionInfo session(const std::string& id);
     std::vector<SessionInfo> sessions();
     void delete_session(const std::string& id);
@@ -360,6 +395,8 @@ public:
     std::vector<RecordingInfo> recordings();
     RecordingReader read_recording(const std::string& session_id, std::uint32_t number,
                                    const ReadOptions& options = {});
+    /// Deletes the recording's file. Throws ServerError (FAILED_PRECONDITION) while it is being written or read.
+    void delete_recording(const std::string& session_id, std::uint32_t number);
 
 private:
     class Impl;
