@@ -3,11 +3,13 @@
 
 #include "call_end.hpp"
 #include "conversion/codec_conversion.hpp"
+#include "deadline.hpp"
 #include "error_mapping.hpp"
 #include "meniscus/error.hpp"
 #include "receiving/frame_receiver.hpp"
 #include "session_look.hpp"
 #include "stream_impl.hpp"
+#include "unary_call.hpp"
 
 namespace meniscus::client {
 
@@ -58,18 +60,25 @@ v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& 
     open.set_policy(to_wire(options.policy));
     open.set_nth(options.nth);
     open.set_with_spray(options.spray);
+    open.set_reconnect_seconds(std::chrono::duration<double>(options.reconnect).count());
     open.set_run_id(random_run_id());
     conversion::add_known_codecs(*open.mutable_codecs());
     return open;
 }
 
+/// What creates it again, with its name and kind.
 v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContext& context,
                                       const std::string& session_id) {
+    context.set_deadline(deadline_after<std::chrono::system_clock>(connection.timeout));
     v1::Session session;
-    require_ok(get_session(connection, context, session_id, session), connection.address);
+    const grpc::Status status = get_session(connection, context, session_id, session);
+    const bool late = status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED;
+    require_ok(late ? not_answered(connection.timeout) : status, connection.address);
     v1::CreateSessionRequest create;
     create.set_id(session_id);
-    *create.mutable_settings() = session.settings();
+    *create.mutable_settings() = std::move(*session.mutable_settings());
+    *create.mutable_description() = std::move(*session.mutable_description());
+    create.set_ephemeral(session.ephemeral());
     return create;
 }
 
@@ -308,7 +317,7 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
                     " s (" + status.error_message() + "): frame " +
                     (unanswered_.empty() ? "none" : std::to_string(unanswered_.front()->begin.frame_index())) +
                     " is the first without an answer",
-                "UNAVAILABLE");
+                ErrorCode::unavailable, "UNAVAILABLE");
         if (changed_.wait_until(lock, attempt_at, [&] { return left_; })) return nullptr;
         const auto creating = std::make_shared<grpc::ClientContext>();
         creating_ = creating;
