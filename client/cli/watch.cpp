@@ -1,7 +1,11 @@
 // meniscus watch: the meshes of somebody else's session, as they come.
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <sstream>
+#include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/mesh_output.hpp"
@@ -22,8 +26,20 @@ struct WatchOptions {
     std::string spray_directory;
     MeshFormat format = MeshFormat::ply;
     std::uint64_t frames = 0;  ///< 0: until the session ends
+    double timeout = 0.0;      ///< seconds without a frame after which to end; 0: none
     WatchWishes wishes;
 };
+
+/// None when the session has ended.
+std::optional<client::ReceivedFrame> next_frame(client::Watcher& watcher, const WatchOptions& options) {
+    if (options.timeout == 0.0) return watcher.next();
+    client::Next<client::ReceivedFrame> next = watcher.next(
+        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(options.timeout)));
+    if (next || next.ended) return std::move(next.frame);
+    std::ostringstream what;
+    what << "no frame of session " << options.session << " has come for " << options.timeout << " s (--timeout)";
+    throw client::ServerError(what.str(), client::ErrorCode::deadline_exceeded);
+}
 
 void watch(const WatchOptions& options) {
     client::Client client = options.server.connect();
@@ -42,7 +58,7 @@ void watch(const WatchOptions& options) {
     }
     client::Watcher watcher = client.watch(options.session, wishes);
     for (std::uint64_t received = 0; options.frames == 0 || received < options.frames; ++received) {
-        const auto frame = watcher.next();
+        const auto frame = next_frame(watcher, options);
         if (!frame) return;
         const auto path = frame_path(options.directory, frame->index, name_of(options.format));
         write_surface(path, Surface(*frame));
@@ -68,6 +84,11 @@ void add_watch(CLI::App& app) {
                        "Folder for the particles left out of the surface, as PLY; of a session with spray points");
     add_named_option(command, "--format", options->format, "Format of the meshes");
     command.add_option("--frames", options->frames, "Number of frames after which to end; 0: when the session ends")
+        ->capture_default_str();
+    command
+        .add_option("--timeout", options->timeout,
+                    "Seconds without a frame after which to end, with exit code 1; 0: never")
+        ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
     options->wishes.add_to(command);
     command.callback([options] { watch(*options); });

@@ -137,10 +137,13 @@ Watcher Client::watch(const std::string& session_id, const WatchOptions& options
     return Watcher(std::make_unique<Watcher::Impl>(impl_->connection(), session_id, options));
 }
 
+ParticleWatcher Client::watch_particles(const std::string& session_id, const ParticleWatchOptions& options) {
+    return ParticleWatcher(std::make_unique<ParticleWatcher::Impl>(impl_->connection(), session_id, options));
+}
+
 ParticleWatcher Client::watch_particles(const std::string& session_id, std::uint64_t max_particles,
                                         std::chrono::milliseconds reconnect) {
-    return ParticleWatcher(
-        std::make_unique<ParticleWatcher::Impl>(impl_->connection(), session_id, max_particles, reconnect));
+    return watch_particles(session_id, {.max_particles = max_particles, .reconnect = reconnect});
 }
 
 std::vector<RecordingInfo> Client::recordings() {

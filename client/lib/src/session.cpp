@@ -75,9 +75,8 @@ Watcher Session::watch(const WatchOptions& options) {
     return Watcher(std::make_unique<Watcher::Impl>(impl_->connection(), impl_->id(), options));
 }
 
-ParticleWatcher Session::watch_particles(std::uint64_t max_particles, std::chrono::milliseconds reconnect) {
-    return ParticleWatcher(
-        std::make_unique<ParticleWatcher::Impl>(impl_->connection(), impl_->id(), max_particles, reconnect));
+ParticleWatcher Session::watch_particles(const ParticleWatchOptions& options) {
+    return ParticleWatcher(std::make_unique<ParticleWatcher::Impl>(impl_->connection(), impl_->id(), options));
 }
 
 void Session::end() {

@@ -10,21 +10,12 @@
 #include "observation/metrics.hpp"
 #include "running_server.hpp"
 #include "tcp_proxy.hpp"
+#include "tcp_server.hpp"
 
 namespace meniscus::server::test {
 namespace {
 
 constexpr std::chrono::milliseconds patient{60'000};
-
-ServerOptions on_tcp(std::uint16_t port = 0) {
-    ServerOptions options = test_options();
-    options.listen = "127.0.0.1:" + std::to_string(port);
-    return options;
-}
-
-std::uint16_t port_of(const std::string& address) {
-    return static_cast<std::uint16_t>(std::stoi(address.substr(address.rfind(':') + 1)));
-}
 
 std::vector<std::uint64_t> numbers(std::uint64_t count) {
     std::vector<std::uint64_t> result(count);

@@ -48,8 +48,7 @@ public:
     /// The session must exist.
     Stream stream(const std::string& session_id, const StreamOptions& options = {});
     Watcher watch(const std::string& session_id, const WatchOptions& options = {});
-    /// max_particles: of a frame with more, only every k-th is sent, by the smallest k that suffices; 0: all.
-    /// reconnect: as in WatchOptions.
+    ParticleWatcher watch_particles(const std::string& session_id, const ParticleWatchOptions& options);
     ParticleWatcher watch_particles(const std::string& session_id, std::uint64_t max_particles = 0,
                                     std::chrono::milliseconds reconnect = {});
 

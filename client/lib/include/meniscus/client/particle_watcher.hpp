@@ -1,11 +1,15 @@
 // The particles of somebody else's session.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
+#include "meniscus/client/next.hpp"
+#include "meniscus/client/reconnect_event.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 
@@ -27,8 +31,18 @@ struct ReceivedParticles {
     ParticleFrame view() const;
 };
 
+/// What a watcher of particles wishes.
+struct ParticleWatchOptions {
+    /// Of a frame with more particles, only every k-th is sent, by the smallest k that suffices; 0: all.
+    std::uint64_t max_particles = 0;
+    std::chrono::milliseconds reconnect{0};  ///< this and the following as in WatchOptions
+    std::chrono::milliseconds route_check{2000};
+    ReconnectHandler on_reconnect{};
+    std::stop_token stop{};
+};
+
 /// Receives a session's particles, always the newest; frames that came while the caller was busy are skipped by the
-/// server.
+/// server. All but cancel() belongs to one thread.
 class ParticleWatcher {
 public:
     ParticleWatcher(ParticleWatcher&&) noexcept;
@@ -38,7 +52,9 @@ public:
     /// Waits for the next frame; none when the session has ended. Throws LimitExceeded or ServerError, also when the
     /// server goes down.
     std::optional<ReceivedParticles> next();
-    /// Ends a next() that waits in another thread; it then returns none.
+    /// As those of Watcher.
+    Next<ReceivedParticles> next(std::chrono::milliseconds timeout);
+    Next<ReceivedParticles> try_next() { return next(std::chrono::milliseconds(0)); }
     void cancel();
 
 private:

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
+#include "meniscus/client/next.hpp"
 #include "meniscus/client/received_frame.hpp"
 #include "meniscus/client/session_info.hpp"
 
@@ -32,9 +34,10 @@ struct ReadOptions {
     std::uint64_t position = 0;  ///< of the first, less than RecordingInfo::frames
     std::uint64_t count = 0;     ///< at most; 0: all from there on
     bool spray = false;          ///< whether the particles left out of the surface come beside the meshes
+    std::stop_token stop{};      ///< when a stop is requested: as cancel()
 };
 
-/// Reads frames that were recorded, in order.
+/// Reads frames that were recorded, in order. All but cancel() belongs to one thread.
 class RecordingReader {
 public:
     RecordingReader(RecordingReader&&) noexcept;
@@ -44,6 +47,10 @@ public:
     /// Waits for the next frame; none after the last. Throws InvalidInput for a position past the end, LimitExceeded
     /// when too many read, or ServerError.
     std::optional<ReceivedFrame> next();
+    /// As those of Watcher.
+    Next<ReceivedFrame> next(std::chrono::milliseconds timeout);
+    Next<ReceivedFrame> try_next() { return next(std::chrono::milliseconds(0)); }
+    void cancel();
 
 private:
     friend class Client;

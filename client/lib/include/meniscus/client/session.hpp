@@ -1,8 +1,6 @@
 // A session that its owner holds, and that ends with it.
 #pragma once
 
-#include <chrono>
-#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -41,7 +39,7 @@ public:
     Stream stream(const StreamOptions& options = {});
     /// As those of Client.
     Watcher watch(const WatchOptions& options = {});
-    ParticleWatcher watch_particles(std::uint64_t max_particles = 0, std::chrono::milliseconds reconnect = {});
+    ParticleWatcher watch_particles(const ParticleWatchOptions& options = {});
 
     /// Ends the session now, its streams and watchers with it, if it is owned. Says what went wrong, which the
     /// destructor cannot; a session that is not there any more is no error.

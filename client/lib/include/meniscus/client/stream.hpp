@@ -2,14 +2,23 @@
 #pragma once
 
 #include <chrono>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stop_token>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "meniscus/client/next.hpp"
+#include "meniscus/client/particle_buffer.hpp"
 #include "meniscus/client/received_frame.hpp"
+#include "meniscus/client/reconnect_event.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "meniscus/strided_positions.hpp"
 
 namespace meniscus::client {
 
@@ -50,11 +59,16 @@ struct StreamOptions {
     /// to the server that the stream is on. If not, because a server came or came back, the stream moves there between
     /// two frames, and watchers with `reconnect` follow it. Only with `reconnect`; 0: never.
     std::chrono::milliseconds route_check{2000};
+    /// Told of each attempt to go on after the connection broke, in a thread of the stream's own, which waits for it.
+    ReconnectHandler on_reconnect{};
+    std::stop_token stop{};  ///< when a stop is requested: as cancel()
 };
 
 /// Uploads frames and receives their meshes, in order. Reads on a thread of its own, so that a caller that only pushes
-/// is never blocked by meshes it has not asked for. push() and finish() belong to one thread, next() to one (other)
-/// thread.
+/// is never blocked by meshes it has not asked for. push(), try_push() and finish() belong to one thread, next() and
+/// try_next() to one (other) thread; cancel() and dropped() may be called from any.
+///
+/// push() and next() throw InvalidInput and LimitExceeded, as the server answered, or ServerError.
 class Stream {
 public:
     Stream(Stream&&) noexcept;
@@ -62,12 +76,51 @@ public:
     ~Stream();  ///< cancels what is in flight
 
     /// Sends one frame; blocks while the server does not take more, or is out of reach. `index` is greater than the one
-    /// before. Throws InvalidInput, LimitExceeded (as the server answered) or ServerError.
+    /// before. The particles are copied. Throws InvalidInput, too, for arrays whose lengths do not fit each other, and
+    /// ServerError (canceled) after cancel(); the frame is then not pushed.
     void push(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
+    /// Likewise, of positions as a solver has them, float64 or within larger records: each number is rounded to the
+    /// nearest float32, and the mesh is that of the rounded frame. levels: empty, or one per particle. Throws
+    /// InvalidInput, too, for a number that is not finite or too large.
+    void push(const StridedPositions& positions, std::uint64_t index, double simulation_time,
+              std::span<const std::uint8_t> levels = {});
+    /// Likewise, but copies nothing: the stream takes the buffer's memory over. A frame that is not pushed stays in the
+    /// buffer.
+    void push(ParticleBuffer&& buffer, std::uint64_t index, double simulation_time);
+    /// Likewise, of a vector that is no longer needed, as in push(std::move(positions), ...), and that is lost where
+    /// the frame is not pushed. A template, so that {} is a ParticleFrame.
+    template <class Floats>
+    requires std::same_as<Floats, std::vector<float>>
+    void push(Floats&& positions, std::uint64_t index, double simulation_time) {
+        push(ParticleBuffer(std::move(positions)), index, simulation_time);
+    }
+
+    /// As push(), where that would not wait. Otherwise false, and nothing has been taken: neither the buffer nor the
+    /// index.
+    bool try_push(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
+    bool try_push(const StridedPositions& positions, std::uint64_t index, double simulation_time,
+                  std::span<const std::uint8_t> levels = {});
+    bool try_push(ParticleBuffer&& buffer, std::uint64_t index, double simulation_time);
+
+    /// Memory to write a frame into; what it holds is undefined. It comes back here when the server has the frame, so
+    /// that a stream takes new memory for its first frames alone. Throws LimitExceeded for more particles than can be
+    /// numbered.
+    ParticleBuffer next_buffer(std::size_t particles, bool with_levels = false);
+
     /// No more frames will come; next() then ends after the last one.
     void finish();
-    /// Waits for the next received frame; none when the stream has ended well. Throws as push() does.
+
+    /// Waits for the next received frame; none when the stream has ended well, or after cancel().
     std::optional<ReceivedFrame> next();
+    /// Likewise, no longer than the timeout.
+    Next<ReceivedFrame> next(std::chrono::milliseconds timeout);
+    /// Likewise, without waiting.
+    Next<ReceivedFrame> try_next() { return next(std::chrono::milliseconds(0)); }
+
+    /// Ends the stream at once, and a push() or next() that waits. Frames without an answer are lost, as are those that
+    /// wait for next().
+    void cancel();
+
     /// Frames dropped by the policy so far.
     std::uint64_t dropped() const;
 

@@ -6,8 +6,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 
+#include "meniscus/client/next.hpp"
 #include "meniscus/client/received_frame.hpp"
+#include "meniscus/client/reconnect_event.hpp"
 #include "meniscus/settings.hpp"
 
 namespace meniscus::client {
@@ -29,10 +32,14 @@ struct WatchOptions {
     std::chrono::milliseconds reconnect{0};
     /// As in StreamOptions: how often to look whether the session goes on with another server. Only with `reconnect`.
     std::chrono::milliseconds route_check{2000};
+    /// Told of each attempt to go on after the connection broke, in the thread that is in next(); once next(timeout) or
+    /// try_next() was called: in a thread of the library's, which waits for it.
+    ReconnectHandler on_reconnect{};
+    std::stop_token stop{};  ///< when a stop is requested: as cancel()
 };
 
 /// Receives a session's meshes, always the newest; frames that came while the caller was busy are skipped by the
-/// server.
+/// server. All but cancel() belongs to one thread.
 class Watcher {
 public:
     Watcher(Watcher&&) noexcept;
@@ -42,7 +49,11 @@ public:
     /// Waits for the next frame; none when the session has ended. Throws InvalidInput for a wish out of range,
     /// LimitExceeded or ServerError, also when the server goes down.
     std::optional<ReceivedFrame> next();
-    /// Ends a next() that waits in another thread; it then returns none.
+    /// Likewise, no longer than the timeout. After a frame, the next one is received ahead.
+    Next<ReceivedFrame> next(std::chrono::milliseconds timeout);
+    /// Likewise, without waiting: for a loop with other things to do, such as drawing.
+    Next<ReceivedFrame> try_next() { return next(std::chrono::milliseconds(0)); }
+    /// From any thread: ends the call, and a next() that waits; it then returns none.
     void cancel();
 
 private:
