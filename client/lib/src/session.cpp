@@ -15,7 +15,7 @@ namespace meniscus::client {
 namespace {
 
 /// So that a Session goes within a second, though nothing answers.
-constexpr std::chrono::milliseconds farewell_time{700};
+constexpr std::chrono::milliseconds farewell_time{500};
 
 }  // namespace
 

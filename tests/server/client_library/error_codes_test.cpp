@@ -1,6 +1,7 @@
 // What a program is told of an error, beside its text.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <new>
 #include <set>
 #include <string>
@@ -44,9 +45,9 @@ TEST(ErrorCode, HasANameOfItsOwn) {
 }
 
 TEST(ErrorCode, TellsWhyTheServerRefused) {
-    RunningServer running;
-    client::Client& client = running.client;
-    const std::string id = running.session();
+    auto running = std::make_unique<RunningServer>();
+    client::Client client(running->server.address());
+    const std::string id = running->session();
     const std::string absent = client::new_session_id();
     Settings other = settings();
     other.particle_radius *= 2.0;
@@ -60,7 +61,7 @@ TEST(ErrorCode, TellsWhyTheServerRefused) {
     one.next();
     EXPECT_EQ(code_from([&] { client.stream(id).next(); }), ErrorCode::failed_precondition);
     EXPECT_EQ(code_from([&] { client::Client("127.0.0.1:1"); }), ErrorCode::unavailable);
-    running.server.shutdown();
+    running.reset();
     EXPECT_EQ(code_from([&] { client.session(id); }), ErrorCode::unavailable);
 }
 
