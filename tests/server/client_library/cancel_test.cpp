@@ -123,7 +123,7 @@ TEST(Cancel, OfAWatcherEndsItThoughAFrameHasCome) {
 TEST(Cancel, MayComeAtAnyMomentOfAStream) {
     RunningServer running(without_limit());
     const Particles particles = wave(3, 0.0);
-    for (int round = 0; round < 200; ++round) {
+    for (int round = 0; round < 120; ++round) {
         std::stop_source stopping;
         const client::Session session = running.client.open_session(settings());
         std::optional<client::Stream> stream = running.client.stream(
@@ -138,7 +138,7 @@ TEST(Cancel, MayComeAtAnyMomentOfAStream) {
             }
         });
         std::thread reader([&] {
-            while (!stream->next(round % 3 == 0 ? 0ms : 1ms).ended) std::this_thread::yield();
+            while (!stream->next(round % 8 == 0 ? 0ms : 1ms).ended) std::this_thread::yield();
         });
         for (int i = 0; i < round % 16; ++i) std::this_thread::yield();
         if (round % 4 < 2) stream->cancel();
@@ -152,7 +152,7 @@ TEST(Cancel, MayComeWhileAStreamOrAWatcherGoes) {
     RunningServer running(without_limit());
     const std::string id = running.session();
     const Particles particles = wave(3, 0.0);
-    for (int round = 0; round < 200; ++round) {
+    for (int round = 0; round < 120; ++round) {
         std::stop_source stopping;
         const client::Session session = running.client.open_session(settings());
         std::optional<client::Stream> stream = running.client.stream(session.id(), {.stop = stopping.get_token()});
