@@ -30,6 +30,7 @@
 #include "recording/session_recording.hpp"
 #include "rpc/call_counter.hpp"
 #include "rpc/health_service.hpp"
+#include "rpc/known_methods.hpp"
 #include "rpc/server_instance.hpp"
 #include "rpc/services.hpp"
 #include "security/access.hpp"
@@ -310,13 +311,17 @@ void Server::Impl::serve_http(const AllowedOrigins& origins) {
     const GrpcWeb calls{.channel = grpc_->InProcessChannel({}),
                         .origins = origins,
                         .needs_certificate = tls && tls->mutual(),
-                        .refused = [metrics = metrics_](grpc::StatusCode code) { metrics->call_ended(name_of(code)); }};
+                        .refused = [metrics = metrics_](std::string_view target, grpc::StatusCode code) {
+                            const Metrics::Method& method = known_method(target);
+                            metrics->call_started(method);
+                            metrics->call_ended(method, metric_name_of(code), 0.0);
+                        }};
     HttpLimits limits;
     limits.connections = shares_.http;
     limits.streams = shares_.http * 3 / 4;
     limits.connections_per_peer = std::min<std::size_t>(options_.limits.connections_per_peer, shares_.http / 4);
-    http_ = std::make_unique<HttpServer>(options_.http, std::move(router), calls, limits, tls,
-                                         TrustedPeers(options_.trusted_proxies));
+    return std::make_unique<HttpServer>(listen, std::move(router), calls, limits, tls,
+                                        TrustedPeers(options_.trusted_proxies));
 }
 
 void Server::Impl::serve_probes() {

@@ -383,28 +383,29 @@ TEST_F(GrpcWebCalls, AreRefusedInWordsWhenTheyAreWrongAndHarmNobody) {
 }
 
 TEST_F(GrpcWebCalls, ThatAreRefusedBeforeTheirHandlerAreCountedToo) {
-    const auto calls = [&] {
-        std::map<std::string, double> counts;
-        for (const auto& [name, value] : scrape(http))
-            if (name.starts_with("meniscus_calls_total{")) counts[name] = value;
-        return counts;
-    };
-    const auto rises = [&](const std::string& code, const std::string& request) {
-        const std::string name = "meniscus_calls_total{code=\"" + code + "\"}";
-        const double before = calls()[name];
+    const auto rises = [&](const std::string& code, const std::string& request, const std::string& method) {
+        const auto calls = [&](const char* name, const std::string& label) {
+            return sum_of(scrape(http), name, label + "grpc_method=\"" + method + "\"");
+        };
+        const std::string with_code = "grpc_code=\"" + code + "\",";
+        const double before = calls("grpc_server_handled_total{", with_code);
+        const double started = calls("grpc_server_started_total{", "");
         HttpClient client(http);
         client.send(request);
         client.receive();
-        EXPECT_EQ(calls()[name], before + 1) << request;
+        EXPECT_EQ(calls("grpc_server_handled_total{", with_code), before + 1) << request;
+        EXPECT_EQ(calls("grpc_server_started_total{", ""), started + 1) << request;
     };
     const std::string head = " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/grpc-web+proto\r\n";
     const std::string body = "Content-Length: 5\r\n\r\n" + web_message("");
-    rises("PERMISSION_DENIED", "POST " + info + head + "Origin: https://evil.example\r\n" + body);
-    rises("UNIMPLEMENTED", "POST /meniscus.v1.SessionService/DeleteSession" + head + body);
-    rises("RESOURCE_EXHAUSTED", "POST " + info + head + "Content-Length: 65537\r\n\r\n");
-    rises("INVALID_ARGUMENT", "POST " + info + head + "Content-Length: 3\r\n\r\n" + std::string(3, '\0'));
-    rises("INVALID_ARGUMENT", "GET " + info + head + "\r\n");
-    rises("INVALID_ARGUMENT", "POST " + info + " HTTP/1.1\r\nHost: elsewhere.example\r\n\r\n");
+    const char* const method = "GetServerInfo";
+    rises("PermissionDenied", "POST " + info + head + "Origin: https://evil.example\r\n" + body, method);
+    rises("Unimplemented", "POST /meniscus.v1.SessionService/DeleteSession" + head + body, "DeleteSession");
+    rises("Unimplemented", "POST /meniscus.v1.SessionService/Nonsense" + head + body, "unknown");
+    rises("ResourceExhausted", "POST " + info + head + "Content-Length: 65537\r\n\r\n", method);
+    rises("InvalidArgument", "POST " + info + head + "Content-Length: 3\r\n\r\n" + std::string(3, '\0'), method);
+    rises("InvalidArgument", "GET " + info + head + "\r\n", method);
+    rises("InvalidArgument", "POST " + info + " HTTP/1.1\r\nHost: elsewhere.example\r\n\r\n", method);
 }
 
 TEST(GrpcWeb, NamesTheBrowserInTheLogAndBelievesNoOther) {
@@ -413,7 +414,7 @@ TEST(GrpcWeb, NamesTheBrowserInTheLogAndBelievesNoOther) {
     spdlog::set_default_logger(
         std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out)));
     {
-        RunningServer running(web_options());
+        RunningServer running(options);
         const std::string id = running.session();
         {
             WebCall call(running.server.http_address(), watch, watch_request(id),
