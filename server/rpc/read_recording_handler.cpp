@@ -87,11 +87,12 @@ private:
 /// cancellation, too.
 class ReadRecordingReactor final : public ByteReactor, public std::enable_shared_from_this<ReadRecordingReactor> {
 public:
-    ReadRecordingReactor(Refusals& refusals, Metrics& metrics, ActiveCalls& calls, grpc::CallbackServerContext& context)
+    ReadRecordingReactor(const Authorizer& authorizer, Refusals& refusals, Metrics& metrics, ActiveCalls& calls,
+                         grpc::CallbackServerContext& context)
         : refusals_(refusals),
           metrics_(metrics),
           active_(calls),
-          peer_(peer_of(context)),
+          peer_(peer_of(authorizer, context)),
           context_(context),
           timer_(context) {}
 
@@ -214,7 +215,7 @@ RecordingReads& require_recorded(RecordingReads* reads) {
 
 ByteReactor* start_reading(RecordingReads* reads, const Authorizer& authorizer, Refusals& refusals, Metrics& metrics,
                            ActiveCalls& calls, grpc::CallbackServerContext& context) {
-    const auto reactor = std::make_shared<ReadRecordingReactor>(refusals, metrics, calls, context);
+    const auto reactor = std::make_shared<ReadRecordingReactor>(authorizer, refusals, metrics, calls, context);
     reactor->start(reads, authorizer);
     return reactor.get();
 }

@@ -41,6 +41,9 @@ public:
     /// that is known, permission_denied if its role is not enough.
     Caller admit(std::span<const std::string_view> authorization, const PeerAddress& peer, Action action) const;
 
+    /// Peers through which others come.
+    const TrustedPeers& trusted() const noexcept { return trusted_; }
+
     /// Whether sessions of this owner exist for this caller.
     static bool may_see(const Caller& caller, std::string_view owner);
     /// Whether that is so for the same owners.
