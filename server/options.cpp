@@ -108,6 +108,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     double idle_buffers_seconds = 60.0;
     server.limits.total_bytes = default_memory_limit();
     OwnShares shares;
+    double max_age_seconds = 0.0;
     double grace_seconds = std::chrono::duration<double>(server.shutdown_grace).count();
 
     CLI::App app{"meniscusd: adaptive surfaces of simulated fluid particles, live, over gRPC", "meniscusd"};
@@ -284,6 +285,13 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->transform(CLI::AsSizeValue(false))
         ->transform(whole_number())
         ->type_name("BYTES");
+    app.add_option("--record-min-frames", server.recording.retention.min_frames,
+                   "A recording with fewer frames is deleted when it is closed; 0: none is")
+        ->check(whole_number());
+    app.add_option("--record-max-age", max_age_seconds,
+                   "Seconds after which a recording to which nothing more was written is deleted, as 2592000 for 30 "
+                   "days; 0: none is")
+        ->check(seconds_up_to(1e9));
     app.add_option_function<std::string>(
            "--log-level",
            [&](const std::string& name) { command_line.log_level = by_name<LogLevel>(name, "--log-level"); },
@@ -319,6 +327,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     server.limits.orphan_time = milliseconds(orphan_seconds);
     server.limits.idle_buffers_time = milliseconds(idle_buffers_seconds);
     server.limits.per_name = shares.over(default_shares(server.limits));
+    server.recording.retention.max_age = milliseconds(max_age_seconds);
     server.shutdown_grace = milliseconds(grace_seconds);
     return std::nullopt;
 }

@@ -26,6 +26,7 @@
 #include "metrics/session_gauges.hpp"
 #include "open_work.hpp"
 #include "recording/recording_reads.hpp"
+#include "recording/recording_tidying.hpp"
 #include "recording/recording_writer.hpp"
 #include "recording/session_recording.hpp"
 #include "rpc/call_counter.hpp"
@@ -197,6 +198,7 @@ private:
     const std::unique_ptr<RecordingWriter> recordings_;  ///< none: nothing is recorded
     SessionRegistry registry_;
     const std::unique_ptr<RecordingReads> recording_reads_;  ///< none: nothing is recorded
+    const std::unique_ptr<RecordingTidying> tidying_;        ///< none: nothing is recorded
     ActiveCalls streams_;
     ActiveCalls receivers_;  ///< calls of watchers and readers
     Refusals refusals_;
@@ -227,6 +229,8 @@ Server::Impl::Impl(const ServerOptions& options)
                                                                       options.limits.recording_readers,
                                                                       options.limits.reader_patience)
                                    : nullptr),
+      tidying_(recording_reads_ ? std::make_unique<RecordingTidying>(*recording_reads_, options.recording.retention)
+                                : nullptr),
       refusals_(metrics_),
       server_service_(access_.authorizer(), refusals_, backend_, threads_or_processors(options.backend.threads),
                       limits_),

@@ -162,10 +162,10 @@ private:
     }
 
     void send_next() {
-        if (canceled_) return Finish(client_gone());
+        if (canceled_) return finish(client_gone());
         reads_->require_going_on();
         const SharedMessage message = messages_->next();
-        if (!message) return Finish(grpc::Status::OK);
+        if (!message) return finish(grpc::Status::OK);
         metrics_.message_sent(Metrics::Receiver::recording_reader, message->size());
         outgoing_ = to_bytes(message);
         await_client();
@@ -184,7 +184,12 @@ private:
 
     void refuse(const std::exception_ptr& error) {
         refusals_.report(error, caller_.name, peer_);
-        Finish(to_status(error));
+        finish(to_status(error));
+    }
+
+    void finish(const grpc::Status& status) {
+        messages_.reset();  // before the client knows: it may delete next what it has read
+        Finish(status);
     }
 
     Refusals& refusals_;

@@ -24,7 +24,8 @@ enum class Action {
     read_recording,
     create_session,
     stream,
-    delete_session
+    delete_session,
+    delete_recording
 };
 
 /// A watcher describes the server, lists, describes and watches all sessions, lists and reads their recordings. An

@@ -250,7 +250,7 @@ TEST(Meniscusd, ReceivesNoMessageBeforeTheTokenIsKnown) {
          {"ServerService/GetServerInfo", "SessionService/CreateSession", "SessionService/GetSession",
           "SessionService/ListSessions", "SessionService/DeleteSession", "SurfaceService/Stream",
           "SurfaceService/Watch", "SurfaceService/WatchParticles", "RecordingService/ListRecordings",
-          "RecordingService/ReadRecording"})
+          "RecordingService/ReadRecording", "RecordingService/DeleteRecording"})
         expect(std::string("/meniscus.v1.") + method, grpc::StatusCode::UNAUTHENTICATED);
     expect("/grpc.health.v1.Health/Check", grpc::StatusCode::OK);
     expect("/meniscus.v1.SessionService/NoCall", grpc::StatusCode::UNIMPLEMENTED);

@@ -32,6 +32,7 @@ constexpr const char* answered_methods[] = {
     "/meniscus.v1.SurfaceService/Stream",
     "/meniscus.v1.RecordingService/ListRecordings",
     "/meniscus.v1.RecordingService/ReadRecording",
+    "/meniscus.v1.RecordingService/DeleteRecording",
     "/grpc.health.v1.Health/Check",
 };
 

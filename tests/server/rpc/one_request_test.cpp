@@ -22,7 +22,7 @@ constexpr const char* methods[] = {
     "/meniscus.v1.SessionService/GetSession",      "/meniscus.v1.SessionService/ListSessions",
     "/meniscus.v1.SessionService/DeleteSession",   "/meniscus.v1.SurfaceService/Watch",
     "/meniscus.v1.SurfaceService/WatchParticles",  "/meniscus.v1.RecordingService/ListRecordings",
-    "/meniscus.v1.RecordingService/ReadRecording",
+    "/meniscus.v1.RecordingService/ReadRecording", "/meniscus.v1.RecordingService/DeleteRecording",
 };
 
 /// A call that has begun; its request is up to the test.
