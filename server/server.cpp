@@ -186,7 +186,8 @@ public:
 private:
     std::vector<prometheus::MetricFamily> metrics();
     void add_observation(Router& router);
-    void serve_http(const AllowedOrigins& origins);
+    std::unique_ptr<HttpServer> open_http(const std::string& listen, const AllowedOrigins& origins);
+    void serve_http_if_possible(const AllowedOrigins& origins);
     void serve_probes();
 
     const ServerOptions options_;
@@ -264,7 +265,10 @@ Server::Impl::Impl(const ServerOptions& options)
     check_ = std::make_unique<PortCheck>(port_.sockets(),
                                          options.tls.any() ? PortCheck::Protocol::tls : PortCheck::Protocol::http2,
                                          port_.own_connections());
-    if (!options.http.empty()) serve_http(origins);
+    if (options.http_is_default)
+        serve_http_if_possible(origins);
+    else if (!options.http.empty())
+        http_ = open_http(options.http, origins);
     if (!options.probes.empty()) serve_probes();
     spdlog::info("connections: {} to the gRPC port, {} to the HTTP port, of {} descriptors", shares_.grpc, shares_.http,
                  descriptor_limit());
@@ -307,7 +311,23 @@ void Server::Impl::shutdown() {
     probes_.reset();
 }
 
-void Server::Impl::serve_http(const AllowedOrigins& origins) {
+/// Of an address that nobody has asked for.
+void Server::Impl::serve_http_if_possible(const AllowedOrigins& origins) {
+    if (options_.http.empty()) return;
+    const std::string free_port = options_.http.substr(0, options_.http.rfind(':')) + ":0";
+    try {
+        try {
+            http_ = open_http(options_.http, origins);
+        } catch (const AddressUnavailable& taken) {
+            http_ = open_http(free_port, origins);
+            spdlog::info("{}: the viewer has another port (--http chooses one; --http off: none)", taken.what());
+        }
+    } catch (const std::exception& error) {
+        spdlog::warn("there is no viewer: {} (--http chooses an address; --http off: none)", error.what());
+    }
+}
+
+std::unique_ptr<HttpServer> Server::Impl::open_http(const std::string& listen, const AllowedOrigins& origins) {
     const std::shared_ptr<const TlsContext> tls = access_.http_tls();
     Router router;
     add_viewer_pages(router);

@@ -244,6 +244,8 @@ TEST(Options, ArePrintedAsAFileThatGivesThemAgain) {
     const test::TestFolder folder;
     for (const std::vector<std::string>& flags :
          {std::vector<std::string>{},
+          {"--http", ""},
+          {"--http", "off"},
           {"--listen", "[::1]:0", "--devices", "0,2", "--memory-limit", "3M", "--insecure", "--shutdown-grace", "0.25",
            "--log-level", "debug", "--backend", "cpu", "--tls-cert", "a b.pem", "--tokens", "t#1"}}) {
         const std::string text = printed(flags);
@@ -253,6 +255,8 @@ TEST(Options, ArePrintedAsAFileThatGivesThemAgain) {
     EXPECT_NE(text.find("\nmax-sessions = 5\n"), std::string::npos) << text;
     EXPECT_NE(text.find("\ntokens = /etc/meniscus/tokens\n"), std::string::npos) << text;
     EXPECT_NE(text.find("\n# tls-cert =\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("\n# http =\n"), std::string::npos) << text;
+    EXPECT_NE(printed({"--http", ""}).find("\nhttp = off\n"), std::string::npos);
 }
 
 }  // namespace
