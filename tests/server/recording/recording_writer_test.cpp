@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include <iterator>
 #include <memory>
 #include <regex>
+#include <semaphore>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -354,36 +354,33 @@ TEST_F(RecordingWriterTest, DeletesShortRecordingsThoughItsEndComesBeforeTheDisk
 }
 
 TEST_F(RecordingWriterTest, BeginsARecordingThoughTheFolderGoesWithTheOneBefore) {
-    constexpr int recordings = 2000;
+    constexpr int recordings = 300;
     log_of([&] {
         auto before = std::make_unique<RecordingFile>(directory_, session_id);
-        std::atomic<const RecordingFile*> given{nullptr};
+        std::binary_semaphore given(0);
+        std::binary_semaphore gone(0);
         std::thread deletes([&] {
             for (int i = 0; i < recordings; ++i) {
-                const RecordingFile* file = nullptr;
-                while ((file = given.load()) == nullptr) {
-                }
-                delete_recording(file->path(), {.session_id = session_id, .number = file->number()}, 0, 0, "of a test");
-                given = nullptr;
+                given.acquire();
+                delete_recording(before->path(), {.session_id = session_id, .number = before->number()}, 0, 0,
+                                 "a test");
+                gone.release();
             }
         });
-        int begun = 0;
         for (int i = 0; i < recordings; ++i) {
-            given = before.get();
             std::unique_ptr<RecordingFile> next;
-            try {
-                next = std::make_unique<RecordingFile>(directory_, session_id);
-                ++begun;
-            } catch (const std::runtime_error& error) {
-                ADD_FAILURE() << error.what();
-            }
-            while (given != nullptr) {
-            }
+            given.release();
+            EXPECT_NO_THROW(next = std::make_unique<RecordingFile>(directory_, session_id));
+            gone.acquire();
             before = next ? std::move(next) : std::make_unique<RecordingFile>(directory_, session_id);
         }
         deletes.join();
-        EXPECT_EQ(begun, recordings);
     });
+}
+
+TEST_F(RecordingWriterTest, DoesNotTryForEverToBeginARecording) {
+    std::filesystem::create_symlink(directory_ / "nowhere", directory_ / session_id);
+    EXPECT_THROW(RecordingFile(directory_, session_id), std::runtime_error);
 }
 
 TEST_F(RecordingWriterTest, AFileThatCannotBeCreatedStopsThatSessionsRecordingAlone) {
