@@ -102,8 +102,7 @@ TEST(ReconnectingStream, WaitsForAServerThatIsFull) {
     running = std::make_unique<RunningServer>(small);
     const std::string other = running->session();
     stream.push(wave(4, 0.0).view(), 0, 0.0);
-    while (scrape(running->server.http_address())["meniscus_calls_total{code=\"RESOURCE_EXHAUSTED\"}"] == 0)
-        std::this_thread::yield();
+    while (calls_ended(scrape(running->server.http_address()), "ResourceExhausted") == 0) std::this_thread::yield();
     running->client.delete_session(other);
     EXPECT_EQ(stream.next()->index, 0U);
 }
@@ -154,7 +153,7 @@ TEST(ReconnectingStream, IsOpenedAgainWithTheNextFrameAfterItsServerEndedItForId
     const std::string id = running.session();
     auto stream = running.client.stream(id, {.reconnect = patient});
     const auto wait_until_ended = [&](double times) {
-        while (scrape(running.server.http_address())["meniscus_calls_total{code=\"RESOURCE_EXHAUSTED\"}"] < times)
+        while (calls_ended(scrape(running.server.http_address()), "ResourceExhausted") < times)
             std::this_thread::yield();
     };
     for (std::uint64_t i = 0; i < 3; ++i) {
