@@ -16,3 +16,4 @@
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
 #include "meniscus/stop_flag.hpp"
+#include "meniscus/warning.hpp"
