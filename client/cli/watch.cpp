@@ -11,6 +11,7 @@
 #include "cli/mesh_output.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/server_flags.hpp"
+#include "cli/warnings.hpp"
 #include "cli/watch_wishes.hpp"
 #include "formats/atomic_file.hpp"
 #include "formats/point_writer.hpp"
@@ -27,6 +28,7 @@ struct WatchOptions {
     MeshFormat format = MeshFormat::ply;
     std::uint64_t frames = 0;  ///< 0: until the session ends
     double timeout = 0.0;      ///< seconds without a frame after which to end; 0: none
+    bool strict = false;
     WatchWishes wishes;
 };
 
@@ -56,10 +58,11 @@ void watch(const WatchOptions& options) {
         check_spray(session.settings);
         formats::make_directory(options.spray_directory);
     }
+    Warnings warnings(options.strict);
     client::Watcher watcher = client.watch(options.session, wishes);
     for (std::uint64_t received = 0; options.frames == 0 || received < options.frames; ++received) {
         const auto frame = next_frame(watcher, options);
-        if (!frame) return;
+        if (!frame) break;
         const auto path = frame_path(options.directory, frame->index, name_of(options.format));
         write_surface(path, Surface(*frame));
         if (!options.spray_directory.empty())
@@ -69,7 +72,9 @@ void watch(const WatchOptions& options) {
         for (const auto& brick : frame->bricks) triangles += brick->triangles;
         std::cerr << path.string() << ": " << triangles << " triangles, " << frame->changed.size() << " of "
                   << frame->bricks.size() << " bricks new\n";
+        warnings.say(path.string(), frame->statistics.warnings);
     }
+    warnings.finish();
 }
 
 }  // namespace
@@ -91,6 +96,7 @@ void add_watch(CLI::App& app) {
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
     options->wishes.add_to(command);
+    add_strict_option(command, options->strict);
     command.callback([options] { watch(*options); });
 }
 

@@ -6,3 +6,4 @@ import './playback.mjs';
 import './recordings.mjs';
 import './camera.mjs';
 import './accessibility.mjs';
+import './warnings.mjs';

@@ -17,3 +17,4 @@
 #include "meniscus/statistics.hpp"
 #include "meniscus/stop_flag.hpp"
 #include "meniscus/strided_positions.hpp"
+#include "meniscus/warning.hpp"
