@@ -61,10 +61,11 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
         float lit = 0.5 + 0.5 * dot(n, sunDirection);
         vec3 scattered = vec3(0.008, 0.066, 0.115) * (1.0 - exp(-9.0 * depth)) * (0.2 + 0.7 * horizonColor + 0.25 * lit * lit * sunColor);
 
-        // Where the ray leaves the water it is bent again, on the whole halfway back.
+        // Where the ray leaves the water it is bent again, on the whole halfway back. The water shows the floor without its lines: bent by every
+        // ripple, they would look like cracks in the mesh.
         vec3 bent = refract(-v, n, indexRatio);
-        vec3 through = environment(place + bent * depth * sceneSize, normalize(bent - v)) * absorbed + scattered;
-        vec3 mirrored = environment(place, reflect(-v, n));
+        vec3 through = environment(place + bent * depth * sceneSize, normalize(bent - v), false) * absorbed + scattered;
+        vec3 mirrored = environment(place, reflect(-v, n), false);
         vec3 color = mix(through, mirrored, fresnel) + sunColor * fresnel * sunHighlight(n, v);
         gl_FragColor = vec4(displayed(color), 1.0);
       }`,
