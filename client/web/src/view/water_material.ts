@@ -17,7 +17,9 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
   };
   const material = new ShaderMaterial({
     uniforms: { ...environment, ...water },
+    clipping: true,
     vertexShader: /* glsl */ `
+      #include <clipping_planes_pars_vertex>
       varying vec3 place;
       varying vec3 outward;
       void main() {
@@ -25,10 +27,13 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
         place = world.xyz;
         // Bricks are scaled alike on all axes.
         outward = mat3(modelMatrix) * normal;
-        gl_Position = projectionMatrix * viewMatrix * world;
+        vec4 mvPosition = viewMatrix * world;
+        gl_Position = projectionMatrix * mvPosition;
+        #include <clipping_planes_vertex>
       }`,
     fragmentShader: /* glsl */ `
       ${environmentGlsl}
+      #include <clipping_planes_pars_fragment>
       uniform sampler2D thickness;
       uniform vec2 screenSize;
       uniform bool hasNormals;
@@ -49,6 +54,7 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
       }
 
       void main() {
+        #include <clipping_planes_fragment>
         vec3 v = normalize(cameraPosition - place);
         vec3 n = normalize(hasNormals ? outward : cross(dFdx(place), dFdy(place)));
         if (dot(n, v) < 0.0) n = normalize(n - 1.02 * dot(n, v) * v);
