@@ -18,6 +18,7 @@ export interface BesideViewEvents {
 export class BesideView {
   private readonly store: BrickStore;
   private watch: SessionWatch | undefined;
+  private paused = false;
 
   constructor(
     private readonly server: Server,
@@ -33,6 +34,9 @@ export class BesideView {
       failed: (error) => {
         this.events.says(`A mesh could not be shown: ${error instanceof Error ? error.message : String(error)}.`);
       },
+    });
+    document.addEventListener('visibilitychange', () => {
+      this.setPaused(this.paused);
     });
   }
 
@@ -53,14 +57,18 @@ export class BesideView {
       },
     );
     this.watch = watch;
+    // One that is chosen while the other is paused is to be seen.
+    this.setPaused(false);
     watch.start();
     void askForFacts(this.server, { session }).then((facts) => {
       if (watch === this.watch) this.events.domain(facts?.domain);
     });
   }
 
+  /** A hidden tab asks for nothing. */
   setPaused(paused: boolean): void {
-    this.watch?.setPaused(paused);
+    this.paused = paused;
+    this.watch?.setPaused(paused || document.hidden);
   }
 
   /** With another token. */

@@ -68,7 +68,10 @@ export class Screen {
 
   /** A picture of the frame has been drawn. True for the frame's first one. */
   frameDrawn(frame: Frame): boolean {
-    if (frame === this.awaited?.frame) this.awaited.drawn();
+    if (frame === this.awaited?.frame) {
+      this.awaited.drawn();
+      this.awaited = undefined;
+    }
     if (frame === this.lastDrawn) return false;
     const first = !this.lastDrawn;
     this.lastDrawn = frame;
@@ -79,7 +82,7 @@ export class Screen {
 
   clear(): void {
     this.lastDrawn = undefined;
-    this.awaited?.failed(new Error('it is not shown any more'));
+    this.awaited?.failed(new Error('The frame is not shown any more.'));
     this.awaited = undefined;
     this.store.clear();
     this.viewer.clear();

@@ -62,7 +62,7 @@ export class VideoFile {
       const { supported } = await VideoEncoder.isConfigSupported(config);
       if (supported) return new VideoFile(size, rate, config, id);
     }
-    throw new Error(`This browser encodes no video of ${size.width} x ${size.height} pixels as VP9 or VP8`);
+    throw new Error(`This browser encodes no video of ${size.width} x ${size.height} pixels as VP9 or VP8.`);
   }
 
   async add(canvas: HTMLCanvasElement): Promise<void> {

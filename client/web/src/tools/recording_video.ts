@@ -2,6 +2,7 @@
 import type { Frame } from '../bricks/frame';
 import { whyNoEncoder, VideoFile } from '../save/video_encoder';
 import { Picture, type PicturePane } from '../save/picture';
+import { explain } from '../rpc/status';
 import { download } from '../ui/download';
 import { element } from '../ui/page';
 import { countText } from '../ui/texts';
@@ -69,8 +70,7 @@ export class RecordingVideo {
         this.dialog.close();
       }
     } catch (error) {
-      if (!this.working.signal.aborted)
-        this.text.textContent = `There is no video: ${error instanceof Error ? error.message : String(error)}.`;
+      if (!this.working.signal.aborted) this.text.textContent = `There is no video: ${explain(error)}`;
     } finally {
       this.working = undefined;
       this.setWorking(false);

@@ -92,7 +92,6 @@ export class Tools {
   private scale = true;
   private domain = true;
   private frame: Frame | undefined;
-  private lookingFrom: { readonly axis: Axis; readonly from: 1 | -1 } | undefined;
   /** Where the pointer was last. */
   private pointer: { readonly pane: Pane; readonly spot: Spot } | undefined;
   private pointing = false;
@@ -180,7 +179,6 @@ export class Tools {
     this.facts = undefined;
     this.frame = undefined;
     this.pointer = undefined;
-    this.lookingFrom = undefined;
     this.chosenUp = state.up;
     this.applyFacts();
     this.setScale(state.scale !== 'off');
@@ -192,7 +190,7 @@ export class Tools {
     void this.learn();
   }
 
-  /** A picture of the first frame is about to be placed by camera or fit(). */
+  /** The frame's first picture has been drawn. */
   frameDrawn(frame: Frame): void {
     const first = this.frame === undefined;
     this.frame = frame;
@@ -292,11 +290,8 @@ export class Tools {
     this.viewer.setDomain(on ? this.facts?.domain : undefined);
   }
 
-  /** Along an axis; the second time from the other side. */
   private lookAlong(axis: Axis): void {
-    const again = this.lookingFrom?.axis === axis && this.lookingFrom.from === 1;
-    this.lookingFrom = { axis, from: again ? -1 : 1 };
-    this.viewer.lookAlong(axis, this.lookingFrom.from);
+    this.viewer.lookAlong(axis);
     this.events.changed();
   }
 
@@ -353,7 +348,8 @@ export class Tools {
   }
 
   private recorded(): Recorded | undefined {
-    const { recording } = this.at;
+    const { at } = this;
+    const { recording } = at;
     if (!recording) return undefined;
     this.playback.setPaused(true);
     return {
@@ -362,7 +358,8 @@ export class Tools {
         recordedFrames(this.server.readRecording({ sessionId: recording.session, number: recording.number }, signal)),
       draw: (frame) => this.screen.draw(frame),
       done: () => {
-        this.playback.step(0);
+        // Back to the frame of the slider.
+        if (at === this.at) this.playback.step(0);
       },
     };
   }

@@ -269,9 +269,10 @@ export class Viewer {
     this.lookFrom(fitDirection);
   }
 
-  /** The same, along an axis: from its positive end, or from its negative one. */
-  lookAlong(axis: Axis, from: 1 | -1): void {
-    const direction = toScene(alongAxis(axis), [0, 0, 0], this.up).multiplyScalar(from);
+  /** The same, along an axis: from its positive end; from there, from its negative one. */
+  lookAlong(axis: Axis): void {
+    const direction = toScene(alongAxis(axis), [0, 0, 0], this.up);
+    if (this.following && this.direction.dot(direction) > 0.99) direction.negate();
     // Straight up and down there is no telling what is right and left.
     if (direction.y !== 0) direction.z += 1e-3;
     this.lookFrom(direction.normalize());
