@@ -9,7 +9,7 @@ export function coveredMargins(water: HTMLCanvasElement): Margins {
   const controls = element('controls', HTMLElement).getBoundingClientRect();
   const panels = element('panels', HTMLElement).getBoundingClientRect();
   const there = figures.width > 0 && figures.left < canvas.right && figures.top < canvas.bottom;
-  const beside = there && figures.width < canvas.width / 3;
+  const beside = there && figures.width < 0.45 * canvas.width;
   const below = panels.height > 0 && panels.width > controls.width / 2 ? panels.top : controls.top;
   return {
     top: there && !beside ? Math.max(0, figures.bottom - canvas.top) : 0,
