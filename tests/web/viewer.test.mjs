@@ -5,5 +5,6 @@ import './recovery.mjs';
 import './playback.mjs';
 import './recordings.mjs';
 import './camera.mjs';
+import './tools.mjs';
 import './accessibility.mjs';
 import './warnings.mjs';

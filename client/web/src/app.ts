@@ -19,8 +19,8 @@ import { Playback } from './ui/playback';
 import { RecordingList } from './ui/recording_list';
 import { SessionList } from './ui/session_list';
 import { followTheme } from './ui/theme';
+import { Tools } from './tools/tools';
 import { askToken, storedToken } from './ui/token_dialog';
-import type { UpAxis } from './view/up_axis';
 import { Viewer, type Look } from './view/viewer';
 
 export class App {
@@ -30,6 +30,7 @@ export class App {
   private readonly viewer: Viewer;
   private readonly screen: Screen;
   private readonly playback = new Playback();
+  private readonly tools: Tools;
   private readonly sessionView: SessionView;
   private readonly recordingView: RecordingView;
   private readonly list: SessionList;
@@ -37,14 +38,16 @@ export class App {
   /** What is looked at. */
   private at: Pick<PageState, 'session' | 'recording' | 'position'> = {};
   private look: Look = 'water';
-  private up: UpAxis = 'y';
   private particles = false;
   /** From the link, for the first picture. */
   private linked: PageState = {};
 
   constructor() {
     this.server.token = storedToken();
-    this.viewer = new Viewer(this.canvas, coveredMargins, {
+    this.viewer = new Viewer(this.canvas, () => coveredMargins(this.canvas), {
+      rendered: () => {
+        this.tools.rendered();
+      },
       drawn: (frame, triangles, particles) => {
         // For those who look from outside: tests, and assistive tools.
         this.canvas.dataset.frame = String(frame.index);
@@ -55,8 +58,7 @@ export class App {
         this.frameDrawn(frame);
       },
       moving: (moving) => {
-        this.sessionView.cameraMoving(moving);
-        if (!moving) this.writeAddress();
+        this.cameraMoving(moving);
       },
       lost: (lost) => {
         this.inPlaceOfPicture(
@@ -66,7 +68,8 @@ export class App {
         );
       },
     });
-    this.screen = new Screen(startDecodePool(), this.viewer, new Overlay(), {
+    const pool = startDecodePool();
+    this.screen = new Screen(pool, this.viewer, new Overlay(), {
       shown: () => {
         this.sessionView.showParticles();
       },
@@ -78,6 +81,17 @@ export class App {
       },
       firstFrame: () => {
         this.firstFrame();
+      },
+    });
+    this.tools = new Tools(this.server, this.screen, this.playback, pool, this.viewer, {
+      changed: () => {
+        this.writeAddress();
+      },
+      moving: (moving) => {
+        this.cameraMoving(moving);
+      },
+      failed: (reason) => {
+        this.banner.say(reason);
       },
     });
     this.sessionView = new SessionView(this.server, this.screen, this.playback, {
@@ -110,7 +124,7 @@ export class App {
       tokenNeeded: (reason) => void this.tokenNeeded(reason),
     });
     followTheme((theme) => {
-      this.viewer.setTheme(theme);
+      this.tools.setTheme(theme);
     });
     this.bindControls();
     addEventListener('popstate', () => {
@@ -148,6 +162,7 @@ export class App {
       ? `Recording ${recordingNameText(state.recording)}`
       : (state.session ?? '');
     this.inPlaceOfPicture('');
+    this.tools.open(state);
     if (!watching) {
       this.list.show();
       this.recordings.show();
@@ -156,7 +171,6 @@ export class App {
     this.list.hide();
     this.recordings.hide();
     this.setLook(state.look ?? 'water');
-    this.setUp(state.up ?? 'y');
     this.setParticles(false);
     if (state.recording) this.recordingView.start(state.recording, state.position);
     else this.sessionView.start(state.session!);
@@ -169,6 +183,7 @@ export class App {
 
   private frameDrawn(frame: Frame): void {
     if (!this.screen.frameDrawn(frame)) return;
+    this.tools.frameDrawn(frame);
     if (this.at.recording) this.recordingView.frameDrawn(frame);
     else this.sessionView.frameDrawn(frame);
   }
@@ -182,6 +197,7 @@ export class App {
   private watchState(state: WatchState): void {
     this.canvas.dataset.state = state.kind;
     this.banner.watching(state);
+    this.tools.watchState(state);
     if (!this.screen.shown)
       this.inPlaceOfPicture(
         state.kind === 'connecting'
@@ -191,6 +207,11 @@ export class App {
             : '',
       );
     if (state.kind === 'token') void this.tokenNeeded(state.reason);
+  }
+
+  private cameraMoving(moving: boolean): void {
+    this.sessionView.cameraMoving(moving);
+    if (!moving) this.writeAddress();
   }
 
   private inPlaceOfPicture(text: string): void {
@@ -206,6 +227,7 @@ export class App {
     if (this.at.recording) this.recordingView.restart();
     else if (this.at.session !== undefined) this.sessionView.restart();
     else this.open({});
+    this.tools.restart();
   }
 
   private bindControls(): void {
@@ -218,9 +240,6 @@ export class App {
       },
       'show-particles': () => {
         this.setParticles(!this.particles);
-      },
-      up: () => {
-        this.setUp(this.up === 'y' ? 'z' : 'y');
       },
       fit: () => {
         this.viewer.fit();
@@ -288,13 +307,6 @@ export class App {
     button.setAttribute('aria-pressed', String(this.particles));
   }
 
-  private setUp(up: UpAxis): void {
-    this.up = up;
-    this.viewer.setUp(up);
-    element('up', HTMLButtonElement).setAttribute('aria-pressed', String(up === 'z'));
-    this.writeAddress();
-  }
-
   private toggleOverlay(): void {
     const overlay = element('overlay', HTMLElement);
     overlay.hidden = !overlay.hidden;
@@ -308,7 +320,7 @@ export class App {
     download(
       `meniscus-${shown.frame.index}.${kind}`,
       type,
-      kind === 'glb' ? writeGlb(shown, this.up) : writePly(shown),
+      kind === 'glb' ? writeGlb(shown, this.tools.up) : writePly(shown),
     );
   }
 
@@ -317,7 +329,7 @@ export class App {
     history.replaceState(
       null,
       '',
-      writeLink({ ...this.at, camera: this.viewer.cameraPlace, look: this.look, up: this.up }),
+      writeLink({ ...this.at, ...this.tools.state, camera: this.viewer.cameraPlace, look: this.look }),
     );
   }
 
@@ -330,9 +342,12 @@ export class App {
       () => true,
       () => false,
     );
-    button.textContent = copied ? 'Copied' : 'See the address bar';
+    const label = button.querySelector('span')!;
+    label.textContent = copied ? 'Copied' : 'See the address bar';
+    label.classList.add('kept');
     setTimeout(() => {
-      button.textContent = 'Copy link';
+      label.textContent = 'Copy link';
+      label.classList.remove('kept');
     }, 2000);
   }
 }
