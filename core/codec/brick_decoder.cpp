@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <string>
 
 #include "codec/draco_header.hpp"
+#include "codec/normal_rounding.hpp"
 #include "codec/triangle_levels.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/error.hpp"
@@ -92,14 +92,6 @@ Weld weld_points(const EncodedBrick& brick, const draco::Mesh& mesh) {
     return weld;
 }
 
-Normal normal_of(const draco::PointAttribute& attribute, std::uint32_t point) {
-    std::array<float, 3> n{};
-    attribute.ConvertValue<float>(attribute.mapped_index(draco::PointIndex(point)), 3, n.data());
-    const float size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    if (!(size > 0.0F) || !std::isfinite(size)) return {0.0F, 0.0F, 1.0F};
-    return {n[0] / size, n[1] / size, n[2] / size};
-}
-
 /// The origin of a brick on the refined lattice; refuses one that int32 cannot hold.
 LatticePosition brick_origin(const EncodedBrick& brick, std::uint32_t offset_bits) {
     const std::int64_t edge = std::int64_t{brick_cells} << offset_bits;
@@ -134,7 +126,7 @@ DecodedBrick decode_draco_brick(const EncodedBrick& brick, std::uint32_t offset_
     }
     if (const auto* attribute = mesh->GetNamedAttribute(draco::GeometryAttribute::NORMAL)) {
         decoded.normals.reserve(weld.positions.size());
-        for (const std::uint32_t point : weld.point_of_vertex) decoded.normals.push_back(normal_of(*attribute, point));
+        for (const std::uint32_t point : weld.point_of_vertex) decoded.normals.push_back(decoded_normal(*attribute, point));
     }
     std::vector<std::optional<std::uint16_t>> cells;
     std::array<bool, cells_per_brick> occupied{};

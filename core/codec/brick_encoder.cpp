@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "codec/brick_index.hpp"
+#include "codec/normal_rounding.hpp"
 #include "codec/round_position.hpp"
 #include "codec/triangle_levels.hpp"
 #include "meniscus/brick_coding.hpp"
@@ -109,9 +110,7 @@ std::uint32_t encoded_offset_bits(const Mesh& mesh, const CodingOptions& options
 
 BrickContent brick_content(const Mesh& mesh, std::size_t brick_number, const CodingOptions& options,
                            BrickScratch& scratch) {
-    if (options.normal_bits != 0 && (options.normal_bits < 2 || options.normal_bits > 16))
-        throw InvalidInput("normal bits are " + std::to_string(options.normal_bits) +
-                           ", must be 2 to 16, or 0 for no normals");
+    check_normal_bits(options.normal_bits);
     const std::uint32_t bits = encoded_offset_bits(mesh, options);
     const MeshBrick& brick = mesh.bricks.at(brick_number);
     BrickIndex index = index_brick(mesh, brick, scratch.slots);

@@ -1,19 +1,19 @@
-// SHA-256 over sorted, rotated triangles.
+// SHA-256 over the triangles in their canonical order.
 #include "meniscus/mesh_hash.hpp"
 
 #include <openssl/evp.h>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <memory>
 #include <stdexcept>
-#include <vector>
+
+#include "meniscus/canonical_order.hpp"
 
 namespace meniscus {
 namespace {
 
-/// SHA-256 of little-endian numbers.
+/// SHA-256 of little-endian numbers, and of arrays of them.
 class Sha256 {
 public:
     Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
@@ -21,7 +21,7 @@ public:
             throw std::runtime_error("OpenSSL offers no SHA-256");
     }
     template <class Number>
-    void add(Number value) {
+    void add(const Number& value) {
         static_assert(std::endian::native == std::endian::little, "numbers are hashed as they lie in memory");
         EVP_DigestUpdate(context_.get(), &value, sizeof value);
     }
@@ -40,32 +40,23 @@ private:
     std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
 
-struct HashedTriangle {
-    std::uint8_t level;
-    std::array<LatticePosition, 3> corners;
-    bool operator<(const HashedTriangle& o) const { return level != o.level ? level < o.level : corners < o.corners; }
-};
-
 }  // namespace
 
 std::string mesh_sha256(const Mesh& mesh) {
-    std::vector<HashedTriangle> triangles;
-    triangles.reserve(mesh.triangles.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        HashedTriangle h{level_byte(mesh.level_of(t)), {}};
-        for (std::size_t i = 0; i < 3; ++i) h.corners[i] = mesh.vertices[mesh.triangles[t][i]];
-        std::rotate(h.corners.begin(), std::min_element(h.corners.begin(), h.corners.end()), h.corners.end());
-        triangles.push_back(h);
-    }
-    std::sort(triangles.begin(), triangles.end());
+    const Mesh ordered = in_canonical_order(mesh);
     Sha256 sha;
-    sha.add(mesh.cell_size);
-    sha.add(mesh.offset_bits);
-    sha.add(std::uint64_t{mesh.triangles.size()});
-    for (const HashedTriangle& t : triangles) {
-        sha.add(t.level);
-        for (const LatticePosition& corner : t.corners)
-            for (const std::int32_t coordinate : corner) sha.add(coordinate);
+    sha.add(ordered.cell_size);
+    sha.add(ordered.offset_bits);
+    sha.add(std::uint64_t{ordered.triangles.size()});
+    // By the levels' bytes, of which crack filling has the least.
+    for (const TriangleLevel level :
+         {TriangleLevel::crack, TriangleLevel::level1, TriangleLevel::level2, TriangleLevel::level3}) {
+        const TriangleRange range = ordered.levels[static_cast<std::size_t>(level)];
+        for (std::uint32_t t = range.first; t < range.first + range.count; ++t) {
+            const auto& [a, b, c] = ordered.triangles[t];
+            sha.add(level_byte(level));
+            sha.add(std::array{ordered.vertices[a], ordered.vertices[b], ordered.vertices[c]});
+        }
     }
     return sha.hexadecimal();
 }

@@ -3,6 +3,7 @@
 
 #include "meniscus/backend_options.hpp"
 #include "meniscus/brick_coding.hpp"
+#include "meniscus/canonical_order.hpp"
 #include "meniscus/codec.hpp"
 #include "meniscus/device_mesh.hpp"
 #include "meniscus/devices.hpp"

@@ -1,0 +1,129 @@
+// One order and one rounding of normals, whichever way a mesh has come.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "meniscus/meniscus.hpp"
+#include "support/particles.hpp"
+
+namespace meniscus {
+namespace {
+
+Mesh splash(Mode mode, bool normals = true) {
+    Settings settings = test::default_settings();
+    settings.mode = mode;
+    settings.normals = normals;
+    Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
+    Mesh mesh;
+    reconstructor.reconstruct(test::splash(61).frame(), mesh);
+    return mesh;
+}
+
+/// The same surface with its vertices, the triangles of each level, and the corners of triangles in a random order.
+Mesh shuffled(const Mesh& mesh, unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<std::uint32_t> place(mesh.vertices.size());
+    std::iota(place.begin(), place.end(), 0U);
+    std::shuffle(place.begin(), place.end(), random);
+    Mesh out = mesh;
+    for (std::size_t v = 0; v < place.size(); ++v) {
+        out.vertices[place[v]] = mesh.vertices[v];
+        if (!mesh.normals.empty()) out.normals[place[v]] = mesh.normals[v];
+    }
+    for (Triangle& t : out.triangles) {
+        for (std::uint32_t& v : t) v = place[v];
+        std::rotate(t.begin(), t.begin() + random() % 3, t.end());
+    }
+    for (const TriangleRange& range : out.levels)
+        std::shuffle(out.triangles.begin() + range.first, out.triangles.begin() + range.first + range.count, random);
+    return out;
+}
+
+void expect_equal(const Mesh& a, const Mesh& b) {
+    EXPECT_TRUE(std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end()));
+    EXPECT_TRUE(std::equal(a.normals.begin(), a.normals.end(), b.normals.begin(), b.normals.end()));
+    EXPECT_TRUE(std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end()));
+    for (std::size_t level = 0; level < triangle_level_count; ++level) {
+        EXPECT_EQ(a.levels[level].first, b.levels[level].first);
+        EXPECT_EQ(a.levels[level].count, b.levels[level].count);
+    }
+}
+
+TEST(CanonicalOrder, IsThatOfPositionsAndKeepsTheSurface) {
+    for (const Mode mode : {Mode::adaptive, Mode::uniform}) {
+        const Mesh mesh = splash(mode);
+        const Mesh ordered = in_canonical_order(mesh);
+        EXPECT_EQ(mesh_sha256(ordered), mesh_sha256(mesh));
+        EXPECT_TRUE(std::is_sorted(ordered.vertices.begin(), ordered.vertices.end()));
+        for (const TriangleRange& range : ordered.levels) {
+            const auto first = ordered.triangles.begin() + range.first;
+            EXPECT_TRUE(std::is_sorted(first, first + range.count));
+            for (auto t = first; t != first + range.count; ++t) {
+                ASSERT_LT((*t)[0], (*t)[1]);
+                ASSERT_LT((*t)[0], (*t)[2]);
+            }
+        }
+    }
+}
+
+TEST(CanonicalOrder, IsTheSameForEveryOrderThatAMeshCanHave) {
+    const Mesh mesh = splash(Mode::adaptive);
+    const Mesh ordered = in_canonical_order(mesh);
+    for (const unsigned seed : {1U, 2U, 3U}) {
+        const Mesh other = shuffled(mesh, seed);
+        expect_equal(in_canonical_order(other), ordered);
+        EXPECT_EQ(mesh_sha256(other), mesh_sha256(mesh));
+    }
+}
+
+TEST(CanonicalOrder, HoldsForCoordinatesAtTheEndsOfTheirRange) {
+    constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
+    constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
+    Mesh mesh;
+    mesh.cell_size = 1.0;
+    for (const std::int32_t x : {most, 0, least, -1, 2048, 1, 2047})
+        for (const std::int32_t y : {0, least, most})
+            for (const std::int32_t z : {least, most, 5}) mesh.vertices.push_back({x, y, z});
+    const Mesh ordered = in_canonical_order(mesh);
+    EXPECT_EQ(ordered.vertices.size(), mesh.vertices.size());
+    EXPECT_TRUE(std::is_sorted(ordered.vertices.begin(), ordered.vertices.end()));
+    EXPECT_TRUE(in_canonical_order(Mesh{}).vertices.empty());
+}
+
+TEST(RoundedNormals, AreThoseOfAMeshThatWasEncodedAndDecoded) {
+    for (const bool normals : {true, false}) {
+        const Mesh mesh = splash(Mode::adaptive, normals);
+        for (const int bits : {0, 2, 3, 5, 8, 11, 16}) {
+            std::vector<DecodedBrick> bricks;
+            for (std::size_t i = 0; i < mesh.bricks.size(); ++i)
+                bricks.push_back(decode_brick(encode_brick(mesh, i, {.normal_bits = bits}), mesh.offset_bits));
+            const Mesh decoded = weld_bricks(bricks, mesh.cell_size, mesh.offset_bits);
+            Mesh rounded = mesh;
+            round_normals(rounded, bits);
+            EXPECT_EQ(rounded.normals.empty(), bits == 0 || !normals);
+            expect_equal(in_canonical_order(rounded), in_canonical_order(decoded));
+        }
+    }
+}
+
+TEST(RoundedNormals, StayAsTheyAreWhenTheyAreRoundedOnceMore) {
+    for (int bits = 2; bits <= 16; ++bits) {
+        Mesh mesh = splash(Mode::adaptive);
+        round_normals(mesh, bits);
+        const Mesh once = mesh;
+        round_normals(mesh, bits);
+        EXPECT_TRUE(std::equal(once.normals.begin(), once.normals.end(), mesh.normals.begin())) << bits << " bits";
+    }
+}
+
+TEST(RoundedNormals, AreRefusedForBitsOutOfRange) {
+    Mesh mesh;
+    for (const int bits : {-1, 1, 17}) EXPECT_THROW(round_normals(mesh, bits), InvalidInput) << bits;
+}
+
+}  // namespace
+}  // namespace meniscus
