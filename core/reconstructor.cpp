@@ -64,6 +64,9 @@ public:
           account_(std::make_shared<MemoryAccount>(options.memory_limit, "in memory", options.shared_memory)),
           device_account_(std::make_shared<MemoryAccount>(options.device_memory_limit, "on the GPU",
                                                           options.shared_device_memory)) {
+        if (options.threads > max_threads)
+            throw InvalidInput("the threads are " + std::to_string(options.threads) + ", must be at most " +
+                               std::to_string(max_threads));
         options_.backend = describe_backend(options.backend, options.device).backend;
         make_backend();
     }

@@ -198,7 +198,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->type_name("LIST")
         ->default_str("");
     app.add_option("--threads", server.backend.threads, "Worker threads; 0: one per processor")
-        ->check(CLI::Range(0U, 1024U));
+        ->check(CLI::Range(0U, max_threads));
     app.add_option("--max-sessions", server.limits.sessions, "Sessions at a time; 0: no limit");
     app.add_option("--max-watchers", server.limits.watchers_per_session, "Watchers of one session; 0: no limit");
     app.add_option("--max-formats", server.limits.formats_per_session,

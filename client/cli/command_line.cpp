@@ -4,18 +4,48 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <system_error>
+#include <utility>
 
 #include "cli/commands.hpp"
+#include "cli/options/near_names.hpp"
+#include "cli/options/option_group.hpp"
 #include "cli/warnings.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::cli {
 namespace {
+
+/// One empty line above each heading, where CLI11 has two.
+class HelpFormatter : public CLI::Formatter {
+    std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+        return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, std::move(name), mode), "\n\n\n", "\n\n");
+    }
+};
+
+/// Below the options that a command has of its own.
+void move_help_last(CLI::App& command) {
+    command.set_help_flag();
+    const OptionGroup group(command, other_heading);
+    command.set_help_flag("-h,--help", "Print this help message and exit");
+}
+
+/// What is printed is buffered, so that a full disk shows late.
+void require_written() {
+    errno = 0;
+    std::cout.flush();
+    if (!std::cout)
+        throw std::runtime_error("standard output: writing failed" +
+                                 (errno == 0 ? "" : ": " + std::generic_category().message(errno)));
+}
 
 int report(std::string message, ExitCode code) {
     std::replace(message.begin(), message.end(), '\n', ' ');
@@ -30,7 +60,8 @@ int run(int argc, const char* const* argv) {
     google::protobuf::SetLogHandler(nullptr);
     CLI::App app("Adaptive surfaces of simulated fluid particles", "meniscus");
     app.set_version_flag("--version", std::string("meniscus ") + std::string(version()));
-    app.require_subcommand(0, 1);  // none is refused below, after anything that is not known
+    app.formatter(std::make_shared<HelpFormatter>());  // of the commands, too
+    app.require_subcommand(0, 1);                      // none is refused below, after anything that is not known
     add_reconstruct(app);
     add_simulate(app);
     add_watch(app);
@@ -42,13 +73,18 @@ int run(int argc, const char* const* argv) {
     add_recordings(app);
     add_replay(app);
     add_convert(app);
+    add_completion(app);
+    add_help(app);
+    for (CLI::App* command : app.get_subcommands({})) move_help_last(*command);
+    app.footer("meniscus help COMMAND explains a command, with examples.");
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty()) throw InvalidInput("a subcommand is needed; meniscus --help lists them");
+        require_written();
         return success;
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
-        return report(e.what(), bad_input);
+        return report(refusal(app, e), bad_input);
     } catch (const Warned&) {
         return warned;
     } catch (const InvalidInput& e) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 
 namespace meniscus::cli {
@@ -13,16 +14,19 @@ public:
     explicit FilePattern(const std::string& text);
 
     bool has_number() const { return has_number_; }
+    /// As it was given.
+    const std::string& text() const { return text_; }
     /// The path of that frame; the same for all frames if has_number() is false.
     std::filesystem::path at(std::uint64_t number) const;
 
-    /// Finds how existing files write `{}`: as it is, else padded to 2 to 9 digits, whichever file of this number
-    /// exists first. Leaves `{:0W}` alone.
-    void match_existing(std::uint64_t number);
+    /// The files that are there, by number. From then on `{}` is padded with zeros as the first of them is; `{:0W}`
+    /// stays. Throws InvalidInput if two files have the same number.
+    std::map<std::uint64_t, std::filesystem::path> match_existing();
     /// Writes `{}` as the other pattern does.
     void pad_like(const FilePattern& other);
 
 private:
+    std::string text_;
     std::string before_;
     std::string after_;
     bool has_number_ = false;

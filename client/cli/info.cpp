@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "cli/commands.hpp"
+#include "cli/examples.hpp"
 #include "cli/options/server_flags.hpp"
 #include "cli/surfaces.hpp"
 #include "meniscus/reconstructor.hpp"
@@ -103,6 +104,7 @@ void add_info(CLI::App& app) {
     add_backend_option(command, options->backend)->excludes(server);
     command.add_flag("--health", options->health, "Only whether it serves, which needs no token; if not, exit code 1")
         ->needs(server);
+    add_examples(command, {"meniscus info", "meniscus info --server localhost"});
     command.callback([options] {
         if (options->server.address.empty())
             print_this_process(options->backend);

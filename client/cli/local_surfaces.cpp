@@ -4,14 +4,20 @@
 
 namespace meniscus::cli {
 
-LocalSurfaces::LocalSurfaces(const Settings& settings, const BackendOptions& options, Handler handler)
-    : reconstructor_(settings, options), handler_(std::move(handler)) {}
+LocalSurfaces::LocalSurfaces(const Settings& settings, const BackendOptions& options, std::optional<int> normal_bits,
+                             Handler handler)
+    : reconstructor_(settings, options), normal_bits_(normal_bits), handler_(std::move(handler)) {}
 
 void LocalSurfaces::submit(const ParticleFrame& frame, double simulation_time) {
     reconstructor_.reconstruct(frame, mesh_);
     client::FrameStatistics statistics;
     static_cast<Statistics&>(statistics) = reconstructor_.statistics();
-    handler_(Surface(mesh_, std::move(statistics), frames_++, simulation_time));
+    CodingOptions coding;
+    if (normal_bits_) {
+        round_normals(mesh_, *normal_bits_);
+        coding.normal_bits = *normal_bits_;
+    }
+    handler_(Surface(mesh_, std::move(statistics), frames_++, simulation_time, coding));
 }
 
 }  // namespace meniscus::cli

@@ -2,45 +2,38 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "cli/file_pattern.hpp"
 #include "formats/brick_file.hpp"
 #include "formats/extension.hpp"
 #include "formats/mesh_file.hpp"
+#include "formats/standard_streams.hpp"
+#include "meniscus/canonical_order.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
 
 namespace meniscus::cli {
-namespace {
-
-MeshFormat format_of(const std::filesystem::path& path) {
-    const std::string extension = formats::lower_extension(path);
-    std::vector<std::string> extensions;
-    for (const MeshFormat format : choices<MeshFormat>) {
-        extensions.push_back(std::string(".").append(name_of(format)));
-        if (extension == extensions.back()) return format;
-    }
-    throw InvalidInput(path.string() + ": meshes are written as " +
-                       listed(std::vector<std::string_view>(extensions.begin(), extensions.end())) + ", not as '" +
-                       extension + "'");
-}
-
-}  // namespace
-
 void check_folder(const std::filesystem::path& path) {
     const std::filesystem::path folder = path.parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder))
         throw InvalidInput(path.string() + ": cannot be written: there is no folder " + folder.string());
 }
 
-void check_mesh_path(const std::filesystem::path& path) {
-    format_of(path);
+MeshFormat check_mesh_path(const std::filesystem::path& path, std::optional<MeshFormat> named) {
+    check_named(path, named.has_value(), "--format", names<MeshFormat>);
+    const MeshFormat format = named ? *named : formats::mesh_format_of(path);
     check_folder(path);
+    return format;
+}
+
+void check_named(const std::filesystem::path& file, bool named, const std::string& option,
+                 std::span<const std::string_view> formats) {
+    if (formats::is_standard_stream(file) && !named)
+        throw InvalidInput("'-' has no extension: name its format by " + option + ": " + listed(formats));
 }
 
 void check_points_path(const std::filesystem::path& path) {
-    if (formats::lower_extension(path) != ".ply")
+    if (!formats::is_standard_stream(path) && formats::lower_extension(path) != ".ply")
         throw InvalidInput(path.string() + ": points are written as .ply, not as '" + formats::lower_extension(path) +
                            "'");
     check_folder(path);
@@ -52,12 +45,12 @@ void check_spray(const Settings& settings) {
                            "', and must be '" + std::string(name_of(Spray::points)) + "'");
 }
 
-void write_surface(const std::filesystem::path& path, const Surface& surface) {
-    switch (format_of(path)) {
+void write_surface(const std::filesystem::path& path, const Surface& surface, MeshFormat format) {
+    switch (format) {
         case MeshFormat::ply:
-            return formats::write_ply(path, surface.mesh());
+            return formats::write_ply(path, in_canonical_order(surface.mesh()));
         case MeshFormat::obj:
-            return formats::write_obj(path, surface.mesh());
+            return formats::write_obj(path, in_canonical_order(surface.mesh()));
         case MeshFormat::bricks:
             return formats::write_bricks(path, surface.encoded());
     }

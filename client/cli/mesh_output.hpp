@@ -2,36 +2,33 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "cli/surfaces.hpp"
+#include "formats/mesh_format.hpp"
 
 namespace meniscus::cli {
 
-/// The formats that meshes are written in; a name is also the file's extension.
-enum class MeshFormat { ply, obj, bricks };
-constexpr std::string_view name_of(MeshFormat format) {
-    switch (format) {
-        case MeshFormat::ply:
-            return "ply";
-        case MeshFormat::obj:
-            return "obj";
-        case MeshFormat::bricks:
-            return "bricks";
-    }
-    return {};
-}
+using formats::MeshFormat;
 
 /// Throws InvalidInput unless the path's folder exists: to be called before long work.
 void check_folder(const std::filesystem::path& path);
-/// Throws InvalidInput unless the extension names a MeshFormat and the folder exists: to be called before long work.
-void check_mesh_path(const std::filesystem::path& path);
+/// The format that is named, or that of the extension. Throws InvalidInput if there is neither, or no folder for the
+/// file: to be called before long work.
+MeshFormat check_mesh_path(const std::filesystem::path& path, std::optional<MeshFormat> named);
+/// Throws InvalidInput unless `file` has an extension, or its format is named: "-" has none. option: that which names
+/// it. formats: those that there are.
+void check_named(const std::filesystem::path& file, bool named, const std::string& option,
+                 std::span<const std::string_view> formats);
 /// The same of a file of points, which is PLY.
 void check_points_path(const std::filesystem::path& path);
 /// Throws InvalidInput unless these settings bring points for a file of spray: to be called before long work.
 void check_spray(const Settings& settings);
-/// Writes the format that the extension names.
-void write_surface(const std::filesystem::path& path, const Surface& surface);
+/// Meshes are written in their canonical order, so that a file tells nothing of the way of its mesh.
+void write_surface(const std::filesystem::path& path, const Surface& surface, MeshFormat format);
 
 /// "DIR/frame_000012.ply"
 std::filesystem::path frame_path(const std::filesystem::path& directory, std::uint64_t index,

@@ -5,7 +5,11 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/distinct_files.hpp"
+#include "cli/examples.hpp"
+#include "cli/mesh_output.hpp"
 #include "cli/options/named_option.hpp"
+#include "cli/options/option_group.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -14,6 +18,7 @@ constexpr std::size_t largest_side = 8192;
 
 struct PictureCommand {
     std::string mesh;
+    std::optional<MeshFormat> input_format;
     std::string out;
     std::vector<double> view;
     PictureOptions options;
@@ -24,7 +29,21 @@ void picture(PictureCommand command) {
         command.options.azimuth = command.view[0];
         command.options.elevation = command.view[1];
     }
-    formats::write_png(command.out, draw_picture(formats::read_mesh(command.mesh), command.options));
+    check_named(command.mesh, command.input_format.has_value(), "--input-format", names<MeshFormat>);
+    check_folder(command.out);
+    DistinctFiles distinct;
+    distinct.add_input(command.mesh);
+    distinct.add_output(command.out);
+    const formats::TriangleMesh mesh = formats::read_mesh(command.mesh, command.input_format);
+    formats::write_png(command.out, draw_picture(mesh, command.options));
+}
+
+void add_files(CLI::App& command, PictureCommand& options) {
+    const OptionGroup group(command, files_heading);
+    command.add_option("MESH", options.mesh, ".ply, .obj or .bricks; - for standard input")->required();
+    command.add_option("-o,--output", options.out, "PNG file; - for standard output")->required();
+    add_named_option(command, "--input-format", options.input_format,
+                     "Format of MESH, whatever its extension; - needs it");
 }
 
 }  // namespace
@@ -32,8 +51,8 @@ void picture(PictureCommand command) {
 void add_picture(CLI::App& app) {
     auto options = std::make_shared<PictureCommand>();
     CLI::App& command = *app.add_subcommand("picture", "Draw a mesh file");
-    command.add_option("MESH", options->mesh, ".ply, .obj or .bricks")->required();
-    command.add_option("-o,--output", options->out, "PNG file")->required();
+    add_files(command, *options);
+    const OptionGroup group(command, "Picture");
     command.add_flag("--wireframe", options->options.wireframe,
                      "Lines colored by level (1 blue, 2 green, 3 red, crack filling purple), hidden lines removed");
     command.add_option("--width", options->options.width, "Pixels")
@@ -46,6 +65,8 @@ void add_picture(CLI::App& app) {
         ->expected(2)
         ->check(CLI::Range(-360.0, 360.0));
     add_named_option(command, "--up", options->options.up, "Axis that points up");
+    add_examples(command, {"meniscus picture surface.ply -o surface.png",
+                           "meniscus picture surface.ply -o surface.png --wireframe --up z --view 60 20"});
     command.callback([options] { picture(*options); });
 }
 

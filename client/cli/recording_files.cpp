@@ -5,6 +5,7 @@
 #include <iostream>
 #include <system_error>
 
+#include "cli/options/option_group.hpp"
 #include "files/recording_format.hpp"
 #include "meniscus/error.hpp"
 
@@ -25,6 +26,7 @@ std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& fo
 }
 
 void RecordingSelection::add_to(CLI::App& command) {
+    const OptionGroup group(command, files_heading);
     command.add_option("RECORDING", path, "A file NNNNNN.recording, or a session's folder if it holds one only")
         ->required();
     command.add_option("--from", from, "First frame, by its index (default: all)");

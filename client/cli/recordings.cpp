@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/examples.hpp"
 #include "cli/options/server_flags.hpp"
 #include "cli/recording_files.hpp"
 #include "cli/settings_json.hpp"
@@ -181,6 +182,8 @@ void add_recordings(CLI::App& app) {
         ->type_name("SESSION/NUMBER");
     command.add_flag("--json", options->json, "As JSON, with all settings");
     command.add_flag("--quick", options->quick, "Do not read the frames to verify their checksums");
+    add_examples(command,
+                 {"meniscus recordings /var/lib/meniscus --quick", "meniscus recordings --server localhost --json"});
     command.callback([options] { list(*options); });
 }
 

@@ -6,9 +6,13 @@
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/examples.hpp"
+#include "cli/options/option_group.hpp"
 #include "cli/options/server_flags.hpp"
+#include "cli/options/verbosity.hpp"
 #include "cli/recording_files.hpp"
 #include "cli/replay_pace.hpp"
+#include "cli/statistics_text.hpp"
 #include "cli/warnings.hpp"
 
 namespace meniscus::cli {
@@ -24,14 +28,15 @@ struct ReplayOptions {
     std::string speed = "1";
     bool loop = false;
     bool strict = false;
+    Verbosity verbosity;
 };
 
 /// Takes a stream's answers, on a thread of its own, until the stream ends.
 class Answers {
 public:
     /// warnings: used by that thread alone until finish() returns.
-    Answers(client::Stream& stream, Warnings& warnings)
-        : stream_(stream), warnings_(warnings), thread_([this] { take(); }) {}
+    Answers(client::Stream& stream, Warnings& warnings, bool quiet)
+        : stream_(stream), warnings_(warnings), quiet_(quiet), thread_([this] { take(); }) {}
     ~Answers() {
         if (thread_.joinable()) end();
     }
@@ -53,8 +58,7 @@ private:
     void take() {
         try {
             while (const auto frame = stream_.next()) {
-                std::cerr << "frame " << frame->index << ": " << frame->statistics.particles << " particles, "
-                          << frame->statistics.triangles << " triangles, " << frame->statistics.total_seconds << " s\n";
+                if (!quiet_) std::cerr << "frame " << frame->index << ": " << summary(frame->statistics) << '\n';
                 warnings_.say("frame " + std::to_string(frame->index), frame->statistics.warnings);
             }
         } catch (...) {
@@ -64,6 +68,7 @@ private:
 
     client::Stream& stream_;
     Warnings& warnings_;
+    bool quiet_;
     std::exception_ptr error_;
     std::thread thread_;
 };
@@ -77,7 +82,7 @@ void upload(const formats::Recording& recording, const ReplayOptions& options, c
     // Between the last frame and the first of the next round: as between any two.
     const auto interval = frames.size() > 1 ? seconds / static_cast<double>(frames.size() - 1) : seconds;
     ReplayPace pace(options.speed);
-    Answers answers(stream, warnings);
+    Answers answers(stream, warnings, options.verbosity.quiet);
     for (std::uint64_t round = 0; round == 0 || options.loop; ++round)
         for (const formats::RecordedFrame& frame : frames) {
             const formats::RecordedParticles particles = recording.particles(frame);
@@ -92,7 +97,7 @@ void replay(const ReplayOptions& options) {
     client::Client client = options.server.connect();
     const std::string session = options.session.empty() ? client::new_session_id() : options.session;
     client.create_session(session, recording.settings());
-    std::cerr << "session " << session << '\n';
+    if (!options.verbosity.quiet) std::cerr << "session " << session << '\n';
     Warnings warnings(options.strict);
     client::Stream stream = client.stream(session, {.receive_meshes = false, .waiting_limit = frames_ahead});
     try {
@@ -115,12 +120,25 @@ void add_replay(CLI::App& app) {
     auto options = std::make_shared<ReplayOptions>();
     CLI::App& command = *app.add_subcommand("replay", "Upload the particles of a recording again, as a new session");
     options->recording.add_to(command);
+    {
+        const OptionGroup group(command, "Pace");
+        command.add_option("--speed", options->speed, "Times as fast as it was recorded, or max")
+            ->capture_default_str();
+        command.add_flag("--loop", options->loop,
+                         "Begin again after the last frame, until interrupted; frame indices keep rising");
+    }
     options->server.add_to(command, "Where to")->required();
-    command.add_option("--session", options->session, "UUID of the session to create (default: a new one)");
-    command.add_option("--speed", options->speed, "Times as fast as it was recorded, or max")->capture_default_str();
-    command.add_flag("--loop", options->loop,
-                     "Begin again after the last frame, until interrupted; frame indices keep rising");
-    add_strict_option(command, options->strict);
+    {
+        const OptionGroup group(command, other_heading);
+        add_strict_option(command, options->strict);
+    }
+    {
+        const OptionGroup group(command, server_heading);
+        command.add_option("--session", options->session, "UUID of the session to create (default: a new one)");
+    }
+    options->verbosity.add_quiet_to(command);
+    add_examples(command, {"meniscus replay recordings/SESSION/000001.recording --server localhost",
+                           "meniscus replay recordings/SESSION --server localhost --speed max --from 20 --to 39"});
     command.callback([options] { replay(*options); });
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/examples.hpp"
 #include "cli/options/server_flags.hpp"
 #include "cli/session_table.hpp"
 
@@ -57,6 +58,7 @@ void add_sessions(CLI::App& app) {
     CLI::App& command = *app.add_subcommand("sessions", "List a server's sessions");
     options->server.add_to(command, "Whose")->required();
     command.add_flag("--json", options->json, "As JSON, exact");
+    add_examples(command, {"meniscus sessions --server localhost", "meniscus sessions --server localhost --json"});
     command.callback([options] { print_sessions(*options); });
 }
 

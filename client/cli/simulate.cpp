@@ -6,11 +6,15 @@
 #include <optional>
 
 #include "cli/commands.hpp"
+#include "cli/examples.hpp"
 #include "cli/mesh_output.hpp"
 #include "cli/options/named_option.hpp"
+#include "cli/options/option_group.hpp"
 #include "cli/options/settings_options.hpp"
+#include "cli/options/verbosity.hpp"
 #include "cli/quantized_positions.hpp"
 #include "cli/statistics_json.hpp"
+#include "cli/statistics_text.hpp"
 #include "cli/surfaces.hpp"
 #include "cli/warnings.hpp"
 #include "formats/atomic_file.hpp"
@@ -38,6 +42,7 @@ struct SimulateOptions {
     bool strict = false;
     SettingsOptions settings;
     SurfacesOptions surfaces;
+    Verbosity verbosity;
 };
 
 /// One frame as it is uploaded.
@@ -53,7 +58,7 @@ void simulate(const SimulateOptions& options) {
     check_folder(options.stats);
     simulator::Simulation simulation(simulator::make_scene(options.scene, options.particles));
     const Settings settings = options.settings.build(static_cast<double>(simulation.scene().particle_radius));
-    std::cerr << "particle radius " << settings.particle_radius << '\n';
+    if (!options.verbosity.quiet) std::cerr << "particle radius " << settings.particle_radius << '\n';
     for (const std::string& folder : {options.out, options.particles_out})
         if (!folder.empty()) formats::make_directory(folder);
 
@@ -62,19 +67,20 @@ void simulate(const SimulateOptions& options) {
     const auto handle = [&](const Surface& surface) {
         const client::FrameStatistics& s = surface.statistics();
         if (!options.out.empty())
-            write_surface(frame_path(options.out, surface.index(), name_of(options.format)), surface);
+            write_surface(frame_path(options.out, surface.index(), name_of(options.format)), surface, options.format);
         if (!options.stats.empty()) {
             nlohmann::ordered_json figures{{"frame", surface.index()}};
             figures.update(to_json({s}, mesh_sha256(surface.mesh())));
             frames.push_back(std::move(figures));
         }
-        std::cerr << "frame " << surface.index() << ": " << s.particles << " particles, " << s.triangles
-                  << " triangles, " << s.total_seconds << " s\n";
+        if (!options.verbosity.quiet) std::cerr << "frame " << surface.index() << ": " << summary(s) << '\n';
+        if (options.verbosity.verbose) std::cerr << stages_text(s);
         warnings.say("frame " + std::to_string(surface.index()), s.warnings);
     };
     const std::string session = options.session.empty() ? client::new_session_id() : options.session;
     const auto surfaces = options.surfaces.open(settings, handle, session);
-    if (!options.surfaces.server.address.empty()) std::cerr << "session " << session << '\n';
+    if (!options.surfaces.server.address.empty() && !options.verbosity.quiet)
+        std::cerr << "session " << session << '\n';
     for (std::uint64_t frame = 0; frame < options.frames; ++frame) {
         simulation.advance(options.frame_seconds);
         const simulator::LeveledParticles particles = snapshot(simulation, options.adaptive);
@@ -92,34 +98,56 @@ void simulate(const SimulateOptions& options) {
     warnings.finish();
 }
 
+void add_scene(CLI::App& command, SimulateOptions& options) {
+    const OptionGroup group(command, "Scene");
+    add_named_option(command, "--scene", options.scene, "What happens");
+    command
+        .add_option("--particles", options.particles,
+                    "Number of particles; the scene's size stays, their radius follows")
+        ->capture_default_str();
+    command.add_option("--frames", options.frames, "Number of frames")->capture_default_str();
+    command.add_option("--frame-seconds", options.frame_seconds, "Simulated time between two frames")
+        ->check(CLI::Range(1e-4, 1.0))
+        ->capture_default_str();
+    command.add_flag("--adaptive", options.adaptive,
+                     "Particles of two sizes: groups of eight that are more than four radii below the surface are "
+                     "uploaded as one of level 1");
+}
+
+void add_files(CLI::App& command, SimulateOptions& options) {
+    const OptionGroup group(command, files_heading);
+    command.add_option("--out", options.out, "Folder for the meshes");
+    add_named_option(command, "--format", options.format, "Format of the meshes");
+    command.add_option("--particles-out", options.particles_out, "Folder for the particles, as VTK");
+    command.add_option("--stats", options.stats, "Figures of each frame, as JSON");
+}
+
 }  // namespace
 
 void add_simulate(CLI::App& app) {
     auto options = std::make_shared<SimulateOptions>();
     CLI::App& command = *app.add_subcommand("simulate", "Simulate water and reconstruct its surface frame by frame");
-    add_named_option(command, "--scene", options->scene, "What happens");
-    command
-        .add_option("--particles", options->particles,
-                    "Number of particles; the scene's size stays, their radius follows")
-        ->capture_default_str();
-    command.add_option("--frames", options->frames, "Number of frames")->capture_default_str();
-    command.add_option("--frame-seconds", options->frame_seconds, "Simulated time between two frames")
-        ->check(CLI::Range(1e-4, 1.0))
-        ->capture_default_str();
-    command.add_flag("--adaptive", options->adaptive,
-                     "Particles of two sizes: groups of eight that are more than four radii below the surface are "
-                     "uploaded as one of level 1");
-    options->surfaces.add_to(command);
+    add_scene(command, *options);
+    add_files(command, *options);
     options->settings.add_to(command);
-    add_named_option(command, "--positions", options->positions,
-                     "Encoding of the positions; uint16 is over the frame's bounding box");
-    command.add_option("--session", options->session,
-                       "With --server: UUID of the session to create (default: a new one)");
-    command.add_option("--out", options->out, "Folder for the meshes");
-    add_named_option(command, "--format", options->format, "Format of the meshes");
-    command.add_option("--particles-out", options->particles_out, "Folder for the particles, as VTK");
-    command.add_option("--stats", options->stats, "Figures of each frame, as JSON");
-    add_strict_option(command, options->strict);
+    {
+        const OptionGroup group(command, other_heading);
+        add_strict_option(command, options->strict);
+    }
+    {
+        const OptionGroup group(command, place_heading);
+        add_named_option(command, "--positions", options->positions,
+                         "Encoding of the positions; uint16 is over the frame's bounding box");
+    }
+    options->surfaces.add_to(command);
+    {
+        const OptionGroup group(command, server_heading);
+        command.add_option("--session", options->session,
+                           "With --server: UUID of the session to create (default: a new one)");
+    }
+    options->verbosity.add_to(command);
+    add_examples(command, {"meniscus simulate --particles 16000 --frames 100 --out meshes",
+                           "meniscus simulate --scene double-dam-break --frames 2000 --server localhost"});
     command.callback([options] { simulate(*options); });
 }
 

@@ -6,6 +6,8 @@
 
 #include "cli/local_surfaces.hpp"
 #include "cli/options/named_option.hpp"
+#include "cli/options/normal_bits.hpp"
+#include "cli/options/option_group.hpp"
 #include "cli/options/policy_options.hpp"
 #include "cli/server_surfaces.hpp"
 #include "formats/brick_file.hpp"
@@ -13,8 +15,13 @@
 
 namespace meniscus::cli {
 
-Surface::Surface(const Mesh& mesh, client::FrameStatistics statistics, std::uint64_t index, double simulation_time)
-    : index_(index), simulation_time_(simulation_time), statistics_(std::move(statistics)), mesh_(&mesh) {}
+Surface::Surface(const Mesh& mesh, client::FrameStatistics statistics, std::uint64_t index, double simulation_time,
+                 const CodingOptions& coding)
+    : index_(index),
+      simulation_time_(simulation_time),
+      statistics_(std::move(statistics)),
+      coding_(coding),
+      mesh_(&mesh) {}
 
 Surface::Surface(const client::ReceivedFrame& received)
     : index_(received.index),
@@ -35,7 +42,7 @@ std::span<const Point> Surface::spray() const {
 
 const client::ReceivedFrame& Surface::encoded() const {
     if (received_ != nullptr) return *received_;
-    if (!encoded_) encoded_ = formats::encode_frame(*mesh_, statistics_, index_, simulation_time_);
+    if (!encoded_) encoded_ = formats::encode_frame(*mesh_, statistics_, index_, simulation_time_, coding_);
     return *encoded_;
 }
 
@@ -64,19 +71,29 @@ void add_stream_options(CLI::App& command, client::StreamOptions& stream, CLI::O
 }  // namespace
 
 void SurfacesOptions::add_to(CLI::App& command) {
+    const OptionGroup group(command, place_heading);
     auto* here = command.add_flag("--local", local, "Reconstruct in this process (the default)");
+    auto* backend_option = add_backend_option(command, backend.backend);
+    auto* threads =
+        command.add_option("--threads", backend.threads, "Worker threads of this process; 0: one per processor")
+            ->check(CLI::Range(0U, max_threads))
+            ->capture_default_str();
+    {
+        const OptionGroup surface(command, surface_heading);
+        add_normal_bits(command, normal_bits, " (default: 8 from a server, unrounded in this process)");
+    }
     auto* there = server.add_to(command, "Reconstruct on this meniscusd")->excludes(here);
+    for (CLI::Option* option : {backend_option, threads}) option->excludes(there);
     add_stream_options(command, stream, *there);
-    add_backend_option(command, backend.backend)->excludes(there);
-    command.add_option("--threads", backend.threads, "Worker threads of this process; 0: one per processor")
-        ->excludes(there)
-        ->capture_default_str();
 }
 
 std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfaces::Handler handler,
                                                 const std::string& session) const {
-    if (server.address.empty()) return std::make_unique<LocalSurfaces>(settings, backend, std::move(handler));
-    return std::make_unique<ServerSurfaces>(server, session, settings, stream, std::move(handler));
+    if (server.address.empty())
+        return std::make_unique<LocalSurfaces>(settings, backend, normal_bits, std::move(handler));
+    client::StreamOptions options = stream;
+    if (normal_bits) options.normal_bits = *normal_bits;
+    return std::make_unique<ServerSurfaces>(server, session, settings, options, std::move(handler));
 }
 
 }  // namespace meniscus::cli

@@ -22,8 +22,9 @@ namespace meniscus::cli {
 /// One frame's surface. Its mesh and its bricks are decoded or encoded when they are first asked for.
 class Surface {
 public:
-    /// Reconstructed here; the mesh is borrowed.
-    Surface(const Mesh& mesh, client::FrameStatistics statistics, std::uint64_t index, double simulation_time);
+    /// Reconstructed here; the mesh is borrowed. coding: for a file of bricks.
+    Surface(const Mesh& mesh, client::FrameStatistics statistics, std::uint64_t index, double simulation_time,
+            const CodingOptions& coding);
     /// Received from a server; borrowed.
     explicit Surface(const client::ReceivedFrame& received);
 
@@ -41,6 +42,7 @@ private:
     std::uint64_t index_;
     double simulation_time_;
     client::FrameStatistics statistics_;
+    CodingOptions coding_;
     const Mesh* mesh_ = nullptr;
     const client::ReceivedFrame* received_ = nullptr;
     mutable std::optional<Mesh> decoded_;
@@ -63,12 +65,13 @@ public:
 /// The flag --backend: the backend of this process.
 CLI::Option* add_backend_option(CLI::App& command, Backend& backend);
 
-/// The flags --local, --backend and --threads, and those of a server and a stream to it.
+/// The flags --local, --backend, --threads and --normal-bits, and those of a server and a stream to it.
 struct SurfacesOptions {
     bool local = false;
-    ServerFlags server;            ///< no address: this process
-    BackendOptions backend;        ///< of this process
-    client::StreamOptions stream;  ///< to the server
+    ServerFlags server;              ///< no address: this process
+    BackendOptions backend;          ///< of this process
+    std::optional<int> normal_bits;  ///< none: unrounded here, the stream's default from a server
+    client::StreamOptions stream;    ///< to the server
 
     void add_to(CLI::App& command);
     /// session: id to create on the server, chosen here if empty. The handler may be called from another thread, one

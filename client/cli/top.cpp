@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/examples.hpp"
 #include "cli/options/server_flags.hpp"
 #include "cli/session_table.hpp"
 #include "cli/terminal.hpp"
@@ -63,6 +64,7 @@ void add_top(CLI::App& app) {
         ->check(CLI::Range(0.1, 3600.0))
         ->capture_default_str();
     command.add_flag("--once", options->once, "Print one table, as is done when the output is no terminal");
+    add_examples(command, {"meniscus top --server localhost", "meniscus top --server localhost --once"});
     command.callback([options] {
         if (options->once || ::isatty(STDOUT_FILENO) == 0)
             print_once(*options);

@@ -8,9 +8,12 @@
 #include <utility>
 
 #include "cli/commands.hpp"
+#include "cli/examples.hpp"
 #include "cli/mesh_output.hpp"
 #include "cli/options/named_option.hpp"
+#include "cli/options/option_group.hpp"
 #include "cli/options/server_flags.hpp"
+#include "cli/options/verbosity.hpp"
 #include "cli/warnings.hpp"
 #include "cli/watch_wishes.hpp"
 #include "formats/atomic_file.hpp"
@@ -30,6 +33,7 @@ struct WatchOptions {
     double timeout = 0.0;      ///< seconds without a frame after which to end; 0: none
     bool strict = false;
     WatchWishes wishes;
+    Verbosity verbosity;
 };
 
 /// None when the session has ended.
@@ -64,15 +68,16 @@ void watch(const WatchOptions& options) {
         const auto frame = next_frame(watcher, options);
         if (!frame) break;
         const auto path = frame_path(options.directory, frame->index, name_of(options.format));
-        write_surface(path, Surface(*frame));
+        write_surface(path, Surface(*frame), options.format);
         if (!options.spray_directory.empty())
             formats::write_points(frame_path(options.spray_directory, frame->index, name_of(MeshFormat::ply)),
                                   frame->spray);
+        warnings.say(path.string(), frame->statistics.warnings);
+        if (options.verbosity.quiet) continue;
         std::uint64_t triangles = 0;
         for (const auto& brick : frame->bricks) triangles += brick->triangles;
         std::cerr << path.string() << ": " << triangles << " triangles, " << frame->changed.size() << " of "
                   << frame->bricks.size() << " bricks new\n";
-        warnings.say(path.string(), frame->statistics.warnings);
     }
     warnings.finish();
 }
@@ -82,21 +87,31 @@ void watch(const WatchOptions& options) {
 void add_watch(CLI::App& app) {
     auto options = std::make_shared<WatchOptions>();
     CLI::App& command = *app.add_subcommand("watch", "Write the meshes of a session as they come");
-    command.add_option("SESSION", options->session, "The session's id")->required();
-    options->server.add_to(command, "The server that has the session")->required();
-    command.add_option("-o,--output", options->directory, "Folder for the meshes")->required();
-    command.add_option("--spray-out", options->spray_directory,
-                       "Folder for the particles left out of the surface, as PLY; of a session with spray points");
-    add_named_option(command, "--format", options->format, "Format of the meshes");
-    command.add_option("--frames", options->frames, "Number of frames after which to end; 0: when the session ends")
-        ->capture_default_str();
-    command
-        .add_option("--timeout", options->timeout,
-                    "Seconds without a frame after which to end, with exit code 1; 0: never")
-        ->check(CLI::Range(0.0, 1e6))
-        ->capture_default_str();
+    {
+        const OptionGroup group(command, files_heading);
+        command.add_option("SESSION", options->session, "The session's id")->required();
+        command.add_option("-o,--output", options->directory, "Folder for the meshes")->required();
+        add_named_option(command, "--format", options->format, "Format of the meshes");
+        command.add_option("--spray-out", options->spray_directory,
+                           "Folder for the particles left out of the surface, as PLY; of a session with spray points");
+        command
+            .add_option("--frames", options->frames, "Number of frames after which to end; 0: when the session ends")
+            ->capture_default_str();
+        command
+            .add_option("--timeout", options->timeout,
+                        "Seconds without a frame after which to end, with exit code 1; 0: never")
+            ->check(CLI::Range(0.0, 1e6))
+            ->capture_default_str();
+    }
     options->wishes.add_to(command);
-    add_strict_option(command, options->strict);
+    options->server.add_to(command, "The server that has the session")->required();
+    {
+        const OptionGroup group(command, other_heading);
+        add_strict_option(command, options->strict);
+    }
+    options->verbosity.add_quiet_to(command);
+    add_examples(command, {"meniscus watch SESSION --server localhost -o meshes",
+                           "meniscus watch SESSION --server localhost -o meshes --max-level 2 --bytes-per-second 2MB"});
     command.callback([options] { watch(*options); });
 }
 

@@ -3,13 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 
+#include "cli/options/normal_bits.hpp"
+#include "cli/options/option_group.hpp"
+
 namespace meniscus::cli {
 
 void WatchWishes::add_to(CLI::App& command) {
-    command
-        .add_option("--normal-bits", options.normal_bits, "Bits per component of the normals, 2 to 16; 0: no normals")
-        ->check(CLI::Range(0, 16))
-        ->capture_default_str();
+    const OptionGroup group(command, "What is sent");
+    add_normal_bits(command, options.normal_bits, "")->capture_default_str();
     command
         .add_option(
             "--position-bits", options.position_bits,

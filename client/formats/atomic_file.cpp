@@ -1,5 +1,6 @@
 #include "formats/atomic_file.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -7,34 +8,81 @@
 #include <system_error>
 #include <utility>
 
+#include "formats/standard_streams.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::formats {
+namespace {
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_) {
-    if (std::filesystem::is_directory(path_))
-        throw InvalidInput(path_.string() + ": cannot be written: it is a directory");
-    temporary_ += ".partial-" + std::to_string(::getpid());
-    errno = 0;
-    out_.open(temporary_, std::ios::binary | std::ios::trunc);
-    if (!out_) throw InvalidInput(path_.string() + ": cannot be written: " + std::generic_category().message(errno));
+constexpr std::size_t most_gathered = std::size_t{1} << 20;
+
+std::string text_of(int error) {
+    return std::generic_category().message(error);
+}
+
+/// Whether there is something that a file must not take the place of.
+bool stays(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const auto status = std::filesystem::status(path, ignored);
+    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+    if (is_standard_stream(path_)) {
+        descriptor_ = ::dup(STDOUT_FILENO);
+    } else {
+        if (std::filesystem::is_directory(path_))
+            throw InvalidInput(path_.string() + ": cannot be written: it is a directory");
+        if (!stays(path_)) (temporary_ = path_) += ".partial-" + std::to_string(::getpid());
+        descriptor_ = ::open(temporary_.empty() ? path_.c_str() : temporary_.c_str(),
+                             O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    }
+    if (descriptor_ < 0) throw InvalidInput(output_name(path_) + ": cannot be written: " + text_of(errno));
 }
 
 AtomicFile::~AtomicFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
     if (temporary_.empty()) return;
-    out_.close();
     std::error_code ignored;
     std::filesystem::remove(temporary_, ignored);
 }
 
+void AtomicFile::write(std::string_view bytes) {
+    if (gathered_.size() + bytes.size() > most_gathered) flush();
+    if (bytes.size() >= most_gathered)
+        write_now(bytes);
+    else
+        gathered_ += bytes;
+}
+
 void AtomicFile::commit() {
-    errno = 0;
-    out_.close();
-    if (!out_) throw std::runtime_error(path_.string() + ": writing failed: " + std::generic_category().message(errno));
+    flush();
+    if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
+    if (temporary_.empty()) return;
     std::error_code error;
     std::filesystem::rename(temporary_, path_, error);
     if (error) throw InvalidInput(path_.string() + ": cannot be written: " + error.message());
     temporary_.clear();
+}
+
+void AtomicFile::flush() {
+    write_now(gathered_);
+    gathered_.clear();
+}
+
+void AtomicFile::write_now(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail(errno);
+        bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+}
+
+void AtomicFile::fail(int error) const {
+    throw std::runtime_error(output_name(path_) + ": writing failed: " + text_of(error));
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
+#include <string>
 #include <string_view>
 
 namespace meniscus::formats {
 
-/// Writes to a temporary file beside `path`. commit() renames it to `path`; without commit() nothing remains.
+/// Writes to a temporary file beside `path`. commit() renames it to `path`; without commit() nothing remains. What
+/// cannot be replaced is written as it is: "-", which is standard output, a pipe, a device.
 class AtomicFile {
 public:
     /// Throws InvalidInput, naming the path and the reason, if it cannot be created there.
@@ -16,15 +17,21 @@ public:
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    void write(std::string_view bytes) { out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); }
-    std::ostream& stream() { return out_; }
-    /// Throws std::runtime_error if the write fails, on a full disk for example.
+    /// Throws std::runtime_error, naming the path and the reason, if the write fails, on a full disk for example.
+    void write(std::string_view bytes);
+    /// Throws as write() does, since bytes are gathered before they are written; InvalidInput if the file cannot be
+    /// renamed.
     void commit();
 
 private:
+    void flush();
+    void write_now(std::string_view bytes);
+    [[noreturn]] void fail(int error) const;
+
     std::filesystem::path path_;
-    std::filesystem::path temporary_;
-    std::ofstream out_;
+    std::filesystem::path temporary_;  ///< empty: there is none, or it has been renamed
+    int descriptor_ = -1;
+    std::string gathered_;
 };
 
 /// Opens, writes and commits.

@@ -138,9 +138,14 @@ client::ReceivedFrame read_frame(const ByteCursor& in, Messages& messages) {
 void write_bricks(const std::filesystem::path& path, const client::ReceivedFrame& frame) {
     AtomicFile file(path);
     const auto write = [&](const google::protobuf::MessageLite& message) {
-        google::protobuf::util::SerializeDelimitedToOstream(message, &file.stream());
+        std::string bytes;
+        {
+            google::protobuf::io::StringOutputStream stream(&bytes);
+            google::protobuf::util::SerializeDelimitedToZeroCopyStream(message, &stream);
+        }
+        file.write(bytes);
     };
-    file.stream() << files::brick_file_magic;
+    file.write(files::brick_file_magic);
     v1::BrickFileBegin begin;
     begin.set_version(files::brick_file_version);
     write(begin);

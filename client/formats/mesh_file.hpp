@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
+#include "formats/mesh_format.hpp"
 #include "meniscus/mesh.hpp"
 
 namespace meniscus::formats {
@@ -31,9 +33,9 @@ struct TriangleMesh {
 
 TriangleMesh to_triangles(const Mesh& mesh);
 
-/// Reads .ply, .obj or .bricks, by extension; polygons are cut into fans. Throws InvalidInput in one line that names
-/// the file.
-TriangleMesh read_mesh(const std::filesystem::path& path);
+/// Reads a file, or standard input for "-"; polygons are cut into fans. format: without it, the extension's. Throws
+/// InvalidInput in one line that names the file.
+TriangleMesh read_mesh(const std::filesystem::path& path, std::optional<MeshFormat> format = std::nullopt);
 
 /// The readers behind read_mesh(). name: the file, for messages.
 TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes);

@@ -6,9 +6,9 @@
 
 #include "formats/brick_file.hpp"
 #include "formats/byte_cursor.hpp"
-#include "formats/extension.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/ply.hpp"
+#include "formats/standard_streams.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::formats {
@@ -43,15 +43,22 @@ bool is_ignored(std::string_view keyword) {
 
 }  // namespace
 
-TriangleMesh read_mesh(const std::filesystem::path& path) {
-    const std::string extension = lower_extension(path);
-    if (extension != ".ply" && extension != ".obj" && extension != ".bricks")
-        throw InvalidInput(path.string() + ": mesh files end in .ply, .obj or .bricks, not in '" + extension + "'");
-    const std::string bytes = read_file(path);
-    const std::string name = path.string();
-    TriangleMesh mesh = extension == ".ply"   ? read_mesh_ply(name, bytes)
-                        : extension == ".obj" ? read_obj(name, bytes)
-                                              : to_triangles(read_bricks(name, bytes).mesh());
+TriangleMesh read_mesh(const std::filesystem::path& path, std::optional<MeshFormat> format) {
+    if (!format) format = mesh_format_of(path);
+    const std::string bytes = read_input(path);
+    const std::string name = input_name(path);
+    TriangleMesh mesh;
+    switch (*format) {
+        case MeshFormat::ply:
+            mesh = read_mesh_ply(name, bytes);
+            break;
+        case MeshFormat::obj:
+            mesh = read_obj(name, bytes);
+            break;
+        case MeshFormat::bricks:
+            mesh = to_triangles(read_bricks(name, bytes).mesh());
+            break;
+    }
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         for (const double x : mesh.positions[i])
             if (!std::isfinite(x))

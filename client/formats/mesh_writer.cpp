@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <string>
 
 #include "formats/atomic_file.hpp"
 #include "formats/mesh_file.hpp"
-#include "formats/scalar.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -18,6 +18,13 @@ void append(std::string& out, T value) {
     std::array<char, 32> digits{};
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
     out.append(digits.data(), end);
+}
+
+/// Numbers of a binary file, as they lie in memory.
+template <class Numbers>
+void append_bytes(std::string& out, const Numbers& numbers) {
+    static_assert(std::endian::native == std::endian::little, "the files are little-endian");
+    out.append(reinterpret_cast<const char*>(&numbers), sizeof numbers);
 }
 
 void flush(AtomicFile& file, std::string& buffer, std::size_t above) {
@@ -47,21 +54,23 @@ void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
     out += "property list uchar uint vertex_indices\nproperty uchar level\nend_header\n";
     AtomicFile file(path);
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-        for (const double x : mesh.world(mesh.vertices[i])) {
-            if (wide)
-                store(out, x);
-            else
-                store(out, static_cast<float>(x));
-        }
-        if (normals)
-            for (const float n : mesh.normals[i]) store(out, n);
+        const std::array<double, 3> place = mesh.world(mesh.vertices[i]);
+        if (wide)
+            append_bytes(out, place);
+        else
+            append_bytes(out, std::array{static_cast<float>(place[0]), static_cast<float>(place[1]),
+                                         static_cast<float>(place[2])});
+        if (normals) append_bytes(out, mesh.normals[i]);
         flush(file, out, flush_bytes);
     }
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        out += char{3};
-        for (const std::uint32_t v : mesh.triangles[i]) store(out, v);
-        out += static_cast<char>(level_byte(mesh.level_of(i)));
-        flush(file, out, flush_bytes);
+    for (const TriangleLevel level : choices<TriangleLevel>) {
+        const TriangleRange range = mesh.levels[static_cast<std::size_t>(level)];
+        for (std::size_t i = range.first; i < std::size_t{range.first} + range.count; ++i) {
+            out += char{3};
+            append_bytes(out, mesh.triangles[i]);
+            out += static_cast<char>(level_byte(level));
+            flush(file, out, flush_bytes);
+        }
     }
     flush(file, out, 0);
     file.commit();

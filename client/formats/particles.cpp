@@ -8,19 +8,33 @@
 #include "formats/byte_cursor.hpp"
 #include "formats/extension.hpp"
 #include "formats/scalar.hpp"
+#include "formats/standard_streams.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::formats {
 
-Particles read_particles(const std::filesystem::path& path) {
+ParticleFormat particle_format_of(const std::filesystem::path& path) {
     const std::string extension = lower_extension(path);
-    const bool raw = extension == ".xyz" || extension == ".bin" || extension == ".raw";
-    if (!raw && extension != ".vtk" && extension != ".ply")
-        throw InvalidInput(path.string() + ": particle files end in .vtk, .ply, .xyz, .bin or .raw, not in '" +
-                           extension + "'");
-    const std::string bytes = read_file(path);
-    if (raw) return read_xyz(path.string(), bytes);
-    return extension == ".vtk" ? read_vtk(path.string(), bytes) : read_particle_ply(path.string(), bytes);
+    if (extension == ".vtk") return ParticleFormat::vtk;
+    if (extension == ".ply") return ParticleFormat::ply;
+    if (extension == ".xyz" || extension == ".bin" || extension == ".raw") return ParticleFormat::xyz;
+    throw InvalidInput(path.string() + ": particle files end in .vtk, .ply, .xyz, .bin or .raw, not in '" + extension +
+                       "'");
+}
+
+Particles read_particles(const std::filesystem::path& path, std::optional<ParticleFormat> format) {
+    if (!format) format = particle_format_of(path);
+    const std::string bytes = read_input(path);
+    const std::string name = input_name(path);
+    switch (*format) {
+        case ParticleFormat::vtk:
+            return read_vtk(name, bytes);
+        case ParticleFormat::ply:
+            return read_particle_ply(name, bytes);
+        case ParticleFormat::xyz:
+            return read_xyz(name, bytes);
+    }
+    return {};
 }
 
 Particles read_xyz(const std::string& name, std::string_view bytes) {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "meniscus/particle_frame.hpp"
@@ -29,10 +31,30 @@ struct Particles {
     }
 };
 
-/// Reads particles by the file's extension: .vtk (legacy VTK), .ply, or .xyz, .bin, .raw (float32 triples,
-/// little-endian). Throws InvalidInput, in one line that names the file, for any other extension and for a file that is
-/// not of the format that its extension names.
-Particles read_particles(const std::filesystem::path& path);
+/// The formats of particle files.
+enum class ParticleFormat {
+    vtk,  ///< legacy VTK
+    ply,
+    xyz,  ///< float32 triples, little-endian; also .bin and .raw
+};
+constexpr std::string_view name_of(ParticleFormat format) {
+    switch (format) {
+        case ParticleFormat::vtk:
+            return "vtk";
+        case ParticleFormat::ply:
+            return "ply";
+        case ParticleFormat::xyz:
+            return "xyz";
+    }
+    return {};
+}
+
+/// The format that the extension names. Throws InvalidInput for any other extension.
+ParticleFormat particle_format_of(const std::filesystem::path& path);
+
+/// Reads a file, or standard input for "-". format: without it, the extension's. Throws InvalidInput, in one line that
+/// names the file, for any other extension and for a file that is not of the format.
+Particles read_particles(const std::filesystem::path& path, std::optional<ParticleFormat> format = std::nullopt);
 
 /// The readers behind it. name: the file, for messages.
 Particles read_vtk(const std::string& name, std::string_view bytes);

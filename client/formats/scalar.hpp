@@ -1,6 +1,7 @@
 // The numbers that binary files are made of.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -77,7 +78,8 @@ template <class T>
 void store(std::string& out, T value, std::endian order = std::endian::little) {
     char raw[sizeof(T)];
     std::memcpy(raw, &value, sizeof(T));
-    for (std::size_t i = 0; i < sizeof(T); ++i) out += raw[order == std::endian::native ? i : sizeof(T) - 1 - i];
+    if (order != std::endian::native) std::reverse(raw, raw + sizeof(T));
+    out.append(raw, sizeof(T));
 }
 
 }  // namespace meniscus::formats

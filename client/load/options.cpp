@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/options/near_names.hpp"
 #include "cli/options/policy_options.hpp"
 #include "meniscus/reconstructor.hpp"
 
@@ -35,7 +36,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, L
     app.add_option("--input", options.files, "Particle files to send in its place, one after the other and over again")
         ->excludes(particles)
         ->type_name("FILE...");
-    app.add_option("--particle-radius", options.particle_radius, "World units");
+    app.add_option("-r,--particle-radius", options.particle_radius, "World units");
     options.settings.add_to(app);
     app.add_option("--json", options.json, "File for all figures; - for standard output")->type_name("FILE");
     try {
@@ -45,8 +46,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, L
     } catch (const CLI::CallForVersion&) {
         return EarlyExit{.text = app.version() + "\n", .code = 0};
     } catch (const CLI::ParseError& error) {
-        return EarlyExit{.text = std::string("meniscus-load: ") + error.what() + " (see meniscus-load --help)\n",
-                         .code = 2};
+        return EarlyExit{.text = "meniscus-load: " + cli::refusal(app, error) + '\n', .code = 2};
     }
     return std::nullopt;
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/file_pattern.hpp"
+#include "cli/options/near_names.hpp"
 #include "cli/quantized_positions.hpp"
 #include "cli/settings_json.hpp"
 #include "cli/statistics_json.hpp"
@@ -26,7 +27,7 @@ TEST(FilePattern, FindsThePaddingOfExistingFiles) {
     const test::TemporaryDirectory directory;
     formats::write_file(directory / "f_009.vtk", "");
     FilePattern pattern((directory / "f_{}.vtk").string());
-    pattern.match_existing(9);
+    EXPECT_EQ(pattern.match_existing().at(9), directory / "f_009.vtk");
     EXPECT_EQ(pattern.at(9), directory / "f_009.vtk");
     EXPECT_EQ(pattern.at(10), directory / "f_010.vtk");
     FilePattern out("m_{}.ply");
@@ -35,6 +36,49 @@ TEST(FilePattern, FindsThePaddingOfExistingFiles) {
     FilePattern fixed("m_{:02}.ply");
     fixed.pad_like(pattern);
     EXPECT_EQ(fixed.at(9), "m_09.ply");
+}
+
+TEST(FilePattern, FindsAllNumbersInTheirOrderAndNothingElse) {
+    const test::TemporaryDirectory directory;
+    for (const char* name : {"f_9.vtk", "f_10.vtk", "f_100.vtk", "f_.vtk", "f_1x.vtk", "f_-1.vtk", "f_2.ply", "g_3.vtk",
+                             "f_99999999999999999999999.vtk"})
+        formats::write_file(directory / name, "");
+    const auto numbers = [](FilePattern pattern) {
+        std::vector<std::uint64_t> all;
+        for (const auto& [number, path] : pattern.match_existing()) {
+            EXPECT_TRUE(std::filesystem::exists(path)) << path;
+            all.push_back(number);
+        }
+        return all;
+    };
+    const auto in_folder = [&](const char* name) { return FilePattern((directory / name).string()); };
+    EXPECT_EQ(numbers(in_folder("f_{}.vtk")), (std::vector<std::uint64_t>{9, 10, 100}));
+    EXPECT_EQ(numbers(in_folder("f_{:02}.vtk")), (std::vector<std::uint64_t>{10, 100}));
+    EXPECT_TRUE(numbers(in_folder("no/such/folder/f_{}.vtk")).empty());
+    formats::make_directory(directory / "run_7");
+    formats::write_file(directory / "run_7/frame.vtk", "");
+    formats::make_directory(directory / "run_8");
+    EXPECT_EQ(numbers(in_folder("run_{}/frame.vtk")), (std::vector<std::uint64_t>{7}));
+}
+
+TEST(FilePattern, RefusesTwoFilesOfOneNumber) {
+    const test::TemporaryDirectory directory;
+    for (const char* name : {"f_7.vtk", "f_007.vtk"}) formats::write_file(directory / name, "");
+    const std::string refused = test::refusal([&] { FilePattern((directory / "f_{}.vtk").string()).match_existing(); });
+    for (const char* word : {"f_7.vtk", "f_007.vtk", "{:0W}"})
+        EXPECT_NE(refused.find(word), std::string::npos) << refused;
+    EXPECT_EQ(FilePattern((directory / "f_{:03}.vtk").string()).match_existing().size(), 1U);
+}
+
+TEST(NearName, IsTheOneWithTheFewestChangesIfThoseAreFew) {
+    const std::vector<std::string> names{"particle-radius", "particles", "cell-size", "iso", "field"};
+    EXPECT_EQ(near_name("particel-radius", names), "particle-radius");
+    EXPECT_EQ(near_name("particle-radis", names), "particle-radius");
+    EXPECT_EQ(near_name("cellsize", names), "cell-size");
+    EXPECT_EQ(near_name("cell", names), "cell-size");
+    EXPECT_EQ(near_name("feild", names), "field");
+    EXPECT_EQ(near_name("ios", names), "iso");
+    for (const char* far : {"", "x", "frobnicate", "threads"}) EXPECT_EQ(near_name(far, names), "") << far;
 }
 
 TEST(QuantizedPositions, AreWithinHalfAStepAndExactAtTheCorners) {

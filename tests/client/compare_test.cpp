@@ -439,7 +439,8 @@ TEST_F(CompareCommand, WritesTheFiguresThatItPrints) {
     const std::string a = write("a.obj", cube().obj());
     const std::string b = write("b.obj", cube().add(square(), {0.0, 0.0, 3.0}).obj());
     const std::string json = (directory_ / "figures.json").string();
-    const test::ProcessResult result = run({a, b, "--cell-size", "2", "--samples", "1000", "--json", json});
+    const test::ProcessResult result =
+        run({a, b, "--particle-radius", "4", "--cell-size", "0.5", "--samples", "1000", "--json", json});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
     for (const char* words : {"12 triangles", "14 triangles", "closed", "NOT CLOSED: 4 unbalanced edges", "max 2 (1 c)",
@@ -458,6 +459,35 @@ TEST_F(CompareCommand, WritesTheFiguresThatItPrints) {
     EXPECT_EQ(figures["lost"]["farthest_cells"], 1.0);
     EXPECT_EQ(figures["lost"]["parts"][0]["triangles"], 2);
     EXPECT_EQ(figures["gained"]["components"], 0);
+}
+
+TEST_F(CompareCommand, TakesTheCellsOfReconstructUnlessToldOtherwise) {
+    const std::string a = write("a.obj", cube().obj());
+    const std::string b = write("b.obj", cube().add(square(), {0.0, 0.0, 3.0}).obj());
+    const auto figures = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {a, b, "--samples", "1000", "--json", "-"});
+        const test::ProcessResult result = run(more);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_NE(result.err.find("12 triangles"), std::string::npos) << result.err;
+        return nlohmann::json::parse(result.out);
+    };
+    EXPECT_EQ(figures({"--particle-radius", "4"}), figures({"-r", "4", "-c", "0.5"}));
+    EXPECT_EQ(figures({"-r", "4"})["cell_size"], 2.0);
+}
+
+TEST_F(CompareCommand, ReadsOneMeshFromStandardInput) {
+    const std::string a = write("a.obj", cube().obj());
+    const std::string b = write("b.txt", cube().obj());
+    const test::ProcessResult result =
+        test::run_process(MENISCUS_CLI, {"compare", a, "-", "--input-format", "obj", "--samples", "1000"}, {.in = b});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.out.find("standard input: 12 triangles"), std::string::npos) << result.out;
+}
+
+TEST_F(CompareCommand, DoesNotDestroyWhatItReads) {
+    const std::string a = write("a.obj", cube().obj());
+    expect_refused({a, a, "--json", a}, "it is the file of the input");
+    EXPECT_EQ(formats::read_file(a), cube().obj());
 }
 
 TEST_F(CompareCommand, SaysNothingInCellsWithoutACellSize) {
@@ -484,7 +514,12 @@ TEST_F(CompareCommand, RefusesBadInputInOneLine) {
     expect_refused({good, vast}, "vast.obj: vertex 1 has the coordinate 1e+70");
     expect_refused({good, write("mesh.stl", "")}, "mesh.stl");
     expect_refused({good, good, "--samples", "0"}, "--samples");
-    for (const char* size : {"0", "-1", "nan", "inf"}) expect_refused({good, good, "--cell-size", size}, "--cell-size");
+    for (const char* flag : {"--cell-size", "--particle-radius"})
+        for (const char* size : {"0", "-1", "nan", "inf"})
+            expect_refused({good, good, "--particle-radius", "1", flag, size}, flag);
+    expect_refused({good, good, "--cell-size", "0.5"}, "--particle-radius");
+    expect_refused({"-", "-", "--input-format", "obj"}, "standard input holds one mesh");
+    expect_refused({"-", good}, "--input-format: ply, obj or bricks");
     expect_refused({good, good, "--json", (directory_ / "none").string() + "/figures.json"}, "none");
 }
 

@@ -1,4 +1,13 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <functional>
+#include <future>
+#include <iterator>
 
 #include "formats/atomic_file.hpp"
 #include "formats/particles.hpp"
@@ -38,6 +47,50 @@ TEST(AtomicFile, LeavesNothingWithoutCommit) {
         file.write("half");
     }
     EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+}
+
+/// What writing throws; empty if it does not.
+std::string failure(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return {};
+}
+
+TEST(AtomicFile, SaysWhyAWriteFailedAndLeavesNothing) {
+    EXPECT_NE(failure([] { formats::write_file("/dev/full", "x"); }).find("No space left on device"),
+              std::string::npos);
+    const TemporaryDirectory directory;
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    ::getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{4096, before.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+    for (const std::size_t size : {std::size_t{5000}, std::size_t{3} << 20})
+        EXPECT_NE(failure([&] { formats::write_file(directory / "a", std::string(size, 'x')); }).find("File too large"),
+                  std::string::npos);
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+}
+
+TEST(AtomicFile, WritesAPipeAsItIsAndHoldsAllThatIsWritten) {
+    const TemporaryDirectory directory;
+    ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0600), 0);
+    std::string bytes(std::size_t{3} << 20, 'x');
+    bytes.back() = 'y';
+    auto reading = std::async(std::launch::async, [&] {
+        std::ifstream in(directory / "pipe", std::ios::binary);
+        return std::string{std::istreambuf_iterator<char>(in), {}};
+    });
+    formats::AtomicFile file(directory / "pipe");
+    for (std::size_t at = 0; at < bytes.size(); at += 100'000)
+        file.write(std::string_view(bytes).substr(at, std::min<std::size_t>(100'000, bytes.size() - at)));
+    file.commit();
+    EXPECT_TRUE(reading.get() == bytes);
+    EXPECT_TRUE(std::filesystem::is_fifo(directory / "pipe"));
 }
 
 TEST(AtomicFile, RefusesAPathThatCannotBeWritten) {

@@ -12,7 +12,8 @@
 
 namespace meniscus::test {
 
-ProcessResult run_process(const std::string& program, const std::vector<std::string>& arguments) {
+ProcessResult run_process(const std::string& program, const std::vector<std::string>& arguments,
+                          const Redirection& redirection) {
     const TemporaryDirectory directory;
     const std::string out = (directory / "out").string();
     const std::string err = (directory / "err").string();
@@ -20,6 +21,9 @@ ProcessResult run_process(const std::string& program, const std::vector<std::str
     posix_spawn_file_actions_init(&actions);
     constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), flags, 0600);
+    if (redirection.out >= 0) posix_spawn_file_actions_adddup2(&actions, redirection.out, STDOUT_FILENO);
+    if (!redirection.in.empty())
+        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, redirection.in.c_str(), O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), flags, 0600);
     std::vector<std::string> copies{program};
     copies.insert(copies.end(), arguments.begin(), arguments.end());

@@ -12,7 +12,14 @@ struct ProcessResult {
     std::string err;
 };
 
+/// Where a process reads and writes, if not as this one does.
+struct Redirection {
+    std::string in = {};  ///< the file that is its standard input; empty: as this process has it
+    int out = -1;         ///< the descriptor that is its standard output; -1: ProcessResult::out
+};
+
 /// Runs `program` with these arguments and waits for its end.
-ProcessResult run_process(const std::string& program, const std::vector<std::string>& arguments);
+ProcessResult run_process(const std::string& program, const std::vector<std::string>& arguments,
+                          const Redirection& redirection = {});
 
 }  // namespace meniscus::test

@@ -110,6 +110,13 @@ TEST(Validation, RefusesEverySettingOutOfRangeNamingItsValue) {
     EXPECT_EQ(refusal([] { validate(test::default_settings()); }), "");
 }
 
+TEST(Validation, RefusesMoreThreadsThanAreOfUse) {
+    const std::string message =
+        refusal([&] { Reconstructor reconstructor(test::default_settings(), {Backend::cpu, max_threads + 1, 0}); });
+    EXPECT_NE(message.find("1025"), std::string::npos) << message;
+    EXPECT_NE(message.find("1024"), std::string::npos) << message;
+}
+
 TEST(Validation, RefusesEveryBadFrameNamingTheParticleAndGoesOn) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float inf = std::numeric_limits<float>::infinity();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,16 @@
 #include "meniscus/names.hpp"
 
 namespace meniscus::cli {
+
+/// given: set when the option is; outlives the parsing. Without a default that --help could show.
+template <class T>
+CLI::Option* add_named_option(CLI::App& command, const std::string& flag, std::optional<T>& given,
+                              const std::string& description) {
+    return command
+        .add_option_function<std::string>(
+            flag, [&given, flag](const std::string& name) { given = by_name<T>(name, flag); }, description)
+        ->check(CLI::IsMember(std::vector<std::string>(names<T>.begin(), names<T>.end())));
+}
 
 /// given: set when the option is; outlives the parsing. otherwise: the default that --help shows.
 template <class T, class Given>

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
+#include "cli/options/option_group.hpp"
 #include "formats/byte_cursor.hpp"
 #include "meniscus/error.hpp"
 
@@ -22,7 +23,8 @@ std::string read_token(const std::string& file) {
 }  // namespace
 
 CLI::Option* ServerFlags::add_to(CLI::App& command, const std::string& description) {
-    CLI::Option* server = command.add_option("--server", address, description)->type_name("HOST:PORT");
+    const OptionGroup group(command, server_heading);
+    CLI::Option* server = command.add_option("--server", address, description)->type_name("HOST[:PORT]");
     const auto add_file = [&](const std::string& flag, std::string& file, const std::string& meaning) {
         return command.add_option(flag, file, meaning)->type_name("FILE")->needs(server);
     };

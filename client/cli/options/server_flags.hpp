@@ -14,7 +14,7 @@ namespace meniscus::cli {
 
 /// --server, --tls-ca, --tls-cert, --tls-key, --tls-server-name, --token-file, --insecure and --wait.
 struct ServerFlags {
-    std::string address;  ///< "HOST:PORT" or "unix:PATH"; empty for none
+    std::string address;  ///< "HOST", "HOST:PORT" or "unix:PATH"; empty for none
     client::ConnectionOptions options;
     std::string token_file;
     double wait_seconds = 0.0;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "cli/options/named_option.hpp"
+#include "cli/options/option_group.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {
@@ -45,12 +46,18 @@ std::string text_of(double value) {
 
 void SettingsOptions::add_to(CLI::App& command) {
     const Settings defaults = preset(preset_, 1.0);
+    add_surface(command, defaults);
+    add_grid(command, defaults);
+}
+
+void SettingsOptions::add_surface(CLI::App& command, const Settings& defaults) {
+    const OptionGroup group(command, surface_heading);
     add_named_option(command, "--preset", preset_,
                      "A set of settings, over which single flags may be given: smooth; paper, the settings of Du and "
                      "Kanai; splashsurf, its surface without smoothing");
-    command.add_option("--cell-size", cell_size_, "Edge of a finest cell, in particle radii")
+    command.add_option("-c,--cell-size", cell_size_, "Edge of a finest cell, in particle radii")
         ->default_str(text_of(defaults.cell_size));
-    command.add_option("--iso", iso_, "Field value at the surface")->default_str(text_of(defaults.iso));
+    command.add_option("-t,--iso", iso_, "Field value at the surface")->default_str(text_of(defaults.iso));
     add_named_option(command, "--field", field_, defaults.field, "Function whose iso-surface is the fluid surface");
     command
         .add_option("--smoothness", smoothness_,
@@ -60,9 +67,15 @@ void SettingsOptions::add_to(CLI::App& command) {
                      "With --field smooth: particles without company become drops (keep), are left out (discard), or "
                      "are left out and listed beside the surface (points)");
     command
-        .add_option("--smoothing-length", smoothing_length_,
+        .add_option("-l,--smoothing-length", smoothing_length_,
                     "With --field color or density: in particle radii; the kernel's support is twice that")
         ->default_str(text_of(smoothing_length(defaults)));
+    command.add_flag("--normals,!--no-normals", normals_, "Whether vertices get normals (the default)");
+    command.add_option("--domain", domain_, "X0 Y0 Z0 X1 Y1 Z1: crops the surface, world units")->expected(6);
+}
+
+void SettingsOptions::add_grid(CLI::App& command, const Settings& defaults) {
+    const OptionGroup group(command, grid_heading);
     add_named_option(command, "--mode", mode_, defaults.mode, "Three levels of grid, or the finest cell everywhere");
     add_named_option(command, "--criterion", criterion_, defaults.criterion, "How the level of a base cell is decided");
     command
@@ -77,8 +90,6 @@ void SettingsOptions::add_to(CLI::App& command) {
     add_named_option(command, "--edge-points", edge_points_, defaults.edge_points, "How the point on an edge is found");
     command.add_option("--bisection-steps", bisection_steps_, "With --edge-points bisect: iterations on a finest edge")
         ->default_str(std::to_string(Bisection{}.steps));
-    command.add_flag("--normals,!--no-normals", normals_, "Whether vertices get normals (the default)");
-    command.add_option("--domain", domain_, "X0 Y0 Z0 X1 Y1 Z1: crops the surface, world units")->expected(6);
 }
 
 Settings SettingsOptions::build(double particle_radius) const {

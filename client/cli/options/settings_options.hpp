@@ -23,6 +23,9 @@ public:
     Settings build(double particle_radius) const;
 
 private:
+    void add_surface(CLI::App& command, const Settings& defaults);
+    void add_grid(CLI::App& command, const Settings& defaults);
+
     Preset preset_ = Preset::smooth;
     std::optional<double> cell_size_;
     std::optional<double> iso_;

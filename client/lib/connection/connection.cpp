@@ -7,8 +7,8 @@
 #include <chrono>
 #include <fstream>
 #include <iterator>
-#include <utility>
 
+#include "address/default_port.hpp"
 #include "address/loopback.hpp"
 #include "meniscus/error.hpp"
 
@@ -50,6 +50,14 @@ std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const Co
     return grpc::CreateCustomChannel(address, credentials(options), arguments);
 }
 
+/// Throws InvalidInput for an address that cannot be told from one with a port.
+std::string checked_address(const std::string& address) {
+    if (address::is_bare_ipv6(address))
+        throw InvalidInput("the server's address " + address + " is IPv6 without brackets: write [" + address +
+                           "], or [" + address + "]:" + std::string(address::default_port));
+    return address::with_port(address);
+}
+
 /// Whether the channel is connected before it is time to give up.
 bool connect(grpc::Channel& channel, const ConnectionOptions& options) {
     const auto start = std::chrono::system_clock::now();
@@ -83,8 +91,8 @@ std::string checked_token(const std::string& address, const ConnectionOptions& o
 
 }  // namespace
 
-Connection::Connection(std::string server_address, const ConnectionOptions& options)
-    : address(std::move(server_address)),
+Connection::Connection(const std::string& server_address, const ConnectionOptions& options)
+    : address(checked_address(server_address)),
       timeout(options.timeout),
       channel(open_channel(address, options)),
       server(v1::ServerService::NewStub(channel)),

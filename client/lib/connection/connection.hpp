@@ -18,13 +18,13 @@ namespace meniscus::client {
 
 class Connection {
 public:
-    /// Throws ServerError unless the server is there, InvalidInput if the options are wrong.
-    explicit Connection(std::string address, const ConnectionOptions& options = {});
+    /// Throws ServerError unless the server is there, InvalidInput if the address or the options are wrong.
+    explicit Connection(const std::string& address, const ConnectionOptions& options = {});
 
     /// Gives a call the token, and the id of the session that it is about; empty: about none.
     void add_metadata(grpc::ClientContext& context, const std::string& session_id) const;
 
-    const std::string address;
+    const std::string address;                ///< with its port
     const std::chrono::milliseconds timeout;  ///< for an answer
     const std::shared_ptr<grpc::Channel> channel;
     const std::unique_ptr<v1::ServerService::Stub> server;

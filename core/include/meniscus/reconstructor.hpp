@@ -19,7 +19,8 @@ namespace meniscus {
 /// One reconstructor is used by one thread at a time; several may live side by side.
 class Reconstructor {
 public:
-    /// Throws InvalidInput for settings out of range, and for a backend or processor that cannot be used, saying why.
+    /// Throws InvalidInput for settings or a number of threads out of range, and for a backend or processor that cannot
+    /// be used, saying why.
     explicit Reconstructor(const Settings& settings, const BackendOptions& options = {});
     ~Reconstructor();
     Reconstructor(Reconstructor&&) noexcept;

@@ -83,6 +83,10 @@ class Packages(unittest.TestCase):
                     program,
                 )
 
+    def test_complete_the_command_line_in_the_shells_of_debian(self):
+        for path in ("bash-completion/completions/meniscus", "zsh/vendor-completions/_meniscus"):
+            self.assertIn(f"/usr/share/{path}", self.contents("meniscus"))
+
     def test_have_their_license_and_their_changes(self):
         for package in NAMES:
             for document in ("copyright", "changelog.Debian.gz"):

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "address/default_port.hpp"
 #include "address/loopback.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
@@ -418,6 +419,24 @@ TEST(Loopback, IsWhatNoOtherMachineReaches) {
          {"0.0.0.0:1", "[::]:1", "128.0.0.1:1", "10.0.0.1:1", "example.org:1", "127.0.0.1.example.org:1",
           "localhost.example.org:1", "127.1:1", ":1", "", "ipv4:127.0.0.1:1", "dns:///localhost:1"})
         EXPECT_FALSE(address::is_loopback(address)) << address;
+}
+
+TEST(DefaultPort, StandsBehindAHostAloneAndNothingElse) {
+    EXPECT_EQ(address::with_port("localhost"), "localhost:50051");
+    EXPECT_EQ(address::with_port("192.0.2.7"), "192.0.2.7:50051");
+    EXPECT_EQ(address::with_port("[::1]"), "[::1]:50051");
+    for (const char* address : {"", "localhost:1", "[::1]:443", "unix:/run/meniscus", "unix:socket",
+                                "dns:///example.org", "ipv4:127.0.0.1:1", "::1"})
+        EXPECT_EQ(address::with_port(address), address);
+}
+
+TEST(DefaultPort, IsNotGuessedForIpv6WithoutBrackets) {
+    for (const char* address : {"::1", "2001:db8::7", "::1:50051"}) {
+        EXPECT_TRUE(address::is_bare_ipv6(address)) << address;
+        EXPECT_THROW(client::Client{address}, InvalidInput) << address;
+    }
+    for (const char* address : {"[::1]", "localhost", "127.0.0.1", "unix:a"})
+        EXPECT_FALSE(address::is_bare_ipv6(address)) << address;
 }
 
 TEST(Server, RefusesOtherMachinesWithoutTlsUnlessThatIsMeant) {

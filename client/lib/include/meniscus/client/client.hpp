@@ -26,8 +26,8 @@ namespace meniscus::client {
 /// A connection to one server. Thread-safe.
 class Client {
 public:
-    /// address: "HOST:PORT" or "unix:PATH". Throws ServerError if the server is not there, InvalidInput if the options
-    /// are wrong.
+    /// address: "HOST:PORT", "HOST" for port 50051, or "unix:PATH"; IPv6 stands in brackets. Throws ServerError if the
+    /// server is not there, InvalidInput if the address or the options are wrong.
     explicit Client(const std::string& address, const ConnectionOptions& options = {});
     Client(Client&&) noexcept;
     Client& operator=(Client&&) noexcept;

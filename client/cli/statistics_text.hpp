@@ -1,0 +1,16 @@
+// A frame's figures in words, for people.
+#pragma once
+
+#include <string>
+
+#include "meniscus/statistics.hpp"
+
+namespace meniscus::cli {
+
+/// "11492 particles, 54321 triangles, 0.03 s"
+std::string summary(const Statistics& statistics);
+
+/// What -v adds: a line of vertices and memory, and one of what each step took.
+std::string stages_text(const Statistics& statistics);
+
+}  // namespace meniscus::cli

@@ -1,0 +1,29 @@
+#include "formats/standard_streams.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "formats/byte_cursor.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::formats {
+
+std::string read_input(const std::filesystem::path& path) {
+    if (!is_standard_stream(path)) return read_file(path);
+    constexpr std::size_t step = std::size_t{1} << 20;
+    std::string bytes;
+    for (std::size_t size = 0;;) {
+        bytes.resize(size + step);
+        const ssize_t count = ::read(STDIN_FILENO, bytes.data() + size, step);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0)
+            throw InvalidInput(input_name(path) + ": cannot be read: " + std::generic_category().message(errno));
+        size += static_cast<std::size_t>(count);
+        bytes.resize(size);
+        if (count == 0) return bytes;
+    }
+}
+
+}  // namespace meniscus::formats

@@ -1,0 +1,24 @@
+// "-" in place of a file: standard input where it is read, standard output where it is written.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace meniscus::formats {
+
+inline bool is_standard_stream(const std::filesystem::path& path) {
+    return path == "-";
+}
+
+/// What messages call it.
+inline std::string input_name(const std::filesystem::path& path) {
+    return is_standard_stream(path) ? "standard input" : path.string();
+}
+inline std::string output_name(const std::filesystem::path& path) {
+    return is_standard_stream(path) ? "standard output" : path.string();
+}
+
+/// The bytes of the file, or of standard input to its end. Throws InvalidInput if they cannot be read.
+std::string read_input(const std::filesystem::path& path);
+
+}  // namespace meniscus::formats
