@@ -14,6 +14,7 @@ import {
   type WatchRequestSchema,
   type WatchResponse,
 } from '../gen/meniscus/v1/surface_service_pb';
+import { Code, RpcError } from './status';
 import { serverStream, unary, type CallOptions, type Endpoint, type Received } from './call';
 
 export type WatchRequestInit = MessageInitShape<typeof WatchRequestSchema>;
@@ -50,6 +51,30 @@ export class Server {
       this.options(AbortSignal.timeout(unaryTimeout)),
     );
     return answer.sessions;
+  }
+
+  async session(id: string): Promise<Session> {
+    const answer = await unary(
+      this.endpoint,
+      SessionService.method.getSession,
+      { id },
+      this.options(AbortSignal.timeout(unaryTimeout), id),
+    );
+    if (!answer.session) throw new RpcError(Code.internal, 'The server answered without a session.');
+    return answer.session;
+  }
+
+  /** The session's newest mesh as it is at `maxLevel`; nothing where there is none yet. */
+  snapshot(
+    request: { sessionId: string; maxLevel: number },
+    signal: AbortSignal,
+  ): AsyncIterable<Received<WatchResponse>> {
+    return serverStream(
+      this.endpoint,
+      SurfaceService.method.snapshot,
+      { ...request, codecs: [...knownCodecs] },
+      this.options(signal, request.sessionId),
+    );
   }
 
   /** opened: the server has taken the call. */

@@ -11,6 +11,6 @@ export function coveredMargins(): Margins {
   return {
     top: figures.width > 0 && !beside ? figures.bottom - canvas.top : 0,
     right: beside ? canvas.right - figures.left : 0,
-    bottom: canvas.bottom - controls.top,
+    bottom: controls.height > 0 ? canvas.bottom - controls.top : 0,
   };
 }
