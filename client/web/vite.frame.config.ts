@@ -5,6 +5,8 @@ export default defineConfig({
   build: {
     target: 'es2022',
     emptyOutDir: false,
+    // To be read before it is copied.
+    minify: false,
     lib: { entry: 'src/frame/meniscus_frame.ts', formats: ['es'], fileName: () => 'meniscus-frame.js' },
   },
 });

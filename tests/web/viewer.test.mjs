@@ -6,3 +6,6 @@ import './playback.mjs';
 import './recordings.mjs';
 import './camera.mjs';
 import './accessibility.mjs';
+import './keyboard.mjs';
+import './list.mjs';
+import './embed.mjs';
