@@ -5,8 +5,8 @@ import { join } from 'node:path';
 import { describe, it } from 'node:test';
 import { missing, screenshot } from './support/browser.mjs';
 import { answer, protobuf } from './support/grpc_web.mjs';
-import { startServer, startUploader } from './support/programs.mjs';
-import { recordedFile, startReplay } from './support/recording.mjs';
+import { startServer } from './support/programs.mjs';
+import { startReplay } from './support/recording.mjs';
 import { link, open, says, state, surface } from './support/viewer.mjs';
 
 const id = (n) => `00000000-0000-4000-8000-00000000000${n}`;
@@ -46,9 +46,9 @@ describe('the list', { skip: missing }, () => {
     await page.fill('#search', '');
     const entry = page.locator(`[data-session="${id(3)}"]`);
     await entry.focus();
-    // The next list leaves the focus where it is.
-    await page.waitForResponse('**/ListSessions');
-    await page.waitForResponse('**/ListSessions');
+    // The next list leaves the focus where it is, and its order does.
+    listed.push(session(4, 'new', true, now));
+    await page.locator(`[data-session="${id(4)}"]`).waitFor();
     assert.equal(await page.evaluate(() => document.activeElement.dataset.session), id(3));
     await entry.click();
     await page.waitForFunction(() => document.title === 'wave tank – Meniscus');
@@ -99,13 +99,12 @@ describe('a session', { skip: missing }, () => {
   it('is live while it is streamed; when it has ended, that and its time are said, and its recording is offered', async () => {
     const folder = mkdtempSync(join(tmpdir(), 'meniscus-web-'));
     try {
-      const { file } = await recordedFile();
       const server = await startServer({ args: ['--record', folder] });
-      const replay = startUploader(server, ['replay', file, '--speed', '1', '--to', '59']);
-      const page = await open(server.url, { viewport: { width: 1200, height: 750 } });
-      await page.click(`[data-session="${replay.session}"]`);
-      await surface(page);
+      const page = await open(link(server, id(1)));
+      await state(page, 'absent');
+      const replay = await startReplay(server, { session: id(1), frames: 60, loop: false });
       await page.locator('#liveness', { hasText: /^Live$/ }).waitFor();
+      await surface(page);
       await screenshot(page, 'live');
       await replay.finished();
       await page.locator('#liveness', { hasText: /^Ended [0-9:]{8}$/ }).waitFor();

@@ -79,13 +79,17 @@ describe('thumbnails', () => {
   });
 
   it('end with the list, and begin again with it', async () => {
-    thumbnails.update(sessions(1));
-    see('a');
+    thumbnails.update(sessions(1, 1));
+    see('a', 'b');
     thumbnails.stop();
     expect(under[0]!.signal.aborted).toBe(true);
     await under[0]!.end(new RpcError(Code.canceled, 'canceled'));
+    // Cards leave the screen one by one.
+    thumbnails.setVisible('a', false);
+    thumbnails.drawAnew();
     expect(asked).toEqual(['a']);
-    thumbnails.update(sessions(1));
+    see('a');
+    thumbnails.update(sessions(1, 1));
     expect(asked).toEqual(['a', 'a']);
   });
 

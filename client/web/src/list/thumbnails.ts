@@ -8,6 +8,8 @@ export const thumbnailEvery = 10_000;
 export class Thumbnails {
   private readonly schedule = new ThumbnailSchedule(thumbnailEvery);
   private call: { readonly session: string; readonly abort: AbortController } | undefined;
+  /** From update() to stop(). */
+  private running = false;
   /** Whether the server makes none. */
   private none = false;
 
@@ -19,6 +21,7 @@ export class Thumbnails {
 
   /** The list that has come, of which some is on the screen. To be called again and again: this is when pictures fall due. */
   update(sessions: readonly { readonly id: string; readonly frames: bigint }[]): void {
+    this.running = true;
     this.schedule.update(sessions);
     this.goOn();
   }
@@ -36,6 +39,7 @@ export class Thumbnails {
 
   /** Until the next update(). */
   stop(): void {
+    this.running = false;
     if (!this.call) return;
     this.call.abort.abort();
     this.schedule.forget(this.call.session);
@@ -43,7 +47,7 @@ export class Thumbnails {
   }
 
   private goOn(): void {
-    if (this.call || this.none) return;
+    if (!this.running || this.call || this.none) return;
     const session = this.schedule.next(this.now());
     if (session === undefined) return;
     const call = { session, abort: new AbortController() };

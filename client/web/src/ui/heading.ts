@@ -55,6 +55,8 @@ export class Heading {
     if (this.session === undefined) return;
     this.watch = state;
     this.tellLiveness();
+    // It streams, or does so again: that is not to be learned only when its time has come.
+    if (state.kind === 'live' && this.uploading !== true) this.ask();
   }
 
   private clear(): void {
