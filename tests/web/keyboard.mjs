@@ -58,7 +58,7 @@ describe('the keyboard', { skip: missing }, () => {
     const dialog = page.locator('#keys-dialog[open]');
     await dialog.waitFor();
     assert.match(await dialog.innerText(), /Space\s+pause, and go on/);
-    assert.equal(await page.getAttribute('#pause', 'title'), 'Space');
+    assert.equal(await page.getAttribute('#pause', 'title'), 'Pause, and go on (Space)');
     await screenshot(page, 'keys');
     await page.keyboard.press('?');
     await dialog.waitFor({ state: 'hidden' });

@@ -15,7 +15,7 @@ export class KeysDialog {
       const line = document.createElement('div');
       line.append(keys, words);
       list.append(line);
-      if ('button' in row) element(row.button, HTMLButtonElement).title = row.shown;
+      if ('button' in row) element(row.button, HTMLButtonElement).title = `${capital(row.words)} (${row.shown})`;
     }
     element('show-keys', HTMLButtonElement).addEventListener('click', () => {
       this.dialog.showModal();
@@ -25,4 +25,8 @@ export class KeysDialog {
       if (event.key === '?') this.dialog.close();
     });
   }
+}
+
+function capital(words: string): string {
+  return words.charAt(0).toUpperCase() + words.slice(1);
 }
