@@ -108,7 +108,7 @@ describe('the viewer in a page of others', { skip: missing }, () => {
   it('shows what the address names, alone, where nobody is around', async () => {
     const server = await startServer();
     const { session } = await startReplay(server);
-    const page = await open(`${server.url}?embed#session=${session}`);
+    const page = await open(`${server.url}?embed#session=${session}`, { viewport: { width: 320, height: 240 } });
     await drawn(page);
     assert.equal(await page.locator('header').isVisible(), false);
     assert.equal(await page.locator('#controls').isVisible(), false);

@@ -6,10 +6,12 @@ import { startReplay } from './support/recording.mjs';
 import { link, open, state, surface } from './support/viewer.mjs';
 
 describe('the keyboard', { skip: missing }, () => {
+  const small = { viewport: { width: 480, height: 400 } };
+
   it('works wherever the focus is: Space pauses after a click, and presses what Tab has reached', async () => {
     const server = await startServer();
     const simulator = await startReplay(server);
-    const page = await open(link(server, simulator.session));
+    const page = await open(link(server, simulator.session), small);
     await surface(page);
     const wires = () => page.getAttribute('#look', 'aria-pressed');
     const has = (id) => page.waitForFunction((wanted) => document.activeElement.id === wanted, id);

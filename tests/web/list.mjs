@@ -100,7 +100,7 @@ describe('a session', { skip: missing }, () => {
     const folder = mkdtempSync(join(tmpdir(), 'meniscus-web-'));
     try {
       const server = await startServer({ args: ['--record', folder] });
-      const page = await open(link(server, id(1)));
+      const page = await open(link(server, id(1)), { viewport: { width: 480, height: 400 } });
       await state(page, 'absent');
       const replay = await startReplay(server, { session: id(1), frames: 60, loop: false });
       await page.locator('#liveness', { hasText: /^Live$/ }).waitFor();
