@@ -66,7 +66,9 @@ bool is_authority(std::string_view authority) {
 void require_origin(std::string_view flag, std::string_view origin) {
     if (!is_authority(authority_of(origin)))
         throw InvalidInput(
-            fmt::format("{} is \"{}\"; it must be as https://example.org or https://example.org:8443", flag, origin));
+            fmt::format("{} is \"{}\"; it must be as https://example.org or https://example.org:8443, one origin, no "
+                        "pattern and no path",
+                        flag, origin));
 }
 
 AllowedOrigins::AllowedOrigins(std::vector<std::string> allowed, std::string_view listen)
