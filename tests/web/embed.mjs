@@ -112,6 +112,7 @@ describe('the viewer in a page of others', { skip: missing }, () => {
     await drawn(page);
     assert.equal(await page.locator('header').isVisible(), false);
     assert.equal(await page.locator('#controls').isVisible(), false);
+    await page.context().close();
     const other = await open(`${server.url}?embed`);
     await other.getByText('No session is chosen.').waitFor();
     assert.equal(await other.locator('#list').isVisible(), false);

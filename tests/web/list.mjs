@@ -118,6 +118,7 @@ describe('a session', { skip: missing }, () => {
       assert.equal(await page.locator('#open-recording').isVisible(), false);
 
       // An address of before leads there, too.
+      await page.context().close();
       const later = await open(link(server, replay.session));
       await later.locator('#open-recording').waitFor();
     } finally {
