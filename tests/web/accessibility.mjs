@@ -48,12 +48,12 @@ describe('the page', { skip: missing }, () => {
     await page.keyboard.press('Enter');
     await surface(page);
     const reached = [];
-    for (let i = 0; i < 20; ++i) {
+    for (let i = 0; i < 45; ++i) {
       reached.push(await page.evaluate(() => document.activeElement.id));
       await page.keyboard.press('Tab');
     }
     const controls = await page.evaluate(() =>
-      [...document.querySelectorAll('button, input, canvas[tabindex]')]
+      [...document.querySelectorAll('button, input, select, canvas[tabindex]')]
         .filter((control) => control.checkVisibility())
         .map(({ id }) => id),
     );
@@ -85,6 +85,7 @@ describe('the page', { skip: missing }, () => {
       );
       return boxes
         .filter((e) => {
+          e.scrollIntoView({ behavior: 'instant' });
           const { left, right, top, bottom } = e.getBoundingClientRect();
           return left < 0 || right > innerWidth || top < 0 || bottom > innerHeight;
         })
@@ -92,6 +93,12 @@ describe('the page', { skip: missing }, () => {
     });
     assert.deepEqual(covered, []);
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 360);
+    const rows = await page.evaluate(() => {
+      const buttons = [...document.querySelectorAll('#toolbar button')].filter((e) => e.checkVisibility());
+      return new Set(buttons.map((e) => e.getBoundingClientRect().top)).size;
+    });
+    assert.equal(rows, 1);
+    await page.evaluate(() => document.getElementById('toolbar').scrollTo(0, 0));
     await screenshot(page, 'phone');
   });
 });

@@ -1,17 +1,12 @@
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
 import validator from 'gltf-validator';
 import { missing, screenshot } from './support/browser.mjs';
+import { save } from './support/files.mjs';
 import { boundsOfPly, reload } from './support/meshes.mjs';
 import { startServer } from './support/programs.mjs';
 import { startReplay } from './support/recording.mjs';
 import { link, open, shown, state, surface } from './support/viewer.mjs';
-
-async function save(page, button) {
-  const [download] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
-  return readFileSync(await download.path());
-}
 
 describe('playback', { skip: missing }, () => {
   it('pauses, steps and scrubs through what has been seen, and goes on', async () => {
@@ -59,8 +54,8 @@ describe('playback', { skip: missing }, () => {
     await surface(page);
     await page.click('#pause');
     await state(page, 'paused');
-    const glb = await save(page, '#glb');
-    const ply = await save(page, '#ply');
+    const { bytes: glb } = await save(page, '#glb');
+    const { bytes: ply } = await save(page, '#ply');
     const { triangles } = await shown(page);
 
     const { issues } = await validator.validateBytes(new Uint8Array(glb));

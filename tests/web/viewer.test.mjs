@@ -5,6 +5,7 @@ import './recovery.mjs';
 import './playback.mjs';
 import './recordings.mjs';
 import './camera.mjs';
+import './tools.mjs';
 import './accessibility.mjs';
 import './keyboard.mjs';
 import './list.mjs';

@@ -27,8 +27,8 @@ import { RecordingList } from './ui/recording_list';
 import { RecordingOffer } from './ui/recording_offer';
 import { SessionList } from './ui/session_list';
 import { followTheme } from './ui/theme';
+import { Tools } from './tools/tools';
 import { askToken, storedToken } from './ui/token_dialog';
-import type { UpAxis } from './view/up_axis';
 import { Viewer, type Look } from './view/viewer';
 
 export class App {
@@ -44,6 +44,7 @@ export class App {
   private readonly viewer: Viewer;
   private readonly screen: Screen;
   private readonly playback = new Playback();
+  private readonly tools: Tools;
   private readonly sessionView: SessionView;
   private readonly recordingView: RecordingView;
   private readonly list: SessionList;
@@ -51,7 +52,6 @@ export class App {
   /** What is looked at. */
   private at: Pick<PageState, 'session' | 'recording' | 'position'> = {};
   private look: Look = 'water';
-  private up: UpAxis = 'y';
   private particles = false;
   /** From the link, for the first picture. */
   private linked: PageState = {};
@@ -62,7 +62,10 @@ export class App {
     else this.server.token = storedToken();
     const pool = startDecodePool();
     const painter = new ThumbnailPainter(this.server, pool);
-    this.viewer = new Viewer(this.canvas, coveredMargins, {
+    this.viewer = new Viewer(this.canvas, () => coveredMargins(this.canvas), {
+      rendered: () => {
+        this.tools.rendered();
+      },
       drawn: (frame, triangles, particles) => {
         // For those who look from outside: tests, and assistive tools.
         this.canvas.dataset.frame = String(frame.index);
@@ -73,8 +76,7 @@ export class App {
         this.frameDrawn(frame);
       },
       moving: (moving) => {
-        this.sessionView.cameraMoving(moving);
-        if (!moving) this.writeAddress();
+        this.cameraMoving(moving);
       },
       lost: (lost) => {
         this.inPlaceOfPicture(
@@ -96,6 +98,17 @@ export class App {
       },
       firstFrame: () => {
         this.firstFrame();
+      },
+    });
+    this.tools = new Tools(this.server, this.screen, this.playback, pool, this.viewer, {
+      changed: () => {
+        this.writeAddress();
+      },
+      moving: (moving) => {
+        this.cameraMoving(moving);
+      },
+      failed: (reason) => {
+        this.banner.say(reason);
       },
     });
     this.sessionView = new SessionView(this.server, this.screen, this.playback, {
@@ -131,7 +144,7 @@ export class App {
       tokenNeeded: (reason) => void this.tokenNeeded(reason),
     });
     followTheme((theme) => {
-      this.viewer.setTheme(theme);
+      this.tools.setTheme(theme);
       painter.setTheme(theme);
       this.list.themeChanged();
     });
@@ -172,6 +185,8 @@ export class App {
     else this.heading.showNothing();
     this.offer.withdraw();
     this.inPlaceOfPicture('');
+    // The water alone.
+    this.tools.open(this.embedding ? { ...state, scale: 'off', domain: 'off' } : state);
     if (!watching && this.embedding) {
       element('watch', HTMLElement).hidden = false;
       this.inPlaceOfPicture(state.problem ?? 'No session is chosen.');
@@ -188,7 +203,6 @@ export class App {
     this.list.hide();
     this.recordings.hide();
     this.setLook(state.look ?? 'water');
-    this.setUp(state.up ?? 'y');
     this.setParticles(false);
     if (state.recording) this.recordingView.start(state.recording, state.position);
     else this.sessionView.start(state.session!);
@@ -201,6 +215,7 @@ export class App {
 
   private frameDrawn(frame: Frame): void {
     if (!this.screen.frameDrawn(frame)) return;
+    this.tools.frameDrawn(frame);
     if (this.at.recording) this.recordingView.frameDrawn(frame);
     else this.sessionView.frameDrawn(frame);
   }
@@ -218,6 +233,7 @@ export class App {
     if (state.kind === 'ended' || state.kind === 'absent') {
       if (!this.embedding && this.at.session !== undefined) void this.offer.offer(this.at.session);
     } else if (state.kind !== 'connecting') this.offer.withdraw();
+    this.tools.watchState(state);
     if (!this.screen.shown)
       this.inPlaceOfPicture(
         state.kind === 'connecting'
@@ -227,6 +243,11 @@ export class App {
             : '',
       );
     if (state.kind === 'token') void this.tokenNeeded(state.reason);
+  }
+
+  private cameraMoving(moving: boolean): void {
+    this.sessionView.cameraMoving(moving);
+    if (!moving) this.writeAddress();
   }
 
   private inPlaceOfPicture(text: string): void {
@@ -246,6 +267,7 @@ export class App {
     if (this.at.recording) this.recordingView.restart();
     else if (this.at.session !== undefined) this.sessionView.restart();
     else this.open({});
+    this.tools.restart();
   }
 
   /** page: its origin; none: the address says what is shown. */
@@ -273,7 +295,7 @@ export class App {
     }
     this.banner.say('');
     this.setLook(state.look ?? 'water');
-    this.setUp(state.up ?? 'y');
+    this.tools.open(state);
     if (state.camera) this.viewer.cameraPlace = state.camera;
     else this.viewer.fit();
   }
@@ -288,9 +310,6 @@ export class App {
       },
       'show-particles': () => {
         this.setParticles(!this.particles);
-      },
-      up: () => {
-        this.setUp(this.up === 'y' ? 'z' : 'y');
       },
       fit: () => {
         this.viewer.fit();
@@ -333,13 +352,6 @@ export class App {
     button.setAttribute('aria-pressed', String(this.particles));
   }
 
-  private setUp(up: UpAxis): void {
-    this.up = up;
-    this.viewer.setUp(up);
-    element('up', HTMLButtonElement).setAttribute('aria-pressed', String(up === 'z'));
-    this.writeAddress();
-  }
-
   private toggleOverlay(): void {
     const overlay = element('overlay', HTMLElement);
     overlay.hidden = !overlay.hidden;
@@ -353,7 +365,7 @@ export class App {
     download(
       `meniscus-${shown.frame.index}.${kind}`,
       type,
-      kind === 'glb' ? writeGlb(shown, this.up) : writePly(shown),
+      kind === 'glb' ? writeGlb(shown, this.tools.up) : writePly(shown),
     );
   }
 
@@ -363,7 +375,7 @@ export class App {
     history.replaceState(
       null,
       '',
-      writeLink({ ...this.at, camera: this.viewer.cameraPlace, look: this.look, up: this.up }),
+      writeLink({ ...this.at, ...this.tools.state, camera: this.viewer.cameraPlace, look: this.look }),
     );
   }
 }

@@ -20,6 +20,8 @@ export class Screen {
   private readonly store: BrickStore;
   private failing = false;
   private lastDrawn: Frame | undefined;
+  /** Until it has been drawn. */
+  private awaited: { readonly frame: Frame; drawn(): void; failed(error: unknown): void } | undefined;
 
   constructor(
     pool: DecodePool,
@@ -36,6 +38,7 @@ export class Screen {
       },
       failed: (error) => {
         this.failing = true;
+        this.awaited?.failed(error);
         this.events.failed(`A mesh could not be shown: ${error instanceof Error ? error.message : String(error)}.`);
       },
     });
@@ -50,6 +53,14 @@ export class Screen {
     this.store.show(frame);
   }
 
+  /** Resolves once a picture of it has been drawn, rejects if it cannot be. One at a time. */
+  draw(frame: Frame): Promise<void> {
+    return new Promise((resolve, reject) => {
+      this.awaited = { frame, drawn: resolve, failed: reject };
+      this.store.show(frame);
+    });
+  }
+
   /** In place of the surface, those that belong to it; none: the surface. */
   showParticles(particles: Particles | undefined): void {
     this.viewer.showParticles(particles);
@@ -57,6 +68,10 @@ export class Screen {
 
   /** A picture of the frame has been drawn. True for the frame's first one. */
   frameDrawn(frame: Frame): boolean {
+    if (frame === this.awaited?.frame) {
+      this.awaited.drawn();
+      this.awaited = undefined;
+    }
     if (frame === this.lastDrawn) return false;
     const first = !this.lastDrawn;
     this.lastDrawn = frame;
@@ -67,6 +82,8 @@ export class Screen {
 
   clear(): void {
     this.lastDrawn = undefined;
+    this.awaited?.failed(new Error('The frame is not shown any more.'));
+    this.awaited = undefined;
     this.store.clear();
     this.viewer.clear();
     this.viewer.showParticles(undefined);

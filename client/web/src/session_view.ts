@@ -11,6 +11,7 @@ import { SessionWatch } from './stream/session_watch';
 import { SkippedFrames } from './stream/skipped_frames';
 import type { WatchState } from './stream/watch_state';
 import type { Playback, Reel } from './ui/playback';
+import { frameText } from './ui/texts';
 
 /** Some ten seconds at 30 frames a second. */
 const historyLimits = { frames: 300, bytes: 192 << 20 };
@@ -129,7 +130,7 @@ export class SessionView {
       get length() {
         return frames.length;
       },
-      describe: (at) => `frame ${frames[at]!.index}`,
+      describe: (at) => frameText(frames[at]!),
       choose: (at) => {
         this.screen.show(frames[at]!);
       },

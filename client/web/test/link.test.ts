@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import type { Point } from '../src/view/bounds';
 import { readLink, writeLink } from '../src/ui/link';
 
 describe('the link', () => {
@@ -21,9 +22,28 @@ describe('the link', () => {
     expect(readLink(writeLink(recorded))).toEqual(recorded);
   });
 
+  it('reopens cut, ruler, the session beside, and what is not to be seen', () => {
+    const tools = {
+      session: state.session,
+      up: 'x' as const,
+      cut: { axis: 'z' as const, at: -1000.0625, away: 'before' as const },
+      ruler: [
+        [1, 2, 3],
+        [4, 5, 1e-7],
+      ] as [Point, Point],
+      beside: '11234567-89ab-cdef-0123-456789abcdef',
+      scale: 'off' as const,
+      domain: 'off' as const,
+    };
+    expect(readLink(writeLink(tools))).toEqual(tools);
+    expect(writeLink(tools)).toContain('&cut=z,-1000.0625,before&ruler=1,2,3,4,5,1e-7&beside=1123');
+  });
+
   it('leaves out what it does not understand', () => {
     expect(readLink('#camera=1,2,3&look=x&up=w')).toEqual({});
     expect(readLink('#camera=1,2,3,4,5,x')).toEqual({});
+    for (const fields of ['cut=w,1,beyond', 'cut=x,,beyond', 'cut=x,1', 'ruler=1,2,3', 'beside=all', 'scale=on'])
+      expect(readLink(`#${fields}`)).toEqual({});
     expect(readLink(`#recording=${state.session}/1&position=-1`)).toEqual({
       recording: { session: state.session, number: 1 },
     });

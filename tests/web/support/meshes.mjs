@@ -37,17 +37,19 @@ export async function reload(page, glb) {
 
 /** Of a binary PLY of floats as the viewer writes it: min x y z, max x y z. */
 export function boundsOfPly(ply) {
+  const vertices = verticesOfPly(ply);
+  const each = (pick) => [0, 1, 2].map((axis) => vertices.reduce((a, v) => pick(a, v[axis]), vertices[0][axis]));
+  return [...each(Math.min), ...each(Math.max)];
+}
+
+/** Of such a file: x y z each. */
+export function verticesOfPly(ply) {
   const end = 'end_header\n';
   const header = ply.subarray(0, ply.indexOf(end) + end.length);
   const text = header.toString('latin1');
   const count = Number(/element vertex (\d+)/.exec(text)[1]);
   const stride = 4 * text.slice(0, text.indexOf('element face')).match(/property float/g).length;
-  const bounds = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
-  for (let vertex = 0; vertex < count; ++vertex)
-    for (let axis = 0; axis < 3; ++axis) {
-      const x = ply.readFloatLE(header.length + vertex * stride + 4 * axis);
-      bounds[axis] = Math.min(bounds[axis], x);
-      bounds[3 + axis] = Math.max(bounds[3 + axis], x);
-    }
-  return bounds;
+  return Array.from({ length: count }, (_, vertex) =>
+    [0, 4, 8].map((at) => ply.readFloatLE(header.length + vertex * stride + at)),
+  );
 }

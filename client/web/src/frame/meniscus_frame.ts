@@ -8,7 +8,8 @@ export interface View {
   /** World units; without one all of the water is kept in view. */
   readonly camera?: { readonly position: readonly number[]; readonly target: readonly number[] };
   readonly look?: 'water' | 'levels';
-  readonly up?: 'y' | 'z';
+  /** Without one: as the session says. */
+  readonly up?: 'x' | 'y' | 'z';
   /** Where the server asks for one: of the role watcher, since every script of the page can read it. */
   readonly token?: string;
 }

@@ -21,7 +21,7 @@ export interface Show {
   /** World units; without one the camera keeps all of the water in view. */
   readonly camera?: { readonly position: readonly number[]; readonly target: readonly number[] };
   readonly look?: 'water' | 'levels';
-  readonly up?: 'y' | 'z';
+  readonly up?: 'x' | 'y' | 'z';
   /** Empty: none. */
   readonly token: string;
 }
@@ -50,7 +50,7 @@ export function readShow(data: unknown): HandedOver {
       'The page around this viewer has handed over a token that is none: at most 4096 letters, digits and signs of ASCII.',
     );
   if (look !== undefined && look !== 'water' && look !== 'levels') throw wrong('look', look, '"water" or "levels"');
-  if (up !== undefined && up !== 'y' && up !== 'z') throw wrong('up', up, '"y" or "z"');
+  if (up !== undefined && up !== 'x' && up !== 'y' && up !== 'z') throw wrong('up', up, '"x", "y" or "z"');
   const place = readCamera(camera);
   return {
     state: { session, ...(place ? { camera: place } : {}), ...(look ? { look } : {}), ...(up ? { up } : {}) },

@@ -70,6 +70,7 @@ export class ThumbnailPainter {
         drawn: () => {
           this.copy();
         },
+        rendered: () => undefined,
         moving: () => undefined,
         lost: () => undefined,
       });

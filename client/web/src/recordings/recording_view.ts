@@ -7,6 +7,7 @@ import type { Screen } from '../screen';
 import { Backoff } from '../stream/backoff';
 import type { WatchState } from '../stream/watch_state';
 import type { Playback, Reel } from '../ui/playback';
+import { frameText } from '../ui/texts';
 import { RecordingFrames } from './recording_frames';
 import { sameRecording, type RecordingName } from './recording_name';
 
@@ -118,7 +119,7 @@ export class RecordingView {
       length: frames.length,
       describe: (at) => {
         const frame = frames.at(at);
-        return frame ? `frame ${frame.index}` : `${at + 1} of ${frames.length}`;
+        return frame ? frameText(frame) : `${at + 1} of ${frames.length}`;
       },
       choose: (at) => {
         this.show(at);

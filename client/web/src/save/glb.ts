@@ -3,7 +3,7 @@
 import type { ShownBrick, Shown } from '../bricks/brick_store';
 import { brickEdge } from '../bricks/frame';
 import { pointCount } from '../decode/decoded_brick';
-import type { UpAxis } from '../view/up_axis';
+import { toScene, type UpAxis } from '../view/up_axis';
 
 const unsignedShort = 5123;
 const unsignedInt = 5125;
@@ -91,13 +91,13 @@ function nodes({ frame }: Shown, bricks: ShownBrick[], up: UpAxis): object[] {
   const translation = (place: readonly number[], from: readonly number[]): number[] =>
     place.map((p, axis) => (p - from[axis]!) * edge);
   // glTF is y-up.
-  const turn = up === 'z' ? { rotation: [-Math.SQRT1_2, 0, 0, Math.SQRT1_2] } : {};
+  const turns = { x: { rotation: [0.5, 0.5, 0.5, 0.5] }, y: {}, z: { rotation: [-Math.SQRT1_2, 0, 0, Math.SQRT1_2] } };
   const [x, y, z] = translation(first, [0, 0, 0]) as [number, number, number];
   return [
     {
       name: 'surface',
-      translation: up === 'z' ? [x, z, -y] : [x, y, z],
-      ...turn,
+      translation: toScene([x, y, z], [0, 0, 0], up).toArray(),
+      ...turns[up],
       children: bricks.map((_, i) => i + 1),
     },
     ...bricks.map(({ encoded }, i) => ({

@@ -7,8 +7,11 @@ export async function copyAddress(button: HTMLButtonElement): Promise<void> {
     () => true,
     () => false,
   );
-  button.textContent = copied ? 'Copied' : 'See the address bar';
+  const label = button.querySelector('span')!;
+  label.textContent = copied ? 'Copied' : 'See the address bar';
+  label.classList.add('kept');
   setTimeout(() => {
-    button.textContent = 'Copy link';
+    label.textContent = 'Copy link';
+    label.classList.remove('kept');
   }, 2000);
 }

@@ -2,21 +2,22 @@
 import { readRecordingName, recordingNameText, type RecordingName } from '../recordings/recording_name';
 import type { Point } from '../view/bounds';
 import type { CameraPlace, Look } from '../view/viewer';
-import type { UpAxis } from '../view/up_axis';
+import { isAxis, type UpAxis } from '../view/up_axis';
+import { sessionForm } from './session_form';
+import { linkNumber, numbers, readToolsLink, writeToolsLink, type ToolsState } from './tools_link';
 
-export interface PageState {
+export interface PageState extends ToolsState {
   readonly session?: string;
   readonly recording?: RecordingName;
   /** Of a recording's frame, by its place. */
   readonly position?: number;
   readonly camera?: CameraPlace;
   readonly look?: Look;
+  /** None: what the session says. */
   readonly up?: UpAxis;
   /** What it names that cannot be, in words. */
   readonly problem?: string;
 }
-
-const sessionForm = /^[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}$/;
 
 export function isSessionId(text: string): boolean {
   return sessionForm.test(text);
@@ -30,13 +31,15 @@ export function readLink(hash: string): PageState {
   const problem = problemOf(session, fields.get('recording'));
   const position = fields.get('position') ?? '';
   const camera = readCamera(fields.get('camera'));
+  const up = fields.get('up') ?? '';
   return {
     ...(session !== null && isSessionId(session) ? { session } : {}),
     ...(recording ? { recording } : {}),
     ...(recording && /^[0-9]{1,15}$/.test(position) ? { position: Number(position) } : {}),
     ...(camera ? { camera } : {}),
     ...(fields.get('look') === 'levels' ? { look: 'levels' as const } : {}),
-    ...(fields.get('up') === 'z' ? { up: 'z' as const } : {}),
+    ...(isAxis(up) ? { up } : {}),
+    ...readToolsLink(fields),
     ...(problem === undefined ? {} : { problem }),
   };
 }
@@ -54,20 +57,20 @@ function short(text: string): string {
   return text.length > 64 ? `${text.slice(0, 64)}…` : text;
 }
 
-export function writeLink({ session, recording, position, camera, look, up }: PageState): string {
+export function writeLink({ session, recording, position, camera, look, up, ...tools }: PageState): string {
   const fields = new URLSearchParams();
   if (session !== undefined) fields.set('session', session);
   if (recording) fields.set('recording', recordingNameText(recording));
   if (recording && position !== undefined) fields.set('position', String(position));
-  if (camera)
-    fields.set('camera', [...camera.position, ...camera.target].map((x) => Number(x.toPrecision(7))).join(','));
+  if (camera) fields.set('camera', [...camera.position, ...camera.target].map(linkNumber).join(','));
   if (look === 'levels') fields.set('look', look);
-  if (up === 'z') fields.set('up', up);
+  if (up) fields.set('up', up);
+  writeToolsLink(fields, tools);
   return `#${fields.toString().replaceAll('%2C', ',').replaceAll('%2F', '/')}`;
 }
 
 function readCamera(text: string | null): CameraPlace | undefined {
-  const numbers = (text ?? '').split(',').map((x) => (x === '' ? NaN : Number(x)));
-  if (numbers.length !== 6 || !numbers.every(Number.isFinite)) return undefined;
-  return { position: numbers.slice(0, 3) as Point, target: numbers.slice(3) as Point };
+  const read = numbers(text);
+  if (read?.length !== 6) return undefined;
+  return { position: read.slice(0, 3) as Point, target: read.slice(3) as Point };
 }

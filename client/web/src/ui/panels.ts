@@ -2,15 +2,30 @@
 import type { Margins } from '../view/fit';
 import { element } from './page';
 
-/** CSS pixels, of the canvas. On a narrow screen the figures lie above the picture, otherwise beside it. */
-export function coveredMargins(): Margins {
-  const canvas = element('view', HTMLCanvasElement).getBoundingClientRect();
+/** CSS pixels, of the canvas. On a narrow screen the figures lie above the picture, and the tools' panels below it, otherwise beside it. */
+export function coveredMargins(water: HTMLCanvasElement): Margins {
+  const canvas = water.getBoundingClientRect();
   const figures = element('overlay', HTMLElement).getBoundingClientRect();
   const controls = element('controls', HTMLElement).getBoundingClientRect();
-  const beside = figures.width > 0 && figures.width < canvas.width / 3;
+  const panels = element('panels', HTMLElement).getBoundingClientRect();
+  const there = figures.width > 0 && figures.left < canvas.right && figures.top < canvas.bottom;
+  const beside = there && figures.width < 0.45 * canvas.width;
+  const below = panels.height > 0 && panels.width > controls.width / 2 ? panels.top : controls.top;
   return {
-    top: figures.width > 0 && !beside ? figures.bottom - canvas.top : 0,
+    top: there && !beside ? Math.max(0, figures.bottom - canvas.top) : 0,
     right: beside ? canvas.right - figures.left : 0,
-    bottom: controls.height > 0 ? canvas.bottom - controls.top : 0,
+    // Neither is there in a frame of another page.
+    bottom: controls.height > 0 ? Math.max(0, canvas.bottom - below) : 0,
   };
+}
+
+/** Lays the panels above the controls, however many lines these have. */
+export function tellHeightOfControls(changed: () => void): void {
+  const [controls, panels] = [element('controls', HTMLElement), element('panels', HTMLElement)];
+  const observer = new ResizeObserver(() => {
+    element('watch', HTMLElement).style.setProperty('--controls', `${controls.offsetHeight}px`);
+    changed();
+  });
+  observer.observe(controls);
+  observer.observe(panels);
 }

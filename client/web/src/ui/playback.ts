@@ -4,7 +4,7 @@ import { element } from './page';
 /** What is played, by place. */
 export interface Reel {
   readonly length: number;
-  /** For who cannot see the slider. */
+  /** Frame and time, where they are known. */
   describe(at: number): string;
   /** To be shown; paused already. */
   choose(at: number): void;
@@ -16,6 +16,8 @@ export interface Reel {
 export class Playback {
   private readonly pauseButton = element('pause', HTMLButtonElement);
   private readonly scrub = element('scrub', HTMLInputElement);
+  /** For those who see the slider. */
+  private readonly text = element('at', HTMLElement);
   private reel: Reel | undefined;
   private isPaused = false;
 
@@ -43,6 +45,11 @@ export class Playback {
     return Number(this.scrub.value);
   }
 
+  /** Frames that can be chosen. */
+  get length(): number {
+    return this.reel?.length ?? 0;
+  }
+
   /** In place of the one before. */
   play(reel: Reel | undefined): void {
     this.reel = reel;
@@ -60,9 +67,11 @@ export class Playback {
 
   /** The slider follows what is shown. */
   moveTo(at: number): void {
-    this.scrub.max = String(Math.max(0, (this.reel?.length ?? 0) - 1));
+    this.scrub.max = String(Math.max(0, this.length - 1));
     this.scrub.value = String(at);
-    this.scrub.setAttribute('aria-valuetext', this.reel && at < this.reel.length ? this.reel.describe(at) : 'none');
+    const described = this.reel && at < this.reel.length ? this.reel.describe(at) : '';
+    this.scrub.setAttribute('aria-valuetext', described === '' ? 'none' : described);
+    this.text.textContent = described;
   }
 
   setPaused(paused: boolean): void {
@@ -76,9 +85,9 @@ export class Playback {
   }
 
   private choose(at: number): void {
-    if (!this.reel || this.reel.length === 0) return;
+    if (!this.reel || this.length === 0) return;
     if (!this.isPaused) this.setPaused(true);
-    this.moveTo(Math.min(Math.max(at, 0), this.reel.length - 1));
+    this.moveTo(Math.min(Math.max(at, 0), this.length - 1));
     this.reel.choose(this.at);
   }
 }

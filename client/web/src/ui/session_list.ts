@@ -1,5 +1,5 @@
 // The sessions of the server, to choose one from. Follows by itself while it is shown.
-import { UpAxis, type Session } from '../gen/meniscus/v1/session_service_pb';
+import type { Session } from '../gen/meniscus/v1/session_service_pb';
 import { FrameRates } from '../list/frame_rates';
 import { givenName } from '../list/session_name';
 import { inOrder, matches } from '../list/session_order';
@@ -7,6 +7,7 @@ import type { ThumbnailPainter } from '../list/thumbnail_painter';
 import { Thumbnails } from '../list/thumbnails';
 import type { Server } from '../rpc/server';
 import { Code, explain, RpcError } from '../rpc/status';
+import { factsOfSession } from '../scene_facts';
 import { arrange } from './arrange';
 import type { Banner } from './banner';
 import { element } from './page';
@@ -126,6 +127,6 @@ export class SessionList {
     const card = this.cards.get(id);
     const session = this.sessions.find((one) => one.id === id);
     if (!card || !session) return;
-    await this.painter.draw(id, session.description?.upAxis === UpAxis.Z ? 'z' : 'y', card.picture, signal);
+    await this.painter.draw(id, factsOfSession(session).up ?? 'y', card.picture, signal);
   }
 }

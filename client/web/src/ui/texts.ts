@@ -19,6 +19,28 @@ export function countText(count: number | bigint): string {
   return count.toLocaleString('en-US');
 }
 
+export function frameText({ index, simulationTime }: { index: bigint; simulationTime: number }): string {
+  return `frame ${index}, ${simulationTime.toFixed(2)} s`;
+}
+
+/** Digits after the point with which a length tells a hundredth of `step` apart, and no more. */
+export function decimalsOf(step: number): number {
+  return Math.min(12, Math.max(0, Math.ceil(2 - Math.log10(step))));
+}
+
+/** unit: may be empty. */
+export function lengthText(length: number, unit: string, decimals?: number): string {
+  return withUnit(decimals === undefined ? String(length) : length.toFixed(decimals), unit);
+}
+
+export function placeText(place: readonly number[], unit: string, decimals: number): string {
+  return withUnit(place.map((x) => x.toFixed(decimals)).join(', '), unit);
+}
+
+function withUnit(text: string, unit: string): string {
+  return unit === '' ? text : `${text} ${unit}`;
+}
+
 /** A mesh's volume, and its ratio to that of the particles. */
 export function volumeText(volume: number, particles: number): string {
   return `${Number(volume.toPrecision(3))} (${(volume / particles).toFixed(2)})`;

@@ -25,7 +25,7 @@ export class Background {
         ${environmentGlsl}
         varying vec3 ray;
         void main() {
-          gl_FragColor = vec4(displayed(environment(cameraPosition, normalize(ray))), 1.0);
+          gl_FragColor = vec4(displayed(environment(cameraPosition, normalize(ray), true)), 1.0);
         }`,
     });
     this.mesh = new Mesh(triangle, material);

@@ -28,6 +28,11 @@ export function center({ min, max }: WorldBox): Point {
   return [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
 }
 
+/** Those that there are, in one. */
+export function unionOf(boxes: readonly (WorldBox | undefined)[]): WorldBox | undefined {
+  return boxes.reduce((all, box) => (all && box ? union(all, box) : (all ?? box)), undefined);
+}
+
 export function contains(outer: WorldBox, inner: WorldBox): boolean {
   return [0, 1, 2].every((axis) => outer.min[axis]! <= inner.min[axis]! && inner.max[axis]! <= outer.max[axis]!);
 }

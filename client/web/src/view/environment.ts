@@ -39,22 +39,22 @@ float gridLine(float x, float width) {
   return 1.0 - smoothstep(0.012, 0.012 + width, distance);
 }
 
-// distance: that the ray has come, for lines that are as soft as they are far.
-vec3 floorAt(vec3 place, float distance) {
+// lines: whether with the grid. distance: that the ray has come, for lines that are as soft as they are far.
+vec3 floorAt(vec3 place, float distance, bool lines) {
   vec2 tile = (place.xz - floorCenter.xz) / (0.125 * sceneSize);
   float soft = 0.02 + 0.02 * distance / sceneSize;
-  float line = max(gridLine(tile.x, soft), gridLine(tile.y, soft));
+  float line = lines ? max(gridLine(tile.x, soft), gridLine(tile.y, soft)) : 0.0;
   return mix(floorColor, lineColor, 0.6 * line) * (0.4 + 0.6 * sunlightAt(place));
 }
 
-vec3 environment(vec3 origin, vec3 direction) {
+vec3 environment(vec3 origin, vec3 direction, bool lines) {
   vec3 sky = skyColor(direction);
   if (direction.y > -1e-4) return sky;
   // From water that lies on the floor, or a little in it, at once.
   float distance = max((floorCenter.y - origin.y) / direction.y, 0.0);
   vec3 place = origin + distance * direction;
   float far = length(place.xz - floorCenter.xz) / sceneSize;
-  return mix(floorAt(place, distance), horizonColor, smoothstep(0.8, 5.0, far));
+  return mix(floorAt(place, distance, lines), horizonColor, smoothstep(0.8, 5.0, far));
 }
 
 // To the screen: filmic tone curve (Narkowicz's fit of ACES), sRGB.

@@ -12,21 +12,26 @@ export function levelLineMaterials(): LineBasicMaterial[] {
 export function levelSurfaceMaterial(): ShaderMaterial {
   return new ShaderMaterial({
     uniforms: { surfaceColor: { value: [0, 0, 0] } },
+    clipping: true,
     // Behind the wires that lie in it.
     polygonOffset: true,
     polygonOffsetFactor: 1,
     polygonOffsetUnits: 1,
     vertexShader: /* glsl */ `
+      #include <clipping_planes_pars_vertex>
       varying vec3 view;
       void main() {
-        vec4 place = modelViewMatrix * vec4(position, 1.0);
-        view = place.xyz;
-        gl_Position = projectionMatrix * place;
+        vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+        view = mvPosition.xyz;
+        gl_Position = projectionMatrix * mvPosition;
+        #include <clipping_planes_vertex>
       }`,
     fragmentShader: /* glsl */ `
+      #include <clipping_planes_pars_fragment>
       uniform vec3 surfaceColor;
       varying vec3 view;
       void main() {
+        #include <clipping_planes_fragment>
         vec3 n = normalize(cross(dFdx(view), dFdy(view)));
         gl_FragColor = vec4(surfaceColor * (0.65 + 0.35 * abs(n.z)), 1.0);
       }`,

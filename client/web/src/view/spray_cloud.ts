@@ -6,7 +6,7 @@ import { spriteMaterial } from './sprites';
 import { pictureLayer } from './thickness_pass';
 
 export class SprayCloud {
-  private readonly material = spriteMaterial();
+  readonly material = spriteMaterial();
   readonly points = new Points(new BufferGeometry(), this.material);
   private current: Float32Array | undefined;
 

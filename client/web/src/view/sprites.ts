@@ -9,16 +9,22 @@ export type SpriteMaterial = ShaderMaterial & {
 export function spriteMaterial(): SpriteMaterial {
   return new ShaderMaterial({
     uniforms: { radius: { value: 0 }, screenHeight: { value: 1 } },
+    clipping: true,
     vertexShader: /* glsl */ `
+      #include <clipping_planes_pars_vertex>
       uniform float radius;
       uniform float screenHeight;
       attribute float level;
       void main() {
-        gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+        vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+        gl_Position = projectionMatrix * mvPosition;
         gl_PointSize = max(2.0, radius * exp2(level) * projectionMatrix[1][1] * screenHeight / gl_Position.w);
+        #include <clipping_planes_vertex>
       }`,
     fragmentShader: /* glsl */ `
+      #include <clipping_planes_pars_fragment>
       void main() {
+        #include <clipping_planes_fragment>
         vec2 across = 2.0 * gl_PointCoord - 1.0;
         float r2 = dot(across, across);
         if (r2 > 1.0) discard;

@@ -1,5 +1,5 @@
 // How much water the sun's light has come through: what darkens the floor below the water and colors it.
-import { Matrix4, OrthographicCamera, type Scene, type WebGLRenderer } from 'three';
+import { Matrix4, OrthographicCamera, type Plane, type Scene, type WebGLRenderer } from 'three';
 import type { EnvironmentUniforms } from './environment';
 import { ThicknessPass } from './thickness_pass';
 
@@ -12,8 +12,11 @@ export class Sunlight {
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, 0, 2);
   private readonly toTexture = new Matrix4().makeScale(0.5, 0.5, 0.5).setPosition(0.5, 0.5, 0.5);
 
-  constructor(private readonly environment: EnvironmentUniforms) {
-    this.pass = new ThicknessPass(environment);
+  constructor(
+    private readonly environment: EnvironmentUniforms,
+    clippingPlanes: Plane[],
+  ) {
+    this.pass = new ThicknessPass(environment, clippingPlanes);
     this.pass.setSize(pixels, pixels);
     environment.sunThickness.value = this.pass.texture;
   }

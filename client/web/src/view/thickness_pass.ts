@@ -1,5 +1,6 @@
 // How much water lies behind each pixel. The mesh is closed, so the distances of its back faces less those of its front faces add up to the
-// exact way of the ray through it: one pass of additive blending.
+// exact way of the ray through it: one pass of additive blending. Of water that is cut the face of the cut is not drawn; it is as if it were, where
+// every distance is less that of the plane.
 import {
   AddEquation,
   CustomBlending,
@@ -11,6 +12,7 @@ import {
   ShaderMaterial,
   WebGLRenderTarget,
   type Camera,
+  type Plane,
   type Scene,
   type Texture,
   type WebGLRenderer,
@@ -26,7 +28,8 @@ export class ThicknessPass {
   private readonly target: WebGLRenderTarget;
   private readonly material: ShaderMaterial;
 
-  constructor(environment: EnvironmentUniforms) {
+  /** clippingPlanes: none, or that of the cut. */
+  constructor(environment: EnvironmentUniforms, clippingPlanes: Plane[]) {
     this.target = new WebGLRenderTarget(1, 1, {
       format: RedFormat,
       type: HalfFloatType,
@@ -36,6 +39,8 @@ export class ThicknessPass {
     });
     this.material = new ShaderMaterial({
       uniforms: { sceneSize: environment.sceneSize },
+      clipping: true,
+      clippingPlanes,
       side: DoubleSide,
       depthTest: false,
       depthWrite: false,
@@ -44,19 +49,31 @@ export class ThicknessPass {
       blendSrc: OneFactor,
       blendDst: OneFactor,
       vertexShader: /* glsl */ `
+        #include <clipping_planes_pars_vertex>
         varying vec3 fromCamera;
         void main() {
-          vec4 view = modelViewMatrix * vec4(position, 1.0);
-          fromCamera = view.xyz;
-          gl_Position = projectionMatrix * view;
+          vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+          fromCamera = mvPosition.xyz;
+          gl_Position = projectionMatrix * mvPosition;
+          #include <clipping_planes_vertex>
         }`,
       fragmentShader: /* glsl */ `
+        #include <clipping_planes_pars_fragment>
         uniform float sceneSize;
         varying vec3 fromCamera;
         void main() {
+          #include <clipping_planes_fragment>
           float distance = (isOrthographic ? -fromCamera.z : length(fromCamera)) / sceneSize;
           // What all distances have in common cancels, and would only cost digits; not where the camera may be in the water.
-          distance -= max(length(viewMatrix[3].xyz) / sceneSize - 0.5, 0.0);
+          float nearest = max(length(viewMatrix[3].xyz) / sceneSize - 0.5, 0.0);
+          #if NUM_CLIPPING_PLANES > 0
+            // Where the plane is crossed outside of the water, what is taken off cancels again, and too much of it would only cost digits.
+            vec4 cut = clippingPlanes[0];
+            float crossing = isOrthographic ? (dot(cut.xy, fromCamera.xy) + cut.w) / cut.z : -cut.w / dot(cut.xyz, normalize(fromCamera));
+            crossing /= sceneSize;
+            if (crossing > nearest && crossing < nearest + 2.0) nearest = crossing;
+          #endif
+          distance -= nearest;
           gl_FragColor = vec4(gl_FrontFacing ? -distance : distance, 0.0, 0.0, 1.0);
         }`,
     });

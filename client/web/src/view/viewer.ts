@@ -1,20 +1,24 @@
 // The picture: scene, camera and looks. Drawn when something has changed, not otherwise.
-import { Scene, Vector3, WebGLRenderer } from 'three';
+import { Scene, Vector3, WebGLRenderer, type PerspectiveCamera, type Plane } from 'three';
 import type { Shown } from '../bricks/brick_store';
 import type { Frame } from '../bricks/frame';
 import type { Particles } from '../particles/particles';
 import { Background } from './background';
-import { center, contains, corners, size, union, worldBox, type Point, type WorldBox } from './bounds';
+import { center, contains, corners, size, union, unionOf, worldBox, type Point, type WorldBox } from './bounds';
 import { BrickMeshes } from './brick_meshes';
 import { CameraControls } from './camera_controls';
+import { cutPlane, type Cut } from './cut';
+import { CutFace } from './cut_face';
+import { DomainBox } from './domain_box';
 import { environmentUniforms, setTheme, type Theme } from './environment';
 import { distanceToSee, putInTheMiddle, type Margins } from './fit';
 import { levelLineMaterials, levelSurfaceMaterial } from './level_materials';
 import { ParticleCloud } from './particle_cloud';
+import { pick, type Pick } from './pick';
 import { SprayCloud } from './spray_cloud';
 import { Sunlight } from './sunlight';
 import { pictureLayer, ThicknessPass, waterLayer } from './thickness_pass';
-import { toScene, toWorld, turnUp, type UpAxis } from './up_axis';
+import { alongAxis, toScene, toWorld, turnUp, type Axis, type UpAxis } from './up_axis';
 import { waterMaterial } from './water_material';
 
 export type Look = 'water' | 'levels';
@@ -25,6 +29,8 @@ export interface CameraPlace {
 }
 
 export interface ViewerEvents {
+  /** A picture has been drawn, of a frame or of nothing. The canvas can be read until this returns. */
+  rendered(): void;
   /** A picture of the frame has been drawn, with so many triangles, or with particles. */
   drawn(frame: Frame, triangles: number, particles: Particles | undefined): void;
   moving(moving: boolean): void;
@@ -44,22 +50,33 @@ export class Viewer {
   private readonly water = waterMaterial(this.environment);
   private readonly levelSurface = levelSurfaceMaterial();
   private readonly background = new Background(this.environment);
-  private readonly thickness = new ThicknessPass(this.environment);
-  private readonly sunlight = new Sunlight(this.environment);
-  private readonly bricks = new BrickMeshes(this.water, levelLineMaterials());
+  /** One while something is cut away; materials share the array. */
+  private readonly cutPlanes: Plane[] = [];
+  private readonly cutFace = new CutFace(this.cutPlanes);
+  private readonly thickness = new ThicknessPass(this.environment, this.cutPlanes);
+  private readonly sunlight = new Sunlight(this.environment, this.cutPlanes);
+  private readonly levelLines = levelLineMaterials();
+  private readonly bricks = new BrickMeshes(this.water, this.levelLines);
   private readonly particles = new ParticleCloud();
   private readonly spray = new SprayCloud();
+  private readonly domainBox = new DomainBox();
   readonly controls: CameraControls;
   /** What the scene's coordinates are relative to, so that they stay small wherever the water is. */
   private origin: Point = [0, 0, 0];
   private shown: Shown | undefined;
   private look: Look = 'water';
   private up: UpAxis = 'y';
+  private cut: Cut | undefined;
+  private domain: WorldBox | undefined;
+  /** What is to be in view with the mesh. */
+  private beside: WorldBox | undefined;
   private scheduled = false;
   /** Since the last picture. */
   private waterChanged = true;
   /** What the camera was placed to show, until a person moves it. */
   private following: WorldBox | undefined;
+  /** From there to the camera, in the scene. */
+  private direction = fitDirection;
 
   /** Throws if there is no WebGL 2. */
   constructor(
@@ -68,12 +85,20 @@ export class Viewer {
     private readonly covered: () => Margins,
     private readonly events: ViewerEvents,
   ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, stencil: true, powerPreference: 'high-performance' });
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
     this.water.uniforms.thickness.value = this.thickness.texture;
     this.scene.add(this.background.mesh, this.bricks.group);
-    this.bricks.group.add(this.particles.points, this.spray.points);
+    this.bricks.group.add(this.particles.points, this.spray.points, this.domainBox.lines);
+    for (const material of [
+      this.water,
+      this.levelSurface,
+      ...this.levelLines,
+      this.particles.material,
+      this.spray.material,
+    ])
+      material.clippingPlanes = this.cutPlanes;
     this.background.mesh.layers.set(pictureLayer);
     this.controls = new CameraControls(canvas, {
       changed: () => {
@@ -102,6 +127,7 @@ export class Viewer {
   clear(): void {
     this.shown = undefined;
     this.following = undefined;
+    this.beside = undefined;
     this.bricks.clear();
     this.showSpray();
     this.waterChanged = true;
@@ -119,8 +145,19 @@ export class Viewer {
     else this.bricks.show(shown, this.origin);
     this.showSpray();
     this.waterChanged = true;
-    if (box && this.following && !contains(this.following, box)) this.lookAt(union(this.following, box));
+    this.follow(box);
     this.draw();
+  }
+
+  /** What else is to be in view wherever all of the mesh is. */
+  setBeside(box: WorldBox | undefined): void {
+    this.beside = box;
+    this.setReach();
+    this.follow(box);
+  }
+
+  private follow(box: WorldBox | undefined): void {
+    if (box && this.following && !contains(this.following, box)) this.lookAt(union(this.following, box));
   }
 
   /** In place of the surface; its wires stay. None: the surface again. */
@@ -144,19 +181,106 @@ export class Viewer {
   setTheme(theme: Theme): void {
     setTheme(this.environment, theme);
     this.levelSurface.uniforms.surfaceColor!.value = theme === 'light' ? [0.93, 0.94, 0.95] : [0.1, 0.12, 0.14];
+    this.cutFace.setTheme(theme);
+    this.domainBox.setTheme(theme);
     this.draw();
   }
 
+  /** The camera stays where it is, unless it follows the mesh. */
   setUp(up: UpAxis): void {
     if (up === this.up) return;
+    const { cameraPlace, following } = this;
     this.up = up;
     turnUp(this.bricks.group, up);
-    this.fit();
+    this.adopt(this.box);
+    if (following) this.fit();
+    else this.cameraPlace = cameraPlace;
+  }
+
+  /** Takes away what lies on one side of a plane; none: nothing. */
+  setCut(cut: Cut | undefined): void {
+    if (cut === this.cut) return;
+    this.cut = cut;
+    this.placeInScene();
+    this.draw();
+  }
+
+  /** Drawn as a box; none: nothing. */
+  setDomain(domain: WorldBox | undefined): void {
+    this.domain = domain;
+    this.placeInScene();
+    this.draw();
+  }
+
+  /** As another viewer shows its mesh: from the same place, with the same look, cut alike. */
+  mirror(other: Viewer): void {
+    if (other.look !== this.look) this.setLook(other.look);
+    this.setUp(other.up);
+    this.setCut(other.cut);
+    this.beside = other.box;
+    this.setReach();
+    this.mirrorCamera(other);
+  }
+
+  mirrorCamera(other: Viewer): void {
+    if (!samePlace(this.cameraPlace, other.cameraPlace)) this.cameraPlace = other.cameraPlace;
+  }
+
+  /** Around the mesh that is shown; none if there is none. */
+  get box(): WorldBox | undefined {
+    return this.shown && worldBox(this.shown);
+  }
+
+  get upAxis(): UpAxis {
+    return this.up;
+  }
+
+  /** Of the scene, whose coordinates inScene() gives. */
+  get camera(): PerspectiveCamera {
+    return this.controls.camera;
+  }
+
+  /** From the camera to what it turns about, world units. */
+  get viewDistance(): number {
+    return this.camera.position.distanceTo(this.controls.target);
+  }
+
+  /** Where what the camera turns about is seen, CSS pixels of the canvas. */
+  get middle(): readonly [number, number] {
+    const { x, y } = this.controls.target.clone().project(this.camera);
+    return [((x + 1) / 2) * this.canvas.clientWidth, ((1 - y) / 2) * this.canvas.clientHeight];
+  }
+
+  /** The point of the water that is seen there, CSS pixels of the canvas; none where there is no water, or its particles in place of it. */
+  pick(x: number, y: number): Pick | undefined {
+    if (!this.shown || this.particles.shown) return undefined;
+    const { clientWidth, clientHeight } = this.canvas;
+    const far = new Vector3((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight, 0.5).unproject(this.camera);
+    const direction = far.sub(this.camera.position).normalize();
+    return pick(
+      this.shown,
+      { origin: this.inWorld(this.camera.position), direction: toWorld(direction, [0, 0, 0], this.up) },
+      this.cut,
+    );
   }
 
   /** Looks at all of the mesh, also as it spreads, until a person moves the camera. */
   fit(): void {
-    const box = this.shown && worldBox(this.shown);
+    this.lookFrom(fitDirection);
+  }
+
+  /** The same, along an axis: from its positive end; from there, from its negative one. */
+  lookAlong(axis: Axis): void {
+    const direction = toScene(alongAxis(axis), [0, 0, 0], this.up);
+    if (this.following && this.direction.dot(direction) > 0.99) direction.negate();
+    // Straight up and down there is no telling what is right and left.
+    if (direction.y !== 0) direction.z += 1e-3;
+    this.lookFrom(direction.normalize());
+  }
+
+  private lookFrom(direction: Vector3): void {
+    this.direction = direction;
+    const box = unionOf([this.box, this.beside]);
     if (box) this.lookAt(box);
   }
 
@@ -171,8 +295,8 @@ export class Viewer {
       height: Math.max(0.2, 1 - (margins.top + margins.bottom) / height),
     };
     const seen = corners(box).map((corner) => this.inScene(corner).sub(target));
-    const distance = distanceToSee(seen, fitDirection, this.controls.camera, free);
-    this.controls.place(target.clone().addScaledVector(fitDirection, distance), target);
+    const distance = distanceToSee(seen, this.direction, this.controls.camera, free);
+    this.controls.place(target.clone().addScaledVector(this.direction, distance), target);
     this.draw();
   }
 
@@ -194,15 +318,27 @@ export class Viewer {
     this.bricks.show(this.shown, this.origin);
     this.particles.moveTo(this.origin);
     this.showSpray();
-    this.waterChanged = true;
+    this.placeInScene();
     this.controls.place(this.inScene(position), this.inScene(target));
     this.environment.sceneSize.value = size(box);
-    this.controls.setReach(size(box));
+    this.setReach();
     // Under the lowest corner, whichever axis is up.
     this.environment.floorCenter.value.set(0, this.inScene(box.min).y, 0);
   }
 
-  private inScene(point: Point): Vector3 {
+  private setReach(): void {
+    const box = unionOf([this.box, this.beside]);
+    if (box) this.controls.setReach(size(box));
+  }
+
+  /** What depends on where the scene's origin lies and which axis is up. */
+  private placeInScene(): void {
+    this.cutPlanes.splice(0, 1, ...(this.cut ? [cutPlane(this.cut, this.origin, this.up)] : []));
+    this.domainBox.show(this.domain, this.origin);
+    this.waterChanged = true;
+  }
+
+  inScene(point: Point): Vector3 {
     return toScene(point, this.origin, this.up);
   }
 
@@ -226,7 +362,8 @@ export class Viewer {
     this.render();
   }
 
-  private draw(): void {
+  /** With the next picture of the browser. */
+  draw(): void {
     if (this.scheduled) return;
     this.scheduled = true;
     requestAnimationFrame(() => {
@@ -235,8 +372,11 @@ export class Viewer {
     });
   }
 
-  private render(): void {
+  /** At once. */
+  render(): void {
     const { camera } = this.controls;
+    const cut = this.cutPlanes.length > 0;
+    this.renderer.localClippingEnabled = cut;
     camera.updateMatrixWorld();
     this.background.update(camera);
     if (this.waterChanged) this.sunlight.render(this.renderer, this.scene);
@@ -248,6 +388,15 @@ export class Viewer {
     if (!surface) camera.layers.disable(waterLayer);
     this.renderer.render(this.scene, camera);
     camera.layers.enable(waterLayer);
-    if (this.shown) this.events.drawn(this.shown.frame, this.renderer.info.render.triangles - 1, this.particles.shown);
+    const { triangles } = this.renderer.info.render;
+    if (cut && surface) this.cutFace.render(this.renderer, this.scene, camera, this.environment.sceneSize.value);
+    this.events.rendered();
+    if (this.shown) this.events.drawn(this.shown.frame, triangles - 1, this.particles.shown);
   }
+}
+
+/** Up to what the way through the scene's coordinates costs. */
+function samePlace(a: CameraPlace, b: CameraPlace): boolean {
+  const apart = (p: Point, q: Point): number => Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  return apart(a.position, b.position) + apart(a.target, b.target) <= 1e-6 * apart(a.position, a.target);
 }

@@ -17,7 +17,9 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
   };
   const material = new ShaderMaterial({
     uniforms: { ...environment, ...water },
+    clipping: true,
     vertexShader: /* glsl */ `
+      #include <clipping_planes_pars_vertex>
       varying vec3 place;
       varying vec3 outward;
       void main() {
@@ -25,10 +27,13 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
         place = world.xyz;
         // Bricks are scaled alike on all axes.
         outward = mat3(modelMatrix) * normal;
-        gl_Position = projectionMatrix * viewMatrix * world;
+        vec4 mvPosition = viewMatrix * world;
+        gl_Position = projectionMatrix * mvPosition;
+        #include <clipping_planes_vertex>
       }`,
     fragmentShader: /* glsl */ `
       ${environmentGlsl}
+      #include <clipping_planes_pars_fragment>
       uniform sampler2D thickness;
       uniform vec2 screenSize;
       uniform bool hasNormals;
@@ -49,6 +54,7 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
       }
 
       void main() {
+        #include <clipping_planes_fragment>
         vec3 v = normalize(cameraPosition - place);
         vec3 n = normalize(hasNormals ? outward : cross(dFdx(place), dFdy(place)));
         if (dot(n, v) < 0.0) n = normalize(n - 1.02 * dot(n, v) * v);
@@ -61,10 +67,11 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
         float lit = 0.5 + 0.5 * dot(n, sunDirection);
         vec3 scattered = vec3(0.008, 0.066, 0.115) * (1.0 - exp(-9.0 * depth)) * (0.2 + 0.7 * horizonColor + 0.25 * lit * lit * sunColor);
 
-        // Where the ray leaves the water it is bent again, on the whole halfway back.
+        // Where the ray leaves the water it is bent again, on the whole halfway back. The water shows the floor without its lines: bent by every
+        // ripple, they would look like cracks in the mesh.
         vec3 bent = refract(-v, n, indexRatio);
-        vec3 through = environment(place + bent * depth * sceneSize, normalize(bent - v)) * absorbed + scattered;
-        vec3 mirrored = environment(place, reflect(-v, n));
+        vec3 through = environment(place + bent * depth * sceneSize, normalize(bent - v), false) * absorbed + scattered;
+        vec3 mirrored = environment(place, reflect(-v, n), false);
         vec3 color = mix(through, mirrored, fresnel) + sunColor * fresnel * sunHighlight(n, v);
         gl_FragColor = vec4(displayed(color), 1.0);
       }`,

@@ -1,0 +1,77 @@
+// A video of what is drawn, as it is drawn.
+import type { Picture, PicturePane } from './picture';
+
+const types = ['video/webm;codecs=vp9', 'video/webm', 'video/mp4'];
+
+/** Why there is no video, for people; undefined where there can be one. */
+export function whyNoRecorder(scope: { MediaRecorder?: unknown }): string | undefined {
+  return scope.MediaRecorder === undefined
+    ? 'This browser cannot record videos (it has no MediaRecorder). Another one may.'
+    : undefined;
+}
+
+export interface RecordedVideo {
+  readonly bytes: Uint8Array;
+  readonly type: string;
+}
+
+export class LiveVideo {
+  private readonly recorder: MediaRecorder;
+  private readonly parts: Blob[] = [];
+
+  /** Begins at once. failed: nothing follows. */
+  constructor(
+    private readonly picture: Picture,
+    failed: (reason: string) => void,
+  ) {
+    const mimeType = types.find((type) => MediaRecorder.isTypeSupported(type));
+    this.recorder = new MediaRecorder(picture.canvas.captureStream(), {
+      ...(mimeType ? { mimeType } : {}),
+      videoBitsPerSecond: 6 * picture.canvas.width * picture.canvas.height,
+    });
+    this.recorder.addEventListener('dataavailable', ({ data }) => {
+      this.parts.push(data);
+    });
+    this.recorder.addEventListener('error', () => {
+      failed('The browser has stopped recording the video.');
+    });
+    this.recorder.start(1000);
+    // A canvas gives its stream what is drawn from now on.
+    picture.takeAll();
+  }
+
+  /** One that has just been drawn. */
+  take(pane: PicturePane): void {
+    this.picture.take(pane);
+  }
+
+  /** What is on the screen now. */
+  takeAll(): void {
+    this.picture.takeAll();
+  }
+
+  /** Throws if nothing has been recorded. */
+  async stop(): Promise<RecordedVideo> {
+    const stopped = new Promise((resolve) => {
+      this.recorder.addEventListener('stop', resolve, { once: true });
+    });
+    await twoPictures();
+    this.recorder.stop();
+    await stopped;
+    const type = this.recorder.mimeType.replace(/;.*/, '');
+    const bytes = new Uint8Array(await new Blob(this.parts).arrayBuffer());
+    if (bytes.length === 0) throw new Error('The video is empty: the browser has recorded no picture.');
+    return { bytes, type };
+  }
+}
+
+/** Of the browser: what was drawn before is in the stream by then. */
+function twoPictures(): Promise<void> {
+  return new Promise((resolve) => {
+    requestAnimationFrame(() => {
+      requestAnimationFrame(() => {
+        resolve();
+      });
+    });
+  });
+}

@@ -1,0 +1,40 @@
+// Tells what is under the pointer.
+import { element } from '../ui/page';
+import { placeText } from '../ui/texts';
+import type { Point } from '../view/bounds';
+import type { Pick } from '../view/pick';
+
+export class Probe {
+  private readonly button = element('probe', HTMLButtonElement);
+  private on = false;
+  private at: Point | undefined;
+
+  get active(): boolean {
+    return this.on;
+  }
+
+  /** World units; none where there is no water. */
+  get place(): Point | undefined {
+    return this.at;
+  }
+
+  setActive(on: boolean): void {
+    this.on = on;
+    this.button.setAttribute('aria-pressed', String(on));
+    element('probe-panel', HTMLElement).hidden = !on;
+    this.at = undefined;
+    this.write('Point at the water', '–');
+  }
+
+  /** picked: none where there is no water. */
+  show(picked: Pick | undefined, unit: string, decimals: number): void {
+    this.at = picked?.place;
+    if (picked) this.write(placeText(picked.place, unit, decimals), picked.level ?? 'inside, on the cut');
+    else this.write('no water there', '–');
+  }
+
+  private write(place: string, level: string): void {
+    element('probe-place', HTMLElement).textContent = place;
+    element('probe-level', HTMLElement).textContent = level;
+  }
+}

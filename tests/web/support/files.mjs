@@ -1,0 +1,50 @@
+// What the viewer saves.
+import { readFileSync } from 'node:fs';
+
+/** Its bytes and its name. */
+export async function save(page, button) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
+  return { bytes: readFileSync(await download.path()), name: download.suggestedFilename() };
+}
+
+/** Of a PNG: its size, and the colors at some places, parts of its width and height. */
+export async function readPng(page, bytes, places) {
+  return page.evaluate(
+    async ([base64, at]) => {
+      const blob = new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' });
+      const image = await createImageBitmap(blob);
+      const context = new OffscreenCanvas(image.width, image.height).getContext('2d', {
+        willReadFrequently: true,
+      });
+      context.drawImage(image, 0, 0);
+      const colors = at.map(([x, y]) => [
+        ...context.getImageData(Math.floor(x * image.width), Math.floor(y * image.height), 1, 1).data,
+      ]);
+      return { width: image.width, height: image.height, colors };
+    },
+    [bytes.toString('base64'), places],
+  );
+}
+
+/** Of a video: its size, its seconds, and that its middle can be sought. page: a blank one, since the viewer's policy lets no video in. */
+export async function readVideo(page, bytes) {
+  return page.evaluate(async (base64) => {
+    const video = document.createElement('video');
+    video.muted = true;
+    const event = (name) =>
+      new Promise((resolve, reject) => {
+        video.addEventListener(name, resolve, { once: true });
+        video.addEventListener('error', () => reject(new Error(video.error.message)), { once: true });
+      });
+    const loaded = event('loadeddata');
+    video.src = `data:video/webm;base64,${base64}`;
+    await loaded;
+    const { videoWidth: width, videoHeight: height, duration: seconds } = video;
+    if (Number.isFinite(seconds)) {
+      const sought = event('seeked');
+      video.currentTime = seconds / 2;
+      await sought;
+    }
+    return { width, height, seconds };
+  }, bytes.toString('base64'));
+}
