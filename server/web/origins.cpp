@@ -57,7 +57,8 @@ bool is_authority(std::string_view authority) {
     }
     if (bracket != 0) return host.ends_with(']') && is_address(std::string(host.substr(1, host.size() - 2)));
     return !host.empty() && std::ranges::all_of(host, [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+               c == '.';
     });
 }
 
