@@ -13,6 +13,7 @@
 #include "meniscus/memory.hpp"
 #include "pipeline/backend.hpp"
 #include "processor.hpp"
+#include "warnings.hpp"
 
 namespace meniscus {
 namespace {
@@ -100,9 +101,11 @@ public:
     DeviceMesh reconstruct_on_device(const ParticleFrame& frame) {
         begin(frame);
         DeviceMesh mesh;
-        measure(frame, [&] { mesh = backend_->reconstruct_on_device(frame, statistics_); });
-        statistics_.vertices = mesh.vertex_count;
-        count(mesh.triangle_count, mesh.levels);
+        measure(frame, [&] {
+            mesh = backend_->reconstruct_on_device(frame, statistics_);
+            count(mesh.vertex_count, mesh.triangle_count, mesh.levels);
+            warn(frame);
+        });
         return mesh;
     }
 
@@ -140,16 +143,18 @@ private:
         begin(frame);
         adopt(mesh);
         try {
-            measure(frame, call);
+            measure(frame, [&] {
+                call();
+                count(mesh.vertices.size(), mesh.triangles.size(), mesh.levels);
+                warn(frame);
+            });
         } catch (...) {
             mesh = {};
             throw;
         }
-        statistics_.vertices = mesh.vertices.size();
-        count(mesh.triangles.size(), mesh.levels);
     }
 
-    /// Times a call to the backend, and counts memory.
+    /// Times a call to the backend with what follows from its result, and counts memory.
     template <class Call>
     void measure(const ParticleFrame& frame, const Call& call) {
         const auto allocations = [&] { return account_->allocations() + device_account_->allocations(); };
@@ -174,7 +179,15 @@ private:
         statistics_.allocations = allocations() - before;
     }
 
-    void count(std::size_t triangles, const std::array<TriangleRange, triangle_level_count>& levels) {
+    /// Of the frame just reconstructed, whose triangles are counted.
+    void warn(const ParticleFrame& frame) {
+        find_warnings(
+            frame, settings_, [this] { return backend_->greatest_sample(); }, statistics_);
+    }
+
+    void count(std::size_t vertices, std::size_t triangles,
+               const std::array<TriangleRange, triangle_level_count>& levels) {
+        statistics_.vertices = vertices;
         statistics_.triangles = triangles;
         for (std::size_t level = 0; level < triangle_level_count; ++level)
             statistics_.triangles_by_level[level] = levels[level].count;

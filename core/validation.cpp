@@ -127,7 +127,7 @@ void validate(const Settings& s) {
     if (s.domain) require_box("domain", *s.domain, false);
 }
 
-void validate(const ParticleFrame& frame, const Settings& settings) {
+void validate_lengths(const ParticleFrame& frame) {
     if (!frame.positions.empty() && !frame.quantized.empty())
         throw InvalidInput("the frame has both float and quantized positions, must have one of them");
     const std::size_t numbers = frame.is_quantized() ? frame.quantized.size() : frame.positions.size();
@@ -140,13 +140,6 @@ void validate(const ParticleFrame& frame, const Settings& settings) {
     if (!frame.levels.empty() && frame.levels.size() != count)
         throw InvalidInput("the frame has " + std::to_string(frame.levels.size()) + " levels for " +
                            std::to_string(count) + " particles, must have one each or none");
-    if (!frame.levels.empty()) {
-        const auto coarsest = std::max_element(frame.levels.begin(), frame.levels.end());
-        if (*coarsest > max_particle_level)
-            throw InvalidInput("particle " + std::to_string(coarsest - frame.levels.begin()) + " has level " +
-                               std::to_string(*coarsest) + ", must be 0 to " + std::to_string(max_particle_level));
-        require_support(settings, *coarsest);
-    }
     if (frame.arrays.size() > max_particle_arrays)
         throw LimitExceeded("the frame has " + std::to_string(frame.arrays.size()) + " arrays, at most " +
                             std::to_string(max_particle_arrays) + " are possible: leave some out");
@@ -157,6 +150,17 @@ void validate(const ParticleFrame& frame, const Settings& settings) {
             throw InvalidInput("array '" + std::string(array.name) + "' has " + std::to_string(array.data.size()) +
                                " bytes, must have " + std::to_string(array.element_bytes) + " for each of " +
                                std::to_string(count) + " particles");
+    }
+}
+
+void validate(const ParticleFrame& frame, const Settings& settings) {
+    validate_lengths(frame);
+    if (!frame.levels.empty()) {
+        const auto coarsest = std::max_element(frame.levels.begin(), frame.levels.end());
+        if (*coarsest > max_particle_level)
+            throw InvalidInput("particle " + std::to_string(coarsest - frame.levels.begin()) + " has level " +
+                               std::to_string(*coarsest) + ", must be 0 to " + std::to_string(max_particle_level));
+        require_support(settings, *coarsest);
     }
     const double limit = static_cast<double>(max_cell) * world_cell_size(settings);
     if (frame.is_quantized()) {
@@ -169,7 +173,7 @@ void validate(const ParticleFrame& frame, const Settings& settings) {
                                    " that this cell size can address");
         return;
     }
-    for (std::size_t i = 0; i < numbers; ++i) {
+    for (std::size_t i = 0; i < frame.positions.size(); ++i) {
         const double p = static_cast<double>(frame.positions[i]);
         // Also false for a NaN.
         if (std::abs(p) <= limit) continue;

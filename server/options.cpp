@@ -13,6 +13,7 @@
 #include <string>
 #include <system_error>
 
+#include "address/loopback.hpp"
 #include "available_memory.hpp"
 #include "meniscus/names.hpp"
 #include "meniscus/reconstructor.hpp"
@@ -84,6 +85,26 @@ CLI::Validator seconds_up_to(double most) {
             "", "seconds"};
 }
 
+/// For an address that may be none.
+constexpr const char* off = "off";
+
+/// So that a file with an empty value, and what --print-config makes of it, mean the same.
+CLI::Validator off_for_nothing() {
+    return {[](std::string& text) -> std::string {
+                if (text.empty()) text = off;
+                return "";
+            },
+            "", "off for nothing"};
+}
+
+/// The viewer of who tries a server out on one machine. Empty where others could reach it, or where nobody asked for
+/// TCP.
+std::string default_http(const std::string& listen) {
+    constexpr const char* port = ":9464";
+    if (listen.starts_with("unix:") || !address::is_loopback(listen)) return {};
+    return listen.substr(0, listen.rfind(':')) + port;
+}
+
 /// A line for each; of a message its first line: CLI11 adds a hint on a second one.
 EarlyExit refuse(const std::vector<std::string>& problems) {
     EarlyExit exit{.text = {}, .code = 2};
@@ -108,6 +129,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     double idle_buffers_seconds = 60.0;
     server.limits.total_bytes = default_memory_limit();
     OwnShares shares;
+    double max_age_seconds = 0.0;
     double grace_seconds = std::chrono::duration<double>(server.shutdown_grace).count();
 
     CLI::App app{"meniscusd: adaptive surfaces of simulated fluid particles, live, over gRPC", "meniscusd"};
@@ -134,8 +156,14 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
                    "Lines ROLE NAME TOKEN, the role being uploader, watcher or admin: calls need one of these tokens")
         ->type_name("FILE");
     app.add_flag("--insecure", server.insecure, "Let other machines connect without TLS, also to --http");
-    app.add_option("--http", server.http,
-                   "HOST:PORT (port 0: a free one, which is logged) of the viewer, /metrics, /healthz and /readyz");
+    const CLI::Option* http =
+        app.add_option("--http", server.http,
+                       "HOST:PORT (port 0: a free one, which is logged) of the viewer, /metrics, /healthz and /readyz; "
+                       "off: none. Default: where --listen is TCP on loopback, its port 9464, or a free one where that "
+                       "is taken; otherwise off")
+            ->transform(off_for_nothing())
+            ->type_name("HOST:PORT")
+            ->default_str("");
     app.add_option("--probes", server.probes,
                    "HOST:PORT of /metrics, /healthz and /readyz alone, always without TLS, also for other machines: "
                    "they tell numbers only");
@@ -290,6 +318,13 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->transform(CLI::AsSizeValue(false))
         ->transform(whole_number())
         ->type_name("BYTES");
+    app.add_option("--record-min-frames", server.recording.retention.min_frames,
+                   "A recording with fewer frames is deleted when it is closed; 0: none is")
+        ->check(whole_number());
+    app.add_option("--record-max-age", max_age_seconds,
+                   "Seconds after which a recording to which nothing more was written is deleted, as 2592000 for 30 "
+                   "days; 0: none is")
+        ->check(seconds_up_to(1e9));
     app.add_option_function<std::string>(
            "--log-level",
            [&](const std::string& name) { command_line.log_level = by_name<LogLevel>(name, "--log-level"); },
@@ -317,6 +352,12 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         const std::string message = error.what();
         return refuse({message.substr(0, message.find('\n')) + " (see meniscusd --help)"});
     }
+    if (http->count() == 0) {
+        server.http = default_http(server.listen);
+        server.http_is_default = true;
+    } else if (server.http == off) {
+        server.http.clear();
+    }
     if (print_config) return EarlyExit{.text = settings_file(app), .code = 0};
     server.limits.idle_time = milliseconds(idle_seconds);
     server.limits.reader_patience = milliseconds(reader_pause_seconds);
@@ -325,6 +366,7 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
     server.limits.orphan_time = milliseconds(orphan_seconds);
     server.limits.idle_buffers_time = milliseconds(idle_buffers_seconds);
     server.limits.per_name = shares.over(default_shares(server.limits));
+    server.recording.retention.max_age = milliseconds(max_age_seconds);
     server.shutdown_grace = milliseconds(grace_seconds);
     return std::nullopt;
 }

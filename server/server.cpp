@@ -26,10 +26,12 @@
 #include "metrics/session_gauges.hpp"
 #include "open_work.hpp"
 #include "recording/recording_reads.hpp"
+#include "recording/recording_tidying.hpp"
 #include "recording/recording_writer.hpp"
 #include "recording/session_recording.hpp"
 #include "rpc/call_counter.hpp"
 #include "rpc/health_service.hpp"
+#include "rpc/known_methods.hpp"
 #include "rpc/server_instance.hpp"
 #include "rpc/services.hpp"
 #include "security/access.hpp"
@@ -186,7 +188,8 @@ public:
 private:
     std::vector<prometheus::MetricFamily> metrics();
     void add_observation(Router& router);
-    void serve_http(const AllowedOrigins& origins);
+    std::unique_ptr<HttpServer> open_http(const std::string& listen, const AllowedOrigins& origins);
+    void serve_http_if_possible(const AllowedOrigins& origins);
     void serve_probes();
 
     const ServerOptions options_;
@@ -198,6 +201,7 @@ private:
     const std::unique_ptr<RecordingWriter> recordings_;  ///< none: nothing is recorded
     SessionRegistry registry_;
     const std::unique_ptr<RecordingReads> recording_reads_;  ///< none: nothing is recorded
+    const std::unique_ptr<RecordingTidying> tidying_;        ///< none: nothing is recorded
     ActiveCalls streams_;
     ActiveCalls receivers_;  ///< calls of watchers and readers
     Refusals refusals_;
@@ -228,6 +232,8 @@ Server::Impl::Impl(const ServerOptions& options)
                                                                       options.limits.recording_readers,
                                                                       options.limits.reader_patience)
                                    : nullptr),
+      tidying_(recording_reads_ ? std::make_unique<RecordingTidying>(*recording_reads_, options.recording.retention)
+                                : nullptr),
       refusals_(metrics_),
       server_service_(access_.authorizer(), refusals_, backend_, threads_or_processors(options.backend.threads),
                       limits_),
@@ -261,7 +267,10 @@ Server::Impl::Impl(const ServerOptions& options)
     check_ = std::make_unique<PortCheck>(port_.sockets(),
                                          options.tls.any() ? PortCheck::Protocol::tls : PortCheck::Protocol::http2,
                                          port_.own_connections());
-    if (!options.http.empty()) serve_http(origins);
+    if (options.http_is_default)
+        serve_http_if_possible(origins);
+    else if (!options.http.empty())
+        http_ = open_http(options.http, origins);
     if (!options.probes.empty()) serve_probes();
     spdlog::info("connections: {} to the gRPC port, {} to the HTTP port, of {} descriptors", shares_.grpc, shares_.http,
                  descriptor_limit());
@@ -304,7 +313,23 @@ void Server::Impl::shutdown() {
     probes_.reset();
 }
 
-void Server::Impl::serve_http(const AllowedOrigins& origins) {
+/// Of an address that nobody has asked for.
+void Server::Impl::serve_http_if_possible(const AllowedOrigins& origins) {
+    if (options_.http.empty()) return;
+    const std::string free_port = options_.http.substr(0, options_.http.rfind(':')) + ":0";
+    try {
+        try {
+            http_ = open_http(options_.http, origins);
+        } catch (const AddressUnavailable& taken) {
+            http_ = open_http(free_port, origins);
+            spdlog::info("{}: the viewer has another port (--http chooses one; --http off: none)", taken.what());
+        }
+    } catch (const std::exception& error) {
+        spdlog::warn("there is no viewer: {} (--http chooses an address; --http off: none)", error.what());
+    }
+}
+
+std::unique_ptr<HttpServer> Server::Impl::open_http(const std::string& listen, const AllowedOrigins& origins) {
     const std::shared_ptr<const TlsContext> tls = access_.http_tls();
     Router router;
     add_viewer_pages(router, FrameAncestors(options_.web_frame_ancestors));
@@ -312,13 +337,17 @@ void Server::Impl::serve_http(const AllowedOrigins& origins) {
     const GrpcWeb calls{.channel = grpc_->InProcessChannel({}),
                         .origins = origins,
                         .needs_certificate = tls && tls->mutual(),
-                        .refused = [metrics = metrics_](grpc::StatusCode code) { metrics->call_ended(name_of(code)); }};
+                        .refused = [metrics = metrics_](std::string_view target, grpc::StatusCode code) {
+                            const Metrics::Method& method = known_method(target);
+                            metrics->call_started(method);
+                            metrics->call_ended(method, metric_name_of(code), 0.0);
+                        }};
     HttpLimits limits;
     limits.connections = shares_.http;
     limits.streams = shares_.http * 3 / 4;
     limits.connections_per_peer = std::min<std::size_t>(options_.limits.connections_per_peer, shares_.http / 4);
-    http_ = std::make_unique<HttpServer>(options_.http, std::move(router), calls, limits, tls,
-                                         TrustedPeers(options_.trusted_proxies));
+    return std::make_unique<HttpServer>(listen, std::move(router), calls, limits, tls,
+                                        TrustedPeers(options_.trusted_proxies));
 }
 
 void Server::Impl::serve_probes() {

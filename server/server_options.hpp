@@ -18,10 +18,12 @@ struct ServerOptions {
     TlsFiles tls;                            ///< none: no TLS
     std::string tokens;                      ///< file of tokens; empty: every client may do everything
     bool insecure = false;                   ///< whether other machines may connect without TLS
-    std::string http;    ///< "HOST:PORT" for viewer, metrics and probes, port 0 for a free one; empty: none
-    std::string probes;  ///< "HOST:PORT" for metrics and probes alone, without TLS; empty: none
-    std::vector<std::string> trusted_proxies;      ///< addresses and networks without limits for each peer address
-    std::vector<std::string> web_origins;          ///< pages of other machines that may call over the HTTP port
+    std::string http;  ///< "HOST:PORT" for viewer, metrics and probes, port 0 for a free one; empty: none
+    /// Whether nobody has asked for that one: where it cannot be had, another port will do, or none.
+    bool http_is_default = false;
+    std::string probes;                        ///< "HOST:PORT" for metrics and probes alone, without TLS; empty: none
+    std::vector<std::string> trusted_proxies;  ///< addresses and networks without limits for each peer address
+    std::vector<std::string> web_origins;      ///< pages of other machines that may call over the HTTP port
     std::vector<std::string> web_frame_ancestors;  ///< pages that may show the viewer in a frame; empty: none
     StandardServices standard_services;
     BackendOptions backend;    ///< backend and threads alone; the rest comes from `limits` and `devices`

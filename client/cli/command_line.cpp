@@ -10,6 +10,7 @@
 #include <string>
 
 #include "cli/commands.hpp"
+#include "cli/warnings.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
 
@@ -48,6 +49,8 @@ int run(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
         return report(e.what(), bad_input);
+    } catch (const Warned&) {
+        return warned;
     } catch (const InvalidInput& e) {
         return report(e.what(), bad_input);
     } catch (const LimitExceeded& e) {

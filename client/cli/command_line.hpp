@@ -8,6 +8,7 @@ enum ExitCode : int {
     success = 0,
     failure = 1,    ///< an error that is not the caller's
     bad_input = 2,  ///< arguments, files, settings, or a server that is not there
+    warned = 3,     ///< there were warnings, and --strict
 };
 
 /// Runs `meniscus`. Every error is one line on stderr.

@@ -15,6 +15,7 @@
 #include "cli/quantized_positions.hpp"
 #include "cli/statistics_json.hpp"
 #include "cli/surfaces.hpp"
+#include "cli/warnings.hpp"
 #include "formats/atomic_file.hpp"
 #include "formats/particles.hpp"
 #include "formats/point_writer.hpp"
@@ -37,6 +38,7 @@ struct ReconstructOptions {
     unsigned repeat = 1;
     std::optional<std::uint64_t> start;
     std::optional<std::uint64_t> end;
+    bool strict = false;
 };
 
 /// The frames to read, checked before any work.
@@ -100,6 +102,8 @@ void reconstruct(const ReconstructOptions& options) {
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     std::vector<Statistics> runs;
     const bool interactive = isatty(STDERR_FILENO) != 0;
+    Warnings warnings(options.strict);
+    std::vector<FileWarning> files(input.count());  // each is there before its frame is submitted
 
     const auto handle = [&](const Surface& surface) {
         runs.push_back(surface.statistics());
@@ -108,14 +112,18 @@ void reconstruct(const ReconstructOptions& options) {
                       << " s\n";
         if (runs.size() < options.repeat) return;
         const std::uint64_t frame = input.start + surface.index() / options.repeat;
+        const FileWarning& file = files[frame - input.start];
         if (!options.out.empty()) write_surface(input.out.at(frame), surface);
         if (!options.spray_out.empty()) formats::write_points(input.spray_out.at(frame), surface.spray());
         if (!options.stats.empty()) {
             nlohmann::ordered_json figures;
             if (input.is_sequence()) figures["frame"] = frame;
             figures.update(to_json(runs, mesh_sha256(surface.mesh())));
+            if (file.faces != 0) figures["warnings"].push_back(to_json(file));
             frames.push_back(std::move(figures));
         }
+        if (file.faces != 0) warnings.say(input.in.at(frame).string(), file);
+        warnings.say(input.in.at(frame).string(), median_run(runs).warnings);
         if (input.is_sequence() || interactive) print_progress(input.in.at(frame).string(), median_run(runs));
         runs.clear();
     };
@@ -126,6 +134,7 @@ void reconstruct(const ReconstructOptions& options) {
     for (std::uint64_t i = 0; i < input.count(); ++i) {
         const std::filesystem::path path = input.in.at(input.start + i);
         const formats::Particles particles = formats::read_particles(path);
+        files[i] = {particles.faces, particles.count()};
         try {
             validate(particles.frame(), settings);
         } catch (const InvalidInput& e) {
@@ -138,9 +147,12 @@ void reconstruct(const ReconstructOptions& options) {
             surfaces->submit(quantized ? quantized->frame() : particles.frame(), 0.0);
     }
     surfaces->finish();
-    if (options.stats.empty()) return;
-    const nlohmann::ordered_json all = input.is_sequence() ? nlohmann::ordered_json{{"frames", frames}} : frames.at(0);
-    formats::write_file(options.stats, all.dump(2) + "\n");
+    if (!options.stats.empty()) {
+        const nlohmann::ordered_json all =
+            input.is_sequence() ? nlohmann::ordered_json{{"frames", frames}} : frames.at(0);
+        formats::write_file(options.stats, all.dump(2) + "\n");
+    }
+    warnings.finish();
 }
 
 }  // namespace
@@ -168,6 +180,7 @@ void add_reconstruct(CLI::App& app) {
         ->check(CLI::Range(1U, 1000000U))
         ->capture_default_str();
     command.add_option("--stats", options->stats, "Figures of each frame, as JSON");
+    add_strict_option(command, options->strict);
     command.callback([options] { reconstruct(*options); });
 }
 

@@ -1,10 +1,13 @@
 // meniscus recordings: the recordings in a folder, or on a server.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <ctime>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <system_error>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/options/server_flags.hpp"
@@ -76,6 +79,7 @@ void print(const nlohmann::ordered_json& recording) {
 
 struct RecordingsOptions {
     std::string folder;
+    std::vector<std::string> deleted;  ///< SESSION/NUMBER, as they are listed
     ServerFlags server;
     bool json = false;
     bool quick = false;
@@ -113,7 +117,37 @@ void list_of_server(const RecordingsOptions& options) {
     if (options.json) std::cout << nlohmann::ordered_json{{"recordings", all}}.dump(2) << '\n';
 }
 
+struct RecordingName {
+    std::string session_id;
+    std::uint32_t number = 0;
+};
+
+/// Throws InvalidInput for anything but SESSION/NUMBER.
+RecordingName named(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    RecordingName name{.session_id = text.substr(0, slash)};
+    const char* const end = text.data() + text.size();
+    const char* const digits = slash == std::string::npos ? end : text.data() + slash + 1;
+    const auto [rest, error] = std::from_chars(digits, end, name.number);
+    if (error != std::errc{} || rest != end || name.session_id.empty() || name.number == 0)
+        throw InvalidInput("--delete is \"" + text +
+                           "\"; it must be SESSION/NUMBER, as meniscus recordings --server lists them");
+    return name;
+}
+
+/// Those before one that the server refuses are gone.
+void delete_of_server(const RecordingsOptions& options) {
+    std::vector<RecordingName> names;
+    for (const std::string& text : options.deleted) names.push_back(named(text));
+    client::Client client = options.server.connect();
+    for (const RecordingName& name : names) {
+        client.delete_recording(name.session_id, name.number);
+        std::cout << "deleted " << name.session_id << '/' << name.number << '\n';
+    }
+}
+
 void list(const RecordingsOptions& options) {
+    if (!options.deleted.empty()) return delete_of_server(options);
     if (!options.server.address.empty()) return list_of_server(options);
     if (options.folder.empty()) throw InvalidInput("name a folder, or a server by --server");
 
@@ -140,7 +174,11 @@ void add_recordings(CLI::App& app) {
     auto options = std::make_shared<RecordingsOptions>();
     CLI::App& command = *app.add_subcommand("recordings", "List the recordings that meniscusd --record DIR has made");
     CLI::Option* folder = command.add_option("DIR", options->folder, "The folder, or one session's folder in it");
-    options->server.add_to(command, "List the recordings of this server instead")->excludes(folder);
+    CLI::Option* server =
+        options->server.add_to(command, "List the recordings of this server instead")->excludes(folder);
+    command.add_option("--delete", options->deleted, "Delete these recordings of the server, which must be at rest")
+        ->needs(server)
+        ->type_name("SESSION/NUMBER");
     command.add_flag("--json", options->json, "As JSON, with all settings");
     command.add_flag("--quick", options->quick, "Do not read the frames to verify their checksums");
     command.callback([options] { list(*options); });

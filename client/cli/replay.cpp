@@ -9,6 +9,7 @@
 #include "cli/options/server_flags.hpp"
 #include "cli/recording_files.hpp"
 #include "cli/replay_pace.hpp"
+#include "cli/warnings.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -22,12 +23,15 @@ struct ReplayOptions {
     std::string session;
     std::string speed = "1";
     bool loop = false;
+    bool strict = false;
 };
 
 /// Takes a stream's answers, on a thread of its own, until the stream ends.
 class Answers {
 public:
-    explicit Answers(client::Stream& stream) : stream_(stream), thread_([this] { take(); }) {}
+    /// warnings: used by that thread alone until finish() returns.
+    Answers(client::Stream& stream, Warnings& warnings)
+        : stream_(stream), warnings_(warnings), thread_([this] { take(); }) {}
     ~Answers() {
         if (thread_.joinable()) end();
     }
@@ -48,20 +52,24 @@ private:
 
     void take() {
         try {
-            while (const auto frame = stream_.next())
+            while (const auto frame = stream_.next()) {
                 std::cerr << "frame " << frame->index << ": " << frame->statistics.particles << " particles, "
                           << frame->statistics.triangles << " triangles, " << frame->statistics.total_seconds << " s\n";
+                warnings_.say("frame " + std::to_string(frame->index), frame->statistics.warnings);
+            }
         } catch (...) {
             error_ = std::current_exception();
         }
     }
 
     client::Stream& stream_;
+    Warnings& warnings_;
     std::exception_ptr error_;
     std::thread thread_;
 };
 
-void upload(const formats::Recording& recording, const ReplayOptions& options, client::Stream& stream) {
+void upload(const formats::Recording& recording, const ReplayOptions& options, client::Stream& stream,
+            Warnings& warnings) {
     const auto frames = recording.frames(options.recording.from, options.recording.to);
     const formats::RecordedFrame& first = frames.front();
     const formats::RecordedFrame& last = frames.back();
@@ -69,7 +77,7 @@ void upload(const formats::Recording& recording, const ReplayOptions& options, c
     // Between the last frame and the first of the next round: as between any two.
     const auto interval = frames.size() > 1 ? seconds / static_cast<double>(frames.size() - 1) : seconds;
     ReplayPace pace(options.speed);
-    Answers answers(stream);
+    Answers answers(stream, warnings);
     for (std::uint64_t round = 0; round == 0 || options.loop; ++round)
         for (const formats::RecordedFrame& frame : frames) {
             const formats::RecordedParticles particles = recording.particles(frame);
@@ -85,9 +93,10 @@ void replay(const ReplayOptions& options) {
     const std::string session = options.session.empty() ? client::new_session_id() : options.session;
     client.create_session(session, recording.settings());
     std::cerr << "session " << session << '\n';
+    Warnings warnings(options.strict);
     client::Stream stream = client.stream(session, {.receive_meshes = false, .waiting_limit = frames_ahead});
     try {
-        upload(recording, options, stream);
+        upload(recording, options, stream, warnings);
     } catch (...) {
         // Only this process knows of the session. The error to report is the earlier one.
         try {
@@ -97,6 +106,7 @@ void replay(const ReplayOptions& options) {
         throw;
     }
     client.delete_session(session);
+    warnings.finish();
 }
 
 }  // namespace
@@ -110,6 +120,7 @@ void add_replay(CLI::App& app) {
     command.add_option("--speed", options->speed, "Times as fast as it was recorded, or max")->capture_default_str();
     command.add_flag("--loop", options->loop,
                      "Begin again after the last frame, until interrupted; frame indices keep rising");
+    add_strict_option(command, options->strict);
     command.callback([options] { replay(*options); });
 }
 

@@ -12,6 +12,7 @@
 #include "cli/quantized_positions.hpp"
 #include "cli/statistics_json.hpp"
 #include "cli/surfaces.hpp"
+#include "cli/warnings.hpp"
 #include "formats/atomic_file.hpp"
 #include "formats/vtk_writer.hpp"
 #include "meniscus/error.hpp"
@@ -34,6 +35,7 @@ struct SimulateOptions {
     MeshFormat format = MeshFormat::ply;
     std::string particles_out;
     std::string stats;
+    bool strict = false;
     SettingsOptions settings;
     SurfacesOptions surfaces;
 };
@@ -56,6 +58,7 @@ void simulate(const SimulateOptions& options) {
         if (!folder.empty()) formats::make_directory(folder);
 
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+    Warnings warnings(options.strict);
     const auto handle = [&](const Surface& surface) {
         const client::FrameStatistics& s = surface.statistics();
         if (!options.out.empty())
@@ -67,6 +70,7 @@ void simulate(const SimulateOptions& options) {
         }
         std::cerr << "frame " << surface.index() << ": " << s.particles << " particles, " << s.triangles
                   << " triangles, " << s.total_seconds << " s\n";
+        warnings.say("frame " + std::to_string(surface.index()), s.warnings);
     };
     const std::string session = options.session.empty() ? client::new_session_id() : options.session;
     const auto surfaces = options.surfaces.open(settings, handle, session);
@@ -85,6 +89,7 @@ void simulate(const SimulateOptions& options) {
     surfaces->finish();
     if (!options.stats.empty())
         formats::write_file(options.stats, nlohmann::ordered_json{{"frames", frames}}.dump(2) + "\n");
+    warnings.finish();
 }
 
 }  // namespace
@@ -114,6 +119,7 @@ void add_simulate(CLI::App& app) {
     add_named_option(command, "--format", options->format, "Format of the meshes");
     command.add_option("--particles-out", options->particles_out, "Folder for the particles, as VTK");
     command.add_option("--stats", options->stats, "Figures of each frame, as JSON");
+    add_strict_option(command, options->strict);
     command.callback([options] { simulate(*options); });
 }
 

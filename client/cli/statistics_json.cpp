@@ -39,7 +39,15 @@ nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::s
     out["backend"] = s.backend;
     out["threads"] = s.threads;
     out["mesh_sha256"] = mesh_sha256;
+    out["warnings"] = nlohmann::ordered_json::array();
+    for (const Warning& w : s.warnings)
+        out["warnings"].push_back(
+            {{"code", name_of(w.code)}, {"value", w.value}, {"limit", w.limit}, {"text", w.text}});
     return out;
+}
+
+nlohmann::ordered_json to_json(const FileWarning& warning) {
+    return {{"code", FileWarning::code}, {"value", warning.faces}, {"limit", 0}, {"text", warning.text()}};
 }
 
 }  // namespace meniscus::cli

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/warnings.hpp"
 #include "meniscus/statistics.hpp"
 
 namespace meniscus::cli {
@@ -12,6 +13,9 @@ namespace meniscus::cli {
 /// One frame's figures. runs: at least one; the first is the cold one. The figures are those of the warm run with the
 /// median total (the lower of two in the middle), or of the only run; `first_seconds` is the first run's total.
 nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::string& mesh_sha256);
+
+/// An entry of a frame's "warnings", as those of its statistics are.
+nlohmann::ordered_json to_json(const FileWarning& warning);
 
 /// For tests and tables: that warm run.
 const Statistics& median_run(const std::vector<Statistics>& runs);

@@ -1,12 +1,17 @@
 // meniscus watch: the meshes of somebody else's session, as they come.
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <sstream>
+#include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/mesh_output.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/server_flags.hpp"
+#include "cli/warnings.hpp"
 #include "cli/watch_wishes.hpp"
 #include "formats/atomic_file.hpp"
 #include "formats/point_writer.hpp"
@@ -22,8 +27,21 @@ struct WatchOptions {
     std::string spray_directory;
     MeshFormat format = MeshFormat::ply;
     std::uint64_t frames = 0;  ///< 0: until the session ends
+    double timeout = 0.0;      ///< seconds without a frame after which to end; 0: none
+    bool strict = false;
     WatchWishes wishes;
 };
+
+/// None when the session has ended.
+std::optional<client::ReceivedFrame> next_frame(client::Watcher& watcher, const WatchOptions& options) {
+    if (options.timeout == 0.0) return watcher.next();
+    client::Next<client::ReceivedFrame> next = watcher.next(
+        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(options.timeout)));
+    if (next || next.ended) return std::move(next.frame);
+    std::ostringstream what;
+    what << "no frame of session " << options.session << " has come for " << options.timeout << " s (--timeout)";
+    throw client::ServerError(what.str(), client::ErrorCode::deadline_exceeded);
+}
 
 void watch(const WatchOptions& options) {
     client::Client client = options.server.connect();
@@ -40,10 +58,11 @@ void watch(const WatchOptions& options) {
         check_spray(session.settings);
         formats::make_directory(options.spray_directory);
     }
+    Warnings warnings(options.strict);
     client::Watcher watcher = client.watch(options.session, wishes);
     for (std::uint64_t received = 0; options.frames == 0 || received < options.frames; ++received) {
-        const auto frame = watcher.next();
-        if (!frame) return;
+        const auto frame = next_frame(watcher, options);
+        if (!frame) break;
         const auto path = frame_path(options.directory, frame->index, name_of(options.format));
         write_surface(path, Surface(*frame));
         if (!options.spray_directory.empty())
@@ -53,7 +72,9 @@ void watch(const WatchOptions& options) {
         for (const auto& brick : frame->bricks) triangles += brick->triangles;
         std::cerr << path.string() << ": " << triangles << " triangles, " << frame->changed.size() << " of "
                   << frame->bricks.size() << " bricks new\n";
+        warnings.say(path.string(), frame->statistics.warnings);
     }
+    warnings.finish();
 }
 
 }  // namespace
@@ -69,7 +90,13 @@ void add_watch(CLI::App& app) {
     add_named_option(command, "--format", options->format, "Format of the meshes");
     command.add_option("--frames", options->frames, "Number of frames after which to end; 0: when the session ends")
         ->capture_default_str();
+    command
+        .add_option("--timeout", options->timeout,
+                    "Seconds without a frame after which to end, with exit code 1; 0: never")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
     options->wishes.add_to(command);
+    add_strict_option(command, options->strict);
     command.callback([options] { watch(*options); });
 }
 

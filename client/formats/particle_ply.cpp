@@ -10,6 +10,7 @@ Particles read_particle_ply(const std::string& name, std::string_view bytes) {
     Particles particles;
     bool found = false;
     for (const PlyElement& element : ply.elements()) {
+        if (element.name == "face" || element.name == "tristrips") particles.faces += element.count;
         if (element.name != "vertex" || found) {
             ply.read_rows(element, [](std::size_t, const PlyRow&) {});
             continue;

@@ -17,6 +17,9 @@ struct Particles {
     std::vector<float> positions;      ///< x y z per particle, world units; may hold NaN or infinity if the file does
     std::vector<std::uint8_t> levels;  ///< empty, or one per particle, 0 (finest) to max_particle_level
 
+    /// Faces that the file has beside its points: it is a mesh, whose corners are taken as particles. 0 of particles.
+    std::size_t faces = 0;
+
     std::size_t count() const { return positions.size() / 3; }
     ParticleFrame frame() const {
         ParticleFrame view;

@@ -86,9 +86,10 @@ private:
             points();
         } else if (keyword == "CELLS" || keyword == "VERTICES" || keyword == "LINES" || keyword == "POLYGONS" ||
                    keyword == "TRIANGLE_STRIPS") {
-            cells();
+            const std::size_t count = cells();
+            if (keyword == "POLYGONS" || keyword == "TRIANGLE_STRIPS") particles_.faces += count;
         } else if (keyword == "CELL_TYPES") {
-            skip(in_.count("number of cell types"), ScalarType::int32);
+            cell_types();
         } else if (keyword == "POINT_DATA") {
             attribute_count_ = in_.count("number of points");
             point_data_ = true;
@@ -123,17 +124,32 @@ private:
         for (std::size_t i = 0; i < values; ++i) particles_.positions[i] = to_coordinate(value(type), i / 3, in_);
     }
 
-    void cells() {
+    /// Returns how many there are.
+    std::size_t cells() {
         const std::size_t first = in_.count("number of cells");
         const std::size_t second = in_.count("size of the cell list");
-        if (!offsets_) return skip(second, ScalarType::int32);
-        in_.skip_space();
-        if (!upper(in_.rest().substr(0, 7)).starts_with("OFFSETS")) return skip(second, ScalarType::int32);
+        if (offsets_) in_.skip_space();
+        if (!offsets_ || !upper(in_.rest().substr(0, 7)).starts_with("OFFSETS")) {
+            skip(second, ScalarType::int32);
+            return first;
+        }
         for (const auto& [name, size] : {std::pair{"OFFSETS", first}, std::pair{"CONNECTIVITY", second}}) {
             const std::string word = upper(in_.word());
             if (word != name) in_.fail("expected " + std::string(name) + ", found " + quote(word));
             const ScalarType type = data_type();
             skip(size, type);
+        }
+        return first == 0 ? 0 : first - 1;  // an offset each, and the end
+    }
+
+    /// Counts the faces: polygons and strips of triangles. Points and lines are none, and volumes have other uses.
+    void cell_types() {
+        constexpr double triangle = 5, quadrilateral = 9;
+        const std::size_t count = in_.count("number of cell types");
+        begin_data(count, ScalarType::int32, "values");
+        for (std::size_t i = 0; i < count; ++i) {
+            const double cell = value(ScalarType::int32);
+            if (cell >= triangle && cell <= quadrilateral) ++particles_.faces;
         }
     }
 

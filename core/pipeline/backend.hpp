@@ -24,6 +24,8 @@ public:
     virtual MeshDownload reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) = 0;
     /// The surface of the last frame once more, with no cell finer than max_level (1 to 3).
     virtual void emit_capped(int max_level, Mesh& mesh) = 0;
+    /// The greatest value of the field at the points that the last frame had sampled, inside the domain; 0 without any.
+    virtual float greatest_sample() = 0;
     /// As reconstruct(), but the mesh stays where it is until the next call.
     virtual DeviceMesh reconstruct_on_device(const ParticleFrame&, Statistics&) {
         throw InvalidInput("the CPU backend has no mesh on a GPU: use reconstruct(), or Backend::cuda");

@@ -56,6 +56,8 @@ public:
         mesh.spray.assign(particles_.spray.begin(), particles_.spray.end());
     }
 
+    float greatest_sample() override { return cpu::greatest_sample(state_); }
+
 private:
     LatticeSettings settings_;
     std::shared_ptr<const StopFlag> stop_;

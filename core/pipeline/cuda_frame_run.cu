@@ -21,6 +21,7 @@
 #include "pipeline/cuda_frame_run.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "engine/growth.hpp"
 #include "engine/index_limit.hpp"
@@ -135,6 +136,13 @@ void FrameRun::copy_spray(Array<Point>& spray) {
                           stream_.get()),
           "cudaMemcpyAsync");
     stream_.synchronize();
+}
+
+float FrameRun::greatest_sample() {
+    find_greatest_sample(state_, launcher_);
+    fetch_counts();
+    stream_.synchronize();
+    return std::bit_cast<float>(counts().greatest_sample);
 }
 
 void FrameRun::enqueue(bool captured) {

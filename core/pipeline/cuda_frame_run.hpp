@@ -44,6 +44,9 @@ public:
     /// The places of the last frame's spray, where the settings want it listed; waits for the copy.
     void copy_spray(Array<Point>& spray);
 
+    /// Of the last frame, see BackendReconstruction; waits for it.
+    float greatest_sample();
+
     const State& state() const { return state_; }
     /// Of the last run.
     const Counts& counts() const { return *reinterpret_cast<const Counts*>(host_counts_.get()); }

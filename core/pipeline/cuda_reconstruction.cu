@@ -56,6 +56,11 @@ public:
         return mesh_on_device();
     }
 
+    float greatest_sample() override {
+        const CurrentDevice current(device_);
+        return run_.greatest_sample();
+    }
+
 private:
     DeviceMesh mesh_on_device() {
         const State& state = run_.state();

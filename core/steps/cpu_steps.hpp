@@ -57,6 +57,8 @@ void sample_wanted_points(State& state, FieldSource& field, Wanted wanted);
 void sample_field(State& state, FieldSource& field, const WantedLevel& wanted_level, Slivers slivers = Slivers::raised);
 /// Samples the middles of coarse edges that cross the surface.
 void sample_edge_middles(State& state, FieldSource& field);
+/// Of all points that were sampled, inside the domain.
+float greatest_sample(State& state);
 
 /// Step 5: lists the mixed cells, counts their triangles, and gives each its place in the mesh.
 void count_triangles(State& state, Mesh& mesh);

@@ -45,6 +45,8 @@ void sample_field(const State& state, const Field& field, const Launcher& launch
 /// Samples the middles of coarse edges that cross the surface.
 template <class Field>
 void sample_edge_middles(const State& state, const Field& field, const Launcher& launch);
+/// Puts that of all points that were sampled, inside the domain, into Counts::greatest_sample, which must be 0.
+void find_greatest_sample(const State& state, const Launcher& launch);
 
 /// Step 5: counts the triangles, and gives each its place in the mesh.
 void count_triangles(const State& state, const Launcher& launch);

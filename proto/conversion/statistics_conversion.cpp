@@ -1,5 +1,9 @@
 #include "conversion/statistics_conversion.hpp"
 
+#include <algorithm>
+#include <string>
+#include <string_view>
+
 namespace meniscus::conversion {
 
 namespace {
@@ -74,6 +78,47 @@ std::uint64_t count_of(const v1::LevelCounts& wire, TriangleLevel level) {
     return 0;
 }
 
+v1::WarningCode to_wire(WarningCode code) {
+    switch (code) {
+        case WarningCode::unknown:
+            return v1::WARNING_CODE_UNSPECIFIED;
+        case WarningCode::radius_too_small:
+            return v1::WARNING_CODE_RADIUS_TOO_SMALL;
+        case WarningCode::radius_too_large:
+            return v1::WARNING_CODE_RADIUS_TOO_LARGE;
+        case WarningCode::empty_surface:
+            return v1::WARNING_CODE_EMPTY_SURFACE;
+        case WarningCode::cell_size_too_large:
+            return v1::WARNING_CODE_CELL_SIZE_TOO_LARGE;
+        case WarningCode::support_too_small:
+            return v1::WARNING_CODE_SUPPORT_TOO_SMALL;
+    }
+    return v1::WARNING_CODE_UNSPECIFIED;
+}
+
+WarningCode from_wire(v1::WarningCode wire) {
+    for (const WarningCode code : choices<WarningCode>)
+        if (to_wire(code) == wire) return code;
+    return WarningCode::unknown;
+}
+
+/// One line that a terminal takes for text, whatever it was: control characters become question marks. Not longer than
+/// max_warning_bytes; a character of several bytes is not cut.
+std::string one_line(std::string_view text) {
+    std::size_t length = std::min(text.size(), max_warning_bytes);
+    if (length < text.size())
+        while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0) == 0x80) --length;
+    std::string line(text.substr(0, length));
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(line[i]);
+        if (byte < 0x20 || byte == 0x7F) line[i] = '?';
+        // U+0080 to U+009F control terminals, too.
+        if (byte == 0xC2 && i + 1 < line.size() && static_cast<unsigned char>(line[i + 1]) < 0xA0)
+            line.replace(i, 2, "?");
+    }
+    return line;
+}
+
 }  // namespace
 
 void to_wire(const Statistics& statistics, v1::FrameStatistics& wire) {
@@ -106,6 +151,13 @@ void to_wire(const Statistics& statistics, v1::FrameStatistics& wire) {
     wire.set_spray_particles(statistics.spray_particles);
     wire.set_volume(statistics.volume);
     wire.set_particle_volume(statistics.particle_volume);
+    for (const Warning& warning : statistics.warnings) {
+        v1::Warning& added = *wire.add_warnings();
+        added.set_code(to_wire(warning.code));
+        added.set_value(warning.value);
+        added.set_limit(warning.limit);
+        added.set_text(warning.text);
+    }
 }
 
 Statistics from_wire(const v1::FrameStatistics& wire) {
@@ -135,6 +187,11 @@ Statistics from_wire(const v1::FrameStatistics& wire) {
     statistics.spray_particles = wire.spray_particles();
     statistics.volume = wire.volume();
     statistics.particle_volume = wire.particle_volume();
+    for (const v1::Warning& warning : wire.warnings()) {
+        if (statistics.warnings.size() == max_warnings) break;
+        statistics.warnings.push_back(
+            {from_wire(warning.code()), warning.value(), warning.limit(), one_line(warning.text())});
+    }
     return statistics;
 }
 

@@ -44,6 +44,10 @@ bool RandomAccessFile::being_written() const noexcept {
     return is_being_written(descriptor_);
 }
 
+bool RandomAccessFile::is_closed() const noexcept {
+    return is_closed_by_its_writer(descriptor_);
+}
+
 std::string RandomAccessFile::read(std::uint64_t first, std::size_t size) const {
     std::string bytes(size, '\0');
     std::size_t filled = 0;

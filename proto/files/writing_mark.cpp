@@ -27,4 +27,9 @@ bool is_being_written(int descriptor) noexcept {
     return ::fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
 }
 
+bool is_closed_by_its_writer(int descriptor) noexcept {
+    struct flock lock = whole_file(F_RDLCK);
+    return ::fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type == F_UNLCK;
+}
+
 }  // namespace meniscus::files

@@ -8,5 +8,7 @@ namespace meniscus::files {
 void mark_as_being_written(int descriptor) noexcept;
 /// Of a file open for reading. Takes no lock itself.
 bool is_being_written(int descriptor) noexcept;
+/// Whether it is known that nobody writes to it: false also where the file system keeps no marks.
+bool is_closed_by_its_writer(int descriptor) noexcept;
 
 }  // namespace meniscus::files

@@ -23,6 +23,12 @@ double number(std::uint64_t count) {
     return static_cast<double>(count);
 }
 
+prometheus::Labels labels_of(const Metrics::Method& method) {
+    return {{"grpc_type", std::string(method.type)},
+            {"grpc_service", std::string(method.service)},
+            {"grpc_method", std::string(method.name)}};
+}
+
 /// An instrument for each enumerator of E, labeled with its name.
 template <class E, class Instrument>
 class PerChoice {
@@ -88,10 +94,20 @@ struct PrometheusMetrics::Instruments {
     prometheus::Histogram& lag = seconds("meniscus_watcher_lag_seconds",
                                          "From a frame's last byte until a watcher has taken the end of its mesh.");
 
-    prometheus::Family<prometheus::Counter>& calls = prometheus::BuildCounter()
-                                                         .Name("meniscus_calls_total")
-                                                         .Help("gRPC calls that have ended, by status code.")
-                                                         .Register(registry);
+    // The names, labels and codes of gRPC's libraries for other languages, which published dashboards ask for.
+    prometheus::Family<prometheus::Counter>& calls_started = prometheus::BuildCounter()
+                                                                 .Name("grpc_server_started_total")
+                                                                 .Help("Calls that have come in.")
+                                                                 .Register(registry);
+    prometheus::Family<prometheus::Counter>& calls_handled = prometheus::BuildCounter()
+                                                                 .Name("grpc_server_handled_total")
+                                                                 .Help("Calls that have ended, by status code.")
+                                                                 .Register(registry);
+    prometheus::Family<prometheus::Histogram>& calls_handling =
+        prometheus::BuildHistogram()
+            .Name("grpc_server_handling_seconds")
+            .Help("From a call's beginning to its end; that of a stream is its simulator's or watcher's.")
+            .Register(registry);
     prometheus::Family<prometheus::Counter>& refusals =
         prometheus::BuildCounter()
             .Name("meniscus_refusals_total")
@@ -138,8 +154,15 @@ void PrometheusMetrics::watcher_lag(double seconds) {
     instruments_->lag.Observe(seconds);
 }
 
-void PrometheusMetrics::call_ended(std::string_view code) {
-    instruments_->calls.Add({{"code", std::string(code)}}).Increment();
+void PrometheusMetrics::call_started(const Method& method) {
+    instruments_->calls_started.Add(labels_of(method)).Increment();
+}
+
+void PrometheusMetrics::call_ended(const Method& method, std::string_view code, double seconds) {
+    prometheus::Labels labels = labels_of(method);
+    instruments_->calls_handling.Add(labels, seconds_buckets).Observe(seconds);
+    labels.emplace("grpc_code", code);
+    instruments_->calls_handled.Add(labels).Increment();
 }
 
 void PrometheusMetrics::refused(std::string_view reason, std::string_view name) {

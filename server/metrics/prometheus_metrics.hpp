@@ -21,7 +21,8 @@ public:
     void message_sent(Receiver to, std::uint64_t bytes) override;
     void frame_skipped() override;
     void watcher_lag(double seconds) override;
-    void call_ended(std::string_view code) override;
+    void call_started(const Method& method) override;
+    void call_ended(const Method& method, std::string_view code, double seconds) override;
     void refused(std::string_view reason, std::string_view name) override;
 
     /// The values of this moment.

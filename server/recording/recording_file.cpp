@@ -29,14 +29,18 @@ std::string recording_file_name(std::uint32_t number) {
 
 RecordingFile::RecordingFile(const std::filesystem::path& directory, const std::string& session_id) {
     const std::filesystem::path folder = directory / session_id;
-    if (::mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) fail(folder, errno);
-    const std::uint32_t number = free_number([&](std::uint32_t taken) {
-        struct stat ignored {};
-        return ::lstat((folder / recording_file_name(taken)).c_str(), &ignored) == 0;
-    });
-    path_ = folder / recording_file_name(number);
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
-    if (descriptor_ < 0) fail(path_, errno);
+    // The folder may just be going with its last recording.
+    constexpr int most_attempts = 8;
+    for (int attempt = 1; descriptor_ < 0; ++attempt) {
+        if (::mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) fail(folder, errno);
+        number_ = free_number([&](std::uint32_t taken) {
+            struct stat ignored {};
+            return ::lstat((folder / recording_file_name(taken)).c_str(), &ignored) == 0;
+        });
+        path_ = folder / recording_file_name(number_);
+        descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+        if (descriptor_ < 0 && (errno != ENOENT || attempt == most_attempts)) fail(path_, errno);
+    }
     files::mark_as_being_written(descriptor_);
 }
 

@@ -22,11 +22,13 @@ public:
     RecordingFile& operator=(const RecordingFile&) = delete;
 
     const std::filesystem::path& path() const noexcept { return path_; }
+    std::uint32_t number() const noexcept { return number_; }
     /// Throws std::runtime_error that names the path and the reason; some of the bytes may then be in the file.
     void append(std::string_view bytes);
 
 private:
     std::filesystem::path path_;
+    std::uint32_t number_ = 0;
     int descriptor_ = -1;
 };
 

@@ -14,6 +14,7 @@
 #include "log.hpp"
 #include "meniscus/error.hpp"
 #include "open_work.hpp"
+#include "recording/delete_recording.hpp"
 
 namespace meniscus::server {
 
@@ -48,6 +49,7 @@ RecordingWriter::~RecordingWriter() {
     queue_.close();
     leave_out_what_waits();
     thread_.join();
+    while (auto job = queue_.take()) perform(*job);  // runs that have ended with what was left out
 }
 
 bool RecordingWriter::reserve(const RecordedSession& session, std::size_t bytes) {
@@ -66,6 +68,12 @@ void RecordingWriter::write(std::shared_ptr<RecordedRun> run, std::uint64_t fram
     std::string name = name_of(*run->session);
     queue_.put({.run = std::move(run), .frame_index = frame_index, .frame = std::move(frame)}, std::move(name),
                entry_bytes + reserved);
+}
+
+std::shared_ptr<RecordedRun> RecordingWriter::begin_run(std::shared_ptr<RecordedSession> session,
+                                                        std::int64_t started_at) {
+    return {new RecordedRun{.session = std::move(session), .started_at = started_at},
+            [this](RecordedRun* run) { end(std::unique_ptr<RecordedRun>(run)); }};
 }
 
 RecordingCounters RecordingWriter::counters() const noexcept {
@@ -90,11 +98,13 @@ void RecordingWriter::write_jobs() {
 }
 
 void RecordingWriter::perform(Job& job) {
+    if (job.ended) return close(*job.ended);
     RecordedSession& session = *job.run->session;
     if (session.stopped) return;
     try {
         if (const auto* mesh = std::get_if<std::shared_ptr<const EncodedFrame>>(&job.frame)) {
             append(*job.run, recorded_mesh(**mesh));
+            ++job.run->meshes;
         } else {
             append(*job.run, std::get<RecordingBytes>(job.frame));
             ++frames_;
@@ -110,6 +120,7 @@ void RecordingWriter::perform(Job& job) {
 void RecordingWriter::leave_out_what_waits() {
     std::map<std::string, std::uint64_t> left;  // by session
     queue_.finish(finish_by_, [&](const Job& job) {
+        if (job.ended) return close(*job.ended);
         if (!job.run->session->stopped) ++left[job.run->session->id];
     });
     if (left.empty()) return;
@@ -135,19 +146,41 @@ void RecordingWriter::append(RecordedRun& run, const RecordingBytes& bytes) {
         admit(begin.size() + bytes.size());
         run.file.emplace(options_.directory, session.id);
         run.file->append(begin);
-        count(begin.size());
+        count(run, begin.size());
         if (const auto kept_back = lines_.pass())
             log_info({.session = session.id}, "recorded in {}{}", run.file->path().string(), left_out(*kept_back));
     }
     admit(bytes.size());
     run.file->append(bytes.entry);
     run.file->append(bytes.messages);
-    count(bytes.size());
+    count(run, bytes.size());
 }
 
-void RecordingWriter::count(std::uint64_t written) {
+void RecordingWriter::count(RecordedRun& run, std::uint64_t written) {
+    run.bytes += written;
     bytes_ += written;
     if (options_.limit != 0) recorded_.add(written);
+}
+
+void RecordingWriter::end(std::unique_ptr<RecordedRun> run) noexcept {
+    if (!run->file) return;
+    try {
+        std::string name = name_of(*run->session);
+        queue_.put({.ended = std::move(run)}, std::move(name), 0);
+    } catch (const std::exception&) {
+        // For want of memory. Its file is closed here; the next look into the folder finds out if it is too short.
+    }
+}
+
+void RecordingWriter::close(const RecordedRun& run) const noexcept {
+    const std::uint64_t least = options_.retention.min_frames;
+    if (!run.file || run.meshes >= least) return;
+    try {
+        delete_recording(run.file->path(), {.session_id = run.session->id, .number = run.file->number()}, run.meshes,
+                         run.bytes, fewer_frames_than(least));
+    } catch (const std::exception& error) {
+        log_error({.session = run.session->id}, "{}", error.what());
+    }
 }
 
 void RecordingWriter::admit(std::uint64_t bytes) {

@@ -39,8 +39,11 @@ struct RecordedSession {
 /// Frames of rising index: one file, created with the first of them.
 struct RecordedRun {
     std::shared_ptr<RecordedSession> session;
-    std::int64_t started_at = 0;        ///< microseconds since 1970-01-01 UTC
-    std::optional<RecordingFile> file;  ///< of the writing thread
+    std::int64_t started_at = 0;  ///< microseconds since 1970-01-01 UTC
+    // Of the writing thread.
+    std::optional<RecordingFile> file = {};
+    std::uint64_t meshes = 0;
+    std::uint64_t bytes = 0;
 };
 
 class RecordingWriter {
@@ -57,6 +60,8 @@ public:
     /// counted as left out. The sessions of one owner share their room; one without owner has its own.
     bool reserve(const RecordedSession& session, std::size_t bytes);
     void cancel(const RecordedSession& session, std::size_t bytes);
+    /// started_at: microseconds since 1970-01-01 UTC. The writing thread closes its file once nobody holds it any more.
+    std::shared_ptr<RecordedRun> begin_run(std::shared_ptr<RecordedSession> session, std::int64_t started_at);
     /// Particles, or a mesh.
     using Frame = std::variant<RecordingBytes, std::shared_ptr<const EncodedFrame>>;
     void write(std::shared_ptr<RecordedRun> run, std::uint64_t frame_index, Frame frame, std::size_t reserved);
@@ -71,9 +76,10 @@ public:
 
 private:
     struct Job {
-        std::shared_ptr<RecordedRun> run;
+        std::shared_ptr<RecordedRun> run = nullptr;
         std::uint64_t frame_index = 0;
-        Frame frame;
+        Frame frame = {};
+        std::unique_ptr<RecordedRun> ended = nullptr;  ///< in place of them: nobody writes to it any more
     };
 
     void write_jobs();
@@ -82,7 +88,11 @@ private:
     /// Throws LimitExceeded.
     void admit(std::uint64_t bytes);
     void append(RecordedRun& run, const RecordingBytes& bytes);
-    void count(std::uint64_t written);
+    void count(RecordedRun& run, std::uint64_t written);
+    /// Hands it to the writing thread.
+    void end(std::unique_ptr<RecordedRun> run) noexcept;
+    /// Closes its file, and deletes that if it has too few frames.
+    void close(const RecordedRun& run) const noexcept;
 
     const RecordingOptions options_;
     const std::chrono::system_clock::time_point wall_start_ = std::chrono::system_clock::now();

@@ -72,9 +72,7 @@ std::shared_ptr<RecordedRun> SessionRecording::run_without_mesh(std::uint64_t in
 
 std::shared_ptr<RecordedRun> SessionRecording::run_of(const InputFrame& frame) {
     if (!run_ || frame.index <= last_index_) {
-        run_ = std::make_shared<RecordedRun>();
-        run_->session = session_;
-        run_->started_at = writer_.wall_clock(frame.received_at);
+        run_ = writer_.begin_run(session_, writer_.wall_clock(frame.received_at));
     }
     last_index_ = frame.index;
     return run_;

@@ -73,12 +73,14 @@ public:
     /// Waits until everything has been taken, or the deadline. Gives each value that is left to `leave_out`.
     template <class LeaveOut>
     void finish(std::chrono::steady_clock::time_point deadline, LeaveOut leave_out) {
-        std::unique_lock lock(mutex_);
-        changed_.wait_until(lock, deadline, [&] { return waiting_.empty(); });
-        for (; !waiting_.empty(); waiting_.pop_front()) {
-            leave_out(waiting_.front().value);
-            give_back(waiting_.front().name, waiting_.front().bytes);
+        std::deque<Waiting> left;  // what its end causes may put more into the queue
+        {
+            std::unique_lock lock(mutex_);
+            changed_.wait_until(lock, deadline, [&] { return waiting_.empty(); });
+            left.swap(waiting_);
+            for (const Waiting& each : left) give_back(each.name, each.bytes);
         }
+        for (Waiting& each : left) leave_out(each.value);
     }
 
 private:

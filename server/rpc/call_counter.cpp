@@ -1,43 +1,52 @@
 #include "rpc/call_counter.hpp"
 
 #include <array>
+#include <chrono>
 #include <string_view>
 #include <utility>
 
+#include "rpc/known_methods.hpp"
+
 namespace meniscus::server {
 
-std::string_view name_of(grpc::StatusCode code) {
+std::string_view metric_name_of(grpc::StatusCode code) {
     static constexpr std::array<std::string_view, 17> names{
-        "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
-        "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
-        "ABORTED",   "OUT_OF_RANGE",   "UNIMPLEMENTED",     "INTERNAL",           "UNAVAILABLE",
-        "DATA_LOSS", "UNAUTHENTICATED"};
+        "OK",       "Canceled",       "Unknown",          "InvalidArgument",   "DeadlineExceeded",
+        "NotFound", "AlreadyExists",  "PermissionDenied", "ResourceExhausted", "FailedPrecondition",
+        "Aborted",  "OutOfRange",     "Unimplemented",    "Internal",          "Unavailable",
+        "DataLoss", "Unauthenticated"};
     const auto index = static_cast<std::size_t>(code);
-    return index < names.size() ? names[index] : "UNKNOWN";
+    return index < names.size() ? names[index] : "Unknown";
 }
 
 namespace {
 
 class CallCounter final : public grpc::experimental::Interceptor {
 public:
-    explicit CallCounter(Metrics& metrics) : metrics_(metrics) {}
+    CallCounter(Metrics& metrics, const Metrics::Method& method) : metrics_(metrics), method_(method) {
+        metrics_.call_started(method_);
+    }
 
     void Intercept(grpc::experimental::InterceptorBatchMethods* methods) override {
-        if (methods->QueryInterceptionHookPoint(grpc::experimental::InterceptionHookPoints::PRE_SEND_STATUS))
-            metrics_.call_ended(name_of(methods->GetSendStatus().error_code()));
+        if (methods->QueryInterceptionHookPoint(grpc::experimental::InterceptionHookPoints::PRE_SEND_STATUS)) {
+            const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun_;
+            metrics_.call_ended(method_, metric_name_of(methods->GetSendStatus().error_code()), taken.count());
+        }
         methods->Proceed();
     }
 
 private:
     Metrics& metrics_;
+    const Metrics::Method& method_;
+    const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };
 
 class CallCounters final : public grpc::experimental::ServerInterceptorFactoryInterface {
 public:
     explicit CallCounters(std::shared_ptr<Metrics> metrics) : metrics_(std::move(metrics)) {}
 
-    grpc::experimental::Interceptor* CreateServerInterceptor(grpc::experimental::ServerRpcInfo* /*call*/) override {
-        return new CallCounter(*metrics_);  // owned by the call
+    grpc::experimental::Interceptor* CreateServerInterceptor(grpc::experimental::ServerRpcInfo* call) override {
+        return new CallCounter(*metrics_, known_method(call->method()));  // owned by the call
     }
 
 private:

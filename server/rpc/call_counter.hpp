@@ -1,4 +1,4 @@
-// Counts the calls that end, by their status.
+// Counts the calls, by method and status.
 #pragma once
 
 #include <grpcpp/support/server_interceptor.h>
@@ -11,8 +11,8 @@
 
 namespace meniscus::server {
 
-/// As gRPC writes it, such as "NOT_FOUND".
-std::string_view name_of(grpc::StatusCode code);
+/// As dashboards of gRPC know it, such as "NotFound".
+std::string_view metric_name_of(grpc::StatusCode code);
 
 /// Sees every call of every service, whether the server or the client ends it.
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call_counter(

@@ -14,10 +14,9 @@ namespace meniscus::server {
 /// Asks the authorizer about the call's metadata; throws as it does.
 Caller admit(const Authorizer& authorizer, const grpc::ServerContextBase& context, Action action);
 
-/// The other end, as gRPC writes it, such as "ipv4:192.0.2.7:50000"; of a call through the HTTP port, the browser's
-/// with
-/// "(web)" behind it.
-std::string peer_of(const grpc::ServerContextBase& context);
+/// The other end, for the log: as gRPC writes it, such as "ipv4:192.0.2.7:50000", with " (web)" behind it where the
+/// call came through the HTTP port. Behind a trusted proxy "192.0.2.7 through " comes first: its client.
+std::string peer_of(const Authorizer& authorizer, const grpc::ServerContextBase& context);
 
 /// What callers share of which this one has its part; none if it has no limits of its own.
 std::shared_ptr<NameAccount> account_of(const Caller& caller, SessionRegistry& registry);

@@ -87,11 +87,12 @@ private:
 /// cancellation, too.
 class ReadRecordingReactor final : public ByteReactor, public std::enable_shared_from_this<ReadRecordingReactor> {
 public:
-    ReadRecordingReactor(Refusals& refusals, Metrics& metrics, ActiveCalls& calls, grpc::CallbackServerContext& context)
+    ReadRecordingReactor(const Authorizer& authorizer, Refusals& refusals, Metrics& metrics, ActiveCalls& calls,
+                         grpc::CallbackServerContext& context)
         : refusals_(refusals),
           metrics_(metrics),
           active_(calls),
-          peer_(peer_of(context)),
+          peer_(peer_of(authorizer, context)),
           context_(context),
           timer_(context) {}
 
@@ -161,10 +162,10 @@ private:
     }
 
     void send_next() {
-        if (canceled_) return Finish(client_gone());
+        if (canceled_) return finish(client_gone());
         reads_->require_going_on();
         const SharedMessage message = messages_->next();
-        if (!message) return Finish(grpc::Status::OK);
+        if (!message) return finish(grpc::Status::OK);
         metrics_.message_sent(Metrics::Receiver::recording_reader, message->size());
         outgoing_ = to_bytes(message);
         await_client();
@@ -183,7 +184,12 @@ private:
 
     void refuse(const std::exception_ptr& error) {
         refusals_.report(error, caller_.name, peer_);
-        Finish(to_status(error));
+        finish(to_status(error));
+    }
+
+    void finish(const grpc::Status& status) {
+        messages_.reset();  // before the client knows: it may delete next what it has read
+        Finish(status);
     }
 
     Refusals& refusals_;
@@ -214,7 +220,7 @@ RecordingReads& require_recorded(RecordingReads* reads) {
 
 ByteReactor* start_reading(RecordingReads* reads, const Authorizer& authorizer, Refusals& refusals, Metrics& metrics,
                            ActiveCalls& calls, grpc::CallbackServerContext& context) {
-    const auto reactor = std::make_shared<ReadRecordingReactor>(refusals, metrics, calls, context);
+    const auto reactor = std::make_shared<ReadRecordingReactor>(authorizer, refusals, metrics, calls, context);
     reactor->start(reads, authorizer);
     return reactor.get();
 }

@@ -8,6 +8,7 @@
 #include "meniscus/v1/session_service.grpc.pb.h"
 #include "meniscus/v1/surface_service.grpc.pb.h"
 #include "rpc/create_session_handler.hpp"
+#include "rpc/delete_recording_handler.hpp"
 #include "rpc/delete_session_handler.hpp"
 #include "rpc/get_session_handler.hpp"
 #include "rpc/list_sessions_handler.hpp"
@@ -85,6 +86,8 @@ RecordingServiceImpl::RecordingServiceImpl(RecordingReads* reads, const Authoriz
             call.request<v1::ListRecordingsRequest>();
             lists->answer(require_recorded(reads), call);
         }));
+    add("DeleteRecording", unary(authorizer, refusals, Action::delete_recording,
+                                 [reads](UnaryCall& call) { delete_recording(require_recorded(reads), call); }));
     add("ReadRecording", [reads, &authorizer, &refusals, &metrics, &calls](grpc::CallbackServerContext& context) {
         return start_reading(reads, authorizer, refusals, metrics, calls, context);
     });

@@ -37,14 +37,14 @@ namespace {
 /// cancellation, as soon as no write is under way, so that no call outlives its client.
 class StreamReactor final : public ByteReactor, public std::enable_shared_from_this<StreamReactor> {
 public:
-    StreamReactor(SessionRegistry& registry, Refusals& refusals, ActiveCalls& calls,
+    StreamReactor(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals, ActiveCalls& calls,
                   grpc::CallbackServerContext& context)
         : calls_(calls),
           registry_(registry),
           refusals_(refusals),
           context_(context),
           timer_(context),
-          peer_(context.peer()),
+          peer_(peer_of(authorizer, context)),
           assembler_(registry.limits()) {}
 
     void start(const Authorizer& authorizer) {
@@ -463,7 +463,7 @@ private:
 
 ByteReactor* start_stream(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,
                           ActiveCalls& calls, grpc::CallbackServerContext& context) {
-    const auto reactor = std::make_shared<StreamReactor>(registry, refusals, calls, context);
+    const auto reactor = std::make_shared<StreamReactor>(registry, authorizer, refusals, calls, context);
     reactor->start(authorizer);
     return reactor.get();
 }

@@ -9,7 +9,7 @@ namespace meniscus::server {
 
 UnaryCall* UnaryCall::start(const Authorizer& authorizer, Refusals& refusals, Action action, Handle handle,
                             grpc::CallbackServerContext& context) {
-    auto* call = new UnaryCall(refusals, std::move(handle), context);
+    auto* call = new UnaryCall(authorizer, refusals, std::move(handle), context);
     try {
         call->caller_ = admit(authorizer, context, action);
         call->first_message_.start(first_message_patience);
@@ -20,8 +20,13 @@ UnaryCall* UnaryCall::start(const Authorizer& authorizer, Refusals& refusals, Ac
     return call;
 }
 
-UnaryCall::UnaryCall(Refusals& refusals, Handle handle, grpc::CallbackServerContext& context)
-    : refusals_(refusals), handle_(std::move(handle)), context_(context), first_message_(context) {}
+UnaryCall::UnaryCall(const Authorizer& authorizer, Refusals& refusals, Handle handle,
+                     grpc::CallbackServerContext& context)
+    : authorizer_(authorizer),
+      refusals_(refusals),
+      handle_(std::move(handle)),
+      context_(context),
+      first_message_(context) {}
 
 void UnaryCall::OnReadDone(bool ok) {
     first_message_.stop();
@@ -45,7 +50,7 @@ void UnaryCall::answer(const grpc::ByteBuffer& response) {
 }
 
 void UnaryCall::refuse(const std::exception_ptr& error) {
-    refusals_.report(error, caller_.name, peer_of(context_));
+    refusals_.report(error, caller_.name, peer());
     Finish(to_status(error));
 }
 

@@ -26,6 +26,8 @@ public:
 
     const grpc::CallbackServerContext& context() const { return context_; }
     const Caller& caller() const { return caller_; }
+    /// As peer_of().
+    std::string peer() const { return peer_of(authorizer_, context_); }
     /// Throws InvalidInput for bytes that are not such a message.
     template <class Request>
     Request request() const {
@@ -44,8 +46,9 @@ public:
     void OnDone() override;
 
 private:
-    UnaryCall(Refusals& refusals, Handle handle, grpc::CallbackServerContext& context);
+    UnaryCall(const Authorizer& authorizer, Refusals& refusals, Handle handle, grpc::CallbackServerContext& context);
 
+    const Authorizer& authorizer_;
     Refusals& refusals_;
     const Handle handle_;
     grpc::CallbackServerContext& context_;  ///< gRPC keeps it until OnDone

@@ -28,14 +28,14 @@ namespace {
 template <class Request>
 class WatchReactor final : public ByteReactor, public std::enable_shared_from_this<WatchReactor<Request>> {
 public:
-    WatchReactor(SessionRegistry& registry, Refusals& refusals, ActiveCalls& calls,
+    WatchReactor(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals, ActiveCalls& calls,
                  grpc::CallbackServerContext& context)
         : active_(calls),
           registry_(registry),
           refusals_(refusals),
           context_(context),
           timer_(context),
-          peer_(peer_of(context)) {}
+          peer_(peer_of(authorizer, context)) {}
 
     void start(const Authorizer& authorizer) {
         self_ = this->shared_from_this();
@@ -186,7 +186,7 @@ private:
 template <class Request>
 ByteReactor* start_watch(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,
                          ActiveCalls& calls, grpc::CallbackServerContext& context) {
-    const auto reactor = std::make_shared<WatchReactor<Request>>(registry, refusals, calls, context);
+    const auto reactor = std::make_shared<WatchReactor<Request>>(registry, authorizer, refusals, calls, context);
     reactor->start(authorizer);
     return reactor.get();
 }

@@ -31,6 +31,8 @@ std::string_view name_of(Action action) {
             return "Stream";
         case Action::delete_session:
             return "DeleteSession";
+        case Action::delete_recording:
+            return "DeleteRecording";
     }
     return "this call";
 }

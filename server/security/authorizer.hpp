@@ -24,7 +24,8 @@ enum class Action {
     read_recording,
     create_session,
     stream,
-    delete_session
+    delete_session,
+    delete_recording
 };
 
 /// A watcher describes the server, lists, describes and watches all sessions, lists and reads their recordings. An
@@ -40,6 +41,9 @@ public:
     /// authorization: the values of the call's header of that name. Throws Refusal: unauthenticated without one token
     /// that is known, permission_denied if its role is not enough.
     Caller admit(std::span<const std::string_view> authorization, const PeerAddress& peer, Action action) const;
+
+    /// Peers through which others come.
+    const TrustedPeers& trusted() const noexcept { return trusted_; }
 
     /// Whether sessions of this owner exist for this caller.
     static bool may_see(const Caller& caller, std::string_view owner);

@@ -51,9 +51,12 @@ TrustedPeers::Network TrustedPeers::parse(const std::string& text) {
 }
 
 bool TrustedPeers::is_exempt(const PeerAddress& peer) const noexcept {
-    return peer.is_this_machine() || std::ranges::any_of(networks_, [&peer](const Network& network) {
-               return agree(network.address, peer, network.bits);
-           });
+    return peer.is_this_machine() || is_proxy(peer);
+}
+
+bool TrustedPeers::is_proxy(const PeerAddress& peer) const noexcept {
+    return std::ranges::any_of(networks_,
+                               [&peer](const Network& network) { return agree(network.address, peer, network.bits); });
 }
 
 }  // namespace meniscus::server

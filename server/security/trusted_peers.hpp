@@ -17,6 +17,9 @@ public:
 
     /// Whether limits for each peer address do not hold for this one.
     bool is_exempt(const PeerAddress& peer) const noexcept;
+    /// Whether its word about others counts: of --trusted-proxies alone. Any program of this machine may connect by
+    /// loopback.
+    bool is_proxy(const PeerAddress& peer) const noexcept;
 
 private:
     struct Network {

@@ -14,6 +14,13 @@ class Metrics {
 public:
     enum class Receiver : std::uint8_t { simulator, watcher, recording_reader };
 
+    /// A method of gRPC, in the words that dashboards of gRPC know.
+    struct Method {
+        std::string_view type = {};     ///< "unary", "client_stream", "server_stream" or "bidi_stream"
+        std::string_view service = {};  ///< with its package, such as "meniscus.v1.SurfaceService"
+        std::string_view name = {};     ///< such as "Watch"
+    };
+
     Metrics() = default;
     virtual ~Metrics() = default;
     Metrics(const Metrics&) = delete;
@@ -30,8 +37,10 @@ public:
     virtual void frame_skipped() {}
     /// A watcher has taken the end of a frame; seconds since the last byte of that frame had come in.
     virtual void watcher_lag(double /*seconds*/) {}
-    /// A call has ended; the status code by its name in gRPC, as "INVALID_ARGUMENT".
-    virtual void call_ended(std::string_view /*code*/) {}
+    /// A call has come in; call_ended() follows.
+    virtual void call_started(const Method& /*method*/) {}
+    /// code: its status, such as "InvalidArgument"; seconds: since it came in.
+    virtual void call_ended(const Method& /*method*/, std::string_view /*code*/, double /*seconds*/) {}
     /// A call has been refused. reason: a word; name: of the caller's token, empty where there is none.
     virtual void refused(std::string_view /*reason*/, std::string_view /*name*/) {}
 };

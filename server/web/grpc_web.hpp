@@ -16,8 +16,8 @@ struct GrpcWeb {
     std::shared_ptr<grpc::Channel> channel;  ///< to the server in this process; none: nothing can be called
     AllowedOrigins origins;
     bool needs_certificate = false;  ///< a client's, by TLS
-    /// Of a call that ends here, before its handler: so that metrics count it.
-    std::function<void(grpc::StatusCode)> refused{};
+    /// Of a call that ends here, before its handler, by the request's target: so that metrics count it.
+    std::function<void(std::string_view target, grpc::StatusCode)> refused{};
 
     /// target: as in the request line.
     bool serves(std::string_view target) const;

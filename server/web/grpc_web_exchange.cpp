@@ -12,6 +12,7 @@
 #include "meniscus/error.hpp"
 #include "web/beast_text.hpp"
 #include "web/origins.hpp"
+#include "web/web_peer.hpp"
 
 namespace meniscus::server {
 
@@ -22,7 +23,7 @@ namespace {
 /// Throws InvalidInput for what gRPC cannot carry.
 std::vector<std::pair<std::string, std::string>> metadata_of(const GrpcWebRequest& request) {
     std::vector<std::pair<std::string, std::string>> metadata;
-    for (const std::string_view name : {"authorization", "x-session-id"}) {
+    for (const std::string_view name : {"authorization", "x-session-id", forwarded_for_key}) {
         const auto [first, last] = request.equal_range(boost::beast::string_view(name.data(), name.size()));
         for (auto field = first; field != last; ++field) {
             std::string value(field->value());

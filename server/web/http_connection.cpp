@@ -234,15 +234,20 @@ void HttpConnection::refuse(unsigned status, std::string sentence) {
 
 void HttpConnection::refuse_call(const grpc::Status& status) {
     count_refusal(status.error_code());
-    const http::fields& request = call_parser_ ? static_cast<const http::fields&>(call_parser_->get()) : parser_->get();
+    const RequestHeader& request = request_header();
     write({.content_type = "application/grpc-web+proto",
            .body = grpc_web_trailers(status),
            .headers = cross_origin_headers(view(request[http::field::origin]))},
           false);
 }
 
+const HttpConnection::RequestHeader& HttpConnection::request_header() const {
+    if (call_parser_) return call_parser_->get();
+    return parser_->get();
+}
+
 void HttpConnection::count_refusal(grpc::StatusCode code) const {
-    if (content_.grpc_web.refused) content_.grpc_web.refused(code);
+    if (content_.grpc_web.refused) content_.grpc_web.refused(view(request_header().target()), code);
 }
 
 void HttpConnection::write(Page page, bool keep_alive) {

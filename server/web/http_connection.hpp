@@ -61,6 +61,7 @@ public:
 private:
     using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
     using CallParser = boost::beast::http::request_parser<boost::beast::http::string_body>;
+    using RequestHeader = boost::beast::http::request_header<>;
     using Response = boost::beast::http::response<boost::beast::http::span_body<const char>>;
 
     void shake_hands();
@@ -79,6 +80,8 @@ private:
     void refuse(unsigned status, std::string sentence);
     /// Refuses a gRPC-Web call in the same way, with a status of gRPC.
     void refuse_call(const grpc::Status& status);
+    /// Of the request that is answered now.
+    const RequestHeader& request_header() const;
     /// Of a call that no handler sees.
     void count_refusal(grpc::StatusCode code) const;
     /// The other end, as gRPC writes those of its connections.

@@ -7,4 +7,8 @@ namespace meniscus::server {
 /// may have it, too, and mean nothing.
 inline constexpr const char* web_peer_key = "x-web-peer";
 
+/// Metadata of any call, as the client or a proxy before the server has set them: for whom the connection's other end
+/// speaks. Worth what that end is worth.
+inline constexpr const char* forwarded_for_key = "x-forwarded-for";
+
 }  // namespace meniscus::server

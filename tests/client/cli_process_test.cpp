@@ -356,6 +356,83 @@ TEST_F(Cli, SimulatesAndWritesParticlesThatItReadsBack) {
     EXPECT_EQ(nlohmann::json::parse(formats::read_file(path("again.json"))).at("particles"), last.at("particles"));
 }
 
+TEST_F(Cli, WarnsInALineEachAndInTheFigures) {
+    const ProcessResult result =
+        run_meniscus(reconstruct({"--field", "density", "--cell-size", "2", "--iso", "9", "--stats", path("s.json")}));
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 2) << result.err;
+    for (const std::string& words : {"meniscus: warning: " + in_ + ": the surface is empty: the greatest value",
+                                     "meniscus: warning: " + in_ + ": finest cells of 1 are too large"})
+        EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+    const nlohmann::json warnings = nlohmann::json::parse(formats::read_file(path("s.json"))).at("warnings");
+    ASSERT_EQ(warnings.size(), 2U);
+    EXPECT_EQ(warnings[0].at("code"), "empty_surface");
+    EXPECT_EQ(warnings[0].at("limit"), 9.0);
+    EXPECT_EQ(warnings[1].at("code"), "cell_size_too_large");
+    EXPECT_EQ(warnings[1].at("value"), 1.0);
+    EXPECT_EQ(warnings[1].at("limit"), 0.75);
+    EXPECT_NE(result.err.find(warnings[1].at("text").get<std::string>()), std::string::npos);
+}
+
+TEST_F(Cli, SaysNothingOfAFrameThatFitsHoweverStrict) {
+    const ProcessResult result = run_meniscus(reconstruct({"--strict"}));
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(stats({}).at("warnings"), nlohmann::json::array());
+}
+
+TEST_F(Cli, WhereStrictIsAskedForWarningsAreExitCode3AndAllIsWrittenAllTheSame) {
+    const ProcessResult result = run_meniscus(reconstruct({"--cell-size", "2", "--strict", "--stats", path("s.json")}));
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(formats::read_mesh(out_).triangles.empty());
+    EXPECT_EQ(nlohmann::json::parse(formats::read_file(path("s.json"))).at("warnings").size(), 1U);
+
+    const ProcessResult simulated =
+        run_meniscus({"simulate", "--local", "--particles", "200", "--frames", "2", "--cell-size", "2", "--strict",
+                      "--out", path("meshes"), "--stats", path("t.json")});
+    EXPECT_EQ(simulated.exit_code, 3);
+    EXPECT_NE(simulated.err.find("meniscus: warning: frame 1: finest cells"), std::string::npos) << simulated.err;
+    EXPECT_TRUE(std::filesystem::exists(path("meshes/frame_000001.ply")));
+    EXPECT_EQ(nlohmann::json::parse(formats::read_file(path("t.json"))).at("frames").size(), 2U);
+}
+
+TEST_F(Cli, ASequenceNamesTheFileThatAWarningIsAbout) {
+    ParticleFrame frame;
+    frame.positions = positions_;
+    formats::write_vtk(directory_ / "f_1.vtk", frame);
+    const std::vector<float> lone{0.0F, 0.0F, 0.0F};
+    frame.positions = lone;
+    formats::write_vtk(directory_ / "f_2.vtk", frame);
+    const ProcessResult result =
+        run_meniscus({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "0.5", "--start",
+                      "1", "--end", "2", "--repeat", "2", "--spray", "discard", "--strict"});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.err.find("warning: " + path("f_2.vtk") + ": the surface is empty: the one particle lies alone"),
+              std::string::npos)
+        << result.err;
+    EXPECT_EQ(result.err.find("warning"), result.err.rfind("warning")) << result.err;
+    EXPECT_TRUE(std::filesystem::exists(path("m_2.ply")));
+}
+
+TEST_F(Cli, WarnsOfAMeshThatIsTakenForParticles) {
+    ASSERT_EQ(run_meniscus(reconstruct({})).exit_code, 0);
+    const std::size_t faces = formats::read_mesh(out_).triangles.size();
+    const ProcessResult result = run_meniscus({"reconstruct", out_, "-o", path("again.ply"), "--particle-radius", "0.2",
+                                               "--strict", "--stats", path("s.json")});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.err.find("warning: " + out_ + ": the file has " + std::to_string(faces) + " faces"),
+              std::string::npos)
+        << result.err;
+    EXPECT_TRUE(std::filesystem::exists(path("again.ply")));
+    const nlohmann::json figures = nlohmann::json::parse(formats::read_file(path("s.json")));
+    EXPECT_EQ(std::count_if(figures.at("warnings").begin(), figures.at("warnings").end(),
+                            [&](const nlohmann::json& warning) {
+                                return warning.at("code") == "faces_as_particles" && warning.at("value") == faces;
+                            }),
+              1);
+}
+
 TEST_F(Cli, ReconstructsRealFrames) {
     const auto folder = data_folder();
     if (!folder) GTEST_SKIP() << "MENISCUS_DATA is not set";

@@ -91,5 +91,15 @@ TEST(ParticlePlyReader, RefusesFilesWithoutCoordinates) {
         refusal([] { read_particle_ply("f", "ply\nformat ascii 1.0\nelement vertex 99999999999\nend_header\n"); }), "");
 }
 
+TEST(ParticlePlyReader, CountsTheFacesOfAMesh) {
+    EXPECT_EQ(read_particle_ply("f", particle_ply(std::endian::little)).faces, 0U);
+    const auto mesh = read_particle_ply("f",
+                                        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                        "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+                                        "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n");
+    EXPECT_EQ(mesh.count(), 3U);
+    EXPECT_EQ(mesh.faces, 2U);
+}
+
 }  // namespace
 }  // namespace meniscus::test

@@ -54,6 +54,22 @@ TEST(VtkReader, ReadsNoParticles) {
     EXPECT_EQ(particles.count(), 0U);
 }
 
+TEST(VtkReader, CountsTheFacesOfAMeshAndNoVerticesOrLines) {
+    for (const std::string& text : {vtk_binary(), vtk_ascii()}) EXPECT_EQ(read_vtk("f", text).faces, 0U);
+    const std::string points =
+        "# vtk DataFile Version 4.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n";
+    EXPECT_EQ(read_vtk("f", points + "VERTICES 3 6\n1 0 1 1 1 2\nLINES 1 3\n2 0 1\n").faces, 0U);
+    EXPECT_EQ(read_vtk("f", points + "POLYGONS 2 8\n3 0 1 2 3 2 1 0\n").faces, 2U);
+    EXPECT_EQ(read_vtk("f", points + "TRIANGLE_STRIPS 1 4\n3 0 1 2\n").faces, 1U);
+    const std::string newer = replaced(points, "4.1", "5.1");
+    EXPECT_EQ(
+        read_vtk("f", newer + "POLYGONS 3 6\nOFFSETS vtktypeint64\n0 3 6\nCONNECTIVITY vtktypeint64\n0 1 2 2 1 0\n")
+            .faces,
+        2U);
+    const std::string grid = replaced(points, "POLYDATA", "UNSTRUCTURED_GRID");
+    EXPECT_EQ(read_vtk("f", grid + "CELLS 3 10\n1 0 2 0 1 4 0 1 2 0\nCELL_TYPES 3\n1 3 9\n").faces, 1U);
+}
+
 TEST(VtkReader, RefusesACountBeyondTheFile) {
     const std::string message =
         refusal([] { read_vtk("f", replaced(vtk_binary(), "POINTS 2 ", "POINTS 4000000000 ")); });

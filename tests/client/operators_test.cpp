@@ -78,6 +78,15 @@ TEST_F(Operators, ListSessionsForPeopleAndForPrograms) {
     EXPECT_GT(json[0]["last_frame"]["latency_seconds"], 0);
 }
 
+TEST_F(Operators, MayStopWatchingASessionThatRests) {
+    const ProcessResult result = run({"watch", id, "-o", (directory / "meshes").string(), "--timeout", "0.2"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_NE(result.err.find("frame_000001.ply"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("meniscus: no frame of session " + id + " has come for 0.2 s (--timeout)\n"),
+              std::string::npos)
+        << result.err;
+}
+
 TEST_F(Operators, GetOneTableOfTopWhereThereIsNoTerminal) {
     for (const std::vector<std::string>& more : {std::vector<std::string>{}, std::vector<std::string>{"--once"}}) {
         std::vector<std::string> arguments{"top", "--interval", "0.1"};

@@ -6,6 +6,7 @@
 #include "pipeline/backend.hpp"
 #include "support/particles.hpp"
 #include "support/same_bytes.hpp"
+#include "warnings.hpp"
 
 namespace meniscus {
 namespace {
@@ -33,6 +34,10 @@ public:
         EXPECT_EQ(statistics_.field_evaluations, cpu.statistics().field_evaluations);
         EXPECT_EQ(statistics_.base_cells_by_level, cpu.statistics().base_cells_by_level);
         EXPECT_EQ(statistics_.volume, cpu.statistics().volume);
+        statistics_.triangles = mesh_.triangles.size();
+        find_warnings(
+            frame, settings_, [this] { return backend_->greatest_sample(); }, statistics_);
+        EXPECT_EQ(statistics_.warnings, cpu.statistics().warnings);
         for (const int max_level : {1, 3, 2}) {
             SCOPED_TRACE(testing::Message() << "levels up to " << max_level);
             cpu.emit_capped(max_level, again);
@@ -45,6 +50,7 @@ public:
         EXPECT_THROW(static_cast<void>(backend_->reconstruct(frame, mesh_, statistics_)), LimitExceeded);
     }
 
+    const std::vector<Warning>& warnings() const { return statistics_.warnings; }
     const MemoryAccount& device_account() const { return *device_account_; }
 
 private:
@@ -148,6 +154,56 @@ TEST(CudaEmulated, GivesTheCpusMeshForParticleLevelsDomainsAndQuantizedPositions
     EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
     settings.criterion = CountCriterion{};
     EmulatedDevice(settings).expect_the_cpus_mesh(particles.frame());
+}
+
+TEST(CudaEmulated, GivesTheCpusWarnings) {
+    const test::Particles particles = test::splash(9, 6);
+    const auto expect_codes = [&](const Settings& settings, const std::vector<WarningCode>& codes) {
+        EmulatedDevice device(settings);
+        device.expect_the_cpus_mesh(particles.frame());
+        std::vector<WarningCode> given;
+        for (const Warning& warning : device.warnings()) given.push_back(warning.code);
+        EXPECT_EQ(given, codes);
+    };
+    for (const Field field : {Field::color, Field::density}) {
+        SCOPED_TRACE(name_of(field));
+        Settings settings = test::default_settings();
+        settings.field = field;
+        settings.iso = 4.0;
+        expect_codes(settings, {WarningCode::empty_surface});
+        settings.domain = Box{{0.05, 0.02, 0.03}, {0.31, 0.17, 0.33}};
+        expect_codes(settings, {WarningCode::empty_surface});
+    }
+    Settings settings = test::default_settings();
+    settings.field = Field::color;
+    settings.smoothing_length = 1.2;
+    settings.cell_size = 1.6;
+    expect_codes(settings, {WarningCode::cell_size_too_large, WarningCode::support_too_small});
+    settings = test::default_settings();
+    settings.domain = Box{{9.0, 9.0, 9.0}, {10.0, 10.0, 10.0}};
+    expect_codes(settings, {WarningCode::empty_surface});
+    settings.domain.reset();
+    settings.particle_radius *= 3.0;
+    expect_codes(settings, {WarningCode::radius_too_large});
+}
+
+TEST(CudaEmulated, FindsTheCpusGreatestSampleOfASurface) {
+    const test::Particles particles = test::splash(9, 6);
+    Settings settings = test::default_settings();
+    for (const auto& domain : {std::optional<Box>(), std::optional(Box{{0.05, 0.02, 0.03}, {0.31, 0.17, 0.33}})}) {
+        settings.domain = domain;
+        const auto cpu = cpu::make_reconstruction(settings, {Backend::cpu, 1}, std::make_shared<MemoryAccount>());
+        const auto device = cuda::make_reconstruction(settings, BackendOptions{}, std::make_shared<MemoryAccount>(),
+                                                      std::make_shared<MemoryAccount>());
+        Mesh mesh;
+        Statistics statistics;
+        cpu->reconstruct(particles.frame(), mesh, statistics).finish();
+        device->reconstruct(particles.frame(), mesh, statistics).finish();
+        EXPECT_GT(cpu->greatest_sample(), 0.6F);
+        EXPECT_EQ(device->greatest_sample(), cpu->greatest_sample());
+        device->reconstruct(particles.frame(), mesh, statistics).finish();  // of a frame alone
+        EXPECT_EQ(device->greatest_sample(), cpu->greatest_sample());
+    }
 }
 
 TEST(CudaEmulated, GivesTheCpusMeshWithoutNormals) {

@@ -60,7 +60,8 @@ private:
     void start(const std::string& port, const std::string& http_port) {
         // Room for all sessions on the servers that are left.
         process_.emplace(std::vector<std::string>{"--listen", "127.0.0.1:" + port, "--http", "127.0.0.1:" + http_port,
-                                                  "--threads", "1", "--backend", "cpu", "--max-sessions", "64"});
+                                                  "--threads", "1", "--backend", "cpu", "--max-sessions", "64",
+                                                  "--trusted-proxies", "127.0.0.1"});
         address_ = process_->address();
         http_ = process_->http_address();
         reading_ = std::thread([this] { log_ += process_->rest(); });
@@ -300,6 +301,19 @@ TEST_P(SeveralServers, AnswerThroughTheProxyInTheirOwnWords) {
     stream.push(bad.view(), 1, 0.0);
     EXPECT_EQ(stream.next()->index, 0U);
     EXPECT_THROW(stream.next(), InvalidInput);
+}
+
+TEST_P(SeveralServers, NameTheClientsOfTheProxyInTheirLogs) {
+    client::Client client = connect();
+    const std::string id = client::new_session_id();
+    client.create_session(id, settings());
+    client::Stream stream = client.stream(id);
+    stream.finish();
+    EXPECT_FALSE(stream.next());
+    client.delete_session(id);
+    std::string logs;
+    for (ServerProcess& server : servers) logs += server.end(SIGTERM);
+    EXPECT_NE(logs.find("stream from 127.0.0.1 through ipv4:127.0.0.1:"), std::string::npos) << logs;
 }
 
 TEST_P(SeveralServers, AnswerCallsAboutNoSessionFromOneOfThem) {

@@ -21,5 +21,32 @@ TEST(StatisticsConversion, KeepsVolumesAndSpray) {
     EXPECT_EQ(back.particle_volume, 1e-12);
 }
 
+TEST(StatisticsConversion, KeepsWarnings) {
+    Statistics statistics;
+    for (const WarningCode code : choices<WarningCode>)
+        statistics.warnings.push_back({code, 1.0 / 3, 1e-9, "about " + std::string(name_of(code)) + ": 3 µm"});
+    v1::FrameStatistics wire;
+    to_wire(statistics, wire);
+    EXPECT_EQ(from_wire(wire).warnings, statistics.warnings);
+}
+
+TEST(StatisticsConversion, BoundsTheWarningsOfAHostileServerAndMakesThemPrintableLines) {
+    v1::FrameStatistics wire;
+    for (int i = 0; i < 1000; ++i) wire.add_warnings()->set_text(std::string(100'000, 'x'));
+    wire.mutable_warnings(0)->set_text(
+        "\x1b[2Jred\r\nalert\x07\xc2\x9b"
+        "31m \xc3\xa9");
+    wire.mutable_warnings(0)->set_code(static_cast<v1::WarningCode>(77));
+    std::string long_text;
+    for (int i = 0; i < 200; ++i) long_text += "\xe2\x82\xac";  // three bytes each: the limit lies within one
+    wire.mutable_warnings(1)->set_text(long_text);
+    const Statistics taken = from_wire(wire);
+    ASSERT_EQ(taken.warnings.size(), max_warnings);
+    EXPECT_EQ(taken.warnings[0].code, WarningCode::unknown);
+    EXPECT_EQ(taken.warnings[0].text, "?[2Jred??alert??31m \xc3\xa9");
+    EXPECT_EQ(taken.warnings[1].text, long_text.substr(0, max_warning_bytes / 3 * 3));
+    EXPECT_EQ(taken.warnings[2].text.size(), max_warning_bytes);
+}
+
 }  // namespace
 }  // namespace meniscus::conversion

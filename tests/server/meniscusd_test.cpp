@@ -3,6 +3,7 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -250,7 +251,7 @@ TEST(Meniscusd, ReceivesNoMessageBeforeTheTokenIsKnown) {
          {"ServerService/GetServerInfo", "SessionService/CreateSession", "SessionService/GetSession",
           "SessionService/ListSessions", "SessionService/DeleteSession", "SurfaceService/Stream",
           "SurfaceService/Watch", "SurfaceService/WatchParticles", "RecordingService/ListRecordings",
-          "RecordingService/ReadRecording"})
+          "RecordingService/ReadRecording", "RecordingService/DeleteRecording"})
         expect(std::string("/meniscus.v1.") + method, grpc::StatusCode::UNAUTHENTICATED);
     expect("/grpc.health.v1.Health/Check", grpc::StatusCode::OK);
     expect("/meniscus.v1.SessionService/NoCall", grpc::StatusCode::UNIMPLEMENTED);
@@ -278,6 +279,43 @@ TEST(Meniscusd, DoesNotWaitForAReconstructionThatOutlivesTheGracePeriod) {
                 log.find("session " + id + ", frame 0: stopped") != log.npos)
         << log;
     EXPECT_EQ(process.exit_code(), 0);
+}
+
+/// All of it is this machine's; other tests have other processes.
+std::string own_loopback_address() {
+    const auto pid = static_cast<unsigned>(::getpid());
+    return "127." + std::to_string(1 + pid / 65536 % 254) + "." + std::to_string(pid / 256 % 256) + "." +
+           std::to_string(pid % 256);
+}
+
+TEST(Meniscusd, ServesAViewerOnLoopbackUnaskedBesideAnotherToo) {
+    const std::vector<std::string> flags{"--listen", own_loopback_address() + ":0", "--threads", "1"};
+    Process first(flags);
+    first.address();
+    const std::string http = first.http_address();
+    EXPECT_EQ(http, own_loopback_address() + ":9464");
+    Process second(flags);
+    second.address();
+    const std::string other = second.http_address();
+    EXPECT_NE(other, http);
+    EXPECT_TRUE(other.starts_with(own_loopback_address() + ":")) << other;
+    for (const std::string& address : {http, other}) EXPECT_EQ(http_get(address, "/readyz").status, 200) << address;
+}
+
+TEST(Meniscusd, ServesNoViewerWhereNobodyAskedAndOthersCouldComeOrItIsOff) {
+    const TestFolder folder;
+    for (const std::vector<std::string>& flags :
+         {std::vector<std::string>{"--listen", "unix:" + (folder / "socket")},
+          {"--listen", "0.0.0.0:0", "--insecure"},
+          {"--listen", "127.0.0.1:0", "--http", "off"},
+          {"--listen", "127.0.0.1:0", "--config", folder.write("config", "http =\n")}}) {
+        Process process(flags);
+        process.address();
+        process.signal(SIGTERM);
+        const std::string log = process.rest();
+        EXPECT_EQ(log.find("http"), std::string::npos) << log;
+        EXPECT_EQ(process.exit_code(), 0);
+    }
 }
 
 TEST(Meniscusd, RefusesWrongFlagsInOneLine) {

@@ -177,6 +177,8 @@ TEST(Options, ThatAreNumbersAreRefusedWhereTheyAreNone) {
                                          "--device-memory-limit",
                                          "--shutdown-grace",
                                          "--record-limit",
+                                         "--record-min-frames",
+                                         "--record-max-age",
                                          "--threads",
                                          "--devices"};
     for (const std::string& name : names)
@@ -186,7 +188,7 @@ TEST(Options, ThatAreNumbersAreRefusedWhereTheyAreNone) {
 
 TEST(Options, ThatAreTimesAreZeroOrAtLeastAMillisecond) {
     for (const char* const name : {"--max-reader-pause", "--max-frame-seconds", "--max-upload-seconds", "--max-idle",
-                                   "--orphan-seconds", "--idle-buffers", "--shutdown-grace"})
+                                   "--orphan-seconds", "--idle-buffers", "--shutdown-grace", "--record-max-age"})
         for (const char* const value : {"0.0001", "0.000999", "1e-9"}) {
             const std::string text = refusal({name, value});
             EXPECT_NE(text.find(std::string(value) + " is no number of seconds: 0, or from 0.001 to "),
@@ -195,6 +197,40 @@ TEST(Options, ThatAreTimesAreZeroOrAtLeastAMillisecond) {
         }
     EXPECT_EQ(parse({"--max-idle", "0.001"}).limits.idle_time, std::chrono::milliseconds(1));
     EXPECT_EQ(parse({"--max-idle", "0"}).limits.idle_time, std::chrono::milliseconds(0));
+}
+
+TEST(Options, KeepAllRecordingsUnlessTold) {
+    EXPECT_TRUE(parse({"--record", "somewhere"}).recording.retention.keeps_all());
+    const RecordingRetention retention =
+        parse({"--record-min-frames", "3", "--record-max-age", "2592000"}).recording.retention;
+    EXPECT_EQ(retention.min_frames, 3U);
+    EXPECT_EQ(retention.max_age, std::chrono::hours(30 * 24));
+}
+
+TEST(Options, HaveAViewerOnLoopbackWhereOthersCannotReachTheServerAndNothingElseIsSaid) {
+    const test::TestFolder folder;
+    const auto http = [](const std::vector<std::string>& flags) {
+        const ServerOptions options = parse(flags);
+        return options.http + (options.http_is_default ? " by default" : "");
+    };
+    EXPECT_EQ(http({}), "127.0.0.1:9464 by default");
+    EXPECT_EQ(http({"--listen", "127.0.0.2:0"}), "127.0.0.2:9464 by default");
+    EXPECT_EQ(http({"--listen", "[::1]:50051"}), "[::1]:9464 by default");
+    EXPECT_EQ(http({"--listen", "localhost:50051"}), "localhost:9464 by default");
+    for (const char* listen : {"unix:/run/socket", "0.0.0.0:50051", "[::]:50051", "192.0.2.7:50051", "host:50051"})
+        EXPECT_EQ(parse({"--listen", listen, "--insecure"}).http, "") << listen;
+    EXPECT_EQ(http({"--http", "off"}), "");
+    EXPECT_EQ(http({"--http", ""}), "");
+    EXPECT_EQ(http({"--config", folder.write("config", "http =\n")}), "");
+    EXPECT_EQ(http({"--config", folder.write("config", "http = off\n")}), "");
+    EXPECT_EQ(http({"--config", folder.write("config", "http = 127.0.0.1:80\n")}), "127.0.0.1:80");
+    EXPECT_EQ(http({"--http", "127.0.0.1:81"}), "127.0.0.1:81");
+    {
+        const Variable variable("MENISCUS_HTTP", "127.0.0.1:82");
+        EXPECT_EQ(http({}), "127.0.0.1:82");
+    }
+    const Variable empty("MENISCUS_HTTP", "");
+    EXPECT_EQ(http({}), "127.0.0.1:9464 by default") << "an empty variable is none";
 }
 
 TEST(Options, LeaveVariablesOfOthersAlone) {
@@ -208,6 +244,8 @@ TEST(Options, ArePrintedAsAFileThatGivesThemAgain) {
     const test::TestFolder folder;
     for (const std::vector<std::string>& flags :
          {std::vector<std::string>{},
+          {"--http", ""},
+          {"--http", "off"},
           {"--listen", "[::1]:0", "--devices", "0,2", "--memory-limit", "3M", "--insecure", "--shutdown-grace", "0.25",
            "--log-level", "debug", "--backend", "cpu", "--tls-cert", "a b.pem", "--tokens", "t#1"}}) {
         const std::string text = printed(flags);
@@ -217,6 +255,8 @@ TEST(Options, ArePrintedAsAFileThatGivesThemAgain) {
     EXPECT_NE(text.find("\nmax-sessions = 5\n"), std::string::npos) << text;
     EXPECT_NE(text.find("\ntokens = /etc/meniscus/tokens\n"), std::string::npos) << text;
     EXPECT_NE(text.find("\n# tls-cert =\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("\n# http =\n"), std::string::npos) << text;
+    EXPECT_NE(printed({"--http", ""}).find("\nhttp = off\n"), std::string::npos);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <mutex>
@@ -52,6 +53,9 @@ public:
         for (const int socket : sockets_) ::shutdown(socket, SHUT_RDWR);
     }
 
+    /// From now on nothing arrives, on either side, and no connection ends: as from a server that was stopped.
+    void swallow() { swallows_ = true; }
+
 private:
     static sockaddr_in loopback(std::uint16_t port) {
         sockaddr_in address{};
@@ -74,11 +78,11 @@ private:
                 ::shutdown(client, SHUT_RDWR);
                 continue;
             }
-            forwarding_.emplace_back(forward, client, server);
+            forwarding_.emplace_back([this, client, server] { forward(client, server); });
         }
     }
 
-    static void forward(int client, int server) {
+    void forward(int client, int server) const {
         std::array<pollfd, 2> ends{pollfd{client, POLLIN, 0}, pollfd{server, POLLIN, 0}};
         while (::poll(ends.data(), ends.size(), -1) > 0)
             for (std::size_t from = 0; from < 2; ++from)
@@ -89,10 +93,10 @@ private:
                 }
     }
 
-    static bool pass_on(int from, int to) {
+    bool pass_on(int from, int to) const {
         std::array<char, 65536> buffer{};
         const ssize_t size = ::recv(from, buffer.data(), buffer.size(), 0);
-        for (ssize_t sent = 0; sent < size;) {
+        for (ssize_t sent = 0; sent < size && !swallows_;) {
             const ssize_t more = ::send(to, buffer.data() + sent, static_cast<std::size_t>(size - sent), MSG_NOSIGNAL);
             if (more <= 0) return false;
             sent += more;
@@ -107,6 +111,7 @@ private:
     std::mutex mutex_;  ///< for the next two
     std::vector<int> sockets_;
     std::vector<std::thread> forwarding_;
+    std::atomic<bool> swallows_{false};
     std::thread accepting_;
 };
 

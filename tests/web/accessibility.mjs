@@ -33,6 +33,8 @@ describe('the page', { skip: missing }, () => {
       await entry.click();
       await surface(page);
       assert.deepEqual(await violations(page), []);
+      for (const tool of ['cut', 'probe', 'ruler', 'beside']) await page.click(`#${tool}`);
+      assert.deepEqual(await violations(page), []);
       await server.kill();
       await state(page, 'waiting');
       assert.deepEqual(await violations(page), []);

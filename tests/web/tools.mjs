@@ -11,7 +11,7 @@ import { recordedFile, startReplay } from './support/recording.mjs';
 import { link, open, surface } from './support/viewer.mjs';
 
 const small = { viewport: { width: 480, height: 400 } };
-const frames = 12;
+const frames = 6;
 
 const numbers = (text) => text.match(/-?[\d.]+(e-?\d+)?/g).map(Number);
 const fields = (page) => new URLSearchParams(new URL(page.url()).hash.slice(1));

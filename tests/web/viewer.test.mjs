@@ -10,3 +10,4 @@ import './accessibility.mjs';
 import './keyboard.mjs';
 import './list.mjs';
 import './embed.mjs';
+import './warnings.mjs';

@@ -85,6 +85,7 @@ std::string checked_token(const std::string& address, const ConnectionOptions& o
 
 Connection::Connection(std::string server_address, const ConnectionOptions& options)
     : address(std::move(server_address)),
+      timeout(options.timeout),
       channel(open_channel(address, options)),
       server(v1::ServerService::NewStub(channel)),
       sessions(v1::SessionService::NewStub(channel)),
@@ -95,9 +96,11 @@ Connection::Connection(std::string server_address, const ConnectionOptions& opti
     const std::string reason = connection_failure(*server);
     if (options.ca_file.empty())
         throw ServerError("no server at " + address + " (" + reason +
-                          "): start meniscusd, or check the address and whether it wants TLS");
-    throw ServerError("no TLS connection to " + address + " (" + reason +
-                      "): check the address, the CA and the certificates");
+                              "): start meniscusd, or check the address and whether it wants TLS",
+                          ErrorCode::unavailable);
+    throw ServerError(
+        "no TLS connection to " + address + " (" + reason + "): check the address, the CA and the certificates",
+        ErrorCode::unavailable);
 }
 
 void Connection::add_metadata(grpc::ClientContext& context, const std::string& session_id) const {

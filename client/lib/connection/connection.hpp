@@ -4,6 +4,7 @@
 #include <grpcpp/channel.h>
 #include <grpcpp/client_context.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -24,6 +25,7 @@ public:
     void add_metadata(grpc::ClientContext& context, const std::string& session_id) const;
 
     const std::string address;
+    const std::chrono::milliseconds timeout;  ///< for an answer
     const std::shared_ptr<grpc::Channel> channel;
     const std::unique_ptr<v1::ServerService::Stub> server;
     const std::unique_ptr<v1::SessionService::Stub> sessions;

@@ -1,85 +1,22 @@
 #include "meniscus/client/client.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "connection/connection.hpp"
-#include "conversion/settings_conversion.hpp"
-#include "error_mapping.hpp"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "particle_watcher_impl.hpp"
-#include "receiving/frame_statistics.hpp"
 #include "recording_reader_impl.hpp"
+#include "session_calls.hpp"
+#include "session_impl.hpp"
 #include "stream_impl.hpp"
+#include "unary_call.hpp"
 #include "watcher_impl.hpp"
 
 namespace meniscus::client {
 
 namespace {
 
-std::chrono::system_clock::time_point time_from_wire(std::int64_t microseconds) {
-    using Time = std::chrono::system_clock::time_point;
-    constexpr auto last = std::chrono::duration_cast<std::chrono::microseconds>(Time::max().time_since_epoch()).count();
-    return Time(std::chrono::microseconds(std::clamp<std::int64_t>(microseconds, 0, last)));
-}
-
-SessionDescription from_wire(const v1::SessionDescription& wire) {
-    SessionDescription description;
-    description.name = wire.name();
-    description.length_unit = wire.length_unit();
-    if (wire.up_axis() == v1::UP_AXIS_X) description.up_axis = UpAxis::x;
-    if (wire.up_axis() == v1::UP_AXIS_Y) description.up_axis = UpAxis::y;
-    if (wire.up_axis() == v1::UP_AXIS_Z) description.up_axis = UpAxis::z;
-    return description;
-}
-
-v1::UpAxis to_wire(UpAxis axis) {
-    switch (axis) {
-        case UpAxis::unspecified:
-            return v1::UP_AXIS_UNSPECIFIED;
-        case UpAxis::x:
-            return v1::UP_AXIS_X;
-        case UpAxis::y:
-            return v1::UP_AXIS_Y;
-        case UpAxis::z:
-            return v1::UP_AXIS_Z;
-    }
-    return v1::UP_AXIS_UNSPECIFIED;
-}
-
-v1::SessionDescription to_wire(const SessionDescription& description) {
-    v1::SessionDescription wire;
-    wire.set_name(description.name);
-    wire.set_up_axis(to_wire(description.up_axis));
-    wire.set_length_unit(description.length_unit);
-    return wire;
-}
-
-SessionInfo from_wire(const v1::Session& wire) {
-    SessionInfo info;
-    info.description = from_wire(wire.description());
-    info.ephemeral = wire.ephemeral();
-    info.created_at = time_from_wire(wire.created_at());
-    info.id = wire.id();
-    info.settings = conversion::from_wire(wire.settings());
-    info.uploading = wire.uploading();
-    info.watchers = wire.watchers();
-    info.frames = wire.frames();
-    if (wire.has_last_frame_index()) info.last_frame_index = wire.last_frame_index();
-    info.owner = wire.owner();
-    info.frames_dropped = wire.frames_dropped();
-    info.frames_skipped = wire.frames_skipped();
-    if (wire.has_wait()) {
-        info.waits_for = wire.wait().reason() == v1::WAIT_REASON_DEVICE            ? SessionWait::device
-                         : wire.wait().reason() == v1::WAIT_REASON_BYTES_IN_FLIGHT ? SessionWait::bytes_in_flight
-                                                                                   : SessionWait::something_else;
-        info.waits_for_session = wire.wait().session_id();
-    }
-    if (wire.has_last_frame()) info.last_frame = frame_statistics(wire.last_frame());
-    return info;
-}
-
-RecordingInfo from_wire(const v1::Recording& wire) {
+RecordingInfo recording_info(const v1::Recording& wire) {
     RecordingInfo info;
     info.session_id = wire.session_id();
     info.number = wire.number();
@@ -108,9 +45,7 @@ public:
     template <class Stub, class Request, class Response>
     void call(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
               const std::string& session_id, const Request& request, Response& response) const {
-        grpc::ClientContext context;
-        connection_->add_metadata(context, session_id);
-        require_ok((stub.*method)(&context, request, &response), connection_->address);
+        client::call(*connection_, stub, method, session_id, request, response, connection_->timeout);
     }
 
 private:
@@ -170,22 +105,12 @@ bool Client::serving() {
 }
 
 bool Client::create_session(const std::string& id, const Settings& settings, const SessionOptions& options) {
-    v1::CreateSessionRequest request;
-    request.set_id(id);
-    *request.mutable_settings() = conversion::to_wire(settings);
-    *request.mutable_description() = to_wire(options.description);
-    request.set_ephemeral(options.ephemeral);
-    v1::CreateSessionResponse response;
-    impl_->call(*impl_->connection()->sessions, &v1::SessionService::Stub::CreateSession, id, request, response);
-    return response.created();
+    const Connection& connection = *impl_->connection();
+    return client::create_session(connection, id, settings, options, connection.timeout);
 }
 
 SessionInfo Client::session(const std::string& id) {
-    v1::GetSessionRequest request;
-    request.set_id(id);
-    v1::GetSessionResponse response;
-    impl_->call(*impl_->connection()->sessions, &v1::SessionService::Stub::GetSession, id, request, response);
-    return from_wire(response.session());
+    return session_info(*impl_->connection(), id, impl_->connection()->timeout);
 }
 
 std::vector<SessionInfo> Client::sessions() {
@@ -197,10 +122,11 @@ std::vector<SessionInfo> Client::sessions() {
 }
 
 void Client::delete_session(const std::string& id) {
-    v1::DeleteSessionRequest request;
-    request.set_id(id);
-    v1::DeleteSessionResponse response;
-    impl_->call(*impl_->connection()->sessions, &v1::SessionService::Stub::DeleteSession, id, request, response);
+    client::delete_session(*impl_->connection(), id, impl_->connection()->timeout);
+}
+
+Session Client::open_session(const Settings& settings, const OpenOptions& options) {
+    return Session(std::make_unique<Session::Impl>(impl_->connection(), settings, options));
 }
 
 Stream Client::stream(const std::string& session_id, const StreamOptions& options) {
@@ -211,17 +137,20 @@ Watcher Client::watch(const std::string& session_id, const WatchOptions& options
     return Watcher(std::make_unique<Watcher::Impl>(impl_->connection(), session_id, options));
 }
 
+ParticleWatcher Client::watch_particles(const std::string& session_id, const ParticleWatchOptions& options) {
+    return ParticleWatcher(std::make_unique<ParticleWatcher::Impl>(impl_->connection(), session_id, options));
+}
+
 ParticleWatcher Client::watch_particles(const std::string& session_id, std::uint64_t max_particles,
                                         std::chrono::milliseconds reconnect) {
-    return ParticleWatcher(
-        std::make_unique<ParticleWatcher::Impl>(impl_->connection(), session_id, max_particles, reconnect));
+    return watch_particles(session_id, {.max_particles = max_particles, .reconnect = reconnect});
 }
 
 std::vector<RecordingInfo> Client::recordings() {
     v1::ListRecordingsResponse response;
     impl_->call(*impl_->connection()->recordings, &v1::RecordingService::Stub::ListRecordings, {}, {}, response);
     std::vector<RecordingInfo> recordings;
-    for (const v1::Recording& recording : response.recordings()) recordings.push_back(from_wire(recording));
+    for (const v1::Recording& recording : response.recordings()) recordings.push_back(recording_info(recording));
     return recordings;
 }
 

@@ -1,83 +1,63 @@
 #include "error_mapping.hpp"
 
-#include "meniscus/client/client.hpp"
-#include "meniscus/error.hpp"
+#include <algorithm>
+#include <array>
+
+#include "meniscus/client/errors.hpp"
 
 namespace meniscus::client {
 
 namespace {
 
-std::string code_name(grpc::StatusCode code) {
-    switch (code) {
-        case grpc::StatusCode::CANCELLED:
-            return "canceled";
-        case grpc::StatusCode::NOT_FOUND:
-            return "not found";
-        case grpc::StatusCode::ALREADY_EXISTS:
-            return "already exists";
-        case grpc::StatusCode::FAILED_PRECONDITION:
-            return "not possible now";
-        case grpc::StatusCode::UNAUTHENTICATED:
-            return "not known";
-        case grpc::StatusCode::PERMISSION_DENIED:
-            return "not allowed";
-        case grpc::StatusCode::UNIMPLEMENTED:
-            return "not a meniscusd, or one of another version";
-        case grpc::StatusCode::INTERNAL:
-            return "internal error of the server";
-        default:
-            return "gRPC status " + std::to_string(static_cast<int>(code));
-    }
-}
+struct Meaning {
+    grpc::StatusCode status;
+    const char* name;  ///< as gRPC writes it
+    ErrorCode code;
+    const char* words;
+};
 
-/// As gRPC writes it. InvalidInput and LimitExceeded stand for the two that are not here.
-std::string status_name(grpc::StatusCode code) {
-    switch (code) {
-        case grpc::StatusCode::CANCELLED:
-            return "CANCELLED";
-        case grpc::StatusCode::DEADLINE_EXCEEDED:
-            return "DEADLINE_EXCEEDED";
-        case grpc::StatusCode::NOT_FOUND:
-            return "NOT_FOUND";
-        case grpc::StatusCode::ALREADY_EXISTS:
-            return "ALREADY_EXISTS";
-        case grpc::StatusCode::PERMISSION_DENIED:
-            return "PERMISSION_DENIED";
-        case grpc::StatusCode::UNAUTHENTICATED:
-            return "UNAUTHENTICATED";
-        case grpc::StatusCode::FAILED_PRECONDITION:
-            return "FAILED_PRECONDITION";
-        case grpc::StatusCode::ABORTED:
-            return "ABORTED";
-        case grpc::StatusCode::UNIMPLEMENTED:
-            return "UNIMPLEMENTED";
-        case grpc::StatusCode::INTERNAL:
-            return "INTERNAL";
-        case grpc::StatusCode::UNAVAILABLE:
-            return "UNAVAILABLE";
-        default:
-            return "UNKNOWN";
-    }
+/// InvalidInput and LimitExceeded stand for the two that are not here.
+constexpr std::array meanings{
+    Meaning{grpc::StatusCode::CANCELLED, "CANCELLED", ErrorCode::canceled, "canceled"},
+    Meaning{grpc::StatusCode::DEADLINE_EXCEEDED, "DEADLINE_EXCEEDED", ErrorCode::deadline_exceeded, "too late"},
+    Meaning{grpc::StatusCode::NOT_FOUND, "NOT_FOUND", ErrorCode::not_found, "not found"},
+    Meaning{grpc::StatusCode::ALREADY_EXISTS, "ALREADY_EXISTS", ErrorCode::already_exists, "already exists"},
+    Meaning{grpc::StatusCode::PERMISSION_DENIED, "PERMISSION_DENIED", ErrorCode::permission_denied, "not allowed"},
+    Meaning{grpc::StatusCode::UNAUTHENTICATED, "UNAUTHENTICATED", ErrorCode::unauthenticated, "not known"},
+    Meaning{grpc::StatusCode::FAILED_PRECONDITION, "FAILED_PRECONDITION", ErrorCode::failed_precondition,
+            "not possible now"},
+    Meaning{grpc::StatusCode::ABORTED, "ABORTED", ErrorCode::aborted, "aborted"},
+    Meaning{grpc::StatusCode::UNIMPLEMENTED, "UNIMPLEMENTED", ErrorCode::unimplemented,
+            "not a meniscusd, or one of another version"},
+    Meaning{grpc::StatusCode::INTERNAL, "INTERNAL", ErrorCode::internal, "internal error of the server"},
+    Meaning{grpc::StatusCode::UNAVAILABLE, "UNAVAILABLE", ErrorCode::unavailable, "not available"},
+    Meaning{grpc::StatusCode::DATA_LOSS, "DATA_LOSS", ErrorCode::data_loss, "data are damaged"},
+};
+
+ServerError server_error(const grpc::Status& status, const std::string& address) {
+    const std::string& message = status.error_message();
+    const auto meaning = std::find_if(meanings.begin(), meanings.end(),
+                                      [&](const Meaning& one) { return one.status == status.error_code(); });
+    if (meaning == meanings.end())
+        return ServerError("the server at " + address + ": " + message + " (gRPC status " +
+                               std::to_string(static_cast<int>(status.error_code())) + ")",
+                           ErrorCode::unknown, "UNKNOWN");
+    if (meaning->code == ErrorCode::unavailable)
+        return ServerError(
+            "the server at " + address + " is not available (" + message + "): restart meniscusd or check the address",
+            meaning->code, meaning->name);
+    return ServerError("the server at " + address + ": " + message + " (" + meaning->words + ")", meaning->code,
+                       meaning->name);
 }
 
 }  // namespace
 
 std::exception_ptr to_exception(const grpc::Status& status, const std::string& address) {
-    const std::string& message = status.error_message();
-    switch (status.error_code()) {
-        case grpc::StatusCode::INVALID_ARGUMENT:
-            return std::make_exception_ptr(InvalidInput(message));
-        case grpc::StatusCode::RESOURCE_EXHAUSTED:
-            return std::make_exception_ptr(LimitExceeded(message));
-        case grpc::StatusCode::UNAVAILABLE:
-            return std::make_exception_ptr(ServerError("the server at " + address + " is not available (" + message +
-                                                           "): restart meniscusd or check the address",
-                                                       status_name(status.error_code())));
-        default:
-            return std::make_exception_ptr(
-                ServerError("the server at " + address + ": " + message + " (" + code_name(status.error_code()) + ")",
-                            status_name(status.error_code())));
-    }
+    if (status.error_code() == grpc::StatusCode::INVALID_ARGUMENT)
+        return std::make_exception_ptr(InvalidInput(status.error_message()));
+    if (status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED)
+        return std::make_exception_ptr(LimitExceeded(status.error_message()));
+    return std::make_exception_ptr(server_error(status, address));
 }
 
 void require_ok(const grpc::Status& status, const std::string& address) {

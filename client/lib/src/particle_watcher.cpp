@@ -16,9 +16,13 @@ v1::WatchParticlesRequest request_of(const std::string& session_id, std::uint64_
 }  // namespace
 
 ParticleWatcher::Impl::Impl(const std::shared_ptr<Connection>& connection, const std::string& session_id,
-                            std::uint64_t max_particles, std::chrono::milliseconds reconnect)
-    : call_(connection, session_id, reconnect, WatchOptions().route_check,
-            [surfaces = connection->surfaces.get(), request = request_of(session_id, max_particles)](
+                            const ParticleWatchOptions& options)
+    : call_(connection, session_id,
+            {.patience = options.reconnect,
+             .route_check = options.route_check,
+             .on_reconnect = options.on_reconnect,
+             .stop = options.stop},
+            [surfaces = connection->surfaces.get(), request = request_of(session_id, options.max_particles)](
                 grpc::ClientContext& context) { return surfaces->WatchParticles(&context, request); }) {}
 
 ParticleFrame ReceivedParticles::view() const {
@@ -32,6 +36,10 @@ ParticleWatcher::~ParticleWatcher() = default;
 
 std::optional<ReceivedParticles> ParticleWatcher::next() {
     return impl_->next();
+}
+
+Next<ReceivedParticles> ParticleWatcher::next(std::chrono::milliseconds timeout) {
+    return impl_->next(timeout);
 }
 
 void ParticleWatcher::cancel() {

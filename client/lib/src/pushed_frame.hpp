@@ -1,21 +1,36 @@
 // A frame that was pushed and not yet answered.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "byte_pool.hpp"
+#include "meniscus/client/particle_buffer.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "meniscus/strided_positions.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 
 namespace meniscus::client {
 
 struct PushedFrame {
     v1::FrameBegin begin;
-    std::shared_ptr<Bytes> bytes;  ///< of the arrays, one after the other; none once they will not be sent again
+    std::shared_ptr<const void> memory;             ///< of the parts; none once they will not be sent again
+    std::vector<std::span<const std::byte>> parts;  ///< the frame's bytes, one part after the other
 };
 
-/// Copies the particles, which the caller may change afterwards. Throws InvalidInput for a frame with further arrays.
+/// Copies the particles, which the caller may change afterwards. Throws InvalidInput for arrays that do not fit each
+/// other, and for a frame with further arrays; LimitExceeded for more particles than can be numbered.
 PushedFrame copy_frame(const ParticleFrame& frame, std::uint64_t index, double simulation_time, BytePool& pool);
+
+/// Likewise; float64 positions are rounded. Throws InvalidInput for one that cannot be.
+PushedFrame copy_frame(const StridedPositions& positions, std::span<const std::uint8_t> levels, std::uint64_t index,
+                       double simulation_time, BytePool& pool);
+
+/// Takes the buffer's memory over. Throws InvalidInput for a buffer that was taken before, and as copy_frame(); the
+/// buffer is then as it was.
+PushedFrame take_frame(ParticleBuffer& buffer, std::uint64_t index, double simulation_time);
 
 }  // namespace meniscus::client

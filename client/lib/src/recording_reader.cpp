@@ -18,22 +18,31 @@ RecordingReader::Impl::Impl(std::shared_ptr<Connection> connection, const std::s
     conversion::add_known_codecs(*request.mutable_codecs());
     connection_->add_metadata(context_, session_id);
     reader_ = connection_->recordings->ReadRecording(&context_, request);
+    on_stop_.emplace(options.stop, [this] { cancel(); });
 }
 
 RecordingReader::Impl::~Impl() {
+    on_stop_.reset();
+    cancel();
+    wait_.finish();
     if (ended_) return;
-    context_.TryCancel();
     v1::WatchResponse ignored;
     while (reader_->Read(&ignored)) {
     }
     reader_->Finish();
 }
 
-std::optional<ReceivedFrame> RecordingReader::Impl::next() {
+void RecordingReader::Impl::cancel() {
+    canceled_ = true;
+    context_.TryCancel();
+}
+
+std::optional<ReceivedFrame> RecordingReader::Impl::receive() {
     if (ended_) return std::nullopt;
     v1::WatchResponse response;
-    while (reader_->Read(&response))
+    while (!canceled_ && reader_->Read(&response))
         if (auto frame = receiver_.take(response)) return frame;
+    if (canceled_) return std::nullopt;
     ended_ = true;
     require_ok(reader_->Finish(), connection_->address);
     receiver_.end_of_stream();
@@ -47,6 +56,14 @@ RecordingReader::~RecordingReader() = default;
 
 std::optional<ReceivedFrame> RecordingReader::next() {
     return impl_->next();
+}
+
+Next<ReceivedFrame> RecordingReader::next(std::chrono::milliseconds timeout) {
+    return impl_->next(timeout);
+}
+
+void RecordingReader::cancel() {
+    impl_->cancel();
 }
 
 }  // namespace meniscus::client

@@ -3,11 +3,14 @@
 
 #include "call_end.hpp"
 #include "conversion/codec_conversion.hpp"
+#include "deadline.hpp"
 #include "error_mapping.hpp"
 #include "meniscus/error.hpp"
 #include "receiving/frame_receiver.hpp"
+#include "reconnecting.hpp"
 #include "session_look.hpp"
 #include "stream_impl.hpp"
+#include "unary_call.hpp"
 
 namespace meniscus::client {
 
@@ -58,18 +61,25 @@ v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& 
     open.set_policy(to_wire(options.policy));
     open.set_nth(options.nth);
     open.set_with_spray(options.spray);
+    open.set_reconnect_seconds(std::chrono::duration<double>(options.reconnect).count());
     open.set_run_id(random_run_id());
     conversion::add_known_codecs(*open.mutable_codecs());
     return open;
 }
 
+/// What creates it again, with its name and kind.
 v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContext& context,
                                       const std::string& session_id) {
+    context.set_deadline(deadline_after<std::chrono::system_clock>(connection.timeout));
     v1::Session session;
-    require_ok(get_session(connection, context, session_id, session), connection.address);
+    const grpc::Status status = get_session(connection, context, session_id, session);
+    const bool late = status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED;
+    require_ok(late ? not_answered(connection.timeout) : status, connection.address);
     v1::CreateSessionRequest create;
     create.set_id(session_id);
-    *create.mutable_settings() = session.settings();
+    *create.mutable_settings() = std::move(*session.mutable_settings());
+    *create.mutable_description() = std::move(*session.mutable_description());
+    create.set_ephemeral(session.ephemeral());
     return create;
 }
 
@@ -86,9 +96,18 @@ Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& se
     receiver_ = std::thread([this, call = call_] { receive(call); });
     sender_ = std::thread([this] { send(); });
     if (resumes() && options_.route_check.count() > 0) route_checker_ = std::thread([this] { check_route(); });
+    on_stop_.emplace(options_.stop, [this] { cancel(); });
 }
 
 Stream::Impl::~Impl() {
+    on_stop_.reset();
+    cancel();
+    receiver_.join();
+    sender_.join();
+    if (route_checker_.joinable()) route_checker_.join();
+}
+
+void Stream::Impl::cancel() {
     {
         const std::lock_guard lock(mutex_);
         left_ = true;
@@ -99,30 +118,36 @@ Stream::Impl::~Impl() {
     }
     changed_.notify_all();
     over_.notify_all();
-    receiver_.join();
-    sender_.join();
-    if (route_checker_.joinable()) route_checker_.join();
 }
 
 std::shared_ptr<UploadCall> Stream::Impl::open_call() const {
     return std::make_shared<UploadCall>(connection_, open_.session_id(), open_);
 }
 
-void Stream::Impl::push(const ParticleFrame& frame, std::uint64_t index, double simulation_time) {
+bool Stream::Impl::wait_for_room(std::uint64_t index, WhenFull when_full) {
     std::unique_lock lock(mutex_);
     if (finished_) throw InvalidInput("frame " + std::to_string(index) + " was pushed after finish()");
     // One frame is copied while the one before is sent.
-    changed_.wait(lock, [&] {
+    const auto has_room = [&] {
         const bool room = options_.waiting_limit == 0 || outstanding_ < options_.waiting_limit;
-        return ended_ || (room && sent_ == unanswered_.size());
-    });
+        return left_ || ended_ || (room && sent_ == unanswered_.size());
+    };
+    if (when_full == WhenFull::wait)
+        changed_.wait(lock, has_room);
+    else if (!has_room())
+        return false;
+    if (left_)
+        throw ServerError("frame " + std::to_string(index) + " was pushed to a stream that was canceled",
+                          ErrorCode::canceled);
     if (error_) std::rethrow_exception(error_);
     if (ended_) throw ServerError("the server at " + connection_->address + " ended the stream before its last frame");
-    lock.unlock();
-    auto pushed = std::make_shared<PushedFrame>(copy_frame(frame, index, simulation_time, *pool_));
-    lock.lock();
+    return true;
+}
+
+void Stream::Impl::enqueue(std::shared_ptr<PushedFrame> frame) {
+    const std::lock_guard lock(mutex_);
     ++outstanding_;
-    unanswered_.push_back(std::move(pushed));
+    unanswered_.push_back(std::move(frame));
     changed_.notify_all();
 }
 
@@ -132,18 +157,23 @@ void Stream::Impl::finish() {
     changed_.notify_all();
 }
 
-std::optional<ReceivedFrame> Stream::Impl::next() {
+Next<ReceivedFrame> Stream::Impl::next(std::optional<std::chrono::steady_clock::time_point> until) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return ended_ || !waiting_.empty(); });
+    const auto has_news = [&] { return left_ || ended_ || !waiting_.empty(); };
+    if (!until)
+        changed_.wait(lock, has_news);
+    else if (!changed_.wait_until(lock, *until, has_news))
+        return {};
+    if (left_) return {.ended = true};
     if (waiting_.empty()) {
         if (error_) std::rethrow_exception(error_);
-        return std::nullopt;
+        return {.ended = true};
     }
-    std::optional<ReceivedFrame> frame(std::move(waiting_.front()));
+    Next<ReceivedFrame> next{.frame = std::move(waiting_.front())};
     waiting_.pop_front();
     --outstanding_;
     changed_.notify_all();
-    return frame;
+    return next;
 }
 
 std::uint64_t Stream::Impl::dropped() const {
@@ -158,8 +188,8 @@ bool Stream::Impl::may_send() const {
 void Stream::Impl::send() {
     std::unique_lock lock(mutex_);
     for (;;) {
-        changed_.wait(lock, [&] { return ended_ || may_send(); });
-        if (ended_) return;
+        changed_.wait(lock, [&] { return left_ || ended_ || may_send(); });
+        if (left_ || ended_) return;
         const std::shared_ptr<UploadCall> call = call_;
         if (moving_) {
             draining_ = true;
@@ -179,7 +209,10 @@ void Stream::Impl::send() {
         changed_.notify_all();
         lock.unlock();
         const bool sent = call->send(*frame);
-        if (!resumes()) frame->bytes.reset();
+        if (!resumes()) {
+            frame->parts.clear();
+            frame->memory.reset();
+        }
         lock.lock();
         // What became of it is for the receiving thread to find out.
         if (!sent && call_ == call) call_.reset();
@@ -212,6 +245,7 @@ grpc::Status Stream::Impl::read_answers(UploadCall& call) {
     FrameReceiver receiver(options_.receive_meshes);
     try {
         std::string instance = call.accepted_by();
+        if (!instance.empty() && std::exchange(connecting_, false)) tell(true, *broken_at_ + options_.reconnect);
         {
             const std::lock_guard lock(mutex_);
             // Answers will not come if none are owed.
@@ -295,7 +329,9 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
     if (!broken_at_) {
         broken_at_ = Clock::now();
         backoff_.reset();
+        attempts_ = 0;
     }
+    broken_reason_ = status.error_message();
     std::unique_lock lock(mutex_);
     call_.reset();
     const auto deadline = *broken_at_ + options_.reconnect;
@@ -308,16 +344,19 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
                     " s (" + status.error_message() + "): frame " +
                     (unanswered_.empty() ? "none" : std::to_string(unanswered_.front()->begin.frame_index())) +
                     " is the first without an answer",
-                "UNAVAILABLE");
+                ErrorCode::unavailable, "UNAVAILABLE");
         if (changed_.wait_until(lock, attempt_at, [&] { return left_; })) return nullptr;
         const auto creating = std::make_shared<grpc::ClientContext>();
         creating_ = creating;
         lock.unlock();
+        ++attempts_;
+        tell(false, deadline);
         grpc::Status created = create_session(*creating, deadline);
         std::shared_ptr<UploadCall> call;
         if (created.ok()) {
             created_by_ = ended_by(*creating);
             call = open_call();
+            connecting_ = true;
         }
         lock.lock();
         creating_.reset();
@@ -339,7 +378,9 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
         const bool full = created.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED;
         if (!full && !may_go_on(created, *creating)) require_ok(created, connection_->address);
         // A wait that was in vain says less than what was before.
-        if (created.error_code() != grpc::StatusCode::DEADLINE_EXCEEDED) status = std::move(created);
+        if (created.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED) continue;
+        status = std::move(created);
+        broken_reason_ = status.error_message();
     }
 }
 
@@ -356,6 +397,12 @@ void Stream::Impl::end(std::exception_ptr error) {
     error_ = std::move(error);
     changed_.notify_all();
     over_.notify_all();
+}
+
+void Stream::Impl::tell(bool connected, Clock::time_point give_up_at) const {
+    tell_of_reconnecting(
+        options_.on_reconnect,
+        {.attempt = attempts_, .connected = connected, .reason = broken_reason_, .left = time_left(give_up_at)});
 }
 
 void Stream::Impl::check_route() {
@@ -397,7 +444,38 @@ Stream& Stream::operator=(Stream&&) noexcept = default;
 Stream::~Stream() = default;
 
 void Stream::push(const ParticleFrame& frame, std::uint64_t index, double simulation_time) {
-    impl_->push(frame, index, simulation_time);
+    impl_->push(index, Impl::WhenFull::wait,
+                [&](BytePool& pool) { return copy_frame(frame, index, simulation_time, pool); });
+}
+
+void Stream::push(const StridedPositions& positions, std::uint64_t index, double simulation_time,
+                  std::span<const std::uint8_t> levels) {
+    impl_->push(index, Impl::WhenFull::wait,
+                [&](BytePool& pool) { return copy_frame(positions, levels, index, simulation_time, pool); });
+}
+
+void Stream::push(ParticleBuffer&& buffer, std::uint64_t index, double simulation_time) {
+    impl_->push(index, Impl::WhenFull::wait, [&](BytePool&) { return take_frame(buffer, index, simulation_time); });
+}
+
+bool Stream::try_push(const ParticleFrame& frame, std::uint64_t index, double simulation_time) {
+    return impl_->push(index, Impl::WhenFull::give_up,
+                       [&](BytePool& pool) { return copy_frame(frame, index, simulation_time, pool); });
+}
+
+bool Stream::try_push(const StridedPositions& positions, std::uint64_t index, double simulation_time,
+                      std::span<const std::uint8_t> levels) {
+    return impl_->push(index, Impl::WhenFull::give_up,
+                       [&](BytePool& pool) { return copy_frame(positions, levels, index, simulation_time, pool); });
+}
+
+bool Stream::try_push(ParticleBuffer&& buffer, std::uint64_t index, double simulation_time) {
+    return impl_->push(index, Impl::WhenFull::give_up,
+                       [&](BytePool&) { return take_frame(buffer, index, simulation_time); });
+}
+
+ParticleBuffer Stream::next_buffer(std::size_t particles, bool with_levels) {
+    return impl_->next_buffer(particles, with_levels);
 }
 
 void Stream::finish() {
@@ -405,7 +483,15 @@ void Stream::finish() {
 }
 
 std::optional<ReceivedFrame> Stream::next() {
-    return impl_->next();
+    return impl_->next(std::nullopt).frame;
+}
+
+Next<ReceivedFrame> Stream::next(std::chrono::milliseconds timeout) {
+    return impl_->next(deadline_after<std::chrono::steady_clock>(timeout));
+}
+
+void Stream::cancel() {
+    impl_->cancel();
 }
 
 std::uint64_t Stream::dropped() const {

@@ -7,9 +7,11 @@
 #include <cstddef>
 #include <deque>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "byte_pool.hpp"
 #include "connection/connection.hpp"
 #include "meniscus/client/client.hpp"
+#include "particle_buffer_memory.hpp"
 #include "pushed_frame.hpp"
 #include "upload_call.hpp"
 
@@ -33,13 +36,29 @@ public:
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    void push(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
+    enum class WhenFull { wait, give_up };
+
+    /// make: the frame, from the pool; called when there is room for it. Returns whether there was.
+    template <class Make>
+    bool push(std::uint64_t index, WhenFull when_full, Make make) {
+        if (!wait_for_room(index, when_full)) return false;
+        enqueue(std::make_shared<PushedFrame>(make(*pool_)));
+        return true;
+    }
+    ParticleBuffer next_buffer(std::size_t particles, bool with_levels) {
+        return ParticleBufferMemory::pooled(*pool_, particles, with_levels ? particles : 0);
+    }
     void finish();
-    std::optional<ReceivedFrame> next();
+    /// until: none to wait as long as it takes.
+    Next<ReceivedFrame> next(std::optional<std::chrono::steady_clock::time_point> until);
+    void cancel();
     std::uint64_t dropped() const;
 
 private:
     using Clock = std::chrono::steady_clock;
+
+    bool wait_for_room(std::uint64_t index, WhenFull when_full);
+    void enqueue(std::shared_ptr<PushedFrame> frame);
 
     std::shared_ptr<UploadCall> open_call() const;
     bool resumes() const { return options_.reconnect.count() > 0; }
@@ -65,6 +84,7 @@ private:
     std::shared_ptr<UploadCall> reopen(grpc::Status status);
     grpc::Status create_session(grpc::ClientContext& context, Clock::time_point give_up_at) const;
     void end(std::exception_ptr error);
+    void tell(bool connected, Clock::time_point give_up_at) const;
 
     // The thread that looks.
     void check_route();
@@ -80,8 +100,11 @@ private:
     // Of the receiving thread.
     Backoff backoff_;
     std::optional<Clock::time_point>
-        broken_at_;           ///< none: answers have come since, or a call was accepted when none were owed
-    std::string created_by_;  ///< the instance of the server that had the session last; or empty
+        broken_at_;              ///< none: answers have come since, or a call was accepted when none were owed
+    unsigned attempts_ = 0;      ///< to open another call since then
+    bool connecting_ = false;    ///< the call is such another one, and not yet accepted
+    std::string broken_reason_;  ///< or why the attempt before was in vain
+    std::string created_by_;     ///< the instance of the server that had the session last; or empty
 
     mutable std::mutex mutex_;  ///< for what follows
     std::condition_variable changed_;
@@ -109,6 +132,7 @@ private:
     std::thread receiver_;
     std::thread sender_;
     std::thread route_checker_;
+    std::optional<std::stop_callback<std::function<void()>>> on_stop_;
 };
 
 }  // namespace meniscus::client

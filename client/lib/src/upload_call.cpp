@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <utility>
 
 #include "call_end.hpp"
@@ -36,21 +39,23 @@ std::uint8_t* write_length(int field, std::size_t length, std::uint8_t* at) {
     return CodedOutputStream::WriteVarint32ToArray(static_cast<std::uint32_t>(length), at);
 }
 
-/// A StreamRequest with a FrameChunk whose data is not copied but referred to, and kept alive. By hand, since protobuf
-/// copies what it serializes: at a frame's size that is the largest cost of sending it.
-grpc::ByteBuffer chunk_message(const std::shared_ptr<Bytes>& bytes, std::size_t first, std::size_t size) {
+/// A StreamRequest with a FrameChunk whose data is not copied but referred to, and kept alive by `memory`. By hand,
+/// since protobuf copies what it serializes: at a frame's size that is the largest cost of sending it.
+grpc::ByteBuffer chunk_message(const std::shared_ptr<const void>& memory, std::span<const std::byte> data) {
     std::array<std::uint8_t, 12> data_head{};
     const auto data_head_size = static_cast<std::size_t>(
-        write_length(v1::FrameChunk::kDataFieldNumber, size, data_head.data()) - data_head.data());
+        write_length(v1::FrameChunk::kDataFieldNumber, data.size(), data_head.data()) - data_head.data());
     std::array<std::uint8_t, 24> head{};
-    std::uint8_t* end = write_length(v1::StreamRequest::kFrameChunkFieldNumber, data_head_size + size, head.data());
+    std::uint8_t* end =
+        write_length(v1::StreamRequest::kFrameChunkFieldNumber, data_head_size + data.size(), head.data());
     end = std::copy_n(data_head.data(), data_head_size, end);
-    auto reference = std::make_unique<std::shared_ptr<Bytes>>(bytes);
+    auto reference = std::make_unique<std::shared_ptr<const void>>(memory);
     const std::array<grpc::Slice, 2> slices{
         grpc::Slice(head.data(), static_cast<std::size_t>(end - head.data())),
+        // gRPC does not write to it.
         grpc::Slice(
-            bytes->data() + first, size, [](void* kept) { delete static_cast<std::shared_ptr<Bytes>*>(kept); },
-            reference.release())};
+            const_cast<std::byte*>(data.data()), data.size(),
+            [](void* kept) { delete static_cast<std::shared_ptr<const void>*>(kept); }, reference.release())};
     return {slices.data(), slices.size()};
 }
 
@@ -71,10 +76,10 @@ bool UploadCall::send(const PushedFrame& frame) {
     v1::StreamRequest request;
     *request.mutable_frame_begin() = frame.begin;
     if (!send(request, grpc::WriteOptions().set_buffer_hint())) return false;
-    for (std::size_t first = 0; first < frame.bytes->size(); first += chunk_bytes) {
-        const std::size_t size = std::min(chunk_bytes, frame.bytes->size() - first);
-        if (!call_->Write(chunk_message(frame.bytes, first, size))) return false;
-    }
+    for (std::span<const std::byte> part : frame.parts)
+        for (; !part.empty(); part = part.subspan(std::min(chunk_bytes, part.size())))
+            if (!call_->Write(chunk_message(frame.memory, part.first(std::min(chunk_bytes, part.size())))))
+                return false;
     request.mutable_frame_end();
     return send(request, {});
 }

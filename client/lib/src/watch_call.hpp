@@ -7,9 +7,11 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
@@ -17,10 +19,23 @@
 #include "backoff.hpp"
 #include "call_end.hpp"
 #include "connection/connection.hpp"
+#include "deadline.hpp"
 #include "error_mapping.hpp"
+#include "meniscus/client/reconnect_event.hpp"
+#include "reconnecting.hpp"
 #include "session_look.hpp"
+#include "unary_call.hpp"
 
 namespace meniscus::client {
+
+/// What its caller wants of a call beside its request.
+struct WatchPersistence {
+    std::chrono::milliseconds patience{0};     ///< for how long a call that broke is made again
+    std::chrono::milliseconds route_check{0};  ///< how often to look, then, whether another server has the session by
+                                               ///< now; 0: never
+    ReconnectHandler on_reconnect{};
+    std::stop_token stop{};  ///< as cancel()
+};
 
 /// Receiver: puts the responses of one call together to frames, which have an index and a run.
 template <class Response, class Receiver>
@@ -29,19 +44,20 @@ public:
     using Frame = typename decltype(std::declval<Receiver>().take(std::declval<Response>()))::value_type;
     using Reader = std::unique_ptr<grpc::ClientReader<Response>>;
 
-    /// patience: for how long a call that broke is made again. route_check: how often to look, then, whether another
-    /// server has the session by now; 0: never. start: makes the call.
-    WatchCall(std::shared_ptr<Connection> connection, std::string session_id, std::chrono::milliseconds patience,
-              std::chrono::milliseconds route_check, std::function<Reader(grpc::ClientContext&)> start)
+    /// start: makes the call.
+    WatchCall(std::shared_ptr<Connection> connection, std::string session_id, WatchPersistence persistence,
+              std::function<Reader(grpc::ClientContext&)> start)
         : connection_(std::move(connection)),
           session_id_(std::move(session_id)),
-          patience_(patience),
+          persistence_(std::move(persistence)),
           start_(std::move(start)) {
+        on_stop_.emplace(persistence_.stop, [this] { cancel(); });
         open();
-        if (patience.count() > 0 && route_check.count() > 0)
-            route_checker_ = std::thread([this, route_check] { check_route(route_check); });
+        if (persistence_.patience.count() > 0 && persistence_.route_check.count() > 0)
+            route_checker_ = std::thread([this] { check_route(); });
     }
     ~WatchCall() {
+        on_stop_.reset();
         cancel();
         if (route_checker_.joinable()) route_checker_.join();
         if (ended_) return;
@@ -74,14 +90,18 @@ public:
         return std::nullopt;
     }
 
-    /// From any thread: next() then returns none.
+    /// From any thread, as is_canceled(): a next() that waits then returns none.
     void cancel() {
         const std::lock_guard lock(mutex_);
         canceled_ = true;
-        call_->context.TryCancel();
+        if (call_) call_->context.TryCancel();
         for (const auto& look : {finding_, checking_})
             if (look) look->TryCancel();
         canceled_now_.notify_all();
+    }
+    bool is_canceled() {
+        const std::lock_guard lock(mutex_);
+        return canceled_;
     }
 
 private:
@@ -101,19 +121,33 @@ private:
             call_ = std::move(call);
             if (canceled_) call_->context.TryCancel();
         }
-        call_->reader = start_(call_->context);
-        // The server answers, with metadata, once it has the watcher: no frame from here on is missed.
-        call_->reader->WaitForInitialMetadata();
+        late_ = !begin_in_time();
         if (!call_->context.GetServerInitialMetadata().contains("x-session-id"))
             return;  // refused; a proxy may add its own
         had_session_ = true;
+        if (broken_since_ && attempts_ > 0) tell(true);
         broken_since_.reset();
+        attempts_ = 0;
         const std::lock_guard lock(mutex_);
         instance_ = accepted_by(call_->context);
     }
 
+    /// Whether the server has answered in time; otherwise the call has ended.
+    bool begin_in_time() {
+        auto begun = std::async(std::launch::async, [this] {
+            call_->reader = start_(call_->context);
+            // The server answers, with metadata, once it has the watcher: no frame from here on is missed.
+            call_->reader->WaitForInitialMetadata();
+        });
+        const bool in_time = begun.wait_until(deadline_after<Clock>(connection_->timeout)) == std::future_status::ready;
+        if (!in_time) call_->context.TryCancel();
+        begun.get();
+        return in_time;
+    }
+
     grpc::Status finish() {
         grpc::Status status = call_->reader->Finish();
+        if (late_) status = not_answered(connection_->timeout);
         ended_ = true;
         const std::lock_guard lock(mutex_);
         instance_.clear();
@@ -142,7 +176,7 @@ private:
             return false;
         }
         if (!broken_since_) broken_since_ = Clock::now();
-        const auto give_up_at = *broken_since_ + patience_;
+        const auto give_up_at = *broken_since_ + persistence_.patience;
         bool may_come_back = this->may_come_back(status, call_->context);
         bool reached = false;
         for (;;) {
@@ -152,6 +186,9 @@ private:
             if (canceled_now_.wait_until(lock, attempt_at, [&] { return canceled_; })) return false;
             const auto finding = finding_ = std::make_shared<grpc::ClientContext>();
             lock.unlock();
+            ++attempts_;
+            broken_reason_ = status.error_message();
+            tell(false);
             wait_for_connection(*finding, give_up_at);
             v1::Session session;
             grpc::Status found = get_session(*connection_, *finding, session_id_, session);
@@ -171,9 +208,9 @@ private:
 
     /// Of the thread that looks. A session whose simulator lost its connection while the servers behind a proxy changed
     /// goes on with another server, and the one that this call is on does not hear of it.
-    void check_route(std::chrono::milliseconds interval) {
+    void check_route() {
         std::unique_lock lock(mutex_);
-        while (!canceled_now_.wait_for(lock, interval, [&] { return canceled_; })) {
+        while (!canceled_now_.wait_for(lock, persistence_.route_check, [&] { return canceled_; })) {
             if (instance_.empty()) continue;
             const std::string instance = instance_;
             const auto checking = checking_ = std::make_shared<grpc::ClientContext>();
@@ -186,25 +223,30 @@ private:
 
     /// Whether another server than this instance answers for the session, and has frames of it or awaits them.
     bool is_elsewhere(const std::string& instance, grpc::ClientContext& checking) const {
-        wait_for_connection(checking, Clock::now() + patience_);
+        wait_for_connection(checking, Clock::now() + persistence_.patience);
         v1::Session session;
         const bool there = get_session(*connection_, checking, session_id_, session).ok();
         const std::string other = ended_by(checking);
         return there && !other.empty() && other != instance && (session.uploading() || session.has_last_frame_index());
     }
 
-    bool is_canceled() {
-        const std::lock_guard lock(mutex_);
-        return canceled_;
+    void tell(bool connected) const {
+        tell_of_reconnecting(persistence_.on_reconnect, {.attempt = attempts_,
+                                                         .connected = connected,
+                                                         .reason = broken_reason_,
+                                                         .left = time_left(*broken_since_ + persistence_.patience)});
     }
 
     const std::shared_ptr<Connection> connection_;
     const std::string session_id_;
-    const std::chrono::milliseconds patience_;
+    const WatchPersistence persistence_;
     const std::function<Reader(grpc::ClientContext&)> start_;
     bool ended_ = false;
+    bool late_ = false;  ///< the call was not answered in time
     bool had_session_ = false;
     std::optional<Clock::time_point> broken_since_;
+    unsigned attempts_ = 0;      ///< since then
+    std::string broken_reason_;  ///< or why the attempt before was in vain
     Backoff backoff_;
     std::uint64_t shown_run_ = 0;
     std::optional<std::uint64_t> shown_index_;
@@ -218,6 +260,7 @@ private:
     bool canceled_ = false;
 
     std::thread route_checker_;
+    std::optional<std::stop_callback<std::function<void()>>> on_stop_;
 };
 
 }  // namespace meniscus::client

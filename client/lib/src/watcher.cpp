@@ -31,11 +31,15 @@ v1::WatchRequest request_of(const std::string& session_id, const WatchOptions& o
 
 Watcher::Impl::Impl(const std::shared_ptr<Connection>& connection, const std::string& session_id,
                     const WatchOptions& options)
-    : call_(connection, session_id, options.reconnect, options.route_check,
+    : call_(connection, session_id,
+            {.patience = options.reconnect,
+             .route_check = options.route_check,
+             .on_reconnect = options.on_reconnect,
+             .stop = options.stop},
             [surfaces = connection->surfaces.get(), request = request_of(session_id, options)](
                 grpc::ClientContext& context) { return surfaces->Watch(&context, request); }) {}
 
-std::optional<ReceivedFrame> Watcher::Impl::next() {
+std::optional<ReceivedFrame> Watcher::Impl::receive() {
     auto frame = call_.next();
     if (frame) {
         find_changes(shown_bricks_, *frame);
@@ -51,6 +55,10 @@ Watcher::~Watcher() = default;
 
 std::optional<ReceivedFrame> Watcher::next() {
     return impl_->next();
+}
+
+Next<ReceivedFrame> Watcher::next(std::chrono::milliseconds timeout) {
+    return impl_->next(timeout);
 }
 
 void Watcher::cancel() {

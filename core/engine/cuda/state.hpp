@@ -69,6 +69,7 @@ struct Counts {
     Counter neighbors;            ///< of all probed particles
     Counter pairs;                ///< of base cells and particles near them
     Counter spray_particles;
+    std::uint32_t greatest_sample;  ///< bits of a float; where it is asked for
     std::uint32_t particle_cells;
     std::uint32_t first_particle_brick[particle_level_count + 1];
     std::uint32_t level_particles[particle_level_count];  ///< where work is limited

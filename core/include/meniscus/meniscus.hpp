@@ -16,3 +16,5 @@
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
 #include "meniscus/stop_flag.hpp"
+#include "meniscus/strided_positions.hpp"
+#include "meniscus/warning.hpp"

@@ -64,6 +64,9 @@ private:
 /// Throws InvalidInput if the frame's arrays do not fit each other, a position is not finite or lies beyond what
 /// the lattice can address, or a level is above 3; names the particle, the value and the limit.
 void validate(const ParticleFrame& frame, const Settings& settings);
+/// The first of these alone, which looks at no particle. Throws InvalidInput, and LimitExceeded for too many arrays or
+/// particles.
+void validate_lengths(const ParticleFrame& frame);
 
 /// The backend that a choice comes to on this machine.
 struct BackendDescription {

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "meniscus/mesh.hpp"
 #include "meniscus/names.hpp"
+#include "meniscus/warning.hpp"
 
 namespace meniscus {
 
@@ -66,6 +68,7 @@ struct Statistics {
     std::uint64_t device_peak_bytes = 0;
     std::string backend;  ///< "cpu" or "cuda"
     unsigned threads = 0;
+    std::vector<Warning> warnings;  ///< what looks like a mistake, in the order of the codes
 };
 
 }  // namespace meniscus

@@ -96,10 +96,19 @@ template <class T>
 T __shfl_xor_sync(unsigned, T value, int mask, int place = __builtin_LINE()) {
     return emulated_device::shuffled(value, (threadIdx.x % 32) ^ static_cast<unsigned>(mask), place);
 }
+inline unsigned __float_as_uint(float value) {
+    return __builtin_bit_cast(unsigned, value);
+}
 template <class T>
 T atomicAdd(T* at, T value) {
     const T before = *at;
     *at += value;
+    return before;
+}
+template <class T>
+T atomicMax(T* at, T value) {
+    const T before = *at;
+    if (value > before) *at = value;
     return before;
 }
 template <class T>

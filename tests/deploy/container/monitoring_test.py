@@ -22,8 +22,8 @@ del sys.argv[1:4]
 CONFIGURATION = DEPLOY / "container/prometheus/prometheus.yml"
 DASHBOARD = DEPLOY / "container/grafana/dashboards/meniscus.json"
 PROVISIONING = DEPLOY / "container/grafana/provisioning"
-NAME = re.compile(r"\b(?:meniscus|process)_[a-z_]+\b|\bup\b")
-SELECTOR = re.compile(r"\b((?:meniscus|process)_[a-z_]+)\{([^}]*)\}")
+NAME = re.compile(r"\b(?:meniscus|process|grpc_server)_[a-z_]+\b|\bup\b")
+SELECTOR = re.compile(r"\b((?:meniscus|process|grpc_server)_[a-z_]+)\{([^}]*)\}")
 
 
 def free_port():
@@ -173,7 +173,7 @@ class WithAServer(unittest.TestCase):
         for where, expression in self.expressions():
             for name, matchers in SELECTOR.findall(expression):
                 for label, value in re.findall(r'(\w+)="([^"]*)"', matchers):
-                    if label not in ("job", "code"):  # of Prometheus' own; exported once such a call has ended
+                    if label not in ("job", "grpc_code"):  # of Prometheus' own; exported once such a call has ended
                         self.assertRegex(self.metrics, rf'(?m)^{name}{{[^}}]*{label}="{value}"', where)
 
     def test_every_panel_shows_something(self):

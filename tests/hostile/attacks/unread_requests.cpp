@@ -22,17 +22,12 @@ constexpr std::size_t mebibyte = 1 << 20;
 constexpr std::size_t mebibytes = 512;
 constexpr int rounds = 3;
 constexpr const char* answered_methods[] = {
-    "/meniscus.v1.ServerService/GetServerInfo",
-    "/meniscus.v1.SessionService/CreateSession",
-    "/meniscus.v1.SessionService/GetSession",
-    "/meniscus.v1.SessionService/ListSessions",
-    "/meniscus.v1.SessionService/DeleteSession",
-    "/meniscus.v1.SurfaceService/Watch",
-    "/meniscus.v1.SurfaceService/WatchParticles",
-    "/meniscus.v1.SurfaceService/Stream",
-    "/meniscus.v1.RecordingService/ListRecordings",
-    "/meniscus.v1.RecordingService/ReadRecording",
-    "/grpc.health.v1.Health/Check",
+    "/meniscus.v1.ServerService/GetServerInfo",      "/meniscus.v1.SessionService/CreateSession",
+    "/meniscus.v1.SessionService/GetSession",        "/meniscus.v1.SessionService/ListSessions",
+    "/meniscus.v1.SessionService/DeleteSession",     "/meniscus.v1.SurfaceService/Watch",
+    "/meniscus.v1.SurfaceService/WatchParticles",    "/meniscus.v1.SurfaceService/Stream",
+    "/meniscus.v1.RecordingService/ListRecordings",  "/meniscus.v1.RecordingService/ReadRecording",
+    "/meniscus.v1.RecordingService/DeleteRecording", "/grpc.health.v1.Health/Check",
 };
 
 std::string tokens_file(const Folder& folder) {

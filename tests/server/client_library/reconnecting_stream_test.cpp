@@ -10,21 +10,12 @@
 #include "observation/metrics.hpp"
 #include "running_server.hpp"
 #include "tcp_proxy.hpp"
+#include "tcp_server.hpp"
 
 namespace meniscus::server::test {
 namespace {
 
 constexpr std::chrono::milliseconds patient{60'000};
-
-ServerOptions on_tcp(std::uint16_t port = 0) {
-    ServerOptions options = test_options();
-    options.listen = "127.0.0.1:" + std::to_string(port);
-    return options;
-}
-
-std::uint16_t port_of(const std::string& address) {
-    return static_cast<std::uint16_t>(std::stoi(address.substr(address.rfind(':') + 1)));
-}
 
 std::vector<std::uint64_t> numbers(std::uint64_t count) {
     std::vector<std::uint64_t> result(count);
@@ -111,8 +102,7 @@ TEST(ReconnectingStream, WaitsForAServerThatIsFull) {
     running = std::make_unique<RunningServer>(small);
     const std::string other = running->session();
     stream.push(wave(4, 0.0).view(), 0, 0.0);
-    while (scrape(running->server.http_address())["meniscus_calls_total{code=\"RESOURCE_EXHAUSTED\"}"] == 0)
-        std::this_thread::yield();
+    while (calls_ended(scrape(running->server.http_address()), "ResourceExhausted") == 0) std::this_thread::yield();
     running->client.delete_session(other);
     EXPECT_EQ(stream.next()->index, 0U);
 }
@@ -163,7 +153,7 @@ TEST(ReconnectingStream, IsOpenedAgainWithTheNextFrameAfterItsServerEndedItForId
     const std::string id = running.session();
     auto stream = running.client.stream(id, {.reconnect = patient});
     const auto wait_until_ended = [&](double times) {
-        while (scrape(running.server.http_address())["meniscus_calls_total{code=\"RESOURCE_EXHAUSTED\"}"] < times)
+        while (calls_ended(scrape(running.server.http_address()), "ResourceExhausted") < times)
             std::this_thread::yield();
     };
     for (std::uint64_t i = 0; i < 3; ++i) {

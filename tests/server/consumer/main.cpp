@@ -1,6 +1,7 @@
 // What a simulation that uses the library looks like to its build: no gRPC, no Draco. No server is there.
 #include <cstdio>
 #include <meniscus/client/client.hpp>
+#include <vector>
 
 int main() {
     using namespace meniscus::client;
@@ -8,10 +9,13 @@ int main() {
         Client client("127.0.0.1:1");
         meniscus::Settings settings;
         settings.particle_radius = 0.01;
-        client.create_session(new_session_id(), settings);
+        Session session = client.open_session(settings, {.description = {.name = "dam"}});
+        Stream stream = session.stream();
+        const std::vector<double> positions(3);
+        stream.push(meniscus::StridedPositions(positions), 0, 0.0);
     } catch (const ServerError& error) {
         std::puts(error.what());
-        return 0;
+        return code_of(error) == ErrorCode::unavailable ? 0 : 1;
     }
     return 1;
 }

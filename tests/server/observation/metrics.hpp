@@ -9,7 +9,7 @@
 
 namespace meniscus::server::test {
 
-/// Samples by their names with labels, as "meniscus_calls_total{code=\"OK\"}".
+/// Samples by their names with labels, as "meniscus_limit_number{limit=\"sessions\"}".
 using Samples = std::map<std::string, double>;
 
 inline Samples scrape(const std::string& http_address) {
@@ -21,6 +21,19 @@ inline Samples scrape(const std::string& http_address) {
         samples[line.substr(0, space)] = std::stod(line.substr(space + 1));
     }
     return samples;
+}
+
+/// Over the samples whose name begins so and which have this label, as "code=\"OK\"".
+inline double sum_of(const Samples& samples, const std::string& name, const std::string& label) {
+    double sum = 0.0;
+    for (const auto& [sample, value] : samples)
+        if (sample.starts_with(name) && sample.find(label) != std::string::npos) sum += value;
+    return sum;
+}
+
+/// The calls that have ended with this status, as "NotFound".
+inline double calls_ended(const Samples& samples, const std::string& code) {
+    return sum_of(samples, "grpc_server_handled_total{", "grpc_code=\"" + code + "\"");
 }
 
 /// The first scrape in which the sample has this value: a client has its answer a moment before it is counted. For ever

@@ -1,15 +1,24 @@
 // /metrics tells what was done.
+#include <grpcpp/create_channel.h>
+#include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <string>
+#include <utility>
 
 #include "meniscus/error.hpp"
+#include "meniscus/names.hpp"
 #include "meniscus/statistics.hpp"
 #include "observation/metrics.hpp"
+#include "rpc/known_methods.hpp"
 #include "running_server.hpp"
+#include "sessions/limits/limit_reached.hpp"
 
 namespace meniscus::server::test {
 namespace {
@@ -18,6 +27,13 @@ ServerOptions with_http() {
     ServerOptions options = test_options();
     options.http = "127.0.0.1:0";
     return options;
+}
+
+/// Of one of the server's own calls, whose code is as in "NotFound".
+std::string handled(const std::string& type, const std::string& service, const std::string& method,
+                    const std::string& code) {
+    return "grpc_server_handled_total{grpc_code=\"" + code + "\",grpc_method=\"" + method +
+           "\",grpc_service=\"meniscus.v1." + service + "\",grpc_type=\"" + type + "\"}";
 }
 
 TEST(Metrics, CountWhatWasDone) {
@@ -94,9 +110,64 @@ TEST(Metrics, CountCallsByStatus) {
     nonsense.send_end();
     EXPECT_FALSE(nonsense.finish().ok());
     const Samples samples = scrape(running.server.http_address());
-    EXPECT_EQ(samples.at("meniscus_calls_total{code=\"OK\"}"), 1);
-    EXPECT_EQ(samples.at("meniscus_calls_total{code=\"NOT_FOUND\"}"), 1);
-    EXPECT_EQ(samples.at("meniscus_calls_total{code=\"INVALID_ARGUMENT\"}"), 2);
+    EXPECT_EQ(samples.at(handled("unary", "SessionService", "CreateSession", "OK")), 1);
+    EXPECT_EQ(samples.at(handled("unary", "SessionService", "GetSession", "NotFound")), 1);
+    EXPECT_EQ(samples.at(handled("unary", "SessionService", "GetSession", "InvalidArgument")), 1);
+    EXPECT_EQ(samples.at(handled("bidi_stream", "SurfaceService", "Stream", "InvalidArgument")), 1);
+    EXPECT_EQ(sum_of(samples, "grpc_server_handled_total{", "grpc_code=\"NotFound\""), 1);
+}
+
+TEST(Metrics, CountCallsThatRunAmongThoseStartedAlone) {
+    RunningServer running(with_http());
+    const std::string id = running.session();
+    const std::string labels =
+        "{grpc_method=\"Watch\",grpc_service=\"meniscus.v1.SurfaceService\",grpc_type=\"server_stream\"}";
+    const std::string ended = handled("server_stream", "SurfaceService", "Watch", "OK");
+    {
+        auto watcher = running.client.watch(id);
+        const Samples samples = scrape_until(running.server.http_address(), "grpc_server_started_total" + labels, 1);
+        EXPECT_FALSE(samples.contains("grpc_server_handling_seconds_count" + labels));
+        EXPECT_EQ(sum_of(samples, "grpc_server_handled_total{", "grpc_method=\"Watch\""), 0);
+        running.client.delete_session(id);
+        EXPECT_FALSE(watcher.next());
+    }
+    const Samples samples = scrape_until(running.server.http_address(), ended, 1);
+    EXPECT_EQ(samples.at("grpc_server_started_total" + labels), 1);
+    EXPECT_EQ(samples.at("grpc_server_handling_seconds_count" + labels), 1);
+    EXPECT_GT(samples.at("grpc_server_handling_seconds_sum" + labels), 0);
+}
+
+// Whoever calls what there is not makes no series.
+TEST(Metrics, HaveOneSeriesForAllMethodsThatThereAreNot) {
+    const Metrics::Method& unknown = known_method("/meniscus.v1.SurfaceService/Nonsense");
+    EXPECT_EQ(unknown.name, "unknown");
+    EXPECT_EQ(&known_method("/nonsense"), &unknown);
+    EXPECT_EQ(&known_method(""), &unknown);
+    EXPECT_EQ(known_method("/grpc.health.v1.Health/Watch").type, "server_stream");
+    EXPECT_EQ(known_method("/meniscus.v1.RecordingService/DeleteRecording").type, "unary");
+    EXPECT_EQ(known_method("/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo").type, "bidi_stream");
+    RunningServer running(with_http());
+    const auto calls = [&] {
+        std::size_t series = 0;
+        for (const auto& [name, value] : scrape(running.server.http_address()))
+            series += name.starts_with("grpc_server_") ? 1 : 0;
+        return series;
+    };
+    const auto call = [&](const std::string& method) {
+        grpc::ClientContext context;
+        const auto channel = grpc::CreateChannel(running.server.address(), grpc::InsecureChannelCredentials());
+        std::promise<grpc::Status> status;
+        const grpc::Slice nothing;
+        const grpc::ByteBuffer request(&nothing, 1);
+        grpc::ByteBuffer answer;
+        grpc::GenericStub(channel).UnaryCall(&context, method, {}, &request, &answer,
+                                             [&](grpc::Status s) { status.set_value(std::move(s)); });
+        EXPECT_EQ(status.get_future().get().error_code(), grpc::StatusCode::UNIMPLEMENTED);
+    };
+    call("/meniscus.v1.SurfaceService/Nonsense0");
+    const std::size_t before = calls();
+    for (int i = 1; i < 4; ++i) call("/meniscus.v1.SurfaceService/Nonsense" + std::to_string(i));
+    EXPECT_EQ(calls(), before);
 }
 
 TEST(Metrics, StateTheLimits) {
@@ -106,13 +177,33 @@ TEST(Metrics, StateTheLimits) {
     options.limits.recording_readers = 9;
     options.limits.particles_per_frame = 7;
     options.limits.bytes_per_session = 8'000'000'000;
+    options.limits.least_pace = {.time = std::chrono::milliseconds(1500), .bytes_per_second = 1000};
+    options.limits.per_name.frames_per_second = 11;
+    options.limits.work_per_frame = 12.5;
     const RunningServer running(options);
     const Samples samples = scrape(running.server.http_address());
-    EXPECT_EQ(samples.at("meniscus_limit{name=\"sessions\"}"), 5);
-    EXPECT_EQ(samples.at("meniscus_limit{name=\"watchers_per_session\"}"), 6);
-    EXPECT_EQ(samples.at("meniscus_limit{name=\"recording_readers\"}"), 9);
-    EXPECT_EQ(samples.at("meniscus_limit{name=\"particles_per_frame\"}"), 7);
-    EXPECT_EQ(samples.at("meniscus_limit{name=\"bytes_per_session\"}"), 8'000'000'000);
+    EXPECT_EQ(samples.at("meniscus_limit_number{limit=\"sessions\"}"), 5);
+    EXPECT_EQ(samples.at("meniscus_limit_number{limit=\"watchers\"}"), 6);
+    EXPECT_EQ(samples.at("meniscus_limit_number{limit=\"recording_readers\"}"), 9);
+    EXPECT_EQ(samples.at("meniscus_limit_number{limit=\"particles_per_frame\"}"), 7);
+    EXPECT_EQ(samples.at("meniscus_limit_bytes{limit=\"memory_per_session\"}"), 8'000'000'000);
+    EXPECT_EQ(samples.at("meniscus_limit_seconds{limit=\"upload_time\"}"), 1.5);
+    EXPECT_EQ(samples.at("meniscus_limit_upload_bytes_per_second"), 1000);
+    EXPECT_EQ(samples.at("meniscus_limit_frames_per_second{limit=\"frames_per_second_per_name\"}"), 11);
+    EXPECT_EQ(samples.at("meniscus_limit_frame_work_ratio"), 12.5);
+}
+
+// What is counted as refused for a limit is found by the same name.
+TEST(Metrics, NameLimitsAsTheirRefusals) {
+    const RunningServer running(with_http());
+    const Samples samples = scrape(running.server.http_address());
+    for (const LimitName limit : choices<LimitName>) {
+        if (limit == LimitName::answer_time) continue;  // the same limit as upload_time
+        const std::string label = "limit=\"" + std::string(name_of(limit)) + "\"";
+        EXPECT_TRUE(std::ranges::any_of(samples, [&](const auto& sample) {
+            return sample.first.starts_with("meniscus_limit_") && sample.first.find(label) != std::string::npos;
+        })) << label;
+    }
 }
 
 TEST(Metrics, DoNotGrowWithSessions) {

@@ -18,6 +18,17 @@
 namespace meniscus::server::test {
 namespace {
 
+TEST(Viewer, ThatNobodyAskedForIsNotMissedWhereItCannotBe) {
+    ServerOptions options = test_options();
+    options.http = "192.0.2.1:9464";  // of no machine
+    options.insecure = true;
+    EXPECT_THROW(Server{options}, Unavailable) << "somebody asked for it";
+    options.http_is_default = true;
+    RunningServer running(options);
+    EXPECT_EQ(running.server.http_address(), "");
+    EXPECT_EQ(running.client.sessions().size(), 0U);
+}
+
 using grpc::health::v1::Health;
 using grpc::health::v1::HealthCheckRequest;
 using grpc::health::v1::HealthCheckResponse;

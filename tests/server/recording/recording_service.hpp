@@ -106,6 +106,17 @@ inline grpc::Status status_of(const RunningServer& running, const v1::ReadRecord
     return call->Finish();
 }
 
+inline grpc::Status deletion_status(const RunningServer& running, const std::string& id, std::uint32_t number) {
+    const client::Connection connection(running.server.address());
+    grpc::ClientContext context;
+    connection.add_metadata(context, id);
+    v1::DeleteRecordingRequest request;
+    request.set_session_id(id);
+    request.set_number(number);
+    v1::DeleteRecordingResponse response;
+    return connection.recordings->DeleteRecording(&context, request, &response);
+}
+
 inline v1::ReadRecordingRequest request_for(const std::string& id, std::uint32_t number = 1) {
     v1::ReadRecordingRequest request;
     request.set_session_id(id);

@@ -1,6 +1,8 @@
 // Recordings as the server that made them offers them.
 #include "recording/recording_service.hpp"
 
+#include "cli/command_line.hpp"
+
 namespace meniscus::server::test {
 namespace {
 
@@ -262,6 +264,109 @@ TEST_F(RecordingService, EndsItsReadersWhenTheServerGoesDown) {
     down.join();
 }
 
+TEST_F(RecordingService, DeletesWhatItsCallerNamesAndNothingElse) {
+    RunningServer running(options());
+    const std::string id = recorded(running, frames_);
+    const std::string other = recorded(running, {wave(6, 0.0)});
+    running.client.create_session(id, settings());
+    stream(running.client, id, {wave(6, 0.0)});
+    recording(running.client, id, 1, 2);
+    running.client.delete_recording(id, 1);
+    EXPECT_FALSE(std::filesystem::exists(file(id)));
+    EXPECT_TRUE(std::filesystem::exists(file(id, 2)));
+    EXPECT_EQ(running.client.recordings().size(), 2U);
+    EXPECT_EQ(status_of(running, request_for(id)).error_code(), grpc::StatusCode::NOT_FOUND);
+    EXPECT_EQ(deletion_status(running, id, 1).error_code(), grpc::StatusCode::NOT_FOUND) << "it has gone";
+    running.client.delete_recording(other, 1);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / other)) << "the session's folder goes with its last recording";
+}
+
+TEST_F(RecordingService, DeletesNothingThatIsBeingWritten) {
+    RunningServer running(options());
+    const std::string id = running.session();
+    stream(running.client, id, frames_);
+    recording(running.client, id, frames_.size());
+    const grpc::Status status = deletion_status(running, id, 1);
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+    EXPECT_EQ(status.error_message(), "recording 1 of session " + id +
+                                          " is not deleted: it is being written, until its session ends or sends a "
+                                          "frame whose index does not rise");
+    EXPECT_EQ(indices(running.client.read_recording(id, 1)).size(), frames_.size());
+    running.client.delete_session(id);
+    EXPECT_TRUE(becomes([&] { return deletion_status(running, id, 1).ok(); }));
+}
+
+TEST_F(RecordingService, DeletesNothingThatIsBeingReadAndAllThatHasBeen) {
+    RunningServer running(options());
+    const std::string id = recorded(running, std::vector<Particles>(12, spray(12)));
+    {
+        auto stalled = running.client.read_recording(id, 1);
+        ASSERT_TRUE(stalled.next());
+        const grpc::Status status = deletion_status(running, id, 1);
+        EXPECT_EQ(status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+        EXPECT_NE(status.error_message().find("is not deleted: it is being read; try again later"), std::string::npos)
+            << status.error_message();
+        EXPECT_TRUE(std::filesystem::exists(file(id)));
+    }
+    EXPECT_TRUE(becomes([&] { return deletion_status(running, id, 1).ok(); }));
+    // Whoever knows its end may delete it, at once.
+    for (int i = 0; i < 8; ++i) {
+        const std::string read = recorded(running, {wave(6, 0.0)});
+        EXPECT_EQ(indices(running.client.read_recording(read, 1)).size(), 1U);
+        EXPECT_TRUE(deletion_status(running, read, 1).ok());
+    }
+}
+
+TEST_F(RecordingService, DeletesForTheCommandLine) {
+    RunningServer running(options());
+    const std::string first = recorded(running, {wave(6, 0.0)});
+    const std::string second = recorded(running, {wave(6, 0.0)});
+    const auto run = [&](std::vector<const char*> arguments) {
+        arguments.insert(arguments.begin(), {"meniscus", "recordings"});
+        testing::internal::CaptureStdout();
+        testing::internal::CaptureStderr();
+        const int code = cli::run(static_cast<int>(arguments.size()), arguments.data());
+        return std::to_string(code) + " " + testing::internal::GetCapturedStdout() +
+               testing::internal::GetCapturedStderr();
+    };
+    const char* const server = running.server.address().c_str();
+    for (const char* wrong : {"", "1", "/1", "x/", "x/0", "x/1x", "x/-1", "x/4294967296", "x/1/2"}) {
+        const std::string said = run({"--server", server, "--delete", (first + "/1").c_str(), wrong});
+        EXPECT_TRUE(said.starts_with("2 meniscus: --delete")) << said;
+    }
+    EXPECT_TRUE(run({"--delete", "x/1"}).starts_with("2 ")) << "of a server alone";
+    EXPECT_EQ(running.client.recordings().size(), 2U) << "what is wrong is found before anything is deleted";
+    std::string said = run({"--server", server, "--delete", (first + "/1").c_str(), (second + "/1").c_str()});
+    EXPECT_TRUE(said.starts_with("0 ")) << said;
+    for (const std::string& id : {first, second})
+        EXPECT_NE(said.find("deleted " + id + "/1\n"), std::string::npos) << said;
+    EXPECT_TRUE(running.client.recordings().empty());
+    said = run({"--server", server, "--delete", (first + "/1").c_str()});
+    EXPECT_NE(said.find("no recording 1 of session " + first), std::string::npos) << said;
+    EXPECT_FALSE(said.starts_with("0 ")) << said;
+}
+
+TEST_F(RecordingService, DeletesAtItsStartWhatAnEarlierServerShouldHave) {
+    std::string old;
+    std::string shorter;
+    std::string kept;
+    {
+        RunningServer earlier(options());
+        old = recorded(earlier, frames_);
+        shorter = recorded(earlier, {wave(6, 0.0)});
+        kept = recorded(earlier, frames_);
+    }
+    std::filesystem::last_write_time(file(old), std::filesystem::file_time_type::clock::now() - std::chrono::hours(2));
+    ServerOptions tidy = options();
+    tidy.recording.retention = {.min_frames = 2, .max_age = std::chrono::hours(1)};
+    RunningServer running(tidy);
+    EXPECT_TRUE(becomes(
+        [&] { return !std::filesystem::exists(folder_ / old) && !std::filesystem::exists(folder_ / shorter); }));
+    const std::vector<RecordingInfo> left = running.client.recordings();
+    ASSERT_EQ(left.size(), 1U);
+    EXPECT_EQ(left[0].session_id, kept);
+}
+
 TEST_F(RecordingService, IsNotThereWhereNothingIsRecorded) {
     ServerOptions observed = test_options();
     observed.http = "127.0.0.1:0";
@@ -307,6 +412,27 @@ TEST_F(RecordingService, ShowsUploadersTheirOwnAlone) {
             }
         },
         client::ServerError);
+    ada.delete_session(id);
+    EXPECT_TRUE(becomes([&] { return !recording(ada, id, 1).being_written; }));
+    const auto refused = [&](const std::string& name) {
+        try {
+            as(name).delete_recording(id, 1);
+        } catch (const client::ServerError& error) {
+            return error.status();
+        }
+        return std::string("OK");
+    };
+    EXPECT_EQ(refused("ben"), "NOT_FOUND");
+    EXPECT_EQ(refused("eve"), "PERMISSION_DENIED");
+    EXPECT_EQ(refused("ada"), "OK") << "it is of her session";
+    EXPECT_EQ(refused("root"), "NOT_FOUND");
+    const std::string another = client::new_session_id();
+    ada.create_session(another, settings());
+    stream(ada, another, {wave(6, 0.0)});
+    ada.delete_session(another);
+    EXPECT_TRUE(becomes([&] { return !recording(ada, another, 1).being_written; }));
+    as("root").delete_recording(another, 1);
+    EXPECT_TRUE(ada.recordings().empty());
     const auto anonymous = [&] { client::Client(server.address()).recordings(); };
     EXPECT_THROW(anonymous(), client::ServerError);
 }

@@ -8,14 +8,23 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <memory>
+#include <regex>
+#include <semaphore>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "files/recording_format.hpp"
+#include "log.hpp"
 #include "meniscus/error.hpp"
+#include "recording/delete_recording.hpp"
 #include "recording/free_number.hpp"
 #include "recording/session_recording.hpp"
 #include "recording/write_queue.hpp"
@@ -55,6 +64,18 @@ InputFrame frame(std::uint64_t index, std::size_t particles = 4) {
     frame.particle_count = particles;
     frame.received_at = std::chrono::steady_clock::now();
     return frame;
+}
+
+/// What is logged meanwhile.
+std::string log_of(const std::function<void()>& work) {
+    std::ostringstream log;
+    const auto before = spdlog::default_logger();
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
+    use_log_format(LogFormat::text);
+    work();
+    spdlog::set_default_logger(before);
+    return log.str();
 }
 
 std::shared_ptr<const EncodedFrame> mesh(std::uint64_t index) {
@@ -254,28 +275,112 @@ TEST_F(RecordingWriterTest, LeavesOutFramesWithoutParticlesThatTheDiskIsTooSlowF
 }
 
 TEST_F(RecordingWriterTest, SaysWhatItsEndLeavesOut) {
-    std::ostringstream log;
-    const auto before = spdlog::default_logger();
-    spdlog::set_default_logger(
-        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
     constexpr std::uint64_t frames = 3000;
-    {
+    const std::string log = log_of([&] {
         RecordingWriter writer(options());
         SessionRecording recording(writer, session_id, settings());
         const InputFrame empty = frame(0, 0);
         for (std::uint64_t i = 0; i < frames; ++i) recording.reconstructed(empty);  // a file each
         writer.finish_by(std::chrono::steady_clock::now());
-    }
-    spdlog::set_default_logger(before);
+    });
     const auto written =
         static_cast<std::uint64_t>(std::distance(std::filesystem::directory_iterator(directory_ / session_id), {}));
     EXPECT_LT(written, frames);
-    EXPECT_NE(log.str().find("came before the disk: " + std::to_string(frames - written) +
-                             " particles or meshes of frames are left out at the ends of the recordings of 1 "
-                             "sessions: " +
-                             session_id),
+    EXPECT_NE(log.find("came before the disk: " + std::to_string(frames - written) +
+                       " particles or meshes of frames are left out at the ends of the recordings of 1 "
+                       "sessions: " +
+                       session_id),
               std::string::npos)
         << written << " written";
+}
+
+TEST_F(RecordingWriterTest, DeletesARecordingOfTooFewFramesWhenItIsClosed) {
+    RecordingOptions tidy = options();
+    tidy.retention.min_frames = 2;
+    RecordingWriter writer(tidy);
+    const auto record = [](SessionRecording& recording, std::uint64_t index) {
+        recording.reconstructed(frame(index));
+        recording.encoded(mesh(index));
+    };
+    {
+        SessionRecording recording(writer, session_id, settings());
+        record(recording, 5);
+        record(recording, 3);  // ends the first
+        record(recording, 4);
+    }
+    const auto files = [&] { return std::distance(std::filesystem::directory_iterator(directory_ / session_id), {}); };
+    while (writer.counters().frames < 3 || files() != 1) {
+    }
+    EXPECT_GT(bytes(), 2U * 48U) << "two frames are enough";
+    {
+        SessionRecording other(writer, "00000000-0000-4000-8000-000000000002", settings());
+        record(other, 0);
+    }
+    while (writer.counters().frames < 4 ||
+           std::filesystem::exists(directory_ / "00000000-0000-4000-8000-000000000002")) {
+    }
+    EXPECT_EQ(files(), 1);
+}
+
+TEST_F(RecordingWriterTest, DeletesShortRecordingsThatItsEndClosesWithTheirFolders) {
+    RecordingOptions tidy = options();
+    tidy.retention.min_frames = 2;
+    const std::string log = log_of([&] {
+        RecordingWriter writer(tidy);
+        SessionRecording recording(writer, session_id, settings());
+        recording.reconstructed(frame(0));
+        recording.encoded(mesh(0));
+        recording.reconstructed(frame(1));  // a frame without a mesh is none
+    });
+    EXPECT_FALSE(std::filesystem::exists(directory_ / session_id));
+    EXPECT_TRUE(
+        std::regex_search(log, std::regex("session " + session_id +
+                                          ": its recording 1 is deleted: 1 frames, [0-9]+ bytes; they are fewer "
+                                          "than --record-min-frames 2\n")))
+        << log;
+}
+
+TEST_F(RecordingWriterTest, DeletesShortRecordingsThoughItsEndComesBeforeTheDisk) {
+    RecordingOptions tidy = options();
+    tidy.retention.min_frames = 1;
+    {
+        RecordingWriter writer(tidy);
+        SessionRecording recording(writer, session_id, settings());
+        const InputFrame empty = frame(0, 0);
+        for (int i = 0; i < 1000; ++i) recording.reconstructed(empty);  // a file each
+        writer.finish_by(std::chrono::steady_clock::now());
+    }
+    EXPECT_FALSE(std::filesystem::exists(directory_ / session_id));
+}
+
+TEST_F(RecordingWriterTest, BeginsARecordingThoughTheFolderGoesWithTheOneBefore) {
+    constexpr int recordings = 300;
+    log_of([&] {
+        auto before = std::make_unique<RecordingFile>(directory_, session_id);
+        std::binary_semaphore given(0);
+        std::binary_semaphore gone(0);
+        std::thread deletes([&] {
+            for (int i = 0; i < recordings; ++i) {
+                given.acquire();
+                delete_recording(before->path(), {.session_id = session_id, .number = before->number()}, 0, 0,
+                                 "a test");
+                gone.release();
+            }
+        });
+        for (int i = 0; i < recordings; ++i) {
+            std::unique_ptr<RecordingFile> next;
+            given.release();
+            EXPECT_NO_THROW(next = std::make_unique<RecordingFile>(directory_, session_id));
+            gone.acquire();
+            before = next ? std::move(next) : std::make_unique<RecordingFile>(directory_, session_id);
+        }
+        deletes.join();
+    });
+}
+
+TEST_F(RecordingWriterTest, DoesNotTryForEverToBeginARecording) {
+    std::filesystem::create_symlink(directory_ / "nowhere", directory_ / session_id);
+    EXPECT_THROW(RecordingFile(directory_, session_id), std::runtime_error);
 }
 
 TEST_F(RecordingWriterTest, AFileThatCannotBeCreatedStopsThatSessionsRecordingAlone) {

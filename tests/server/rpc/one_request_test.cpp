@@ -22,7 +22,7 @@ constexpr const char* methods[] = {
     "/meniscus.v1.SessionService/GetSession",      "/meniscus.v1.SessionService/ListSessions",
     "/meniscus.v1.SessionService/DeleteSession",   "/meniscus.v1.SurfaceService/Watch",
     "/meniscus.v1.SurfaceService/WatchParticles",  "/meniscus.v1.RecordingService/ListRecordings",
-    "/meniscus.v1.RecordingService/ReadRecording",
+    "/meniscus.v1.RecordingService/ReadRecording", "/meniscus.v1.RecordingService/DeleteRecording",
 };
 
 /// A call that has begun; its request is up to the test.
@@ -128,8 +128,9 @@ TEST_F(OneRequest, NeedNotComeWhereTheCallIsCanceled) {
     EXPECT_TRUE(last.end().ok());
     for (const auto& call : calls) call->cancel();
     for (const auto& call : calls) EXPECT_EQ(call->end().error_code(), grpc::StatusCode::CANCELLED);
-    const Samples samples = scrape_until(running.server.http_address(), "meniscus_calls_total{code=\"CANCELLED\"}",
-                                         static_cast<double>(std::size(methods)));
+    Samples samples;
+    do samples = scrape(running.server.http_address());
+    while (calls_ended(samples, "Canceled") != static_cast<double>(std::size(methods)));
     for (const auto& [sample, value] : samples)
         EXPECT_FALSE(sample.starts_with("meniscus_refusals_total")) << sample << " " << value;
 }

@@ -383,53 +383,75 @@ TEST_F(GrpcWebCalls, AreRefusedInWordsWhenTheyAreWrongAndHarmNobody) {
 }
 
 TEST_F(GrpcWebCalls, ThatAreRefusedBeforeTheirHandlerAreCountedToo) {
-    const auto calls = [&] {
-        std::map<std::string, double> counts;
-        for (const auto& [name, value] : scrape(http))
-            if (name.starts_with("meniscus_calls_total{")) counts[name] = value;
-        return counts;
-    };
-    const auto rises = [&](const std::string& code, const std::string& request) {
-        const std::string name = "meniscus_calls_total{code=\"" + code + "\"}";
-        const double before = calls()[name];
+    const auto rises = [&](const std::string& code, const std::string& request, const std::string& method) {
+        const auto calls = [&](const char* name, const std::string& label) {
+            return sum_of(scrape(http), name, label + "grpc_method=\"" + method + "\"");
+        };
+        const std::string with_code = "grpc_code=\"" + code + "\",";
+        const double before = calls("grpc_server_handled_total{", with_code);
+        const double started = calls("grpc_server_started_total{", "");
         HttpClient client(http);
         client.send(request);
         client.receive();
-        EXPECT_EQ(calls()[name], before + 1) << request;
+        EXPECT_EQ(calls("grpc_server_handled_total{", with_code), before + 1) << request;
+        EXPECT_EQ(calls("grpc_server_started_total{", ""), started + 1) << request;
     };
     const std::string head = " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/grpc-web+proto\r\n";
     const std::string body = "Content-Length: 5\r\n\r\n" + web_message("");
-    rises("PERMISSION_DENIED", "POST " + info + head + "Origin: https://evil.example\r\n" + body);
-    rises("UNIMPLEMENTED", "POST /meniscus.v1.SessionService/DeleteSession" + head + body);
-    rises("RESOURCE_EXHAUSTED", "POST " + info + head + "Content-Length: 65537\r\n\r\n");
-    rises("INVALID_ARGUMENT", "POST " + info + head + "Content-Length: 3\r\n\r\n" + std::string(3, '\0'));
-    rises("INVALID_ARGUMENT", "GET " + info + head + "\r\n");
-    rises("INVALID_ARGUMENT", "POST " + info + " HTTP/1.1\r\nHost: elsewhere.example\r\n\r\n");
+    const char* const method = "GetServerInfo";
+    rises("PermissionDenied", "POST " + info + head + "Origin: https://evil.example\r\n" + body, method);
+    rises("Unimplemented", "POST /meniscus.v1.SessionService/DeleteSession" + head + body, "DeleteSession");
+    rises("Unimplemented", "POST /meniscus.v1.SessionService/Nonsense" + head + body, "unknown");
+    rises("ResourceExhausted", "POST " + info + head + "Content-Length: 65537\r\n\r\n", method);
+    rises("InvalidArgument", "POST " + info + head + "Content-Length: 3\r\n\r\n" + std::string(3, '\0'), method);
+    rises("InvalidArgument", "GET " + info + head + "\r\n", method);
+    rises("InvalidArgument", "POST " + info + " HTTP/1.1\r\nHost: elsewhere.example\r\n\r\n", method);
 }
 
-TEST(GrpcWeb, NamesTheBrowserInTheLogAndBelievesNoOther) {
+/// What is logged of a watcher by the HTTP port and one by gRPC, who both say that others have sent them.
+std::string log_of_watchers(const ServerOptions& options) {
     std::ostringstream out;
     const auto before = spdlog::default_logger();
     spdlog::set_default_logger(
         std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out)));
     {
-        RunningServer running(web_options());
+        RunningServer running(options);
         const std::string id = running.session();
         {
             WebCall call(running.server.http_address(), watch, watch_request(id),
-                         {{"x-session-id", id}, {"x-web-peer", "somebody"}});
+                         {{"x-session-id", id}, {"x-web-peer", "somebody"}, {"X-Forwarded-For", "1.2.3.4, 192.0.2.7"}});
         }
         const client::Connection connection(running.server.address());
         grpc::ClientContext context;
         client::add_session_id(context, id);
         context.AddMetadata("x-web-peer", "ipv4:1.2.3.4:5");
+        context.AddMetadata("x-forwarded-for", "1.2.3.4, 192.0.2.8");
         const auto native = connection.surfaces->Watch(&context, watch_request(id));
         native->WaitForInitialMetadata();
         context.TryCancel();
         native->Finish();
     }
     spdlog::set_default_logger(before);
-    const std::string log = out.str();
+    return out.str();
+}
+
+TEST(GrpcWeb, NamesTheClientsOfTrustedProxiesInTheLogAndBelievesNoOther) {
+    ServerOptions options = web_options();
+    options.listen = "127.0.0.1:0";
+    options.trusted_proxies = {"127.0.0.1"};
+    const std::string log = log_of_watchers(options);
+    EXPECT_TRUE(std::regex_search(
+        log, std::regex("watcher from 192\\.0\\.2\\.7 through ipv4:127\\.0\\.0\\.1:[0-9]+ \\(web\\) connected")))
+        << log;
+    EXPECT_TRUE(std::regex_search(
+        log, std::regex("watcher from 192\\.0\\.2\\.8 through ipv4:127\\.0\\.0\\.1:[0-9]+ connected")))
+        << log;
+    EXPECT_EQ(log.find("1.2.3.4"), std::string::npos) << log;
+}
+
+TEST(GrpcWeb, NamesTheBrowserInTheLogAndBelievesNoOther) {
+    const std::string log = log_of_watchers(web_options());
+    EXPECT_EQ(log.find("192.0.2."), std::string::npos) << log;
     EXPECT_TRUE(std::regex_search(log, std::regex("watcher from ipv4:127\\.0\\.0\\.1:[0-9]+ \\(web\\) connected")))
         << log;
     EXPECT_TRUE(std::regex_search(log, std::regex("watcher from unix:[^\n]* connected"))) << log;

@@ -52,7 +52,10 @@ export class Picture {
     const blob = await new Promise<Blob | null>((resolve) => {
       this.canvas.toBlob(resolve, 'image/png');
     });
-    if (!blob) throw new Error(`the browser makes no PNG of ${this.canvas.width} x ${this.canvas.height} pixels`);
+    if (!blob)
+      throw new Error(
+        `The browser makes no PNG of ${this.canvas.width} x ${this.canvas.height} pixels; a smaller window may do.`,
+      );
     return new Uint8Array(await blob.arrayBuffer());
   }
 }

@@ -64,6 +64,7 @@ export class Tools {
     ruler: () => {
       this.ruler.setActive(!this.ruler.active);
       this.measured();
+      this.events.changed();
     },
     scale: () => {
       this.setScale(!this.scale);
@@ -344,7 +345,12 @@ export class Tools {
     if (!this.frame) return;
     const picture = new Picture(this.panes);
     picture.takeAll();
-    download(`meniscus-${this.frame.index}.png`, 'image/png', await picture.png());
+    const name = `meniscus-${this.frame.index}.png`;
+    try {
+      download(name, 'image/png', await picture.png());
+    } catch (error) {
+      this.events.failed(error instanceof Error ? error.message : String(error));
+    }
   }
 
   private recorded(): Recorded | undefined {

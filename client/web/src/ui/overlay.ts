@@ -7,6 +7,7 @@ import { legendRow } from './legend';
 import { element } from './page';
 import { Rate } from './rates';
 import { StageChart } from './stage_chart';
+import { WarningList } from './warnings';
 import { bytesText, countText, millisecondsText, volumeText } from './texts';
 
 const unknown = '–';
@@ -16,6 +17,7 @@ export class Overlay {
   private readonly drawn = new Rate();
   private readonly received = new Rate();
   private readonly chart = new StageChart();
+  private readonly warnings = new WarningList(element('warnings', HTMLUListElement));
   private readonly levelTexts: HTMLElement[];
 
   constructor() {
@@ -36,6 +38,7 @@ export class Overlay {
     for (const id of figures) set(id, unknown);
     for (const text of this.levelTexts) text.textContent = unknown;
     this.chart.clear();
+    this.warnings.show([]);
   }
 
   /** When a picture of the frame has been drawn, new or from the frames that are kept. */
@@ -51,6 +54,7 @@ export class Overlay {
       text.textContent = countText(levels[level]!);
     });
     this.chart.describe(frame.statistics);
+    this.warnings.show(frame.statistics.warnings);
   }
 
   /** What is drawn of the frame's particles, if any are. */

@@ -26,6 +26,20 @@ std::function<grpc::Status(RunningServer&)> read(std::string metadata,
     };
 }
 
+/// Deletes with this metadata.
+std::function<grpc::Status(RunningServer&)> deletion(std::string metadata, std::string session, std::uint32_t number) {
+    return [=](RunningServer& running) {
+        const client::Connection connection = connect(running);
+        grpc::ClientContext context;
+        client::add_session_id(context, metadata);
+        v1::DeleteRecordingRequest request;
+        request.set_session_id(session);
+        request.set_number(number);
+        v1::DeleteRecordingResponse response;
+        return connection.recordings->DeleteRecording(&context, request, &response);
+    };
+}
+
 }  // namespace
 
 std::vector<BadInputCase> recording_cases() {
@@ -51,6 +65,16 @@ std::vector<BadInputCase> recording_cases() {
                   request = with_raw_field<v1::ReadRecordingRequest>(v1::ReadRecordingRequest::kSessionIdFieldNumber,
                                                                      "\xff\xfe");
               })},
+        {"ADeletionOfNoRecording", grpc::StatusCode::NOT_FOUND, "no recording 3 of session " + no_session,
+         deletion(no_session, no_session, 3)},
+        {"ADeletionOfNoNumber", grpc::StatusCode::NOT_FOUND, "no recording 0 of session " + no_session,
+         deletion(no_session, no_session, 0)},
+        {"ADeletionOfAPath", invalid, "x-session-id is \"../../etc\"; it must be a UUID",
+         deletion("../../etc", "../../etc", 1)},
+        {"ADeletionOfAPathInTheMessage", invalid, "the message's session id is \"..\"; it must be a UUID",
+         deletion(no_session, "..", 1)},
+        {"ADeletionOfAnotherSessionThanItsMetadataSays", invalid, "but the message's session id is",
+         deletion(no_session, "00000000-0000-4000-8000-000000000001", 1)},
     };
 }
 

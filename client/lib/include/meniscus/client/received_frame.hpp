@@ -1,0 +1,49 @@
+// A frame as it comes from a server or out of a file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "meniscus/brick_coding.hpp"
+#include "meniscus/client/frame_statistics.hpp"
+#include "meniscus/mesh.hpp"
+
+namespace meniscus::client {
+
+enum class DropReason {
+    replaced,  ///< UploadPolicy::latest
+    not_nth,   ///< UploadPolicy::every_nth
+};
+
+/// A frame that the server left out, as the policy says.
+struct DroppedFrame {
+    std::uint64_t index = 0;
+    DropReason reason = DropReason::replaced;
+};
+
+/// One received frame. Bricks stay encoded until they are asked for.
+struct ReceivedFrame {
+    std::uint64_t index = 0;
+    std::uint64_t run_id = 0;  ///< of the run of frames that the simulator sends; 0: of no run
+    double simulation_time = 0.0;
+    double cell_size = 0.0;
+    std::uint32_t offset_bits = 0;
+    /// All of them, ordered by coordinate (z, y, x); empty when no meshes were asked for. A watcher's frames share
+    /// those that did not change.
+    std::vector<std::shared_ptr<const EncodedBrick>> bricks;
+    /// Places of the particles left out of the surface (Spray::points), world units; empty when not asked for.
+    std::vector<Point> spray;
+    /// To a watcher: the bricks that are new or were received anew since the frame that next() returned before, and
+    /// those of that frame which are there no longer. x y z in bricks.
+    std::vector<std::array<std::int32_t, 3>> changed;
+    std::vector<std::array<std::int32_t, 3>> vanished;
+    FrameStatistics statistics;         ///< of the frame as reconstructed, whatever a watcher wishes to have of it
+    std::vector<DroppedFrame> dropped;  ///< from a Stream: between the frame received before and this one, in order
+
+    /// Decodes and welds the bricks; has the spray, too. Throws InvalidInput if they are not a mesh.
+    Mesh mesh() const;
+};
+
+}  // namespace meniscus::client

@@ -1,0 +1,57 @@
+// A session that its owner holds, and that ends with it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "meniscus/client/particle_watcher.hpp"
+#include "meniscus/client/session_info.hpp"
+#include "meniscus/client/stream.hpp"
+#include "meniscus/client/watcher.hpp"
+
+namespace meniscus::client {
+
+/// How to open a session that ends with its owner.
+struct OpenOptions {
+    SessionDescription description = {};
+    std::string id = {};  ///< a UUID; empty: a new one
+    /// As in SessionOptions: the server ends the session soon after its stream, so that a process that is killed leaves
+    /// nothing behind. False: a session that rests, or is watched between two streams, stays until the Session goes.
+    bool ephemeral = true;
+};
+
+/// A session on the server, from Client::open_session(). When it goes, it ends the session if it has created it; a
+/// session that was there before stays. Its streams and watchers may go before it or after it, as may the Client; those
+/// that go after it see the session end. Belongs to one thread at a time.
+class Session {
+public:
+    Session(Session&&) noexcept;
+    Session& operator=(Session&&) noexcept;  ///< ends the session that was held before
+    ~Session();  ///< as end(), but throws nothing and returns within a second, even where the server is gone
+
+    const std::string& id() const noexcept;
+    /// Whether this session ends with this object: it was created by it, and neither left nor ended.
+    bool is_owned() const noexcept;
+
+    /// Throws ServerError, here and below; of a session that has ended: not_found.
+    SessionInfo info();
+    /// As Client::stream(). An owned session that the server has ended meanwhile, since nothing came, is created again.
+    Stream stream(const StreamOptions& options = {});
+    /// As those of Client.
+    Watcher watch(const WatchOptions& options = {});
+    ParticleWatcher watch_particles(const ParticleWatchOptions& options = {});
+
+    /// Ends the session now, its streams and watchers with it, if it is owned. Says what went wrong, which the
+    /// destructor cannot; a session that is not there any more is no error.
+    void end();
+    /// The session stays when this goes; an ephemeral one still ends soon after its stream.
+    void leave() noexcept;
+
+private:
+    friend class Client;
+    class Impl;
+    explicit Session(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace meniscus::client

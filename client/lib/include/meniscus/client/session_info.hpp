@@ -1,0 +1,72 @@
+// What a session is, and what it is doing.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "meniscus/client/frame_statistics.hpp"
+#include "meniscus/settings.hpp"
+
+namespace meniscus::client {
+
+/// What a session's next frame waits for.
+enum class SessionWait {
+    nothing,
+    device,           ///< its turn
+    bytes_in_flight,  ///< room among those of all sessions
+    something_else,   ///< that this version does not know
+};
+
+/// The axis of the coordinates that points up.
+enum class UpAxis { unspecified, x, y, z };
+constexpr std::string_view name_of(UpAxis axis) {
+    switch (axis) {
+        case UpAxis::unspecified:
+            return "unspecified";
+        case UpAxis::x:
+            return "x";
+        case UpAxis::y:
+            return "y";
+        case UpAxis::z:
+            return "z";
+    }
+    return {};
+}
+
+/// What people call a session, and how viewers show it. A session is told from others by its id alone.
+struct SessionDescription {
+    std::string name = {};  ///< UTF-8, 1 to 64 characters without control and direction characters; empty: none
+    UpAxis up_axis = UpAxis::unspecified;
+    std::string length_unit = {};  ///< of the coordinates, such as "m": 1 to 16 characters; empty: not said
+};
+
+/// What a session is beside its settings. None of it need be equal to join a session.
+struct SessionOptions {
+    SessionDescription description = {};
+    /// Whether the session ends, watched or not, 5 seconds after it was created or its stream ended, unless a stream is
+    /// open by then. Where the connection broke: after StreamOptions::reconnect, if that is longer.
+    bool ephemeral = false;
+};
+
+struct SessionInfo {
+    std::string id;
+    std::string owner;  ///< who made it; empty where nobody is asked
+    Settings settings;  ///< as in_force() has them
+    SessionDescription description;
+    bool ephemeral = false;
+    std::chrono::system_clock::time_point created_at;
+    bool uploading = false;
+    unsigned watchers = 0;
+    SessionWait waits_for = SessionWait::nothing;
+    std::string waits_for_session;  ///< that has the device; told to admins alone
+    std::uint64_t frames = 0;
+    std::uint64_t frames_dropped = 0;  ///< by the policies of its streams
+    std::uint64_t frames_skipped = 0;  ///< replaced before a watcher had taken them, over all watchers
+    std::optional<std::uint64_t> last_frame_index;
+    std::optional<FrameStatistics> last_frame;  ///< of the frame answered last
+};
+
+}  // namespace meniscus::client

@@ -1,0 +1,135 @@
+// A simulator's stream: particle frames out, meshes in.
+#pragma once
+
+#include <chrono>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "meniscus/client/next.hpp"
+#include "meniscus/client/particle_buffer.hpp"
+#include "meniscus/client/received_frame.hpp"
+#include "meniscus/client/reconnect_event.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/strided_positions.hpp"
+
+namespace meniscus::client {
+
+/// What happens to frames that come faster than the server reconstructs them.
+enum class UploadPolicy {
+    every_frame,  ///< none is lost: push() waits
+    latest,       ///< the newest one replaces the one that waits
+    every_nth,    ///< of every n pushed the first is reconstructed; of those none is lost
+};
+constexpr std::string_view name_of(UploadPolicy policy) {
+    switch (policy) {
+        case UploadPolicy::every_frame:
+            return "every-frame";
+        case UploadPolicy::latest:
+            return "latest";
+        case UploadPolicy::every_nth:
+            return "every-nth";
+    }
+    return {};
+}
+
+struct StreamOptions {
+    bool receive_meshes = true;
+    int normal_bits = 8;  ///< 2 to 16, 0 for none
+    bool spray = false;   ///< whether the particles left out of the surface come beside the meshes
+    /// Received frames that wait for next() at most; push() waits beyond that many frames in flight or waiting.
+    /// 0: no limit, for a caller that pushes everything first; frames then wait encoded, in memory.
+    std::size_t waiting_limit = 0;
+    UploadPolicy policy = UploadPolicy::every_frame;
+    std::uint32_t nth = 1;  ///< of UploadPolicy::every_nth, at least 1
+    /// For how long the server may be out of reach. A connection that breaks, or a server that goes down, is then tried
+    /// again; the session is created again if the server has lost it, and frames without an answer are sent again:
+    /// next() returns every frame once, in order. For this their particles are kept here, no more frames than the
+    /// server itself has taken and not answered, and one. A stream that the server has ended since nothing came is
+    /// opened again with the next frame. 0: a broken connection ends the stream, and no frame is kept.
+    std::chrono::milliseconds reconnect{0};
+    /// Where a proxy spreads sessions over several servers: how often to look whether calls about this session still go
+    /// to the server that the stream is on. If not, because a server came or came back, the stream moves there between
+    /// two frames, and watchers with `reconnect` follow it. Only with `reconnect`; 0: never.
+    std::chrono::milliseconds route_check{2000};
+    /// Told of each attempt to go on after the connection broke, in a thread of the stream's own, which waits for it.
+    ReconnectHandler on_reconnect{};
+    std::stop_token stop{};  ///< when a stop is requested: as cancel()
+};
+
+/// Uploads frames and receives their meshes, in order. Reads on a thread of its own, so that a caller that only pushes
+/// is never blocked by meshes it has not asked for. push(), try_push() and finish() belong to one thread, next() and
+/// try_next() to one (other) thread; cancel() and dropped() may be called from any.
+///
+/// push() and next() throw InvalidInput and LimitExceeded, as the server answered, or ServerError.
+class Stream {
+public:
+    Stream(Stream&&) noexcept;
+    Stream& operator=(Stream&&) noexcept;
+    ~Stream();  ///< cancels what is in flight
+
+    /// Sends one frame; blocks while the server does not take more, or is out of reach. `index` is greater than the one
+    /// before. The particles are copied. Throws InvalidInput, too, for arrays whose lengths do not fit each other, and
+    /// ServerError (canceled) after cancel(); the frame is then not pushed.
+    void push(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
+    /// Likewise, of positions as a solver has them, float64 or within larger records: each number is rounded to the
+    /// nearest float32, and the mesh is that of the rounded frame. levels: empty, or one per particle. Throws
+    /// InvalidInput, too, for a number that is not finite or too large.
+    void push(const StridedPositions& positions, std::uint64_t index, double simulation_time,
+              std::span<const std::uint8_t> levels = {});
+    /// Likewise, but copies nothing: the stream takes the buffer's memory over. A frame that is not pushed stays in the
+    /// buffer.
+    void push(ParticleBuffer&& buffer, std::uint64_t index, double simulation_time);
+    /// Likewise, of a vector that is no longer needed, as in push(std::move(positions), ...), and that is lost where
+    /// the frame is not pushed. A template, so that {} is a ParticleFrame.
+    template <class Floats>
+    requires std::same_as<Floats, std::vector<float>>
+    void push(Floats&& positions, std::uint64_t index, double simulation_time) {
+        push(ParticleBuffer(std::move(positions)), index, simulation_time);
+    }
+
+    /// As push(), where that would not wait. Otherwise false, and nothing has been taken: neither the buffer nor the
+    /// index.
+    bool try_push(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
+    bool try_push(const StridedPositions& positions, std::uint64_t index, double simulation_time,
+                  std::span<const std::uint8_t> levels = {});
+    bool try_push(ParticleBuffer&& buffer, std::uint64_t index, double simulation_time);
+
+    /// Memory to write a frame into; what it holds is undefined. It comes back here when the server has the frame, so
+    /// that a stream takes new memory for its first frames alone. Throws LimitExceeded for more particles than can be
+    /// numbered.
+    ParticleBuffer next_buffer(std::size_t particles, bool with_levels = false);
+
+    /// No more frames will come; next() then ends after the last one.
+    void finish();
+
+    /// Waits for the next received frame; none when the stream has ended well, or after cancel().
+    std::optional<ReceivedFrame> next();
+    /// Likewise, no longer than the timeout.
+    Next<ReceivedFrame> next(std::chrono::milliseconds timeout);
+    /// Likewise, without waiting.
+    Next<ReceivedFrame> try_next() { return next(std::chrono::milliseconds(0)); }
+
+    /// Ends the stream at once, and a push() or next() that waits. Frames without an answer are lost, as are those that
+    /// wait for next().
+    void cancel();
+
+    /// Frames dropped by the policy so far.
+    std::uint64_t dropped() const;
+
+private:
+    friend class Client;
+    friend class Session;
+    class Impl;
+    explicit Stream(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace meniscus::client

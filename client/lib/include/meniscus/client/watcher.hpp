@@ -1,0 +1,67 @@
+// The meshes of somebody else's session.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+
+#include "meniscus/client/next.hpp"
+#include "meniscus/client/received_frame.hpp"
+#include "meniscus/client/reconnect_event.hpp"
+#include "meniscus/settings.hpp"
+
+namespace meniscus::client {
+
+/// What a watcher wishes to be sent. Watchers with equal max_level, position_bits and normal_bits cost the server one
+/// encode.
+struct WatchOptions {
+    int normal_bits = 8;                 ///< 2 to 16, 0 for none
+    std::optional<int> position_bits{};  ///< vertices lie on multiples of c / 2^position_bits, 2 to the mesh's
+                                         ///< offset_bits; none: as reconstructed
+    int max_level = 3;            ///< finest level of grid, 1 to 3: below 3 the surface is coarser, and closed as ever
+    std::optional<Box> region{};  ///< world units: only bricks that touch it; the mesh ends where they do
+    bool spray = false;  ///< whether the particles left out of the surface come beside it: all, whatever the region
+    std::uint64_t bytes_per_second = 0;                ///< in the mean: frames are skipped to keep it; 0: no limit
+    std::optional<std::array<double, 3>> viewpoint{};  ///< world units: nearest bricks are sent first
+    /// How long to try again after the connection breaks, the session moves to another server, or the server goes down,
+    /// or comes back without the session, which its simulator then creates again. next() goes on with the first frame
+    /// of a run that it has not returned before. 0: not at all.
+    std::chrono::milliseconds reconnect{0};
+    /// As in StreamOptions: how often to look whether the session goes on with another server. Only with `reconnect`.
+    std::chrono::milliseconds route_check{2000};
+    /// Told of each attempt to go on after the connection broke, in the thread that is in next(); once next(timeout) or
+    /// try_next() was called: in a thread of the library's, which waits for it.
+    ReconnectHandler on_reconnect{};
+    std::stop_token stop{};  ///< when a stop is requested: as cancel()
+};
+
+/// Receives a session's meshes, always the newest; frames that came while the caller was busy are skipped by the
+/// server. All but cancel() belongs to one thread.
+class Watcher {
+public:
+    Watcher(Watcher&&) noexcept;
+    Watcher& operator=(Watcher&&) noexcept;
+    ~Watcher();
+
+    /// Waits for the next frame; none when the session has ended. Throws InvalidInput for a wish out of range,
+    /// LimitExceeded or ServerError, also when the server goes down.
+    std::optional<ReceivedFrame> next();
+    /// Likewise, no longer than the timeout. After a frame, the next one is received ahead.
+    Next<ReceivedFrame> next(std::chrono::milliseconds timeout);
+    /// Likewise, without waiting: for a loop with other things to do, such as drawing.
+    Next<ReceivedFrame> try_next() { return next(std::chrono::milliseconds(0)); }
+    /// From any thread: ends the call, and a next() that waits; it then returns none.
+    void cancel();
+
+private:
+    friend class Client;
+    friend class Session;
+    class Impl;
+    explicit Watcher(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace meniscus::client

@@ -1,0 +1,16 @@
+// Telling a caller of attempts to go on.
+#pragma once
+
+#include <chrono>
+
+#include "meniscus/client/reconnect_event.hpp"
+
+namespace meniscus::client {
+
+/// Calls the handler, if there is one; what it throws is lost.
+void tell_of_reconnecting(const ReconnectHandler& handler, const ReconnectEvent& event) noexcept;
+
+/// At least 0.
+std::chrono::milliseconds time_left(std::chrono::steady_clock::time_point until);
+
+}  // namespace meniscus::client

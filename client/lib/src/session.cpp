@@ -1,0 +1,90 @@
+#include "meniscus/client/session.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "meniscus/client/client.hpp"
+#include "particle_watcher_impl.hpp"
+#include "session_calls.hpp"
+#include "session_impl.hpp"
+#include "stream_impl.hpp"
+#include "watcher_impl.hpp"
+
+namespace meniscus::client {
+
+namespace {
+
+/// So that a Session goes within a second, though nothing answers.
+constexpr std::chrono::milliseconds farewell_time{500};
+
+}  // namespace
+
+Session::Impl::Impl(std::shared_ptr<Connection> connection, const Settings& settings, const OpenOptions& options)
+    : connection_(std::move(connection)),
+      id_(options.id.empty() ? new_session_id() : options.id),
+      settings_(settings),
+      options_{.description = options.description, .ephemeral = options.ephemeral},
+      owned_(create_session(*connection_, id_, settings_, options_, connection_->timeout)) {}
+
+Session::Impl::~Impl() {
+    if (!owned_) return;
+    try {
+        delete_session(*connection_, id_, farewell_time);
+    } catch (...) {
+        // Nobody is left to be told. The server ends an ephemeral session by itself.
+    }
+}
+
+void Session::Impl::create_again() {
+    if (owned_ && options_.ephemeral) create_session(*connection_, id_, settings_, options_, connection_->timeout);
+}
+
+void Session::Impl::end() {
+    if (!owned_) return;
+    try {
+        delete_session(*connection_, id_, connection_->timeout);
+    } catch (const ServerError& error) {
+        if (error.code() != ErrorCode::not_found) throw;
+    }
+    owned_ = false;
+}
+
+Session::Session(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+const std::string& Session::id() const noexcept {
+    return impl_->id();
+}
+
+bool Session::is_owned() const noexcept {
+    return impl_->is_owned();
+}
+
+SessionInfo Session::info() {
+    return session_info(*impl_->connection(), impl_->id(), impl_->connection()->timeout);
+}
+
+Stream Session::stream(const StreamOptions& options) {
+    impl_->create_again();
+    return Stream(std::make_unique<Stream::Impl>(impl_->connection(), impl_->id(), options));
+}
+
+Watcher Session::watch(const WatchOptions& options) {
+    return Watcher(std::make_unique<Watcher::Impl>(impl_->connection(), impl_->id(), options));
+}
+
+ParticleWatcher Session::watch_particles(const ParticleWatchOptions& options) {
+    return ParticleWatcher(std::make_unique<ParticleWatcher::Impl>(impl_->connection(), impl_->id(), options));
+}
+
+void Session::end() {
+    impl_->end();
+}
+
+void Session::leave() noexcept {
+    impl_->leave();
+}
+
+}  // namespace meniscus::client

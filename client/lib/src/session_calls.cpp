@@ -1,0 +1,104 @@
+#include "session_calls.hpp"
+
+#include <algorithm>
+
+#include "conversion/settings_conversion.hpp"
+#include "receiving/frame_statistics.hpp"
+#include "unary_call.hpp"
+
+namespace meniscus::client {
+
+namespace {
+
+v1::UpAxis to_wire(UpAxis axis) {
+    switch (axis) {
+        case UpAxis::unspecified:
+            return v1::UP_AXIS_UNSPECIFIED;
+        case UpAxis::x:
+            return v1::UP_AXIS_X;
+        case UpAxis::y:
+            return v1::UP_AXIS_Y;
+        case UpAxis::z:
+            return v1::UP_AXIS_Z;
+    }
+    return v1::UP_AXIS_UNSPECIFIED;
+}
+
+v1::SessionDescription to_wire(const SessionDescription& description) {
+    v1::SessionDescription wire;
+    wire.set_name(description.name);
+    wire.set_up_axis(to_wire(description.up_axis));
+    wire.set_length_unit(description.length_unit);
+    return wire;
+}
+
+}  // namespace
+
+std::chrono::system_clock::time_point time_from_wire(std::int64_t microseconds) {
+    using Time = std::chrono::system_clock::time_point;
+    constexpr auto last = std::chrono::duration_cast<std::chrono::microseconds>(Time::max().time_since_epoch()).count();
+    return Time(std::chrono::microseconds(std::clamp<std::int64_t>(microseconds, 0, last)));
+}
+
+SessionDescription from_wire(const v1::SessionDescription& wire) {
+    SessionDescription description;
+    description.name = wire.name();
+    description.length_unit = wire.length_unit();
+    if (wire.up_axis() == v1::UP_AXIS_X) description.up_axis = UpAxis::x;
+    if (wire.up_axis() == v1::UP_AXIS_Y) description.up_axis = UpAxis::y;
+    if (wire.up_axis() == v1::UP_AXIS_Z) description.up_axis = UpAxis::z;
+    return description;
+}
+
+SessionInfo from_wire(const v1::Session& wire) {
+    SessionInfo info;
+    info.description = from_wire(wire.description());
+    info.ephemeral = wire.ephemeral();
+    info.created_at = time_from_wire(wire.created_at());
+    info.id = wire.id();
+    info.settings = conversion::from_wire(wire.settings());
+    info.uploading = wire.uploading();
+    info.watchers = wire.watchers();
+    info.frames = wire.frames();
+    if (wire.has_last_frame_index()) info.last_frame_index = wire.last_frame_index();
+    info.owner = wire.owner();
+    info.frames_dropped = wire.frames_dropped();
+    info.frames_skipped = wire.frames_skipped();
+    if (wire.has_wait()) {
+        info.waits_for = wire.wait().reason() == v1::WAIT_REASON_DEVICE            ? SessionWait::device
+                         : wire.wait().reason() == v1::WAIT_REASON_BYTES_IN_FLIGHT ? SessionWait::bytes_in_flight
+                                                                                   : SessionWait::something_else;
+        info.waits_for_session = wire.wait().session_id();
+    }
+    if (wire.has_last_frame()) info.last_frame = frame_statistics(wire.last_frame());
+    return info;
+}
+
+bool create_session(const Connection& connection, const std::string& id, const Settings& settings,
+                    const SessionOptions& options, std::chrono::milliseconds timeout) {
+    v1::CreateSessionRequest request;
+    request.set_id(id);
+    *request.mutable_settings() = conversion::to_wire(settings);
+    *request.mutable_description() = to_wire(options.description);
+    request.set_ephemeral(options.ephemeral);
+    v1::CreateSessionResponse response;
+    call(connection, *connection.sessions, &v1::SessionService::Stub::CreateSession, id, request, response, timeout);
+    return response.created();
+}
+
+SessionInfo session_info(const Connection& connection, const std::string& id, std::chrono::milliseconds timeout) {
+    v1::GetSessionRequest request;
+    request.set_id(id);
+    v1::GetSessionResponse response;
+    call(connection, *connection.sessions, &v1::SessionService::Stub::GetSession, id, request, response, timeout);
+    return from_wire(response.session());
+}
+
+void delete_session(const Connection& connection, const std::string& id, std::chrono::milliseconds timeout) {
+    v1::DeleteSessionRequest request;
+    request.set_id(id);
+    v1::DeleteSessionResponse response;
+    call(connection, *connection.sessions, &v1::SessionService::Stub::DeleteSession, id, request, response, timeout);
+}
+
+}  // namespace meniscus::client

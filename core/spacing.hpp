@@ -1,0 +1,15 @@
+// The radius that fits the particles of a frame, by how far apart they lie.
+#pragma once
+
+#include <optional>
+
+#include "meniscus/particle_frame.hpp"
+
+namespace meniscus {
+
+/// Of level 0, world units, to two digits; none where the given radius is less than about twice too small or too large,
+/// and where the frame does not tell: of fewer than 100 particles, of spray, of particles in one place. The frame is
+/// valid. The reasons and the constants: core/README.md#warnings.
+std::optional<double> radius_that_fits(const ParticleFrame& frame, double radius);
+
+}  // namespace meniscus

@@ -1,0 +1,99 @@
+#include "meniscus/strided_positions.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "meniscus/error.hpp"
+
+namespace meniscus {
+namespace {
+
+/// From here on the nearest float32 is infinity: half a unit in the last place above the greatest one.
+constexpr double float32_end = 0x1.ffffffp127;
+
+bool is_float32(double value) {
+    return std::abs(value) < float32_end;  // also false for a NaN
+}
+
+std::size_t particles_in(std::size_t numbers) {
+    if (numbers % 3 != 0)
+        throw InvalidInput("the frame has " + std::to_string(numbers) + " coordinates, must be three per particle");
+    return numbers / 3;
+}
+
+void check(const void* first, std::size_t count, std::size_t stride, std::size_t least_stride) {
+    if (first == nullptr && count != 0)
+        throw InvalidInput("the frame has " + std::to_string(count) + " particles, but no memory with their positions");
+    if (stride < least_stride)
+        throw InvalidInput("the stride is " + std::to_string(stride) + " bytes, must be at least " +
+                           std::to_string(least_stride) + ": three numbers of " + std::to_string(least_stride / 3) +
+                           " bytes");
+    if (count > std::numeric_limits<std::size_t>::max() / stride)
+        throw InvalidInput(std::to_string(count) + " particles with a stride of " + std::to_string(stride) +
+                           " bytes are more than memory can hold");
+}
+
+std::array<double, 3> float64_at(const std::byte* place) {
+    std::array<double, 3> position;
+    std::memcpy(position.data(), place, sizeof position);
+    return position;
+}
+
+[[noreturn]] void refuse(std::size_t particle, std::size_t axis, double value) {
+    std::ostringstream what;
+    what.precision(9);
+    what << "particle " << particle << " has "
+         << "xyz"[axis] << " = " << value;
+    if (std::isfinite(value))
+        what << ", which float32 cannot hold: at most " << std::numeric_limits<float>::max()
+             << "; take another unit of length";
+    else
+        what << ", positions must be finite";
+    throw InvalidInput(what.str());
+}
+
+}  // namespace
+
+StridedPositions::StridedPositions(const float* first, std::size_t count, std::size_t stride)
+    : first_(reinterpret_cast<const std::byte*>(first)), count_(count), stride_(stride), is_float64_(false) {
+    check(first, count, stride, 3 * sizeof(float));
+}
+StridedPositions::StridedPositions(const double* first, std::size_t count, std::size_t stride)
+    : first_(reinterpret_cast<const std::byte*>(first)), count_(count), stride_(stride), is_float64_(true) {
+    check(first, count, stride, 3 * sizeof(double));
+}
+StridedPositions::StridedPositions(std::span<const float> numbers)
+    : StridedPositions(numbers.data(), particles_in(numbers.size())) {}
+StridedPositions::StridedPositions(std::span<const double> numbers)
+    : StridedPositions(numbers.data(), particles_in(numbers.size())) {}
+
+void StridedPositions::copy_to(std::span<float> positions) const {
+    if (positions.size() != 3 * count_)
+        throw InvalidInput("there is room for " + std::to_string(positions.size()) +
+                           " coordinates, must be three for " + "each of " + std::to_string(count_) + " particles");
+    if (!is_float64_) {
+        for (std::size_t i = 0; i < count_; ++i)
+            std::memcpy(&positions[3 * i], first_ + i * stride_, 3 * sizeof(float));
+        return;
+    }
+    bool all_fit = true;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const std::array<double, 3> position = float64_at(first_ + i * stride_);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            all_fit &= is_float32(position[axis]);
+            positions[3 * i + axis] = static_cast<float>(position[axis]);
+        }
+    }
+    if (all_fit) return;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const std::array<double, 3> position = float64_at(first_ + i * stride_);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (!is_float32(position[axis])) refuse(i, axis, position[axis]);
+    }
+}
+
+}  // namespace meniscus

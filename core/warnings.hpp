@@ -1,0 +1,18 @@
+// The warnings of a frame that has been reconstructed. The rules look at the frame, the settings and figures that are
+// the same on every backend, and so are they.
+#pragma once
+
+#include <functional>
+
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/settings.hpp"
+#include "meniscus/statistics.hpp"
+
+namespace meniscus {
+
+/// Fills statistics.warnings, in the order of their codes; the other figures are there. The frame is valid.
+/// greatest_sample: the greatest value of the field that was sampled; asked for only where the surface is empty.
+void find_warnings(const ParticleFrame& frame, const Settings& settings, const std::function<float()>& greatest_sample,
+                   Statistics& statistics);
+
+}  // namespace meniscus
