@@ -179,6 +179,12 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->allow_extra_args(false)
         ->type_name("ORIGIN")
         ->default_str("");
+    app.add_option("--web-frame-ancestors", server.web_frame_ancestors,
+                   "Pages, as https://example.org,https://example.org:8443, that may show the viewer in a frame")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("ORIGINS")
+        ->default_str("");
     app.add_flag("--reflection", server.standard_services.reflection,
                  "Let clients ask for the contract, as grpcurl does");
     app.add_flag("--channelz", server.standard_services.channelz, "Let clients ask for connections and their traffic");

@@ -37,6 +37,7 @@
 #include "security/access.hpp"
 #include "security/trusted_peers.hpp"
 #include "sessions/session_registry.hpp"
+#include "web/frame_ancestors.hpp"
 #include "web/http_server.hpp"
 #include "web/observation_pages.hpp"
 #include "web/viewer_pages.hpp"
@@ -142,6 +143,7 @@ std::vector<std::string> problems_of(const ServerOptions& options) {
     const std::vector<std::function<void()>> steps{
         [&] { require_closed_to_others(options); },
         [&] { AllowedOrigins(options.web_origins, options.http); },
+        [&] { FrameAncestors{options.web_frame_ancestors}; },
         [&] { TrustedPeers{options.trusted_proxies}; },
         [&] { require_listen_address(options.listen); },
         [&] {
@@ -330,7 +332,7 @@ void Server::Impl::serve_http_if_possible(const AllowedOrigins& origins) {
 std::unique_ptr<HttpServer> Server::Impl::open_http(const std::string& listen, const AllowedOrigins& origins) {
     const std::shared_ptr<const TlsContext> tls = access_.http_tls();
     Router router;
-    add_viewer_pages(router);
+    add_viewer_pages(router, FrameAncestors(options_.web_frame_ancestors));
     add_observation(router);
     const GrpcWeb calls{.channel = grpc_->InProcessChannel({}),
                         .origins = origins,

@@ -24,6 +24,7 @@ struct ServerOptions {
     std::string probes;                        ///< "HOST:PORT" for metrics and probes alone, without TLS; empty: none
     std::vector<std::string> trusted_proxies;  ///< addresses and networks without limits for each peer address
     std::vector<std::string> web_origins;      ///< pages of other machines that may call over the HTTP port
+    std::vector<std::string> web_frame_ancestors;  ///< pages that may show the viewer in a frame; empty: none
     StandardServices standard_services;
     BackendOptions backend;    ///< backend and threads alone; the rest comes from `limits` and `devices`
     std::vector<int> devices;  ///< the GPUs to use; empty: all that can reconstruct

@@ -5,6 +5,9 @@
 #include <netinet/in.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <system_error>
 #include <utility>
 
 #include "meniscus/error.hpp"
@@ -39,16 +42,41 @@ bool is_loopback(std::string_view authority) {
     return host == "localhost" || host == "127.0.0.1" || host == "::1";
 }
 
+/// "HOST" or "HOST:PORT" in the characters that an origin has; an IPv6 address in brackets.
+bool is_authority(std::string_view authority) {
+    std::string_view host = authority;
+    std::string_view port;
+    const std::size_t bracket = authority.starts_with('[') ? authority.find(']') : 0;
+    if (bracket == std::string_view::npos) return false;
+    if (const std::size_t colon = authority.find(':', bracket); colon != std::string_view::npos) {
+        host = authority.substr(0, colon);
+        port = authority.substr(colon + 1);
+        int number = 0;
+        const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+        if (error != std::errc() || end != port.data() + port.size() || number < 1 || number > 65535) return false;
+    }
+    if (bracket != 0) return host.ends_with(']') && is_address(std::string(host.substr(1, host.size() - 2)));
+    return !host.empty() && std::ranges::all_of(host, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+               c == '.';
+    });
+}
+
 }  // namespace
+
+void require_origin(std::string_view flag, std::string_view origin) {
+    if (!is_authority(authority_of(origin)))
+        throw InvalidInput(
+            fmt::format("{} is \"{}\"; it must be as https://example.org or https://example.org:8443, one origin, no "
+                        "pattern and no path",
+                        flag, origin));
+}
 
 AllowedOrigins::AllowedOrigins(std::vector<std::string> allowed, std::string_view listen)
     : allowed_(std::move(allowed)) {
     for (const std::string& origin : allowed_) {
-        const std::string_view authority = authority_of(origin);
-        if (authority.empty() || authority.find_first_of("/*, ") != std::string_view::npos)
-            throw InvalidInput(fmt::format(
-                "--web-origin is \"{}\"; it must be as https://example.org or https://example.org:8443", origin));
-        names_.push_back(host_of(authority));
+        require_origin("--web-origin", origin);
+        names_.push_back(host_of(authority_of(origin)));
     }
     if (!listen.empty()) names_.push_back(host_of(listen));
 }

@@ -27,6 +27,10 @@ private:
     std::vector<std::string> names_;  ///< hosts of them, and the server's own
 };
 
+/// Throws InvalidInput, with the flag's name, for what is no origin: SCHEME://HOST or SCHEME://HOST:PORT, and nothing
+/// more. A host that is not of ASCII is written as browsers send it (xn--...).
+void require_origin(std::string_view flag, std::string_view origin);
+
 /// What lets a page of that origin, which is admitted, read an answer; nothing for an empty one.
 std::vector<std::pair<std::string, std::string>> cross_origin_headers(std::string_view origin);
 

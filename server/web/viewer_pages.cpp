@@ -8,6 +8,8 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "viewer_files.hpp"
 #include "web/accepts_gzip.hpp"
@@ -17,9 +19,9 @@ namespace meniscus::server {
 namespace {
 
 /// The viewer is of files of its own, one of which is WebAssembly.
-constexpr const char* policy =
+constexpr std::string_view policy =
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self'; "
-    "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; ";
 
 std::string inflated(std::span<const unsigned char> gzip) {
     z_stream stream{};
@@ -53,14 +55,15 @@ std::string entity_tag(std::span<const unsigned char> bytes) {
 
 class ViewerPage {
 public:
-    explicit ViewerPage(const viewer::File& file) : file_(file), tag_(entity_tag(file.bytes)) {}
+    ViewerPage(const viewer::File& file, std::string page_policy)
+        : file_(file), tag_(entity_tag(file.bytes)), policy_(std::move(page_policy)) {}
 
     Page answer(const PageRequest& request) {
         Page page{.content_type = std::string(file_.content_type),
                   .cache_control = file_.hashed ? "public, max-age=31536000, immutable" : "no-cache",
                   .headers = {{"ETag", tag_},
                               {"Vary", "Accept-Encoding"},
-                              {"Content-Security-Policy", policy},
+                              {"Content-Security-Policy", policy_},
                               {"Cross-Origin-Opener-Policy", "same-origin"},
                               {"Cross-Origin-Resource-Policy", "same-origin"},
                               {"Referrer-Policy", "no-referrer"}}};
@@ -79,16 +82,19 @@ public:
 private:
     const viewer::File file_;
     const std::string tag_;
+    const std::string policy_;
     std::string plain_;  ///< for the few that do not take gzip; empty until one asks
 };
 
 }  // namespace
 
-void add_viewer_pages(Router& router) {
+void add_viewer_pages(Router& router, const FrameAncestors& ancestors) {
+    const std::string page_policy = std::string(policy) + ancestors.directive();
     for (const viewer::File& file : viewer::files())
-        router.add_for_browsers(
-            std::string(file.path),
-            [page = std::make_shared<ViewerPage>(file)](const PageRequest& request) { return page->answer(request); });
+        router.add_for_browsers(std::string(file.path),
+                                [page = std::make_shared<ViewerPage>(file, page_policy)](const PageRequest& request) {
+                                    return page->answer(request);
+                                });
 }
 
 }  // namespace meniscus::server

@@ -340,6 +340,7 @@ TEST(Meniscusd, RefusesWrongFlagsInOneLine) {
                                                       {"--max-particles", "99999999999999999999"},
                                                       {"--max-connections", "-1"},
                                                       {"--trusted-proxies", "10.0.0.0/99"},
+                                                      {"--web-frame-ancestors", "https://a.example,*"},
                                                       {"--config", "/dev/zero", "--check-config"},
                                                       {"--listen", "127.0.0.1:99999"},
                                                       {"--listen", "127.0.0.1:0", "--http", "127.0.0.1:65536"},

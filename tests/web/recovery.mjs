@@ -69,7 +69,7 @@ describe('errors', { skip: missing }, () => {
         () => document.getElementById('token-dialog').open && document.getElementById('token').value === '',
       );
       await page.keyboard.press('Escape');
-      await says(page, /asks for a token/);
+      await says(page, /does not know this token/);
       await screenshot(page, 'token-refused');
       await page.click('#ask-token');
       await page.fill('#token', 'token-of-eve-0123456789');

@@ -7,4 +7,7 @@ import './recordings.mjs';
 import './camera.mjs';
 import './tools.mjs';
 import './accessibility.mjs';
+import './keyboard.mjs';
+import './list.mjs';
+import './embed.mjs';
 import './warnings.mjs';

@@ -1,8 +1,12 @@
 // The page: the list of sessions and recordings, or one of them.
 import { startDecodePool } from './decode/decode_pool';
 import type { Frame } from './bricks/frame';
+import { readEmbedding } from './frame/embedding';
+import { listenToPage } from './frame/frame_guest';
+import type { HandedOver } from './frame/messages';
+import { bindKeys } from './keys/page_keys';
+import { ThumbnailPainter } from './list/thumbnail_painter';
 import { RecordingView } from './recordings/recording_view';
-import { recordingNameText } from './recordings/recording_name';
 import { Server } from './rpc/server';
 import { writeGlb } from './save/glb';
 import { writePly } from './save/ply';
@@ -10,13 +14,17 @@ import { Screen } from './screen';
 import { SessionView } from './session_view';
 import type { WatchState } from './stream/watch_state';
 import { Banner } from './ui/banner';
+import { copyAddress } from './ui/copy_address';
 import { download } from './ui/download';
+import { toggleFullScreen } from './ui/full_screen';
+import { Heading } from './ui/heading';
 import { readLink, writeLink, type PageState } from './ui/link';
 import { Overlay } from './ui/overlay';
 import { element } from './ui/page';
 import { coveredMargins } from './ui/panels';
 import { Playback } from './ui/playback';
 import { RecordingList } from './ui/recording_list';
+import { RecordingOffer } from './ui/recording_offer';
 import { SessionList } from './ui/session_list';
 import { followTheme } from './ui/theme';
 import { Tools } from './tools/tools';
@@ -26,6 +34,12 @@ import { Viewer, type Look } from './view/viewer';
 export class App {
   private readonly server = new Server({ base: '', fetch: (input, init) => fetch(input, init) });
   private readonly banner = new Banner();
+  private readonly heading = new Heading(this.server);
+  private readonly offer = new RecordingOffer(this.server, (recording) => {
+    this.go({ recording });
+  });
+  /** Set where the viewer is to show the water alone. */
+  private readonly embedding = readEmbedding(location.search);
   private readonly canvas = element('view', HTMLCanvasElement);
   private readonly viewer: Viewer;
   private readonly screen: Screen;
@@ -43,7 +57,11 @@ export class App {
   private linked: PageState = {};
 
   constructor() {
-    this.server.token = storedToken();
+    // In a frame there is none but the one that the page around hands over, and none stays.
+    if (this.embedding) this.embed(this.embedding.page);
+    else this.server.token = storedToken();
+    const pool = startDecodePool();
+    const painter = new ThumbnailPainter(this.server, pool);
     this.viewer = new Viewer(this.canvas, () => coveredMargins(this.canvas), {
       rendered: () => {
         this.tools.rendered();
@@ -68,7 +86,6 @@ export class App {
         );
       },
     });
-    const pool = startDecodePool();
     this.screen = new Screen(pool, this.viewer, new Overlay(), {
       shown: () => {
         this.sessionView.showParticles();
@@ -109,6 +126,9 @@ export class App {
       state: (state) => {
         this.watchState(state);
       },
+      found: (recording) => {
+        this.heading.described(recording);
+      },
       restsAt: (position) => {
         this.at = { ...this.at, position };
         this.writeAddress();
@@ -117,7 +137,7 @@ export class App {
     this.recordings = new RecordingList(this.server, (recording) => {
       this.go({ recording });
     });
-    this.list = new SessionList(this.server, this.banner, {
+    this.list = new SessionList(this.server, painter, this.banner, {
       chosen: (session) => {
         this.go({ session });
       },
@@ -125,6 +145,8 @@ export class App {
     });
     followTheme((theme) => {
       this.tools.setTheme(theme);
+      painter.setTheme(theme);
+      this.list.themeChanged();
     });
     this.bindControls();
     addEventListener('popstate', () => {
@@ -158,12 +180,22 @@ export class App {
     const watching = this.looking;
     element('watch', HTMLElement).hidden = !watching;
     element('leave', HTMLButtonElement).hidden = !watching;
-    element('title', HTMLElement).textContent = state.recording
-      ? `Recording ${recordingNameText(state.recording)}`
-      : (state.session ?? '');
+    if (state.recording) this.heading.showRecording(state.recording);
+    else if (state.session !== undefined) this.heading.showSession(state.session);
+    else this.heading.showNothing();
+    this.offer.withdraw();
     this.inPlaceOfPicture('');
-    this.tools.open(state);
+    // The water alone.
+    this.tools.open(this.embedding ? { ...state, scale: 'off', domain: 'off' } : state);
+    if (!watching && this.embedding) {
+      element('watch', HTMLElement).hidden = false;
+      this.inPlaceOfPicture(state.problem ?? 'No session is chosen.');
+      return;
+    }
     if (!watching) {
+      const problem = element('address-problem', HTMLElement);
+      problem.textContent = state.problem ?? '';
+      problem.hidden = state.problem === undefined;
       this.list.show();
       this.recordings.show();
       return;
@@ -197,6 +229,10 @@ export class App {
   private watchState(state: WatchState): void {
     this.canvas.dataset.state = state.kind;
     this.banner.watching(state);
+    this.heading.watching(state);
+    if (state.kind === 'ended' || state.kind === 'absent') {
+      if (!this.embedding && this.at.session !== undefined) void this.offer.offer(this.at.session);
+    } else if (state.kind !== 'connecting') this.offer.withdraw();
     this.tools.watchState(state);
     if (!this.screen.shown)
       this.inPlaceOfPicture(
@@ -219,6 +255,10 @@ export class App {
   }
 
   private async tokenNeeded(reason: string): Promise<void> {
+    if (this.embedding) {
+      this.banner.say(reason);
+      return;
+    }
     this.banner.tokenNeeded(reason);
     const token = await askToken(reason);
     if (token === undefined) return;
@@ -228,6 +268,36 @@ export class App {
     else if (this.at.session !== undefined) this.sessionView.restart();
     else this.open({});
     this.tools.restart();
+  }
+
+  /** page: its origin; none: the address says what is shown. */
+  private embed(page: string | undefined): void {
+    document.body.dataset.embedded = '';
+    element('list', HTMLElement).hidden = true;
+    element('overlay', HTMLElement).hidden = true;
+    if (page === undefined) return;
+    listenToPage(window, page, crypto.getRandomValues(new Uint32Array(4)).join('-'), {
+      show: (handed) => {
+        this.showHanded(handed);
+      },
+      refused: (reason) => {
+        this.banner.say(reason);
+      },
+    });
+  }
+
+  private showHanded({ state, token }: HandedOver): void {
+    const known = state.session === this.at.session && token === this.server.token;
+    this.server.token = token;
+    if (!known || !this.screen.shown) {
+      this.open(state);
+      return;
+    }
+    this.banner.say('');
+    this.setLook(state.look ?? 'water');
+    this.tools.open(state);
+    if (state.camera) this.viewer.cameraPlace = state.camera;
+    else this.viewer.fit();
   }
 
   private bindControls(): void {
@@ -255,40 +325,15 @@ export class App {
       ply: () => {
         this.save('ply', 'application/octet-stream');
       },
-      link: () => void this.copyLink(),
+      link: () => {
+        this.writeAddress();
+        void copyAddress(element('link', HTMLButtonElement));
+      },
     };
     for (const [id, action] of Object.entries(actions))
       element(id, HTMLButtonElement).addEventListener('click', action);
     element('full', HTMLButtonElement).hidden = !document.fullscreenEnabled;
-    const keys: Record<string, () => void> = {
-      ' ': () => {
-        this.playback.toggle();
-      },
-      ',': () => {
-        this.playback.step(-1);
-      },
-      '.': () => {
-        this.playback.step(1);
-      },
-      f: () => {
-        this.viewer.fit();
-      },
-      w: () => {
-        actions.look!();
-      },
-      p: () => {
-        this.setParticles(!this.particles);
-      },
-      m: () => {
-        this.toggleOverlay();
-      },
-    };
-    this.canvas.addEventListener('keydown', (event) => {
-      const action = event.ctrlKey || event.metaKey || event.altKey ? undefined : keys[event.key];
-      if (!action) return;
-      event.preventDefault();
-      action();
-    });
+    bindKeys(this.viewer.controls, () => this.looking);
   }
 
   private setLook(look: Look): void {
@@ -325,35 +370,12 @@ export class App {
   }
 
   private writeAddress(): void {
-    if (!this.screen.shown || !this.looking) return;
+    // What a page hands over is not to be found in an address.
+    if (this.embedding || !this.screen.shown || !this.looking) return;
     history.replaceState(
       null,
       '',
       writeLink({ ...this.at, ...this.tools.state, camera: this.viewer.cameraPlace, look: this.look }),
     );
   }
-
-  private async copyLink(): Promise<void> {
-    this.writeAddress();
-    const button = element('link', HTMLButtonElement);
-    // There is no clipboard for pages that came without TLS from another machine; the address bar has the same link.
-    const clipboard = navigator.clipboard as Clipboard | undefined;
-    const copied = await clipboard?.writeText(location.href).then(
-      () => true,
-      () => false,
-    );
-    const label = button.querySelector('span')!;
-    label.textContent = copied ? 'Copied' : 'See the address bar';
-    label.classList.add('kept');
-    setTimeout(() => {
-      label.textContent = 'Copy link';
-      label.classList.remove('kept');
-    }, 2000);
-  }
-}
-
-/** The whole page: what goes wrong is to be read in full screen too. */
-async function toggleFullScreen(): Promise<void> {
-  if (document.fullscreenElement) await document.exitFullscreen();
-  else await document.documentElement.requestFullscreen();
 }

@@ -91,6 +91,7 @@ function stateText(state: WatchState): string {
     case 'connected':
       return 'Connected. No frame has come yet.';
     case 'waiting':
+    case 'absent':
     case 'token':
     case 'refused':
       return state.reason;

@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { Codec } from '../src/gen/meniscus/v1/mesh_pb';
 import { WatchRequestSchema, WatchResponseSchema } from '../src/gen/meniscus/v1/surface_service_pb';
 import { Server } from '../src/rpc/server';
-import { Code, RpcError } from '../src/rpc/status';
+import { Code, explain, RpcError } from '../src/rpc/status';
 import { draining } from './support/messages';
 
 const grpcWeb = { 'content-type': 'application/grpc-web+proto' };
@@ -85,6 +85,15 @@ describe('a call', () => {
       () => new Response(null, { headers: { ...grpcWeb, 'grpc-status': '16', 'grpc-message': 'no token' } }),
     );
     expect((await failure(server.info())).code).toBe(Code.unauthenticated);
+  });
+
+  it('tells a token that the server does not know from none', async () => {
+    const refusal = { ...grpcWeb, 'grpc-status': '16', 'grpc-message': 'no' };
+    const server = serverThat(() => new Response(null, { headers: refusal }));
+    expect(explain(await failure(server.info()))).toBe('The server asks for a token.');
+    server.token = 'wrong';
+    expect(explain(await failure(server.info()))).toBe('The server does not know this token.');
+    expect(explain(await failure(watchAll(server)))).toBe('The server does not know this token.');
   });
 
   it('maps what is no gRPC-Web answer', async () => {

@@ -40,14 +40,24 @@ describe('the link', () => {
   });
 
   it('leaves out what it does not understand', () => {
-    expect(readLink('#session=../../etc&camera=1,2,3&look=x&up=w')).toEqual({});
+    expect(readLink('#camera=1,2,3&look=x&up=w')).toEqual({});
     expect(readLink('#camera=1,2,3,4,5,x')).toEqual({});
     for (const fields of ['cut=w,1,beyond', 'cut=x,,beyond', 'cut=x,1', 'ruler=1,2,3', 'beside=all', 'scale=on'])
       expect(readLink(`#${fields}`)).toEqual({});
-    expect(readLink(`#recording=${state.session}/0&position=1`)).toEqual({});
     expect(readLink(`#recording=${state.session}/1&position=-1`)).toEqual({
       recording: { session: state.session, number: 1 },
     });
     expect(readLink('#camera=1,,3,4,5,6')).toEqual({});
+  });
+
+  it('tells a session or a recording that cannot be from one that has gone', () => {
+    for (const hash of ['#session=../../etc', '#session=', `#session=${state.session.slice(1)}`]) {
+      const { problem, ...rest } = readLink(hash);
+      expect(problem).toMatch(/session ".*", which cannot be/);
+      expect(rest).toEqual({});
+    }
+    expect(readLink(`#recording=${state.session}/0&position=1`).problem).toMatch(/recording ".*\/0", which cannot be/);
+    expect(readLink(`#session=${'x'.repeat(9999)}`).problem!.length).toBeLessThan(300);
+    expect(readLink(`#session=${state.session}`).problem).toBeUndefined();
   });
 });

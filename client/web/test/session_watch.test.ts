@@ -184,7 +184,7 @@ describe('SessionWatch', () => {
   });
 
   it.each([
-    ['waiting', new RpcError(Code.notFound, 'no such session')],
+    ['absent', new RpcError(Code.notFound, 'no such session')],
     ['waiting', new RpcError(Code.resourceExhausted, '8 watchers, at most 8')],
     ['waiting', new RpcError(Code.internal, 'its GPU failed')],
     ['token', new RpcError(Code.unauthenticated, 'no token')],
@@ -195,7 +195,7 @@ describe('SessionWatch', () => {
     await server.last.end(error);
     expect(state().kind).toBe(kind);
     await vi.advanceTimersByTimeAsync(60_000);
-    expect(server.calls.length > 1).toBe(kind === 'waiting');
+    expect(server.calls.length > 1).toBe(kind === 'waiting' || kind === 'absent');
   });
 
   it('says that the session has ended, and shows it again when its simulator makes it again', async () => {

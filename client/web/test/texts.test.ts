@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { volumeText } from '../src/ui/texts';
+import { ageText, rateText, volumeText } from '../src/ui/texts';
 
 describe('a volume', () => {
   it('has three digits at any scale, and its ratio to the particles beside it', () => {
@@ -8,4 +8,19 @@ describe('a volume', () => {
     expect(volumeText(4.2e-9, 4e-9)).toBe('4.2e-9 (1.05)');
     expect(volumeText(0, 1)).toBe('0 (0.00)');
   });
+});
+
+it('an age is told in its largest unit, and never in the future', () => {
+  const ages = [-5, 0.9, 59, 60, 3599, 3600, 86_399, 86_400, 1e7].map(ageText);
+  expect(ages).toEqual(['0 s', '0 s', '59 s', '1 min', '59 min', '1 h', '23 h', '1 d', '115 d']);
+});
+
+it('a rate has a digit behind the point where it is slow', () => {
+  expect([0, 0.25, 9.96, 10.4, 240].map(rateText)).toEqual([
+    '0 frames/s',
+    '0.3 frames/s',
+    '10 frames/s',
+    '10 frames/s',
+    '240 frames/s',
+  ]);
 });

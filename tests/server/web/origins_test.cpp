@@ -17,7 +17,14 @@ TEST(Origins, OfThisMachineOfTheServerItselfAndOfTheListMayCall) {
          {"null", "https://evil.example", "http://localhost.evil.example", "http://127.0.0.1.evil.example",
           "https://viewer.example.evil", "http://host:9465", "ftp://localhost"})
         EXPECT_FALSE(origins.admits(origin, "host:9464")) << origin;
-    for (const char* wrong : {"", "*", "viewer.example", "https://viewer.example/"})
+    for (const char* right : {"http://10.0.0.7:8080", "https://[::1]:8443", "http://[::1]",
+                              "https://xn--bcher-kva.example", "http://my_host:1"})
+        EXPECT_NO_THROW(AllowedOrigins({right})) << right;
+    for (const char* wrong :
+         {"", "*", "viewer.example", "https://viewer.example/", "https://", "https://*.example",
+          "https://a.example:", "https://a.example:0", "https://a.example:65536", "https://a.example:80:80",
+          "https://[::1", "https://[::1]x", "https://[x]", "https://u@a.example", "https://a.example;script-src *",
+          "https://a.example\r\nX: 1", "https://bücher.example"})
         EXPECT_THROW(AllowedOrigins({wrong}), InvalidInput) << wrong;
 }
 

@@ -1,18 +1,21 @@
 // The viewer's files, as browsers ask for them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "meniscus/error.hpp"
 #include "observation/http_client.hpp"
 #include "viewer_files.hpp"
 #include "web/accepts_gzip.hpp"
+#include "web/frame_ancestors.hpp"
 #include "web/http_server.hpp"
 #include "web/viewer_pages.hpp"
 
 namespace meniscus::server::test {
 namespace {
 
-Router router() {
+Router router(const FrameAncestors& ancestors = {}) {
     Router router;
-    add_viewer_pages(router);
+    add_viewer_pages(router, ancestors);
     return router;
 }
 
@@ -45,6 +48,38 @@ TEST_F(ViewerPages, ThePageAllowsNothingButItsOwnFiles) {
     EXPECT_EQ(page.body.find(" style="), std::string::npos);
     EXPECT_EQ(page.body.find("<style"), std::string::npos);
     EXPECT_EQ(page.body.find("<script>"), std::string::npos);
+}
+
+TEST_F(ViewerPages, MayBeFramedByPagesThatAreListedAndByNoOthers) {
+    const std::string alone = field(ask("/"), "Content-Security-Policy");
+    EXPECT_TRUE(alone.ends_with("; frame-ancestors 'none'")) << alone;
+    const HttpServer listed("127.0.0.1:0", router(FrameAncestors({"https://a.example", "http://b.example:8443"})));
+    HttpClient other(listed.address());
+    for (const viewer::File& file : viewer::files()) {
+        other.send(fmt::format("GET {} HTTP/1.1\r\nHost: localhost\r\n\r\n", file.path));
+        const std::string policy = field(other.receive(false), "Content-Security-Policy");
+        // The rest of the policy is the same.
+        EXPECT_EQ(policy, alone.substr(0, alone.rfind(' ')) + " https://a.example http://b.example:8443") << file.path;
+    }
+}
+
+TEST(FrameAncestors, AreOriginsThatBrowsersCompareWith) {
+    EXPECT_EQ(FrameAncestors().directive(), "frame-ancestors 'none'");
+    EXPECT_EQ(FrameAncestors(std::vector<std::string>{}).directive(), "frame-ancestors 'none'");
+    EXPECT_EQ(FrameAncestors({"https://A.example:1", "http://127.0.0.1:8080"}).directive(),
+              "frame-ancestors https://A.example:1 http://127.0.0.1:8080");
+    for (const std::string wrong :
+         {"", "*", "'self'", "null", "https:", "https://*.example", "a.example", "https://a.example/page",
+          "https://a.example; script-src *", "https://a.example https://b.example", "https://[::1]:8080"}) {
+        try {
+            const FrameAncestors ancestors({"https://a.example", wrong});
+            FAIL() << wrong << " became " << ancestors.directive();
+        } catch (const InvalidInput& error) {
+            const std::string message = error.what();
+            EXPECT_NE(message.find("--web-frame-ancestors"), std::string::npos) << message;
+            EXPECT_NE(message.find('"' + wrong + '"'), std::string::npos) << message;
+        }
+    }
 }
 
 TEST_F(ViewerPages, HaveTheirTypesAndAreKeptAsLongAsTheirNamesTell) {

@@ -38,9 +38,10 @@ export function recordedFile() {
   return (recorded ??= record());
 }
 
-/** faster: than the rate above. loop: for ever. */
-export async function startReplay(server, { faster = 1, loop = true } = {}) {
+/** faster: than the rate above. loop: for ever. frames: so many of them alone. session: as it is to be named. */
+export async function startReplay(server, { faster = 1, loop = true, frames = frameCount, session } = {}) {
   const { file, speed, triangles } = await recordedFile();
-  const replay = startUploader(server, ['replay', file, '--speed', `${speed * faster}`, ...(loop ? ['--loop'] : [])]);
+  const args = ['replay', file, '--speed', `${speed * faster}`, '--to', `${frames - 1}`];
+  const replay = startUploader(server, loop ? [...args, '--loop'] : args, session);
   return { ...replay, triangles };
 }

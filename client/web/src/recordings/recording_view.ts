@@ -1,5 +1,6 @@
 // One recording on the screen: its frames as they are wanted, played at a steady pace.
 import type { Frame } from '../bricks/frame';
+import type { Recording } from '../gen/meniscus/v1/recording_service_pb';
 import type { Server } from '../rpc/server';
 import { Code, explain, RpcError } from '../rpc/status';
 import type { Screen } from '../screen';
@@ -16,6 +17,8 @@ const limits = { ahead: 24, frames: 300, bytes: 192 << 20 };
 const pace = 40;
 
 export interface RecordingViewEvents {
+  /** The server has it. */
+  found(recording: Recording): void;
   state(state: WatchState): void;
   /** Paused at this frame, by its place. */
   restsAt(position: number): void;
@@ -82,6 +85,7 @@ export class RecordingView {
       );
       if (name !== this.name) return;
       if (!recording) throw new RpcError(Code.notFound, 'it may have been deleted');
+      this.events.found(recording);
       if (recording.frames === 0n) throw new RpcError(Code.failedPrecondition, 'This recording holds no mesh yet.');
       this.frames = new RecordingFrames(
         Number(recording.frames),

@@ -82,6 +82,20 @@ async function* messages(
   request: Uint8Array,
   options: CallOptions,
 ): AsyncGenerator<Uint8Array, void> {
+  try {
+    yield* answer(endpoint, path, request, options);
+  } catch (error) {
+    if (error instanceof RpcError) error.withToken = options.metadata.authorization !== undefined;
+    throw error;
+  }
+}
+
+async function* answer(
+  endpoint: Endpoint,
+  path: string,
+  request: Uint8Array,
+  options: CallOptions,
+): AsyncGenerator<Uint8Array, void> {
   const response = await post(endpoint, path, request, options);
   // A call that is refused at once may have its status in the headers, and no body.
   if (response.headers.get('grpc-status') !== null) {

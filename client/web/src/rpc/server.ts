@@ -60,8 +60,21 @@ export class Server {
       { id },
       this.options(AbortSignal.timeout(unaryTimeout), id),
     );
-    if (!answer.session) throw new RpcError(Code.internal, 'the answer has no session');
+    if (!answer.session) throw new RpcError(Code.internal, 'The server answered without a session.');
     return answer.session;
+  }
+
+  /** The session's newest mesh as it is at `maxLevel`; nothing where there is none yet. */
+  snapshot(
+    request: { sessionId: string; maxLevel: number },
+    signal: AbortSignal,
+  ): AsyncIterable<Received<WatchResponse>> {
+    return serverStream(
+      this.endpoint,
+      SurfaceService.method.snapshot,
+      { ...request, codecs: [...knownCodecs] },
+      this.options(signal, request.sessionId),
+    );
   }
 
   /** opened: the server has taken the call. */

@@ -22,6 +22,9 @@ export const Code = {
 export type Code = (typeof Code)[keyof typeof Code];
 
 export class RpcError extends Error {
+  /** Whether a token was sent with the call. */
+  withToken = false;
+
   constructor(
     readonly code: Code,
     message: string,
@@ -65,11 +68,11 @@ export function explain(error: unknown): string {
     case Code.deadlineExceeded:
       return 'The server has not answered in time.';
     case Code.unauthenticated:
-      return 'The server asks for a token that it knows.';
+      return error.withToken ? 'The server does not know this token.' : 'The server asks for a token.';
     case Code.permissionDenied:
       return `This token does not allow it (${error.message}).`;
     case Code.notFound:
-      return `There is no such session (${error.message}).`;
+      return `There is no such session: it has ended, or has not begun (${error.message}).`;
     case Code.resourceExhausted:
       return `The server is full (${error.message}).`;
     case Code.unimplemented:

@@ -29,7 +29,6 @@ export interface WatchEvents {
 /** Tried again, with what the viewer shows kept: the server may come back, its simulator make the session again, on another GPU perhaps. */
 const passing: ReadonlySet<Code> = new Set([
   Code.unavailable,
-  Code.notFound,
   Code.resourceExhausted,
   Code.deadlineExceeded,
   Code.internal,
@@ -108,7 +107,7 @@ export class SessionWatch {
       }
       if (signal.aborted) return;
       this.ended = true;
-      this.events.state({ kind: 'ended' });
+      this.events.state({ kind: 'ended', at: Date.now() });
       this.scheduleRetry();
     } catch (error) {
       if (!signal.aborted) this.fail(error);
@@ -142,6 +141,7 @@ export class SessionWatch {
     else if (error.code === Code.unauthenticated || error.code === Code.permissionDenied)
       this.end({ kind: 'token', reason });
     else if (error.code === Code.notFound && this.ended) this.scheduleRetry();
+    else if (error.code === Code.notFound) this.events.state({ kind: 'absent', retryAt: this.scheduleRetry(), reason });
     else if (passing.has(error.code)) this.events.state({ kind: 'waiting', retryAt: this.scheduleRetry(), reason });
     else this.end({ kind: 'refused', reason });
   }

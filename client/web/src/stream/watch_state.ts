@@ -12,6 +12,9 @@ export type WatchState =
   | { readonly kind: 'draining'; readonly seconds: number }
   /** Tries again at that time of the page's clock, ms. */
   | { readonly kind: 'waiting'; readonly retryAt: number; readonly reason: string }
-  | { readonly kind: 'ended' }
+  /** There is no such session on the server, or none any more; it is looked for again at that time of the page's clock, ms. */
+  | { readonly kind: 'absent'; readonly retryAt: number; readonly reason: string }
+  /** at: ms since 1970. */
+  | { readonly kind: 'ended'; readonly at: number }
   | { readonly kind: 'token'; readonly reason: string }
   | { readonly kind: 'refused'; readonly reason: string };

@@ -1,6 +1,7 @@
 // One line that says what is wrong and what happens next; a countdown while waiting.
 import type { WatchState } from '../stream/watch_state';
 import { element } from './page';
+import { clockText } from './texts';
 
 export class Banner {
   private readonly banner = element('banner', HTMLElement);
@@ -27,6 +28,7 @@ export class Banner {
         if (this.countdown.textContent !== '') this.countdown.textContent = ' now.';
         return;
       case 'waiting':
+      case 'absent':
         this.countDown(state.reason, state.retryAt);
         return;
       case 'draining':
@@ -34,7 +36,7 @@ export class Banner {
         return;
       case 'ended':
         this.say(
-          'The session has ended. What came last stays on the screen; should its simulator return, so does the picture.',
+          `The session has ended at ${clockText(state.at)}. What came last stays on the screen; should its simulator return, so does the picture.`,
         );
         return;
       case 'token':

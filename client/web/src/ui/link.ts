@@ -15,25 +15,46 @@ export interface PageState extends ToolsState {
   readonly look?: Look;
   /** None: what the session says. */
   readonly up?: UpAxis;
+  /** What it names that cannot be, in words. */
+  readonly problem?: string;
 }
 
-/** What is not understood is left out. hash: with or without its sign. */
+export function isSessionId(text: string): boolean {
+  return sessionForm.test(text);
+}
+
+/** What is not understood is left out; of a session or a recording it is told. hash: with or without its sign. */
 export function readLink(hash: string): PageState {
   const fields = new URLSearchParams(hash.replace(/^#/, ''));
   const session = fields.get('session');
   const recording = readRecordingName(fields.get('recording') ?? '');
+  const problem = problemOf(session, fields.get('recording'));
   const position = fields.get('position') ?? '';
   const camera = readCamera(fields.get('camera'));
   const up = fields.get('up') ?? '';
   return {
-    ...(session !== null && sessionForm.test(session) ? { session } : {}),
+    ...(session !== null && isSessionId(session) ? { session } : {}),
     ...(recording ? { recording } : {}),
     ...(recording && /^[0-9]{1,15}$/.test(position) ? { position: Number(position) } : {}),
     ...(camera ? { camera } : {}),
     ...(fields.get('look') === 'levels' ? { look: 'levels' as const } : {}),
     ...(isAxis(up) ? { up } : {}),
     ...readToolsLink(fields),
+    ...(problem === undefined ? {} : { problem }),
   };
+}
+
+function problemOf(session: string | null, recording: string | null): string | undefined {
+  if (session !== null && !isSessionId(session))
+    return `This address names the session "${short(session)}", which cannot be: a session's name is a UUID, as 01234567-89ab-cdef-0123-456789abcdef. It may have been cut off.`;
+  if (recording !== null && !readRecordingName(recording))
+    return `This address names the recording "${short(recording)}", which cannot be: a recording's name is a UUID and a number, as 01234567-89ab-cdef-0123-456789abcdef/1. It may have been cut off.`;
+  return undefined;
+}
+
+/** For a sentence. */
+function short(text: string): string {
+  return text.length > 64 ? `${text.slice(0, 64)}…` : text;
 }
 
 export function writeLink({ session, recording, position, camera, look, up, ...tools }: PageState): string {

@@ -14,7 +14,8 @@ export function coveredMargins(water: HTMLCanvasElement): Margins {
   return {
     top: there && !beside ? Math.max(0, figures.bottom - canvas.top) : 0,
     right: beside ? canvas.right - figures.left : 0,
-    bottom: Math.max(0, canvas.bottom - below),
+    // Neither is there in a frame of another page.
+    bottom: controls.height > 0 ? Math.max(0, canvas.bottom - below) : 0,
   };
 }
 

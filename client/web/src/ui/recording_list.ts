@@ -1,10 +1,13 @@
 // What the server has recorded, below the sessions; not there where it records nothing. Follows by itself while it is shown.
 import type { Recording } from '../gen/meniscus/v1/recording_service_pb';
 import { recordingNameText, type RecordingName } from '../recordings/recording_name';
+import { givenName } from '../list/session_name';
+import { matches } from '../list/session_order';
 import type { Server } from '../rpc/server';
 import { Code, RpcError } from '../rpc/status';
 import { showChoices } from './choices';
 import { element } from './page';
+import { followSearch, searched } from './search_field';
 import { bytesText, countText } from './texts';
 
 /** ms */
@@ -16,6 +19,7 @@ export class RecordingList {
   private readonly list = element('recordings', HTMLUListElement);
   private readonly section = element('recordings-section', HTMLElement);
   private timer: ReturnType<typeof setTimeout> | undefined;
+  private last: Recording[] = [];
   /** As in SessionList. */
   private showing: symbol | undefined;
 
@@ -25,6 +29,9 @@ export class RecordingList {
   ) {
     document.addEventListener('visibilitychange', () => {
       if (this.showing && !document.hidden) this.show();
+    });
+    followSearch(() => {
+      this.fill(this.last);
     });
   }
 
@@ -55,8 +62,12 @@ export class RecordingList {
     if (!document.hidden) this.timer = setTimeout(() => void this.refresh(showing), refreshEvery);
   }
 
-  private fill(recordings: Recording[]): void {
-    this.section.hidden = recordings.length === 0;
+  private fill(all: Recording[]): void {
+    this.last = all;
+    this.section.hidden = all.length === 0;
+    const recordings = all.filter((recording) =>
+      matches(searched(), givenName(recording), recording.sessionId, recording.owner),
+    );
     const more = element('more-recordings', HTMLElement);
     more.hidden = recordings.length <= most;
     more.textContent = `These are the newest ${most} of ${countText(recordings.length)}.`;
@@ -67,6 +78,7 @@ export class RecordingList {
         const name = { session: recording.sessionId, number: recording.number };
         return {
           name: recordingNameText(name),
+          title: givenName(recording),
           about: about(recording),
           chosen: () => {
             this.chosen(name);

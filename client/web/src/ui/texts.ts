@@ -45,3 +45,25 @@ function withUnit(text: string, unit: string): string {
 export function volumeText(volume: number, particles: number): string {
   return `${Number(volume.toPrecision(3))} (${(volume / particles).toFixed(2)})`;
 }
+
+/** Since then, in the largest unit that fits. */
+export function ageText(seconds: number): string {
+  const units = [
+    [86_400, 'd'],
+    [3600, 'h'],
+    [60, 'min'],
+  ] as const;
+  // Clocks of two machines differ.
+  const age = Math.max(0, seconds);
+  const [length, name] = units.find(([unit]) => age >= unit) ?? ([1, 's'] as const);
+  return `${Math.floor(age / length)} ${name}`;
+}
+
+export function rateText(perSecond: number): string {
+  return `${perSecond < 10 ? Number(perSecond.toFixed(1)) : Math.round(perSecond)} frames/s`;
+}
+
+/** Of this day, on this machine's clock. at: ms since 1970. */
+export function clockText(at: number): string {
+  return new Date(at).toLocaleTimeString('en-GB');
+}

@@ -42,9 +42,6 @@ export class CameraControls {
       },
       { passive: true },
     );
-    canvas.addEventListener('keydown', (event) => {
-      this.key(event);
-    });
   }
 
   get target(): Vector3 {
@@ -66,70 +63,29 @@ export class CameraControls {
     this.camera.updateProjectionMatrix();
   }
 
-  private key(event: KeyboardEvent): void {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const action = event.shiftKey ? this.panAction(event.key) : this.turnAction(event.key);
-    if (!action) return;
-    event.preventDefault();
-    action();
+  /** By an arrow key, in its direction. */
+  turn(key: string): void {
+    if (key === 'ArrowLeft') this.orbit.rotateLeft(-turn);
+    else if (key === 'ArrowRight') this.orbit.rotateLeft(turn);
+    else if (key === 'ArrowUp') this.orbit.rotateUp(turn);
+    else this.orbit.rotateUp(-turn);
     this.moved();
   }
 
-  private turnAction(key: string): (() => void) | undefined {
-    switch (key) {
-      case 'ArrowLeft':
-        return () => {
-          this.orbit.rotateLeft(-turn);
-        };
-      case 'ArrowRight':
-        return () => {
-          this.orbit.rotateLeft(turn);
-        };
-      case 'ArrowUp':
-        return () => {
-          this.orbit.rotateUp(turn);
-        };
-      case 'ArrowDown':
-        return () => {
-          this.orbit.rotateUp(-turn);
-        };
-      case '+':
-      case '=':
-        return () => {
-          this.orbit.dollyIn(zoom);
-        };
-      case '-':
-        return () => {
-          this.orbit.dollyOut(zoom);
-        };
-      default:
-        return undefined;
-    }
+  /** By an arrow key, in its direction. */
+  shift(key: string): void {
+    if (key === 'ArrowLeft') this.orbit.pan(shift, 0);
+    else if (key === 'ArrowRight') this.orbit.pan(-shift, 0);
+    else if (key === 'ArrowUp') this.orbit.pan(0, shift);
+    else this.orbit.pan(0, -shift);
+    this.moved();
   }
 
-  private panAction(key: string): (() => void) | undefined {
-    switch (key) {
-      case 'ArrowLeft':
-        return () => {
-          this.orbit.pan(shift, 0);
-        };
-      case 'ArrowRight':
-        return () => {
-          this.orbit.pan(-shift, 0);
-        };
-      case 'ArrowUp':
-        return () => {
-          this.orbit.pan(0, shift);
-        };
-      case 'ArrowDown':
-        return () => {
-          this.orbit.pan(0, -shift);
-        };
-      case '+':
-        return this.turnAction('+');
-      default:
-        return undefined;
-    }
+  /** By minus, out; by any other, in. */
+  zoom(key: string): void {
+    if (key === '-') this.orbit.dollyOut(zoom);
+    else this.orbit.dollyIn(zoom);
+    this.moved();
   }
 
   private moved(): void {

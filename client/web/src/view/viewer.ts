@@ -60,7 +60,7 @@ export class Viewer {
   private readonly particles = new ParticleCloud();
   private readonly spray = new SprayCloud();
   private readonly domainBox = new DomainBox();
-  private readonly controls: CameraControls;
+  readonly controls: CameraControls;
   /** What the scene's coordinates are relative to, so that they stay small wherever the water is. */
   private origin: Point = [0, 0, 0];
   private shown: Shown | undefined;

@@ -1,0 +1,89 @@
+// Draws meshes small, with the viewer's own picture, on a canvas that nobody sees.
+import type { Shown } from '../bricks/brick_store';
+import { FrameReceiver } from '../bricks/frame_receiver';
+import type { DecodePool } from '../decode/decode_pool';
+import type { Server } from '../rpc/server';
+import type { Theme } from '../view/environment';
+import type { UpAxis } from '../view/up_axis';
+import { Viewer } from '../view/viewer';
+
+/** The coarsest: a thumbnail shows no more. */
+const maxLevel = 1;
+const noMargins = { top: 0, right: 0, bottom: 0 };
+
+export class ThumbnailPainter {
+  private readonly canvas = document.createElement('canvas');
+  /** From the first picture on: a page that is opened by a link needs none. */
+  private viewer: Viewer | undefined;
+  private theme: Theme = 'light';
+  private target: HTMLCanvasElement | undefined;
+
+  constructor(
+    private readonly server: Server,
+    private readonly pool: DecodePool,
+  ) {
+    this.canvas.className = 'painting';
+    this.canvas.setAttribute('aria-hidden', 'true');
+  }
+
+  /** Of the pictures from now on. */
+  setTheme(theme: Theme): void {
+    this.theme = theme;
+    this.viewer?.setTheme(theme);
+  }
+
+  /** Of the session's newest mesh. Throws RpcError, and Error where the browser cannot. */
+  async draw(session: string, up: UpAxis, target: HTMLCanvasElement, signal: AbortSignal): Promise<void> {
+    const shown = await this.newest(session, signal);
+    if (!shown || shown.bricks.size === 0 || signal.aborted) return;
+    const viewer = this.start();
+    this.target = target;
+    viewer.setUp(up);
+    viewer.show(shown);
+    viewer.fit();
+    // Draws at once.
+    viewer.resize();
+    this.target = undefined;
+    viewer.clear();
+  }
+
+  private async newest(sessionId: string, signal: AbortSignal): Promise<Shown | undefined> {
+    const receiver = new FrameReceiver();
+    for await (const { message, bytes } of this.server.snapshot({ sessionId, maxLevel }, signal)) {
+      const frame = receiver.take(message, bytes, performance.now());
+      if (!frame) continue;
+      const bricks = await Promise.all(
+        [...frame.bricks].map(
+          async ([key, encoded]) =>
+            [key, { encoded, decoded: await this.pool.decode(encoded, frame.offsetBits) }] as const,
+        ),
+      );
+      return { frame, bricks: new Map(bricks) };
+    }
+    return undefined;
+  }
+
+  private start(): Viewer {
+    if (!this.viewer) {
+      document.body.append(this.canvas);
+      this.viewer = new Viewer(this.canvas, () => noMargins, {
+        drawn: () => {
+          this.copy();
+        },
+        rendered: () => undefined,
+        moving: () => undefined,
+        lost: () => undefined,
+      });
+      this.viewer.setTheme(this.theme);
+    }
+    return this.viewer;
+  }
+
+  private copy(): void {
+    if (!this.target) return;
+    this.target.width = this.canvas.width;
+    this.target.height = this.canvas.height;
+    this.target.getContext('2d')?.drawImage(this.canvas, 0, 0);
+    this.target.dataset.drawn = String(Number(this.target.dataset.drawn ?? 0) + 1);
+  }
+}

@@ -1,0 +1,54 @@
+// Whose picture is drawn next: those on the screen, one after the other, each once in a while, and only where there is something new.
+
+interface Entry {
+  frames: bigint;
+  visible: boolean;
+  /** When its picture was asked for last, and of how many frames the session was then. */
+  asked: { readonly at: number; readonly frames: bigint } | undefined;
+}
+
+export class ThumbnailSchedule {
+  private readonly entries = new Map<string, Entry>();
+
+  /** every: ms between two pictures of one session. */
+  constructor(private readonly every: number) {}
+
+  /** What the list holds now. */
+  update(sessions: readonly { readonly id: string; readonly frames: bigint }[]): void {
+    const ids = new Set(sessions.map(({ id }) => id));
+    for (const id of this.entries.keys()) if (!ids.has(id)) this.entries.delete(id);
+    for (const { id, frames } of sessions) {
+      const entry = this.entries.get(id);
+      if (entry) entry.frames = frames;
+      else this.entries.set(id, { frames, visible: false, asked: undefined });
+    }
+  }
+
+  setVisible(id: string, visible: boolean): void {
+    const entry = this.entries.get(id);
+    if (entry) entry.visible = visible;
+  }
+
+  /** As if the session's picture had not been asked for; without one: all pictures. */
+  forget(session?: string): void {
+    for (const [id, entry] of this.entries) if (session === undefined || id === session) entry.asked = undefined;
+  }
+
+  /** The session that has waited longest, of those that are due; it counts as asked for. now: ms. */
+  next(now: number): string | undefined {
+    let next: string | undefined;
+    let longest = -1;
+    for (const [id, { frames, visible, asked }] of this.entries) {
+      if (!visible || frames === 0n || frames === asked?.frames) continue;
+      const waited = asked ? now - asked.at : Infinity;
+      if (waited < this.every || waited <= longest) continue;
+      next = id;
+      longest = waited;
+    }
+    if (next !== undefined) {
+      const entry = this.entries.get(next)!;
+      entry.asked = { at: now, frames: entry.frames };
+    }
+    return next;
+  }
+}

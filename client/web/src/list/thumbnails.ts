@@ -1,0 +1,66 @@
+// Pictures of the sessions in the list, from their newest meshes: one at a time, for what is on the screen.
+import { Code, RpcError } from '../rpc/status';
+import { ThumbnailSchedule } from './thumbnail_schedule';
+
+/** ms between two pictures of one session. */
+export const thumbnailEvery = 10_000;
+
+export class Thumbnails {
+  private readonly schedule = new ThumbnailSchedule(thumbnailEvery);
+  private call: { readonly session: string; readonly abort: AbortController } | undefined;
+  /** From update() to stop(). */
+  private running = false;
+  /** Whether the server makes none. */
+  private none = false;
+
+  /** draw: resolves when the session's picture is drawn, or when there is none yet. */
+  constructor(
+    private readonly draw: (session: string, signal: AbortSignal) => Promise<void>,
+    private readonly now: () => number,
+  ) {}
+
+  /** The list that has come, of which some is on the screen. To be called again and again: this is when pictures fall due. */
+  update(sessions: readonly { readonly id: string; readonly frames: bigint }[]): void {
+    this.running = true;
+    this.schedule.update(sessions);
+    this.goOn();
+  }
+
+  setVisible(session: string, visible: boolean): void {
+    this.schedule.setVisible(session, visible);
+    this.goOn();
+  }
+
+  /** In other colors, say. */
+  drawAnew(): void {
+    this.schedule.forget();
+    this.goOn();
+  }
+
+  /** Until the next update(). */
+  stop(): void {
+    this.running = false;
+    if (!this.call) return;
+    this.call.abort.abort();
+    this.schedule.forget(this.call.session);
+    this.call = undefined;
+  }
+
+  private goOn(): void {
+    if (!this.running || this.call || this.none) return;
+    const session = this.schedule.next(this.now());
+    if (session === undefined) return;
+    const call = { session, abort: new AbortController() };
+    this.call = call;
+    void this.draw(session, call.abort.signal)
+      .catch((error: unknown) => {
+        // After whatever else went wrong the next picture may come: the list tells of what concerns it as well.
+        if (error instanceof RpcError && error.code === Code.unimplemented) this.none = true;
+      })
+      .then(() => {
+        if (this.call !== call) return;
+        this.call = undefined;
+        this.goOn();
+      });
+  }
+}
