@@ -30,7 +30,7 @@ constexpr std::string_view name_of(Backend backend) {
 
 struct BackendOptions {
     Backend backend = Backend::automatic;
-    unsigned threads = 0;                 ///< CPU worker threads; 0: one per processor
+    unsigned threads = 0;                 ///< CPU worker threads, at most 4096; 0: one per processor
     std::size_t memory_limit = 0;         ///< bytes one reconstructor may hold; 0: no limit of its own
     int device = 0;                       ///< which GPU, see devices.hpp
     std::size_t device_memory_limit = 0;  ///< bytes one reconstructor may hold on the GPU; 0: no limit of its own
