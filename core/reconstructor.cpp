@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <thread>
 
@@ -11,6 +12,7 @@
 #include "instruction_set.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/memory.hpp"
+#include "particles/placed_frame.hpp"
 #include "pipeline/backend.hpp"
 #include "processor.hpp"
 #include "warnings.hpp"
@@ -18,15 +20,36 @@
 namespace meniscus {
 namespace {
 
-/// A particle of level k stands for a cube of twice its radius: 8^k times that of level 0. World units cubed.
-double volume_of(const ParticleFrame& frame, const Settings& settings) {
-    std::uint64_t cubes = frame.count();
+ParticlesByLevel count_levels(const ParticleFrame& frame) {
+    ParticlesByLevel particles{frame.count()};
     for (unsigned level = 1; level <= max_particle_level && !frame.levels.empty(); ++level) {
-        const auto particles = std::count(frame.levels.begin(), frame.levels.end(), static_cast<std::uint8_t>(level));
-        cubes += static_cast<std::uint64_t>(particles) * ((std::uint64_t{1} << (3 * level)) - 1);
+        const auto of_level = std::count(frame.levels.begin(), frame.levels.end(), static_cast<std::uint8_t>(level));
+        particles[level] = static_cast<std::uint64_t>(of_level);
+        particles[0] -= particles[level];
     }
+    return particles;
+}
+
+/// A particle of level k stands for a cube of twice its radius: 8^k times that of level 0. World units cubed.
+double volume_of(const ParticlesByLevel& particles, const Settings& settings) {
+    std::uint64_t cubes = 0;
+    for (unsigned level = 0; level <= max_particle_level; ++level) cubes += particles[level] << (3 * level);
     const double edge = 2.0 * settings.particle_radius;
     return static_cast<double>(cubes) * (edge * edge * edge);
+}
+
+/// Its arrays are device pointers.
+ParticleFrame frame_on_device(const DeviceParticleFrame& particles) {
+    if (particles.count != 0 && particles.positions == nullptr)
+        throw InvalidInput("the frame has " + std::to_string(particles.count) +
+                           " particles on the GPU, but its positions are null");
+    if (particles.count > std::numeric_limits<std::size_t>::max() / 3)
+        throw LimitExceeded("the frame has " + std::to_string(particles.count) +
+                            " particles, more than memory can hold");
+    ParticleFrame frame;
+    frame.positions = {particles.positions, 3 * particles.count};
+    if (particles.levels != nullptr) frame.levels = {particles.levels, particles.count};
+    return frame;
 }
 
 }  // namespace
@@ -71,17 +94,21 @@ public:
         make_backend();
     }
 
-    void reconstruct(const ParticleFrame& frame, Mesh& mesh) {
-        fill(frame, mesh, [&] {
-            const MeshDownload download = backend_->reconstruct(frame, mesh, statistics_);
+    /// Frame, here and below: ParticleFrame or DeviceParticleFrame.
+    template <class Frame>
+    void reconstruct(const Frame& frame, Mesh& mesh) {
+        fill(frame, mesh, [&](const PlacedFrame& particles) {
+            const MeshDownload download = backend_->reconstruct(particles, mesh, statistics_);
             download.finish();
             statistics_.download_seconds = download.seconds();
         });
     }
 
-    MeshDownload reconstruct_for_download(const ParticleFrame& frame, Mesh& mesh) {
+    template <class Frame>
+    MeshDownload reconstruct_for_download(const Frame& frame, Mesh& mesh) {
         MeshDownload download;
-        fill(frame, mesh, [&] { download = backend_->reconstruct(frame, mesh, statistics_); });
+        fill(frame, mesh,
+             [&](const PlacedFrame& particles) { download = backend_->reconstruct(particles, mesh, statistics_); });
         return download;
     }
 
@@ -101,13 +128,14 @@ public:
         }
     }
 
-    DeviceMesh reconstruct_on_device(const ParticleFrame& frame) {
-        begin(frame);
+    template <class Frame>
+    DeviceMesh reconstruct_on_device(const Frame& frame) {
         DeviceMesh mesh;
-        measure(frame, [&] {
-            mesh = backend_->reconstruct_on_device(frame, statistics_);
+        const ValidFrame valid = begin(frame);
+        measure(valid, [&] {
+            mesh = backend_->reconstruct_on_device(valid.particles, statistics_);
             count(mesh.vertex_count, mesh.triangle_count, mesh.levels);
-            warn(frame);
+            warn(valid);
         });
         return mesh;
     }
@@ -132,24 +160,51 @@ private:
                        : cpu::make_reconstruction(settings_, options_, account_);
     }
 
-    void begin(const ParticleFrame& frame) {
-        validate(frame, settings_);  // before the last surface is forgotten: a frame that is refused changes nothing
+    struct ValidFrame {
+        PlacedFrame particles;
+        ParticlesByLevel by_level;
+    };
+
+    // Validation comes before the last surface is forgotten: a frame that is refused changes nothing.
+    ValidFrame begin(const ParticleFrame& frame) {
+        validate(frame, settings_);
+        forget_last_frame();
+        if (!backend_) make_backend();
+        return {frame, count_levels(frame)};
+    }
+    ValidFrame begin(const DeviceParticleFrame& particles) {
+        const ParticleFrame frame = frame_on_device(particles);
+        validate_lengths(frame);
+        if (!backend_) make_backend();
+        ParticlesByLevel by_level{};
+        try {
+            by_level = backend_->validate_on_device(frame, particles.stream, settings_);
+        } catch (const InvalidInput&) {
+            throw;
+        } catch (...) {
+            forget_last_frame();
+            backend_.reset();
+            throw;
+        }
+        forget_last_frame();
+        return {{frame, true}, by_level};
+    }
+    void forget_last_frame() {
         statistics_ = {};
         has_surface_ = false;
-        if (!backend_) make_backend();
     }
 
     /// call: to the backend, with this mesh.
-    template <class Call>
-    void fill(const ParticleFrame& frame, Mesh& mesh, const Call& call) {
+    template <class Frame, class Call>
+    void fill(const Frame& frame, Mesh& mesh, const Call& call) {
         mesh.clear();
-        begin(frame);
+        const ValidFrame valid = begin(frame);
         adopt(mesh);
         try {
-            measure(frame, [&] {
-                call();
+            measure(valid, [&] {
+                call(valid.particles);
                 count(mesh.vertices.size(), mesh.triangles.size(), mesh.levels);
-                warn(frame);
+                warn(valid);
             });
         } catch (...) {
             mesh = {};
@@ -159,7 +214,7 @@ private:
 
     /// Times a call to the backend with what follows from its result, and counts memory.
     template <class Call>
-    void measure(const ParticleFrame& frame, const Call& call) {
+    void measure(const ValidFrame& frame, const Call& call) {
         const auto allocations = [&] { return account_->allocations() + device_account_->allocations(); };
         const std::uint64_t before = allocations();
         const auto start = std::chrono::steady_clock::now();
@@ -174,8 +229,8 @@ private:
         }
         has_surface_ = true;
         statistics_.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        statistics_.particles = frame.count();
-        statistics_.particle_volume = volume_of(frame, settings_);
+        statistics_.particles = frame.particles.frame.count();
+        statistics_.particle_volume = volume_of(frame.by_level, settings_);
         statistics_.peak_bytes = account_->peak_bytes();
         statistics_.device_bytes = device_account_->bytes();
         statistics_.device_peak_bytes = device_account_->peak_bytes();
@@ -183,9 +238,9 @@ private:
     }
 
     /// Of the frame just reconstructed, whose triangles are counted.
-    void warn(const ParticleFrame& frame) {
+    void warn(const ValidFrame& frame) {
         find_warnings(
-            frame, settings_, [this] { return backend_->greatest_sample(); }, statistics_);
+            frame.particles, frame.by_level, settings_, [this] { return backend_->greatest_sample(); }, statistics_);
     }
 
     void count(std::size_t vertices, std::size_t triangles,
@@ -238,6 +293,16 @@ DeviceMesh Reconstructor::reconstruct_on_device(const ParticleFrame& frame) {
 }
 void Reconstructor::release_memory() {
     impl_->release_memory();
+}
+
+void Reconstructor::reconstruct(const DeviceParticleFrame& frame, Mesh& mesh) {
+    impl_->reconstruct(frame, mesh);
+}
+MeshDownload Reconstructor::reconstruct_for_download(const DeviceParticleFrame& frame, Mesh& mesh) {
+    return impl_->reconstruct_for_download(frame, mesh);
+}
+DeviceMesh Reconstructor::reconstruct_on_device(const DeviceParticleFrame& frame) {
+    return impl_->reconstruct_on_device(frame);
 }
 
 const Statistics& Reconstructor::statistics() const {

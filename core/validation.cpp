@@ -1,4 +1,6 @@
 // Checks of what comes from outside, once, at the edge.
+#include "validation.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -153,16 +155,33 @@ void validate_lengths(const ParticleFrame& frame) {
     }
 }
 
+double farthest_coordinate(const Settings& settings) {
+    return static_cast<double>(max_cell) * world_cell_size(settings);
+}
+
+void require_level(const Settings& settings, std::uint64_t particle, unsigned level) {
+    if (level > max_particle_level)
+        throw InvalidInput("particle " + std::to_string(particle) + " has level " + std::to_string(level) +
+                           ", must be 0 to " + std::to_string(max_particle_level));
+    require_support(settings, level);
+}
+
+void refuse_coordinate(const Settings& settings, std::uint64_t coordinate, float value) {
+    const double p = static_cast<double>(value);
+    const std::string where =
+        "particle " + std::to_string(coordinate / 3) + " has " + "xyz"[coordinate % 3] + " = " + text(p);
+    if (!std::isfinite(p)) throw InvalidInput(where + ", positions must be finite");
+    throw InvalidInput(where + ", farther from the origin than the " + text(farthest_coordinate(settings)) +
+                       " that this cell size can address");
+}
+
 void validate(const ParticleFrame& frame, const Settings& settings) {
     validate_lengths(frame);
     if (!frame.levels.empty()) {
         const auto coarsest = std::max_element(frame.levels.begin(), frame.levels.end());
-        if (*coarsest > max_particle_level)
-            throw InvalidInput("particle " + std::to_string(coarsest - frame.levels.begin()) + " has level " +
-                               std::to_string(*coarsest) + ", must be 0 to " + std::to_string(max_particle_level));
-        require_support(settings, *coarsest);
+        require_level(settings, static_cast<std::uint64_t>(coarsest - frame.levels.begin()), *coarsest);
     }
-    const double limit = static_cast<double>(max_cell) * world_cell_size(settings);
+    const double limit = farthest_coordinate(settings);
     if (frame.is_quantized()) {
         const Box& box = frame.quantization_box;
         require_box("quantization box", box, true);
@@ -173,15 +192,10 @@ void validate(const ParticleFrame& frame, const Settings& settings) {
                                    " that this cell size can address");
         return;
     }
-    for (std::size_t i = 0; i < frame.positions.size(); ++i) {
-        const double p = static_cast<double>(frame.positions[i]);
+    for (std::size_t i = 0; i < frame.positions.size(); ++i)
         // Also false for a NaN.
-        if (std::abs(p) <= limit) continue;
-        const std::string where = "particle " + std::to_string(i / 3) + " has " + "xyz"[i % 3] + " = " + text(p);
-        if (!std::isfinite(p)) throw InvalidInput(where + ", positions must be finite");
-        throw InvalidInput(where + ", farther from the origin than the " + text(limit) +
-                           " that this cell size can address");
-    }
+        if (!(std::abs(static_cast<double>(frame.positions[i])) <= limit))
+            refuse_coordinate(settings, i, frame.positions[i]);
 }
 
 }  // namespace meniscus

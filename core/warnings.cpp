@@ -60,14 +60,15 @@ std::size_t particles_in(const Box& domain, const ParticleFrame& frame) {
     return inside;
 }
 
-Warning empty_surface(const ParticleFrame& frame, const Settings& settings, double greatest,
+Warning empty_surface(const PlacedFrame& particles, const Settings& settings, double greatest,
                       std::uint64_t spray_particles) {
+    const ParticleFrame& frame = particles.frame;
     Warning warning{WarningCode::empty_surface, greatest, settings.iso, {}};
     if (settings.spray != Spray::keep && spray_particles == frame.count())
         warning.text = "the surface is empty: " + particles_text(frame.count()) +
                        (frame.count() == 1 ? " lies alone and is" : " lie alone and are") +
                        " left out as spray; keep spray, or take a larger particle radius";
-    else if (settings.domain && particles_in(*settings.domain, frame) == 0)
+    else if (settings.domain && !particles.on_device && particles_in(*settings.domain, frame) == 0)
         warning.text = "the surface is empty: of " + particles_text(frame.count()) + " none lies in the domain";
     else
         warning.text = "the surface is empty: the greatest value of the field that was sampled is " + shown(greatest) +
@@ -76,14 +77,15 @@ Warning empty_surface(const ParticleFrame& frame, const Settings& settings, doub
 }
 
 /// The radius of the finest particles, of which there are some.
-double finest_radius(const ParticleFrame& frame, const Settings& settings) {
-    const int level = frame.levels.empty() ? 0 : *std::min_element(frame.levels.begin(), frame.levels.end());
-    return std::ldexp(settings.particle_radius, level);
+double finest_radius(const ParticlesByLevel& particles, const Settings& settings) {
+    const auto finest =
+        std::find_if(particles.begin(), particles.end(), [](std::uint64_t count) { return count != 0; });
+    return std::ldexp(settings.particle_radius, static_cast<int>(finest - particles.begin()));
 }
 
-std::optional<Warning> too_large_cells(const ParticleFrame& frame, const Settings& settings) {
+std::optional<Warning> too_large_cells(const ParticlesByLevel& particles, const Settings& settings) {
     const double cell = world_cell_size(settings);
-    const double largest = largest_cell * finest_radius(frame, settings);
+    const double largest = largest_cell * finest_radius(particles, settings);
     if (!(cell > largest)) return std::nullopt;
     return Warning{WarningCode::cell_size_too_large, cell, largest,
                    "finest cells of " + shown(cell) + " are too large to show single particles: at most " +
@@ -141,17 +143,17 @@ std::optional<Warning> too_small_support(const Settings& settings) {
 
 }  // namespace
 
-void find_warnings(const ParticleFrame& frame, const Settings& settings, const std::function<float()>& greatest_sample,
-                   Statistics& statistics) {
+void find_warnings(const PlacedFrame& particles, const ParticlesByLevel& by_level, const Settings& settings,
+                   const std::function<float()>& greatest_sample, Statistics& statistics) {
     statistics.warnings.clear();
-    if (frame.count() == 0) return;
+    if (particles.frame.count() == 0) return;
     const auto add = [&](std::optional<Warning> warning) {
         if (warning) statistics.warnings.push_back(std::move(*warning));
     };
-    add(wrong_radius(frame, settings.particle_radius));
+    if (!particles.on_device) add(wrong_radius(particles.frame, settings.particle_radius));
     if (statistics.triangles == 0)
-        add(empty_surface(frame, settings, static_cast<double>(greatest_sample()), statistics.spray_particles));
-    add(too_large_cells(frame, settings));
+        add(empty_surface(particles, settings, static_cast<double>(greatest_sample()), statistics.spray_particles));
+    add(too_large_cells(by_level, settings));
     add(too_small_support(settings));
 }
 

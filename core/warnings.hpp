@@ -4,15 +4,16 @@
 
 #include <functional>
 
-#include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
+#include "particles/placed_frame.hpp"
 
 namespace meniscus {
 
 /// Fills statistics.warnings, in the order of their codes; the other figures are there. The frame is valid.
-/// greatest_sample: the greatest value of the field that was sampled; asked for only where the surface is empty.
-void find_warnings(const ParticleFrame& frame, const Settings& settings, const std::function<float()>& greatest_sample,
-                   Statistics& statistics);
+/// greatest_sample: the greatest value of the field that was sampled; asked for only where the surface is empty. Of
+/// particles that are on the GPU, the radius is not held against their spacing, which would take them to the host.
+void find_warnings(const PlacedFrame& particles, const ParticlesByLevel& by_level, const Settings& settings,
+                   const std::function<float()>& greatest_sample, Statistics& statistics);
 
 }  // namespace meniscus

@@ -12,6 +12,7 @@
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
+#include "particles/placed_frame.hpp"
 
 namespace meniscus {
 
@@ -21,14 +22,21 @@ public:
     /// The frame is valid. Throws Stopped where BackendOptions::stop is raised; after that, and after a refusal for its
     /// work, the next frame may follow. Fills every figure of the statistics but memory and times of the whole. The
     /// mesh has its final sizes, bricks aside; its content is there once it has been downloaded.
-    virtual MeshDownload reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) = 0;
+    virtual MeshDownload reconstruct(const PlacedFrame& particles, Mesh& mesh, Statistics& statistics) = 0;
     /// The surface of the last frame once more, with no cell finer than max_level (1 to 3).
     virtual void emit_capped(int max_level, Mesh& mesh) = 0;
     /// The greatest value of the field at the points that the last frame had sampled, inside the domain; 0 without any.
     virtual float greatest_sample() = 0;
     /// As reconstruct(), but the mesh stays where it is until the next call.
-    virtual DeviceMesh reconstruct_on_device(const ParticleFrame&, Statistics&) {
+    virtual DeviceMesh reconstruct_on_device(const PlacedFrame&, Statistics&) {
         throw InvalidInput("the CPU backend has no mesh on a GPU: use reconstruct(), or Backend::cuda");
+    }
+    /// validate() for a frame whose lengths are valid and whose arrays are device pointers, once what is on `stream`
+    /// (a cudaStream_t) is done. Changes nothing. The frame may then be reconstructed.
+    virtual ParticlesByLevel validate_on_device(const ParticleFrame&, void* /*stream*/, const Settings&) {
+        throw InvalidInput(
+            "the CPU backend takes no particles from a GPU: copy them to a ParticleFrame, or use "
+            "Backend::cuda");
     }
 };
 

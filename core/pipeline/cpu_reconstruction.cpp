@@ -30,9 +30,9 @@ public:
         settings_.work_limit = options.work_limit;
     }
 
-    MeshDownload reconstruct(const ParticleFrame& frame, Mesh& mesh, Statistics& statistics) override {
+    MeshDownload reconstruct(const PlacedFrame& particles, Mesh& mesh, Statistics& statistics) override {
         StageClock clock(statistics);
-        ParticleSteps steps(state_, *field_, mesh, particles_, near_, frame);
+        ParticleSteps steps(state_, *field_, mesh, particles_, near_, particles.frame);
         run_pipeline(steps, clock);
         is_capped_ = false;
 

@@ -1,7 +1,8 @@
 // The kernels of a frame by steps:
 //
-//   Upload       pinned memory -> upload, FrameInput                        (outside of the graph: its size is the
-//   frame's) register     make_keys, sort, mark_starts, scan, store_particles, count_support_cells, measure_crowd;
+//   Upload       pinned memory, or the caller's on the device -> upload, FrameInput    (outside of the graph: its size
+//                is the frame's)
+//   register     make_keys, sort, mark_starts, scan, store_particles, count_support_cells, measure_crowd;
 //                list_reached_bricks, sort, mark_first_keys, scan, store_bricks, mark_reached_cells;
 //                scan, number_members, find_neighbors, make_blocks; measure_densities, divide_weights or
 //                count_particles
@@ -40,6 +41,8 @@ FrameRun::FrameRun(const LatticeSettings& settings, const BackendOptions& option
       sets_(sets),
       upload_(account),
       host_counts_(account),
+      account_(account),
+      device_account_(device_account),
       memory_(device_, stream_.get(), device_account),
       state_(settings) {
     int processors = 0;
@@ -50,7 +53,13 @@ FrameRun::FrameRun(const LatticeSettings& settings, const BackendOptions& option
     state_.stop_word = stop_.word();
 }
 
-void FrameRun::run(const ParticleFrame& particles) {
+ParticlesByLevel FrameRun::validate(const ParticleFrame& on_device, cudaStream_t made_on, const Settings& settings) {
+    if (!particle_check_) particle_check_.emplace(device_, launcher_, account_, device_account_);
+    return particle_check_->require_valid(on_device, made_on, settings);
+}
+
+void FrameRun::run(const PlacedFrame& placed) {
+    const ParticleFrame& particles = placed.frame;
     std::uint64_t payload_bytes = 0;
     for (const ParticleArray& array : particles.arrays) payload_bytes += array.data.size();
     const FrameParts parts{!particles.levels.empty(), payload_bytes != 0};
@@ -65,7 +74,7 @@ void FrameRun::run(const ParticleFrame& particles) {
     for (;;) {
         if (stop_.is_raised()) throw Stopped();
         clock_.start(stream_.get());
-        upload_.start(particles, state_, stream_.get());
+        upload_.start(placed, state_, stream_.get());
         CapturedRun& captured = current_graph();
         if (!grown && settled_ && !captured.graph.is_captured())
             captured.graph.capture(stream_.get(), [&] { enqueue(true); });

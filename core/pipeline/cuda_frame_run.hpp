@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "engine/cuda/device_memory.hpp"
 #include "engine/cuda/event_clock.hpp"
@@ -24,6 +25,8 @@
 #include "engine/cuda/upload.hpp"
 #include "meniscus/backend_options.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "particles/placed_frame.hpp"
+#include "pipeline/cuda_particle_check.hpp"
 #include "pipeline/cuda_pipeline.hpp"
 
 namespace meniscus::cuda {
@@ -36,7 +39,9 @@ public:
     /// A valid frame, up to its mesh on the device. Throws LimitExceeded for one that crowds or is too much work, and
     /// Stopped, after which the next frame may follow; and LimitExceeded for one that needs more than can be numbered
     /// or held, after which nothing may.
-    void run(const ParticleFrame& particles);
+    void run(const PlacedFrame& particles);
+    /// See BackendReconstruction::validate_on_device().
+    ParticlesByLevel validate(const ParticleFrame& on_device, cudaStream_t made_on, const Settings& settings);
     /// The mesh of the last frame once more, with no cell finer than max_level. first: whether the levels on the device
     /// are still those that the frame found.
     void emit_capped(int max_level, bool first);
@@ -85,6 +90,8 @@ private:
     Upload upload_;
     PinnedMemory host_counts_;
     Stream stream_;
+    std::optional<ParticleCheck> particle_check_;  ///< from the first frame on that comes from the device
+    std::shared_ptr<MemoryAccount> account_, device_account_;
     DeviceMemory memory_;
     State state_;
     Launcher launcher_;

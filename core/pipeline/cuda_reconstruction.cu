@@ -26,7 +26,7 @@ public:
         sets_.give_back(run_.stream());
     }
 
-    MeshDownload reconstruct(const ParticleFrame& particles, Mesh& mesh, Statistics& statistics) override {
+    MeshDownload reconstruct(const PlacedFrame& particles, Mesh& mesh, Statistics& statistics) override {
         const DeviceMesh on_device = reconstruct_on_device(particles, statistics);
         run_.copy_spray(mesh.spray);
         return download(on_device, mesh);
@@ -41,7 +41,12 @@ public:
         download(mesh_on_device(), mesh).finish();
     }
 
-    DeviceMesh reconstruct_on_device(const ParticleFrame& particles, Statistics& statistics) override {
+    ParticlesByLevel validate_on_device(const ParticleFrame& frame, void* stream, const Settings& settings) override {
+        const CurrentDevice current(device_);
+        return run_.validate(frame, static_cast<cudaStream_t>(stream), settings);
+    }
+
+    DeviceMesh reconstruct_on_device(const PlacedFrame& particles, Statistics& statistics) override {
         const CurrentDevice current(device_);
         run_.run(particles);
         is_capped_ = false;

@@ -1,6 +1,6 @@
-# Three Debian packages, one for each component: cpack -G DEB.
+# Four Debian packages, one for each component: cpack -G DEB.
 set(CPACK_GENERATOR DEB)
-set(CPACK_COMPONENTS_ALL server client development)
+set(CPACK_COMPONENTS_ALL server client library development)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_VERBATIM_VARIABLES ON)
@@ -47,14 +47,28 @@ puts load on a server.")
 set(CPACK_DEBIAN_CLIENT_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_SUGGESTS "meniscusd")
 
+# Named after its SONAME, as Debian wants it.
+debian_package(library libmeniscus0 libs "surfaces of simulated fluid particles: shared library
+Meniscus turns frames of SPH particles into adaptive, closed surfaces, on a
+server or in a simulation's own process.
+.
+This package has the library behind the C interface, for programs that were
+built with it.")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${control}/library/triggers)
+# For the packages of those programs, which are then told that they need this one.
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+
 debian_package(development libmeniscus-dev libdevel "surfaces of simulated fluid particles: development files
 Meniscus turns frames of SPH particles into adaptive, closed surfaces, on a
 server or in a simulation's own process.
 .
-This package has headers, static libraries and CMake files of the client
-library, meniscus::client, and of the reconstruction, meniscus::core.")
-# What find_package(Meniscus) looks for.
+This package has the C interface, for pkg-config and CMake (meniscus::c);
+headers, static libraries and CMake files of the client library for C++,
+meniscus::client, and of the reconstruction, meniscus::core; and examples.")
+# And what find_package(Meniscus) looks for.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libgrpc++-dev, protobuf-compiler-grpc, libprotobuf-dev, protobuf-compiler, libdraco-dev, libssl-dev, libtbb-dev")
+  "libmeniscus0 (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), libgrpc++-dev, protobuf-compiler-grpc, libprotobuf-dev, protobuf-compiler, libdraco-dev, libssl-dev, libtbb-dev")
 
 include(CPack)

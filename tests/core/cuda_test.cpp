@@ -172,6 +172,36 @@ TEST_F(Cuda, AFramePastTheDeviceMemoryLimitIsRefusedWithNumbersAndTheNextOneWork
     EXPECT_LE(limited.statistics().device_peak_bytes, limit);
 }
 
+TEST_F(CudaSmall, TakesParticlesThatAreOnTheDevice) {
+    // What is there already is a mesh: its normals serve as places on a sphere.
+    Settings settings = test::default_settings();
+    const test::Particles particles = test::splash(9, 5);
+    Reconstructor maker(settings, {Backend::cuda, 0, 0});
+    Mesh made;
+    maker.reconstruct(particles.frame(), made);
+    const DeviceMesh on_device = maker.reconstruct_on_device(particles.frame());
+    ASSERT_EQ(on_device.vertex_count, made.normals.size());
+    settings.particle_radius = 0.1;
+    settings.cell_size = 1.0;
+    ParticleFrame frame;
+    frame.positions = {made.normals.front().data(), 3 * made.normals.size()};
+    const std::string expected = mesh_sha256(test::reconstruct(settings, frame));
+
+    Reconstructor gpu(settings, {Backend::cuda, 0, 0});
+    const DeviceParticleFrame device_frame{on_device.normals->data(), on_device.vertex_count, nullptr,
+                                           on_device.stream};
+    Mesh mesh;
+    for (int round = 0; round < 4; ++round) {  // grown, run launch by launch, captured, replayed
+        gpu.reconstruct(device_frame, mesh);
+        EXPECT_EQ(mesh_sha256(mesh), expected);
+    }
+    EXPECT_EQ(gpu.reconstruct_on_device(device_frame).triangle_count, mesh.triangles.size());
+    EXPECT_THROW(gpu.reconstruct(DeviceParticleFrame{frame.positions.data(), frame.count()}, mesh), InvalidInput)
+        << "memory of the host";
+    gpu.reconstruct(device_frame, mesh);
+    EXPECT_EQ(mesh_sha256(mesh), expected);
+}
+
 TEST_F(Cuda, TheMeshOnTheDeviceIsTheOneThatIsDownloaded) {
     const test::Particles particles = test::splash(7);
     Reconstructor gpu(test::default_settings(), {Backend::cuda, 0, 0});

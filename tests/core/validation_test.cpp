@@ -258,5 +258,26 @@ TEST(Validation, TheCudaBackendSaysWhyItCannotBeUsed) {
     EXPECT_FALSE(description.reason.empty());
 }
 
+TEST(Validation, TheCpuBackendTakesNoParticlesFromAGpuAndSaysSo) {
+    Reconstructor cpu(test::default_settings(), {Backend::cpu, 1, 0});
+    const test::Particles particles = test::splash(1, 4);
+    Mesh mesh;
+    cpu.reconstruct(particles.frame(), mesh);
+    const std::string expected = mesh_sha256(mesh);
+    const DeviceParticleFrame frame{particles.positions.data(), particles.count()};
+    const auto is_named = [](const std::string& message) {
+        return message.find("the CPU backend takes no particles from a GPU") != std::string::npos;
+    };
+    EXPECT_TRUE(is_named(refusal([&] { static_cast<void>(cpu.reconstruct_on_device(frame)); })));
+    EXPECT_TRUE(is_named(refusal([&] { static_cast<void>(cpu.reconstruct_for_download(frame, mesh)); })));
+    EXPECT_TRUE(is_named(refusal([&] { cpu.reconstruct(frame, mesh); })));
+    EXPECT_NE(refusal([&] {
+                  cpu.reconstruct(DeviceParticleFrame{nullptr, 5}, mesh);
+              }).find("its positions are null"),
+              std::string::npos);
+    cpu.emit_capped(3, mesh);
+    EXPECT_EQ(mesh_sha256(mesh), expected) << "the surface of the frame before is there still";
+}
+
 }  // namespace
 }  // namespace meniscus

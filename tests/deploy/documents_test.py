@@ -60,7 +60,7 @@ class Documents(unittest.TestCase):
         self.assertGreater(links, 100)
 
     def test_every_heading_that_a_comment_cites_exists(self):
-        for pattern in ("*.hpp", "*.cpp", "*.cu", "*.proto"):
+        for pattern in ("*.hpp", "*.cpp", "*.cu", "*.c", "*.h", "*.proto"):
             for source in files_named(pattern):
                 for page, anchor in re.findall(r"([\w./]+README\.md)#([\w-]+)", source.read_text()):
                     cited = REPOSITORY / page

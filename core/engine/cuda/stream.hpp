@@ -40,6 +40,8 @@ public:
               "cudaEventRecord");
     }
     void wait() { check(cudaEventSynchronize(event_), "cudaEventSynchronize"); }
+    /// What is put on the stream from now on waits for the event.
+    void hold_up(cudaStream_t stream) const { check(cudaStreamWaitEvent(stream, event_, 0), "cudaStreamWaitEvent"); }
     /// Both must have happened.
     double seconds_since(const Event& start) const {
         float milliseconds = 0.0F;

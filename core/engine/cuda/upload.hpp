@@ -1,4 +1,4 @@
-// A frame's particles on their way to the device, through pinned memory.
+// A frame's particles on their way to the device, through pinned memory; or from another place on it.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "engine/cuda/pinned_memory.hpp"
 #include "engine/cuda/state.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "particles/placed_frame.hpp"
 
 namespace meniscus::cuda {
 
@@ -19,15 +20,20 @@ public:
     }
 
     /// The last upload must have ended. Positions travel as they are given, and are widened on the device.
-    void start(const ParticleFrame& particles, const State& state, cudaStream_t stream) {
+    void start(const PlacedFrame& placed, const State& state, cudaStream_t stream) {
+        const ParticleFrame& particles = placed.frame;
         const auto positions =
             particles.is_quantized() ? std::as_bytes(particles.quantized) : std::as_bytes(particles.positions);
         const auto levels = std::as_bytes(particles.levels);
         std::size_t bytes = positions.size() + levels.size();
         for (const ParticleArray& array : particles.arrays) bytes += array.data.size();
-        staging_.reserve(bytes);
+        if (!placed.on_device) staging_.reserve(bytes);
         std::byte* staging = staging_.get();
         const auto send_next = [&](std::span<const std::byte> from, std::byte* to) {
+            if (placed.on_device) {
+                copy(from, to, stream);
+                return;
+            }
             send(from, staging, to, stream);
             staging += from.size();
         };
@@ -54,6 +60,10 @@ public:
     }
 
 private:
+    static void copy(std::span<const std::byte> from, std::byte* to, cudaStream_t stream) {
+        if (from.empty()) return;
+        check(cudaMemcpyAsync(to, from.data(), from.size(), cudaMemcpyDeviceToDevice, stream), "cudaMemcpyAsync");
+    }
     /// Piece by piece: the device fetches one while the next is being copied.
     static void send(std::span<const std::byte> from, std::byte* staging, std::byte* to, cudaStream_t stream) {
         constexpr std::size_t piece = std::size_t{1} << 20;

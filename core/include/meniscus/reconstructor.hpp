@@ -7,6 +7,7 @@
 
 #include "meniscus/backend_options.hpp"
 #include "meniscus/device_mesh.hpp"
+#include "meniscus/device_particles.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
 #include "meniscus/particle_frame.hpp"
@@ -41,6 +42,13 @@ public:
 
     /// As reconstruct(), but the mesh stays on the GPU. Throws InvalidInput on the CPU backend.
     DeviceMesh reconstruct_on_device(const ParticleFrame& frame);
+
+    /// The same three for particles that are on the GPU already: they are checked and copied there, and never come
+    /// down. Throw InvalidInput as reconstruct() does, with the same messages; also for arrays that do not lie on this
+    /// reconstructor's GPU, and on the CPU backend.
+    void reconstruct(const DeviceParticleFrame& frame, Mesh& mesh);
+    [[nodiscard]] MeshDownload reconstruct_for_download(const DeviceParticleFrame& frame, Mesh& mesh);
+    DeviceMesh reconstruct_on_device(const DeviceParticleFrame& frame);
 
     /// Emits the last frame's surface once more with no cell finer than max_level (1 to 3). The result is coarser, has
     /// fewer triangles, and is closed as well. The call is cheap: nothing is sampled, and only the steps from

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct EmulatedEvent {
 
 namespace {
 std::mutex device;  // its threads are one set of fibers: it works for one thread of the host at a time
+
+/// Pieces of device memory: begin to size.
+std::mutex pieces_mutex;
+std::map<const std::byte*, std::size_t> pieces;
 
 cudaError_t release(EmulatedGraph* graph) {
     if (--graph->owners == 0) delete graph;
@@ -83,6 +88,12 @@ cudaError_t cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned) {
 cudaError_t cudaStreamSynchronize(cudaStream_t stream) {
     const std::lock_guard lock(device);
     run_until(*stream, stream->submitted);
+    return cudaSuccess;
+}
+cudaError_t cudaStreamWaitEvent(cudaStream_t stream, cudaEvent_t event, unsigned) {
+    // While this stream's work is done the device is locked already.
+    if (event->stream != nullptr)
+        emulated_device::submit(stream, [other = event->stream, after = event->after] { run_until(*other, after); });
     return cudaSuccess;
 }
 cudaError_t cudaStreamDestroy(cudaStream_t stream) {
@@ -144,13 +155,30 @@ cudaError_t cudaMemPoolDestroy(cudaMemPool_t) {
     return cudaSuccess;
 }
 cudaError_t cudaMallocFromPoolAsync(void** memory, std::size_t bytes, cudaMemPool_t, cudaStream_t) {
-    return cudaMallocHost(memory, bytes);
+    const cudaError_t status = cudaMallocHost(memory, bytes);
+    if (status == cudaSuccess) {
+        const std::lock_guard lock(pieces_mutex);
+        pieces[static_cast<const std::byte*>(*memory)] = bytes;
+    }
+    return status;
 }
 cudaError_t cudaFreeAsync(void* memory, cudaStream_t stream) {
+    {
+        const std::lock_guard lock(pieces_mutex);
+        pieces.erase(static_cast<const std::byte*>(memory));
+    }
     emulated_device::submit(stream, [=] {
         std::memset(memory, 0xDD, malloc_usable_size(memory));  // for whoever still reads it
         cudaFreeHost(memory);
     });
+    return cudaSuccess;
+}
+cudaError_t cudaPointerGetAttributes(cudaPointerAttributes* attributes, const void* memory) {
+    const auto* const at = static_cast<const std::byte*>(memory);
+    const std::lock_guard lock(pieces_mutex);
+    auto piece = pieces.upper_bound(at);
+    const bool is_inside = piece != pieces.begin() && at < std::prev(piece)->first + std::prev(piece)->second;
+    *attributes = {is_inside ? cudaMemoryTypeDevice : cudaMemoryTypeUnregistered, 0};
     return cudaSuccess;
 }
 cudaError_t cudaMallocHost(void** memory, std::size_t bytes) {

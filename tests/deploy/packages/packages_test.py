@@ -12,7 +12,7 @@ from pathlib import Path
 *_, BUILD, CMAKE, VERSION = sys.argv
 del sys.argv[1:]
 CPACK = Path(CMAKE).with_name("cpack")
-NAMES = {"meniscusd", "meniscus", "libmeniscus-dev"}
+NAMES = {"meniscusd", "meniscus", "libmeniscus0", "libmeniscus-dev"}
 
 
 def output_of(*command):
@@ -45,7 +45,7 @@ class Packages(unittest.TestCase):
             if path.startswith("/usr/bin/") and mode[0] == "-"
         }
 
-    def test_are_three(self):
+    def test_are_four(self):
         self.assertEqual(set(self.files), NAMES)
 
     def test_have_the_projects_version_and_so_has_the_changelog(self):
@@ -65,14 +65,15 @@ class Packages(unittest.TestCase):
             self.assertEqual(fields["Architecture"], output_of("dpkg", "--print-architecture").strip())
 
     def test_need_the_libraries_behind_their_programs(self):
-        for package in ("meniscusd", "meniscus"):
+        for package in ("meniscusd", "meniscus", "libmeniscus0"):
             for library in ("libc6", "libgrpc++", "libdraco", "libtbb"):
                 self.assertRegex(self.fields(package)["Depends"], rf"(^|, ){re.escape(library)}", package)
 
     def test_have_the_programs_each_with_its_page(self):
         self.assertEqual(self.programs("meniscusd"), {"/usr/bin/meniscusd"})
         self.assertEqual(self.programs("meniscus"), {"/usr/bin/meniscus", "/usr/bin/meniscus-load"})
-        self.assertEqual(self.programs("libmeniscus-dev"), set())
+        for package in ("libmeniscus0", "libmeniscus-dev"):
+            self.assertEqual(self.programs(package), set())
         for package in NAMES:
             paths = self.contents(package).keys()
             for program in self.programs(package):
@@ -96,6 +97,8 @@ class Packages(unittest.TestCase):
         for package in NAMES:
             for path, (mode, owner) in self.contents(package).items():
                 wanted = "rwxr-xr-x" if mode[0] == "d" or path.startswith("/usr/bin/") else "rw-r--r--"
+                if mode[0] == "l":
+                    wanted = "rwxrwxrwx"
                 self.assertEqual((owner, mode[1:]), ("root/root", wanted), path)
 
     def test_have_their_files_where_debian_has_them(self):
@@ -117,8 +120,28 @@ class Packages(unittest.TestCase):
             "/libmeniscus_client.a",
             "/libmeniscus_core.a",
             "/include/meniscus/client/client.hpp",
+            "/include/meniscus/meniscus.h",
+            "/pkgconfig/meniscus.pc",
+            "/share/doc/libmeniscus-dev/examples/in_process.c",
         ):
             self.assertTrue(any(path.endswith(ending) for path in paths), ending)
+
+    def test_have_the_shared_library_apart_from_what_builds_with_it(self):
+        libraries = {
+            package: {
+                re.sub(r"^.*/|( -> .*)", "", path)
+                for path in self.contents(package)
+                if re.search(r"/libmeniscus\.so", path)
+            }
+            for package in NAMES
+        }
+        self.assertEqual(libraries["libmeniscus0"], {"libmeniscus.so.0", f"libmeniscus.so.{VERSION}"})
+        self.assertEqual(libraries["libmeniscus-dev"], {"libmeniscus.so"})
+        self.assertIn(f"libmeniscus0 (= {VERSION}-1)", self.fields("libmeniscus-dev")["Depends"])
+        output_of("dpkg-deb", "--control", str(self.files["libmeniscus0"]), f"{self.folder}/library")
+        shlibs = Path(self.folder, "library", "shlibs").read_text()
+        self.assertRegex(shlibs, rf"(?m)^libmeniscus 0 libmeniscus0 \(>= {re.escape(VERSION)}")
+        self.assertIn("ldconfig", Path(self.folder, "library", "triggers").read_text())
 
 
 class Install(unittest.TestCase):

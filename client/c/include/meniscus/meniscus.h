@@ -1,0 +1,253 @@
+/* Surfaces of particles for C, and for every language that calls C: in process, and through a meniscusd.
+ *
+ * What stays: within one SONAME, functions keep their parameters, results their numbers, and options their names;
+ * structs grow at their end alone, which struct_size tells. New functions, results and options may come. Handles are
+ * opaque.
+ *
+ * Every function that can fail returns a meniscus_result; below 0 it is an error, and meniscus_error_message() says in
+ * words what was wrong and what to do. What a function would give is then NULL or unchanged, and the handle can be used
+ * on, unless the function says otherwise. No C++ exception leaves the library. A handle that is NULL is an error, too,
+ * but to the functions that destroy, which ignore it.
+ *
+ * One handle is used by one thread at a time, unless its functions say otherwise; several handles may be used side by
+ * side. The library stays loaded once it is.
+ */
+#ifndef MENISCUS_MENISCUS_H
+#define MENISCUS_MENISCUS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define MENISCUS_API __attribute__((visibility("default")))
+#else
+#define MENISCUS_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Results ---------------------------------------------------------------------------------------------------- */
+
+typedef enum meniscus_result {
+    MENISCUS_OK = 0,
+    MENISCUS_NOTHING_YET = 1, /* the time was over before a frame came; ask again */
+    MENISCUS_ENDED = 2,       /* well, or canceled: no more frames will come */
+    MENISCUS_WOULD_WAIT = 3,  /* nothing was taken */
+
+    MENISCUS_INVALID_INPUT = -1,  /* a value, a position, an option, a NULL */
+    MENISCUS_LIMIT_EXCEEDED = -2, /* well formed, but more than a limit */
+    MENISCUS_OUT_OF_MEMORY = -3,
+    MENISCUS_DEVICE = -4,      /* the GPU failed */
+    MENISCUS_UNAVAILABLE = -5, /* the server is not there, or went away */
+    MENISCUS_NOT_FOUND = -6,   /* there is no such session */
+    MENISCUS_ALREADY_EXISTS = -7,
+    MENISCUS_UNAUTHENTICATED = -8,
+    MENISCUS_PERMISSION_DENIED = -9,
+    MENISCUS_FAILED_PRECONDITION = -10, /* not possible now */
+    MENISCUS_DEADLINE_EXCEEDED = -11,   /* the server did not answer in time */
+    MENISCUS_CANCELED = -12,
+    MENISCUS_UNIMPLEMENTED = -13, /* a server of another version, or none of ours */
+    MENISCUS_DATA_LOSS = -14,     /* what was received is damaged */
+    MENISCUS_ABORTED = -15,       /* gave way to another call */
+    MENISCUS_INTERNAL = -16,      /* a defect: please report it with its message */
+    MENISCUS_UNKNOWN = -17
+} meniscus_result;
+
+/* "ok", "invalid_input" and so on; "unknown" for other numbers. A constant. */
+MENISCUS_API const char* meniscus_result_name(meniscus_result result);
+
+/* Of the last function that failed in this thread; "" before any has. At most 1023 bytes of UTF-8, valid until the next
+ * one fails in this thread. */
+MENISCUS_API const char* meniscus_error_message(void);
+
+/* Of the library, "major.minor.patch". A constant. */
+MENISCUS_API const char* meniscus_version(void);
+
+/* ---- Options: values by name ------------------------------------------------------------------------------------ */
+
+/* Named values in any order, for the functions that take them; each says which names it knows, and refuses others. The
+ * names and values are those of the command line's options without "--"; durations are in seconds. NULL in place of
+ * options: none are set. Options may be destroyed after the call that they were for, or used for more calls. */
+typedef struct meniscus_options meniscus_options;
+
+MENISCUS_API meniscus_result meniscus_options_create(meniscus_options** options);
+MENISCUS_API void meniscus_options_destroy(meniscus_options* options);
+/* value: text such as "0.5", "color", "true" or "X0 Y0 Z0 X1 Y1 Z1", whatever the locale; copied. NULL: unset. Whether
+ * the value is right is known where it is used. */
+MENISCUS_API meniscus_result meniscus_options_set(meniscus_options* options, const char* name, const char* value);
+/* The same for a number. */
+MENISCUS_API meniscus_result meniscus_options_set_number(meniscus_options* options, const char* name, double value);
+
+/* ---- Particles -------------------------------------------------------------------------------------------------- */
+
+/* One frame, borrowed for the time of the call. */
+typedef struct meniscus_particles {
+    size_t struct_size;             /* sizeof(meniscus_particles) */
+    size_t count;                   /* particles */
+    const float* positions;         /* x y z of each, world units, finite; or NULL, with positions_double instead */
+    const double* positions_double; /* each number is rounded to the nearest float32 */
+    size_t stride;                  /* bytes from one particle's x to the next one's; 0: three numbers */
+    const uint8_t* levels;          /* NULL, or one of each: 0 to 3. Level k has 2^k times the radius of level 0 */
+} meniscus_particles;
+
+#define MENISCUS_PARTICLES_INIT \
+    { sizeof(meniscus_particles), 0, NULL, NULL, 0, NULL }
+
+/* ---- Meshes ----------------------------------------------------------------------------------------------------- */
+
+/* A closed, oriented triangle mesh; keeps its memory from one frame to the next. The arrays that its functions give
+ * belong to it, and are valid until it is filled anew or destroyed. Some are made when they are asked for first, which
+ * may fail for want of memory. Of an empty array the pointer is NULL. */
+typedef struct meniscus_mesh meniscus_mesh;
+
+/* Empty. */
+MENISCUS_API meniscus_result meniscus_mesh_create(meniscus_mesh** mesh);
+MENISCUS_API void meniscus_mesh_destroy(meniscus_mesh* mesh);
+/* x y z of each of `count` vertices, world units: exact but for one rounding to float64. */
+MENISCUS_API meniscus_result meniscus_mesh_vertices(meniscus_mesh* mesh, const double** vertices, size_t* count);
+/* The same, rounded to float32. */
+MENISCUS_API meniscus_result meniscus_mesh_vertices_float(meniscus_mesh* mesh, const float** vertices, size_t* count);
+/* x y z of each, unit length, outward; none without the option "normals". */
+MENISCUS_API meniscus_result meniscus_mesh_normals(meniscus_mesh* mesh, const float** normals, size_t* count);
+/* Three vertices of each of `count` triangles, from 0, counter-clockwise seen from outside. */
+MENISCUS_API meniscus_result meniscus_mesh_triangles(meniscus_mesh* mesh, const uint32_t** triangles, size_t* count);
+/* The level of grid of each triangle: 1, 2, 3 (finest), or 0 for crack filling. */
+MENISCUS_API meniscus_result meniscus_mesh_triangle_levels(meniscus_mesh* mesh, const uint8_t** levels, size_t* count);
+/* x y z of each particle that the surface leaves out, with the option "spray" set to "points"; world units. */
+MENISCUS_API meniscus_result meniscus_mesh_spray(meniscus_mesh* mesh, const float** places, size_t* count);
+/* Bytes for meniscus_mesh_sha256(). */
+#define MENISCUS_SHA256_SIZE 65
+/* The identity of the geometry as the command line's mesh_sha256: 64 hexadecimal digits and a 0. */
+MENISCUS_API meniscus_result meniscus_mesh_sha256(const meniscus_mesh* mesh, char digits[MENISCUS_SHA256_SIZE]);
+
+/* ---- Figures ---------------------------------------------------------------------------------------------------- */
+
+/* Of one frame. Set struct_size, or begin with MENISCUS_STATISTICS_INIT; the library fills in what fits. */
+typedef struct meniscus_statistics {
+    size_t struct_size; /* sizeof(meniscus_statistics) */
+    uint64_t particles;
+    uint64_t vertices;
+    uint64_t triangles;
+    uint64_t triangles_by_level[4]; /* levels 1, 2, 3, crack filling */
+    uint64_t spray_particles;       /* without company, whatever the option "spray" makes of them */
+    double volume;                  /* enclosed by the mesh, world units cubed */
+    double particle_volume;         /* the sum of (2 r)^3, world units cubed */
+    uint64_t field_evaluations;
+    double total_seconds;
+    double stage_seconds[8]; /* of the paper's steps: register particles, split cells, adjust levels, sample field,
+                                count triangles, place vertices, emit triangles, fill cracks */
+    uint64_t peak_bytes;
+    uint64_t device_bytes; /* on the GPU */
+    double encode_seconds; /* of a frame from a server, here and below; else 0 */
+    double latency_seconds;
+    uint64_t encoded_bytes;
+} meniscus_statistics;
+
+#define MENISCUS_STATISTICS_INIT                                                 \
+    {                                                                            \
+        sizeof(meniscus_statistics), 0, 0, 0, {0, 0, 0, 0}, 0, 0.0, 0.0, 0, 0.0, \
+            {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, 0, 0, 0.0, 0.0, 0          \
+    }
+
+/* ---- In process ------------------------------------------------------------------------------------------------- */
+
+/* Reconstructs the surfaces of frames, one after the other, and keeps its buffers between them. */
+typedef struct meniscus_reconstructor meniscus_reconstructor;
+
+/* options: the settings, particle-radius (required), preset, cell-size, iso, field, smoothness, spray,
+ * smoothing-length, mode, criterion, tolerance, count-threshold, edge-points, bisection-steps, normals (true or false)
+ * and domain, as client/README.md has them; and backend (auto, cpu or cuda), threads (0: one for each processor),
+ * memory-limit (bytes, 0: none), device (which GPU), device-memory-limit. */
+MENISCUS_API meniscus_result meniscus_reconstructor_create(const meniscus_options* options,
+                                                           meniscus_reconstructor** reconstructor);
+MENISCUS_API void meniscus_reconstructor_destroy(meniscus_reconstructor* reconstructor);
+/* Fills the mesh; after an error it is empty, unless `particles` or a handle was wrong in itself. */
+MENISCUS_API meniscus_result meniscus_reconstruct(meniscus_reconstructor* reconstructor,
+                                                  const meniscus_particles* particles, meniscus_mesh* mesh);
+/* Of the last frame. */
+MENISCUS_API meniscus_result meniscus_reconstructor_statistics(const meniscus_reconstructor* reconstructor,
+                                                               meniscus_statistics* statistics);
+
+/* ---- Through a server ------------------------------------------------------------------------------------------- */
+
+/* A connection to one meniscusd; any thread may use it at any time. Sessions and watchers outlive it. */
+typedef struct meniscus_client meniscus_client;
+/* A session of the server with its one stream: particles go up, meshes come down. */
+typedef struct meniscus_session meniscus_session;
+/* Receives the meshes of somebody's session: always the newest. */
+typedef struct meniscus_watcher meniscus_watcher;
+/* A received frame, with the mesh still encoded. */
+typedef struct meniscus_frame meniscus_frame;
+
+/* address: "HOST:PORT" or "unix:PATH". options: tls-ca, tls-cert, tls-key (PEM files), tls-server-name, token, insecure
+ * (true or false), timeout (seconds for which a host may not answer), wait (seconds for a server that is starting). */
+MENISCUS_API meniscus_result meniscus_client_connect(const char* address, const meniscus_options* options,
+                                                     meniscus_client** client);
+MENISCUS_API void meniscus_client_destroy(meniscus_client* client);
+/* Ends a session, whoever made it. */
+MENISCUS_API meniscus_result meniscus_client_delete_session(meniscus_client* client, const char* session_id);
+
+/* options: the settings, as for meniscus_reconstructor_create(); of the session: session (id: joins it if it is there
+ * with equal settings; default: a new one), name, up-axis (x, y or z), length-unit (such as m), ephemeral (true, the
+ * default: the server ends it soon after this process has vanished; false); of the stream: meshes (true or false:
+ * whether they come back at all), normal-bits (2 to 16, 0 for none), waiting-limit (received frames that wait at most;
+ * 0, the default: no limit), policy (every-frame, latest or every-nth), nth, reconnect (seconds, 0: not at all). */
+MENISCUS_API meniscus_result meniscus_session_open(meniscus_client* client, const meniscus_options* options,
+                                                   meniscus_session** session);
+/* Cancels what is in flight, and ends the session if this handle has made it, unless meniscus_session_leave() was
+ * called. */
+MENISCUS_API void meniscus_session_destroy(meniscus_session* session);
+/* Lets the session live on when the handle is destroyed; an ephemeral one then ends as the server has it. */
+MENISCUS_API meniscus_result meniscus_session_leave(meniscus_session* session);
+/* For watchers. Valid as long as the session; NULL for NULL. */
+MENISCUS_API const char* meniscus_session_id(const meniscus_session* session);
+/* Sends one frame; waits while the server does not take more. `index` is greater than the one before. Once the server
+ * has refused a frame the stream has ended: this function and meniscus_session_next() say why again and again.
+ *
+ * push(), try_push() and finish() may be used by one thread while another uses next(), and any thread calls cancel().
+ */
+MENISCUS_API meniscus_result meniscus_session_push(meniscus_session* session, const meniscus_particles* particles,
+                                                   uint64_t index, double simulation_time);
+/* The same where that would not wait; else MENISCUS_WOULD_WAIT. */
+MENISCUS_API meniscus_result meniscus_session_try_push(meniscus_session* session, const meniscus_particles* particles,
+                                                       uint64_t index, double simulation_time);
+/* No more frames will be pushed; next() then ends after the last one. */
+MENISCUS_API meniscus_result meniscus_session_finish(meniscus_session* session);
+/* Waits for the next frame, in order. timeout_seconds: 0 does not wait; below 0 waits for as long as it takes.
+ * MENISCUS_OK: a frame, to be destroyed. MENISCUS_NOTHING_YET, MENISCUS_ENDED: none, *frame is NULL. */
+MENISCUS_API meniscus_result meniscus_session_next(meniscus_session* session, double timeout_seconds,
+                                                   meniscus_frame** frame);
+/* Ends the stream at once, and what waits in other threads: push() returns MENISCUS_CANCELED from then on, next()
+ * MENISCUS_ENDED. */
+MENISCUS_API meniscus_result meniscus_session_cancel(meniscus_session* session);
+/* Frames that the policy has left out so far. */
+MENISCUS_API meniscus_result meniscus_session_dropped(const meniscus_session* session, uint64_t* frames);
+
+/* options: max-level (1 to 3), normal-bits (2 to 16, 0 for none), position-bits, region ("X0 Y0 Z0 X1 Y1 Z1", world
+ * units), spray (true or false: whether the particles that the surface leaves out come beside it), bytes-per-second,
+ * viewpoint ("X Y Z"), reconnect (seconds). */
+MENISCUS_API meniscus_result meniscus_watcher_open(meniscus_client* client, const char* session_id,
+                                                   const meniscus_options* options, meniscus_watcher** watcher);
+MENISCUS_API void meniscus_watcher_destroy(meniscus_watcher* watcher);
+/* As meniscus_session_next(); MENISCUS_ENDED once the session has ended, or the watcher was canceled. */
+MENISCUS_API meniscus_result meniscus_watcher_next(meniscus_watcher* watcher, double timeout_seconds,
+                                                   meniscus_frame** frame);
+/* Ends a next() that waits in another thread. */
+MENISCUS_API meniscus_result meniscus_watcher_cancel(meniscus_watcher* watcher);
+
+MENISCUS_API void meniscus_frame_destroy(meniscus_frame* frame);
+/* As it was pushed. */
+MENISCUS_API meniscus_result meniscus_frame_index(const meniscus_frame* frame, uint64_t* index);
+MENISCUS_API meniscus_result meniscus_frame_simulation_time(const meniscus_frame* frame, double* seconds);
+/* Fills the mesh: decodes and welds what was received, which takes a while. */
+MENISCUS_API meniscus_result meniscus_frame_mesh(const meniscus_frame* frame, meniscus_mesh* mesh);
+/* Of the frame as the server has reconstructed it. */
+MENISCUS_API meniscus_result meniscus_frame_statistics(const meniscus_frame* frame, meniscus_statistics* statistics);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MENISCUS_MENISCUS_H */

@@ -1,0 +1,49 @@
+#include "frame.hpp"
+
+#include "mesh.hpp"
+#include "result.hpp"
+#include "sized_struct.hpp"
+#include "statistics.hpp"
+
+using namespace meniscus::c;
+
+void meniscus_frame_destroy(meniscus_frame* frame) {
+    delete frame;
+}
+
+meniscus_result meniscus_frame_index(const meniscus_frame* frame, uint64_t* index) {
+    return guarded([&] {
+        required(index, "index") = required(frame, "frame").content.index;
+        return MENISCUS_OK;
+    });
+}
+
+meniscus_result meniscus_frame_simulation_time(const meniscus_frame* frame, double* seconds) {
+    return guarded([&] {
+        required(seconds, "seconds") = required(frame, "frame").content.simulation_time;
+        return MENISCUS_OK;
+    });
+}
+
+meniscus_result meniscus_frame_mesh(const meniscus_frame* frame, meniscus_mesh* mesh) {
+    return guarded([&] {
+        meniscus_mesh& filled = required(mesh, "mesh");
+        const meniscus::client::ReceivedFrame& received = required(frame, "frame").content;
+        filled.forget_arrays();
+        filled.content = {};
+        filled.content = received.mesh();
+        return MENISCUS_OK;
+    });
+}
+
+meniscus_result meniscus_frame_statistics(const meniscus_frame* frame, meniscus_statistics* statistics) {
+    return guarded([&] {
+        const meniscus::client::FrameStatistics& figures = required(frame, "frame").content.statistics;
+        meniscus_statistics out = to_c(figures);
+        out.encode_seconds = figures.encode_seconds;
+        out.latency_seconds = figures.latency_seconds;
+        out.encoded_bytes = figures.encoded_bytes;
+        write_struct(out, statistics, "statistics");
+        return MENISCUS_OK;
+    });
+}

@@ -1,0 +1,9 @@
+// A received frame of the C interface.
+#pragma once
+
+#include "meniscus/client/client.hpp"
+#include "meniscus/meniscus.h"
+
+struct meniscus_frame {
+    meniscus::client::ReceivedFrame content;
+};

@@ -1,0 +1,23 @@
+// The mesh of the C interface: the library's, and the arrays that are made of it when they are asked for.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "meniscus/meniscus.h"
+#include "meniscus/mesh.hpp"
+
+struct meniscus_mesh {
+    meniscus::Mesh content;
+    // Empty until they are asked for.
+    std::vector<double> vertices;
+    std::vector<float> vertices_float;
+    std::vector<std::uint8_t> triangle_levels;
+
+    /// Before `content` is filled anew: their memory stays.
+    void forget_arrays() noexcept {
+        vertices.clear();
+        vertices_float.clear();
+        triangle_levels.clear();
+    }
+};

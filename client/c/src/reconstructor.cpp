@@ -1,0 +1,59 @@
+#include "meniscus/reconstructor.hpp"
+
+#include <vector>
+
+#include "mesh.hpp"
+#include "options.hpp"
+#include "particles.hpp"
+#include "result.hpp"
+#include "settings_options.hpp"
+#include "sized_struct.hpp"
+#include "statistics.hpp"
+
+using namespace meniscus::c;
+
+struct meniscus_reconstructor {
+    meniscus::Reconstructor content;
+    std::vector<float> positions;  ///< where the caller's must be converted
+};
+
+meniscus_result meniscus_reconstructor_create(const meniscus_options* options, meniscus_reconstructor** reconstructor) {
+    return guarded([&] {
+        required(reconstructor, "reconstructor") = nullptr;
+        OptionReader reader(options);
+        meniscus::BackendOptions backend;
+        reader.read_choice("backend", backend.backend);
+        reader.read("threads", backend.threads);
+        reader.read("memory-limit", backend.memory_limit);
+        reader.read("device", backend.device);
+        reader.read("device-memory-limit", backend.device_memory_limit);
+        const meniscus::Settings settings = read_settings(reader);
+        reader.finish();
+        *reconstructor = new meniscus_reconstructor{meniscus::Reconstructor(settings, backend), {}};
+        return MENISCUS_OK;
+    });
+}
+
+void meniscus_reconstructor_destroy(meniscus_reconstructor* reconstructor) {
+    delete reconstructor;
+}
+
+meniscus_result meniscus_reconstruct(meniscus_reconstructor* reconstructor, const meniscus_particles* particles,
+                                     meniscus_mesh* mesh) {
+    return guarded([&] {
+        meniscus_reconstructor& used = required(reconstructor, "reconstructor");
+        meniscus_mesh& filled = required(mesh, "mesh");
+        const meniscus::ParticleFrame frame = read_frame(particles, used.positions);
+        filled.forget_arrays();
+        used.content.reconstruct(frame, filled.content);
+        return MENISCUS_OK;
+    });
+}
+
+meniscus_result meniscus_reconstructor_statistics(const meniscus_reconstructor* reconstructor,
+                                                  meniscus_statistics* statistics) {
+    return guarded([&] {
+        write_struct(to_c(required(reconstructor, "reconstructor").content.statistics()), statistics, "statistics");
+        return MENISCUS_OK;
+    });
+}

@@ -1,0 +1,12 @@
+// The settings of a reconstruction as options: every row of the table in client/README.md#settings.
+#pragma once
+
+#include "meniscus/settings.hpp"
+#include "options.hpp"
+
+namespace meniscus::c {
+
+/// Throws InvalidInput for an option that is wrong or would change nothing, and for settings out of range.
+Settings read_settings(OptionReader& options);
+
+}  // namespace meniscus::c

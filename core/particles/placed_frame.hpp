@@ -1,0 +1,22 @@
+// A frame, and the memory in which its arrays lie.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "meniscus/particle_frame.hpp"
+
+namespace meniscus {
+
+struct PlacedFrame {
+    PlacedFrame(const ParticleFrame& in_host_memory) : frame(in_host_memory) {}
+    PlacedFrame(const ParticleFrame& f, bool is_on_device) : frame(f), on_device(is_on_device) {}
+
+    ParticleFrame frame;
+    bool on_device = false;  ///< whether its spans are of device pointers, which the host must not follow
+};
+
+/// Particles of each level.
+using ParticlesByLevel = std::array<std::uint64_t, max_particle_level + 1>;
+
+}  // namespace meniscus

@@ -1,0 +1,46 @@
+// Validation of particles that a caller has on the device: by a kernel, so that they need not come down.
+#pragma once
+
+#include <memory>
+
+#include "engine/cuda/device_memory.hpp"
+#include "engine/cuda/launch.hpp"
+#include "engine/cuda/pinned_memory.hpp"
+#include "engine/cuda/state.hpp"
+#include "engine/cuda/stream.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/settings.hpp"
+#include "particles/placed_frame.hpp"
+
+namespace meniscus::cuda {
+
+/// What the kernel finds. Zero at its begin, and where there is nothing to find, so that the greater is the one to
+/// keep.
+struct ParticleFindings {
+    Counter first_bad;  ///< of the first coordinate that is not finite or too far: its index, bits inverted
+    Counter coarsest;   ///< the greatest level, above the first particle that has it, bits inverted
+    Counter by_level[max_particle_level + 1];
+};
+
+class ParticleCheck {
+public:
+    /// Runs on the launcher's stream.
+    ParticleCheck(int device, const Launcher& launch, const std::shared_ptr<MemoryAccount>& account,
+                  const std::shared_ptr<MemoryAccount>& device_account);
+
+    /// frame: of device pointers, its lengths are valid. Waits for what is on `made_on`, and holds up its own stream
+    /// for it, too. Throws InvalidInput with the messages of validate(), and for pointers to other memory.
+    ParticlesByLevel require_valid(const ParticleFrame& frame, cudaStream_t made_on, const Settings& settings);
+
+private:
+    void require_on_device(const void* array, const char* name) const;
+    float value_at(const float* on_device);
+
+    int device_;
+    Launcher launch_;
+    PinnedMemory on_host_;
+    Event made_;
+    DeviceMemory on_device_;
+};
+
+}  // namespace meniscus::cuda
