@@ -79,8 +79,9 @@ BackendOptions for_sessions(BackendOptions backend, const BackendDescription& fo
 
 Observe record_with(RecordingWriter* recordings) {
     if (recordings == nullptr) return nullptr;
-    return [recordings](const std::string& id, const Settings& settings, const std::string& owner) {
-        return std::make_shared<SessionRecording>(*recordings, id, settings, owner);
+    return [recordings](const SessionIdentity& identity, const Settings& settings) {
+        return std::make_shared<SessionRecording>(*recordings, identity.id, settings, identity.owner,
+                                                  identity.kind.description);
     };
 }
 

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
-#include <ctime>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,18 +13,22 @@
 #include "cli/options/server_flags.hpp"
 #include "cli/recording_files.hpp"
 #include "cli/settings_json.hpp"
+#include "cli/times.hpp"
+#include "description/label.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {
 namespace {
 
-std::string utc(std::chrono::system_clock::time_point time) {
-    const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
-    std::tm parts{};
-    gmtime_r(&seconds, &parts);
-    std::string text(sizeof "0000-00-00T00:00:00Z", '\0');
-    text.resize(std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts));
-    return text;
+/// For a line of text: with a space before it; empty where there is none.
+std::string after_space(const std::string& name) {
+    return name.empty() ? "" : " " + description::quoted(name);
+}
+
+nlohmann::ordered_json describe(const client::SessionDescription& description) {
+    return {{"name", description.name},
+            {"up_axis", name_of(description.up_axis)},
+            {"length_unit", description.length_unit}};
 }
 
 double seconds(const std::vector<formats::RecordedFrame>& frames) {
@@ -37,6 +40,7 @@ nlohmann::ordered_json describe(const formats::Recording& recording, bool verify
     const auto& frames = recording.frames();
     nlohmann::ordered_json out;
     out["session"] = recording.session_id();
+    out.update(describe(recording.description()));
     out["started_at"] = utc(recording.started_at());
     out["frames"] = frames.size();
     if (!frames.empty()) {
@@ -65,7 +69,8 @@ void print(const nlohmann::ordered_json& recording) {
         return;
     }
     const auto& settings = recording["settings"];
-    std::cout << recording["started_at"].get<std::string>() << "  " << recording["frames"] << " frames";
+    std::cout << recording["started_at"].get<std::string>() << after_space(recording["name"].get<std::string>()) << "  "
+              << recording["frames"] << " frames";
     if (recording.contains("first_index"))
         std::cout << " (" << recording["first_index"] << " to " << recording["last_index"] << ")";
     std::cout << ", " << recording["meshes"] << " meshes, " << recording["seconds"].get<double>() << " s, "
@@ -90,6 +95,7 @@ nlohmann::ordered_json describe(const client::RecordingInfo& recording) {
     nlohmann::ordered_json out;
     out["session"] = recording.session_id;
     out["number"] = recording.number;
+    out.update(describe(recording.description));
     out["owner"] = recording.owner;
     out["started_at"] = utc(recording.started_at);
     out["frames"] = recording.frames;
@@ -108,8 +114,8 @@ void list_of_server(const RecordingsOptions& options) {
             all.push_back(describe(recording));
             continue;
         }
-        std::cout << recording.session_id << '/' << recording.number << "  " << utc(recording.started_at) << "  "
-                  << recording.frames << " frames";
+        std::cout << recording.session_id << '/' << recording.number << after_space(recording.description.name) << "  "
+                  << utc(recording.started_at) << "  " << recording.frames << " frames";
         if (recording.first_frame_index && recording.last_frame_index)
             std::cout << " (" << *recording.first_frame_index << " to " << *recording.last_frame_index << ")";
         std::cout << ", " << recording.bytes << " bytes" << (recording.being_written ? ", being written" : "")

@@ -7,6 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/examples.hpp"
+#include "cli/opened_session.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/server_flags.hpp"
 #include "cli/options/verbosity.hpp"
@@ -24,7 +25,7 @@ constexpr std::size_t frames_ahead = 4;
 struct ReplayOptions {
     RecordingSelection recording;
     ServerFlags server;
-    std::string session;
+    SessionFlags session;
     std::string speed = "1";
     bool loop = false;
     bool strict = false;
@@ -94,23 +95,17 @@ void upload(const formats::Recording& recording, const ReplayOptions& options, c
 
 void replay(const ReplayOptions& options) {
     const formats::Recording recording = options.recording.open();
-    client::Client client = options.server.connect();
-    const std::string session = options.session.empty() ? client::new_session_id() : options.session;
-    client.create_session(session, recording.settings());
-    if (!options.verbosity.quiet) std::cerr << "session " << session << '\n';
+    SessionFlags flags = options.session;
+    if (flags.description.name.empty()) flags.description.name = recording.description().name;
+    if (flags.description.up_axis == client::UpAxis::unspecified)
+        flags.description.up_axis = recording.description().up_axis;
+    if (flags.description.length_unit.empty()) flags.description.length_unit = recording.description().length_unit;
+    OpenedSession session(options.server, flags, recording.settings());
+    if (!options.verbosity.quiet) std::cerr << "session " << session.id() << '\n';
     Warnings warnings(options.strict);
-    client::Stream stream = client.stream(session, {.receive_meshes = false, .waiting_limit = frames_ahead});
-    try {
-        upload(recording, options, stream, warnings);
-    } catch (...) {
-        // Only this process knows of the session. The error to report is the earlier one.
-        try {
-            client.delete_session(session);
-        } catch (const std::exception&) {
-        }
-        throw;
-    }
-    client.delete_session(session);
+    client::Stream stream = session.stream({.receive_meshes = false, .waiting_limit = frames_ahead});
+    upload(recording, options, stream, warnings);
+    session.end();
     warnings.finish();
 }
 
@@ -127,14 +122,11 @@ void add_replay(CLI::App& app) {
         command.add_flag("--loop", options->loop,
                          "Begin again after the last frame, until interrupted; frame indices keep rising");
     }
-    options->server.add_to(command, "Where to")->required();
+    CLI::Option* server = options->server.add_to(command, "Where to")->required();
+    options->session.add_to(command, *server);
     {
         const OptionGroup group(command, other_heading);
         add_strict_option(command, options->strict);
-    }
-    {
-        const OptionGroup group(command, server_heading);
-        command.add_option("--session", options->session, "UUID of the session to create (default: a new one)");
     }
     options->verbosity.add_quiet_to(command);
     add_examples(command, {"meniscus replay recordings/SESSION/000001.recording --server localhost",

@@ -11,26 +11,18 @@ constexpr std::size_t frames_under_way = 4;
 
 }  // namespace
 
-ServerSurfaces::ServerSurfaces(const ServerFlags& server, std::string session, const Settings& settings,
+ServerSurfaces::ServerSurfaces(const ServerFlags& server, const SessionFlags& session, const Settings& settings,
                                client::StreamOptions options, Handler handler)
-    : client_(server.connect()),
-      session_(session.empty() ? client::new_session_id() : std::move(session)),
-      handler_(std::move(handler)) {
-    client_.create_session(session_, settings);
+    : session_(server, session, settings), handler_(std::move(handler)) {
     options.waiting_limit = frames_under_way;
-    stream_ = client_.stream(session_, options);
+    stream_ = session_.stream(options);
     receiver_ = std::thread([this] { receive(); });
 }
 
 ServerSurfaces::~ServerSurfaces() {
-    if (finished_) return;
     // On the way out because of an earlier error, which is the one to report.
     try {
         if (receiver_.joinable()) end_stream();
-    } catch (const std::exception&) {
-    }
-    try {
-        client_.delete_session(session_);
     } catch (const std::exception&) {
     }
 }
@@ -44,8 +36,7 @@ void ServerSurfaces::finish() {
     end_stream();
     if (failed_) std::rethrow_exception(error_);
     if (stream_->dropped() != 0) std::cerr << stream_->dropped() << " frames dropped, as the policy says\n";
-    client_.delete_session(session_);
-    finished_ = true;
+    session_.end();
 }
 
 void ServerSurfaces::end_stream() {

@@ -5,6 +5,7 @@
 #include <exception>
 #include <thread>
 
+#include "cli/opened_session.hpp"
 #include "cli/surfaces.hpp"
 
 namespace meniscus::cli {
@@ -12,25 +13,24 @@ namespace meniscus::cli {
 class ServerSurfaces : public Surfaces {
 public:
     /// Throws InvalidInput if the server is not there or refuses the session.
-    ServerSurfaces(const ServerFlags& server, std::string session, const Settings& settings,
+    ServerSurfaces(const ServerFlags& server, const SessionFlags& session, const Settings& settings,
                    client::StreamOptions options, Handler handler);
     ~ServerSurfaces() override;
     void submit(const ParticleFrame& frame, double simulation_time) override;
     void finish() override;
+    std::string session() const override { return session_.id(); }
 
 private:
     void receive();
     void end_stream();
 
-    client::Client client_;
-    std::string session_;
+    OpenedSession session_;
     Handler handler_;
     std::optional<client::Stream> stream_;
     std::thread receiver_;
     std::exception_ptr error_;  ///< of the receiver; read after `failed_`
     std::atomic<bool> failed_ = false;
     std::uint64_t frames_ = 0;
-    bool finished_ = false;
 };
 
 }  // namespace meniscus::cli

@@ -4,10 +4,13 @@
 #include <array>
 #include <cstdio>
 
+#include "cli/times.hpp"
+#include "description/label.hpp"
+
 namespace meniscus::cli {
 namespace {
 
-constexpr std::size_t column_count = 13;
+constexpr std::size_t column_count = 15;
 using Line = std::array<std::string, column_count>;
 
 std::string fixed(double value, int digits) {
@@ -16,11 +19,11 @@ std::string fixed(double value, int digits) {
     return text.data();
 }
 
-const Line header{"SESSION",   "OWNER",     "STATE",    "WAITS FOR", "FRAMES",  "FRAMES/S", "LATENCY MS",
-                  "PARTICLES", "TRIANGLES", "WATCHERS", "DROPPED",   "SKIPPED", "GPU BYTES"};
+const Line header{"SESSION",    "NAME",      "OWNER",     "STATE",    "WAITS FOR", "AGE",     "FRAMES",   "FRAMES/S",
+                  "LATENCY MS", "PARTICLES", "TRIANGLES", "WATCHERS", "DROPPED",   "SKIPPED", "GPU BYTES"};
 
 /// Columns of words; the others are numbers, and end where their column ends.
-constexpr std::size_t words = 4;
+constexpr std::size_t words = 5;
 
 std::string wait_of(const client::SessionInfo& session) {
     switch (session.waits_for) {
@@ -36,19 +39,26 @@ std::string wait_of(const client::SessionInfo& session) {
     return "?";
 }
 
-Line line_of(const SessionRow& row) {
+Line line_of(const SessionRow& row, std::chrono::system_clock::time_point now) {
     const client::SessionInfo& session = row.session;
-    Line line{session.id, session.owner.empty() ? "-" : session.owner, session.uploading ? "uploading" : "idle",
-              wait_of(session), short_count(session.frames)};
-    line[5] = row.frames_per_second ? fixed(*row.frames_per_second, 1) : "-";
+    const std::string& name = session.description.name;
+    const bool has_age = session.created_at != std::chrono::system_clock::time_point();  // an older server tells none
+    Line line{session.id,
+              name.empty() ? "-" : description::escaped(name),
+              session.owner.empty() ? "-" : session.owner,
+              session.uploading ? "uploading" : "idle",
+              wait_of(session),
+              has_age ? short_time(now - session.created_at) : "-",
+              short_count(session.frames)};
+    line[7] = row.frames_per_second ? fixed(*row.frames_per_second, 1) : "-";
     const auto& last = session.last_frame;
-    line[6] = last ? fixed(last->latency_seconds * 1e3, 1) : "-";
-    line[7] = last ? short_count(last->particles) : "-";
-    line[8] = last ? short_count(last->triangles) : "-";
-    line[9] = short_count(session.watchers);
-    line[10] = short_count(session.frames_dropped);
-    line[11] = short_count(session.frames_skipped);
-    line[12] = last ? short_count(last->device_bytes) : "-";
+    line[8] = last ? fixed(last->latency_seconds * 1e3, 1) : "-";
+    line[9] = last ? short_count(last->particles) : "-";
+    line[10] = last ? short_count(last->triangles) : "-";
+    line[11] = short_count(session.watchers);
+    line[12] = short_count(session.frames_dropped);
+    line[13] = short_count(session.frames_skipped);
+    line[14] = last ? short_count(last->device_bytes) : "-";
     return line;
 }
 
@@ -72,16 +82,17 @@ std::vector<SessionRow> FrameRates::update(const std::vector<client::SessionInfo
     return rows;
 }
 
-std::string session_table(const std::vector<SessionRow>& rows) {
+std::string session_table(const std::vector<SessionRow>& rows, std::chrono::system_clock::time_point now) {
     std::vector<Line> lines{header};
-    for (const SessionRow& row : rows) lines.push_back(line_of(row));
+    for (const SessionRow& row : rows) lines.push_back(line_of(row, now));
     std::array<std::size_t, column_count> widths{};
     for (const Line& line : lines)
-        for (std::size_t i = 0; i < column_count; ++i) widths[i] = std::max(widths[i], line[i].size());
+        for (std::size_t i = 0; i < column_count; ++i)
+            widths[i] = std::max(widths[i], description::count_characters(line[i]));
     std::string table;
     for (const Line& line : lines) {
         for (std::size_t i = 0; i < column_count; ++i) {
-            const std::string padding(widths[i] - line[i].size(), ' ');
+            const std::string padding(widths[i] - description::count_characters(line[i]), ' ');
             table += i < words ? line[i] + padding : padding + line[i];
             table += i + 1 < column_count ? "  " : "\n";
         }

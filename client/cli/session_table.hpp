@@ -30,8 +30,9 @@ private:
     std::map<std::string, Seen> seen_;  ///< by session
 };
 
-/// A header and a line for each row, each ended by a newline.
-std::string session_table(const std::vector<SessionRow>& rows);
+/// A header and a line for each row, each ended by a newline. now: for the sessions' ages.
+std::string session_table(const std::vector<SessionRow>& rows,
+                          std::chrono::system_clock::time_point now = std::chrono::system_clock::now());
 
 /// With three digits and a suffix where there are more than four: "9999", "10.0k", "1.23M".
 std::string short_count(std::uint64_t count);

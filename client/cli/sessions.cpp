@@ -3,23 +3,34 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/examples.hpp"
 #include "cli/options/server_flags.hpp"
+#include "cli/session_lookup.hpp"
 #include "cli/session_table.hpp"
+#include "cli/times.hpp"
+#include "meniscus/error.hpp"
 
 namespace meniscus::cli {
 namespace {
 
 struct SessionsOptions {
     ServerFlags server;
+    std::vector<std::string> remove;  ///< ids or names
     bool json = false;
 };
 
 nlohmann::ordered_json session_json(const client::SessionInfo& session) {
     nlohmann::ordered_json out;
     out["id"] = session.id;
+    out["name"] = session.description.name;
+    out["up_axis"] = name_of(session.description.up_axis);
+    out["length_unit"] = session.description.length_unit;
+    out["created_at"] = utc(session.created_at);
+    out["ephemeral"] = session.ephemeral;
     out["owner"] = session.owner;
     out["uploading"] = session.uploading;
     out["watchers"] = session.watchers;
@@ -35,6 +46,22 @@ nlohmann::ordered_json session_json(const client::SessionInfo& session) {
                          {"encoded_bytes", last.encoded_bytes},   {"peak_bytes", last.peak_bytes},
                          {"device_bytes", last.device_bytes},     {"backend", last.backend}};
     return out;
+}
+
+/// All that can be; one that cannot does not keep the others.
+void delete_sessions(const SessionsOptions& options) {
+    client::Client client = options.server.connect();
+    std::string failures;
+    for (const std::string& session : options.remove) {
+        try {
+            const std::string id = session_id_of(client, session);
+            client.delete_session(id);
+            std::cout << "deleted " << id << '\n';
+        } catch (const std::exception& error) {
+            failures += (failures.empty() ? "" : "; ") + std::string(error.what());
+        }
+    }
+    if (!failures.empty()) throw InvalidInput(failures);
 }
 
 void print_sessions(const SessionsOptions& options) {
@@ -55,11 +82,22 @@ void print_sessions(const SessionsOptions& options) {
 
 void add_sessions(CLI::App& app) {
     auto options = std::make_shared<SessionsOptions>();
-    CLI::App& command = *app.add_subcommand("sessions", "List a server's sessions");
+    CLI::App& command = *app.add_subcommand("sessions", "List a server's sessions, or end some");
     options->server.add_to(command, "Whose")->required();
-    command.add_flag("--json", options->json, "As JSON, exact");
-    add_examples(command, {"meniscus sessions --server localhost", "meniscus sessions --server localhost --json"});
-    command.callback([options] { print_sessions(*options); });
+    CLI::Option* json = command.add_flag("--json", options->json, "As JSON, exact");
+    command
+        .add_option("--delete", options->remove,
+                    "End these sessions, each named by its id, or by its name if no other session has that")
+        ->type_name("SESSION ...")
+        ->excludes(json);
+    add_examples(command, {"meniscus sessions --server localhost", "meniscus sessions --server localhost --json",
+                           "meniscus sessions --server localhost --delete SESSION"});
+    command.callback([options] {
+        if (options->remove.empty())
+            print_sessions(*options);
+        else
+            delete_sessions(*options);
+    });
 }
 
 }  // namespace meniscus::cli

@@ -19,7 +19,6 @@
 #include "cli/warnings.hpp"
 #include "formats/atomic_file.hpp"
 #include "formats/vtk_writer.hpp"
-#include "meniscus/error.hpp"
 #include "meniscus/mesh_hash.hpp"
 #include "simulator/adaptive_levels.hpp"
 #include "simulator/simulation.hpp"
@@ -34,7 +33,6 @@ struct SimulateOptions {
     double frame_seconds = 0.02;
     bool adaptive = false;
     PositionEncoding positions = PositionEncoding::float32;
-    std::string session;
     std::string out;
     MeshFormat format = MeshFormat::ply;
     std::string particles_out;
@@ -53,8 +51,6 @@ simulator::LeveledParticles snapshot(const simulator::Simulation& simulation, bo
 }
 
 void simulate(const SimulateOptions& options) {
-    if (!options.session.empty() && options.surfaces.server.address.empty())
-        throw InvalidInput("--session '" + options.session + "' needs --server");
     check_folder(options.stats);
     simulator::Simulation simulation(simulator::make_scene(options.scene, options.particles));
     const Settings settings = options.settings.build(static_cast<double>(simulation.scene().particle_radius));
@@ -77,9 +73,8 @@ void simulate(const SimulateOptions& options) {
         if (options.verbosity.verbose) std::cerr << stages_text(s);
         warnings.say("frame " + std::to_string(surface.index()), s.warnings);
     };
-    const std::string session = options.session.empty() ? client::new_session_id() : options.session;
-    const auto surfaces = options.surfaces.open(settings, handle, session);
-    if (!options.surfaces.server.address.empty() && !options.verbosity.quiet)
+    const auto surfaces = options.surfaces.open(settings, handle);
+    if (const std::string session = surfaces->session(); !session.empty() && !options.verbosity.quiet)
         std::cerr << "session " << session << '\n';
     for (std::uint64_t frame = 0; frame < options.frames; ++frame) {
         simulation.advance(options.frame_seconds);
@@ -140,11 +135,6 @@ void add_simulate(CLI::App& app) {
                          "Encoding of the positions; uint16 is over the frame's bounding box");
     }
     options->surfaces.add_to(command);
-    {
-        const OptionGroup group(command, server_heading);
-        command.add_option("--session", options->session,
-                           "With --server: UUID of the session to create (default: a new one)");
-    }
     options->verbosity.add_to(command);
     add_examples(command, {"meniscus simulate --particles 16000 --frames 100 --out meshes",
                            "meniscus simulate --scene double-dam-break --frames 2000 --server localhost"});

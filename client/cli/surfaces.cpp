@@ -84,11 +84,11 @@ void SurfacesOptions::add_to(CLI::App& command) {
     }
     auto* there = server.add_to(command, "Reconstruct on this meniscusd")->excludes(here);
     for (CLI::Option* option : {backend_option, threads}) option->excludes(there);
+    session.add_to(command, *there);
     add_stream_options(command, stream, *there);
 }
 
-std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfaces::Handler handler,
-                                                const std::string& session) const {
+std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfaces::Handler handler) const {
     if (server.address.empty())
         return std::make_unique<LocalSurfaces>(settings, backend, normal_bits, std::move(handler));
     client::StreamOptions options = stream;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "cli/options/server_flags.hpp"
+#include "cli/options/session_flags.hpp"
 #include "meniscus/backend_options.hpp"
 #include "meniscus/client/client.hpp"
 
@@ -60,24 +61,26 @@ public:
     virtual void submit(const ParticleFrame& frame, double simulation_time) = 0;
     /// Returns when every surface has been handled. Throws as submit() does.
     virtual void finish() = 0;
+    /// The id of the session on a server; empty: there is none.
+    virtual std::string session() const { return {}; }
 };
 
 /// The flag --backend: the backend of this process.
 CLI::Option* add_backend_option(CLI::App& command, Backend& backend);
 
-/// The flags --local, --backend, --threads and --normal-bits, and those of a server and a stream to it.
+/// The flags --local, --backend, --threads and --normal-bits, and those of a server, a session and a stream
+/// to it.
 struct SurfacesOptions {
     bool local = false;
     ServerFlags server;              ///< no address: this process
     BackendOptions backend;          ///< of this process
     std::optional<int> normal_bits;  ///< none: unrounded here, the stream's default from a server
-    client::StreamOptions stream;    ///< to the server
+    SessionFlags session;            ///< on the server
+    client::StreamOptions stream;    ///< to it
 
     void add_to(CLI::App& command);
-    /// session: id to create on the server, chosen here if empty. The handler may be called from another thread, one
-    /// call at a time.
-    std::unique_ptr<Surfaces> open(const Settings& settings, Surfaces::Handler handler,
-                                   const std::string& session = {}) const;
+    /// The handler may be called from another thread, one call at a time.
+    std::unique_ptr<Surfaces> open(const Settings& settings, Surfaces::Handler handler) const;
 };
 
 }  // namespace meniscus::cli

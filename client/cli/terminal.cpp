@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "description/label.hpp"
+
 namespace meniscus::cli {
 namespace {
 
@@ -70,7 +72,7 @@ void Terminal::draw(const std::string& text) {
     std::string line;
     for (unsigned row = 0; row < size.ws_row && std::getline(lines, line); ++row) {
         if (row > 0) screen += "\r\n";
-        screen += line.substr(0, size.ws_col);
+        screen += description::first_characters(line, size.ws_col);
         screen += erase_rest_of_line;
     }
     screen += erase_rest_of_screen;

@@ -14,6 +14,7 @@
 #include "cli/options/option_group.hpp"
 #include "cli/options/server_flags.hpp"
 #include "cli/options/verbosity.hpp"
+#include "cli/session_lookup.hpp"
 #include "cli/warnings.hpp"
 #include "cli/watch_wishes.hpp"
 #include "formats/atomic_file.hpp"
@@ -49,9 +50,10 @@ std::optional<client::ReceivedFrame> next_frame(client::Watcher& watcher, const 
 
 void watch(const WatchOptions& options) {
     client::Client client = options.server.connect();
+    const std::string id = session_id_of(client, options.session);
     client::SessionInfo session;
     try {
-        session = client.session(options.session);
+        session = client.session(id);
     } catch (const client::ServerError& e) {
         throw InvalidInput("no session '" + options.session + "' at '" + options.server.address + "': " + e.what());
     }
@@ -63,7 +65,7 @@ void watch(const WatchOptions& options) {
         formats::make_directory(options.spray_directory);
     }
     Warnings warnings(options.strict);
-    client::Watcher watcher = client.watch(options.session, wishes);
+    client::Watcher watcher = client.watch(id, wishes);
     for (std::uint64_t received = 0; options.frames == 0 || received < options.frames; ++received) {
         const auto frame = next_frame(watcher, options);
         if (!frame) break;
@@ -89,7 +91,8 @@ void add_watch(CLI::App& app) {
     CLI::App& command = *app.add_subcommand("watch", "Write the meshes of a session as they come");
     {
         const OptionGroup group(command, files_heading);
-        command.add_option("SESSION", options->session, "The session's id")->required();
+        command.add_option("SESSION", options->session, "The session's id, or its name if no other session has that")
+            ->required();
         command.add_option("-o,--output", options->directory, "Folder for the meshes")->required();
         add_named_option(command, "--format", options->format, "Format of the meshes");
         command.add_option("--spray-out", options->spray_directory,

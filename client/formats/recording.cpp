@@ -7,11 +7,13 @@
 #include <utility>
 
 #include "conversion/settings_conversion.hpp"
+#include "description/label.hpp"
 #include "formats/brick_file.hpp"
 #include "formats/byte_cursor.hpp"
 #include "formats/recorded_particles.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/recording.pb.h"
+#include "receiving/session_description.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -52,6 +54,17 @@ private:
         }
         recording_.session_id_ = begin.session_id();
         recording_.started_at_ = time(begin.started_at());
+        recording_.description_ = description_of(begin.description());
+    }
+
+    static client::SessionDescription description_of(const v1::SessionDescription& wire) {
+        try {
+            description::require_name(wire.name());
+            description::require_length_unit(wire.length_unit());
+            return client::from_wire(wire);
+        } catch (const InvalidInput&) {
+            return {};
+        }
     }
 
     void take(const v1::RecordedParticles& particles, RecordedRange messages) {

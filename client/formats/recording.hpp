@@ -52,6 +52,8 @@ public:
     const std::filesystem::path& path() const noexcept { return file_.path(); }
     const std::string& session_id() const noexcept { return session_id_; }
     const Settings& settings() const noexcept { return settings_; }
+    /// What people called the session; empty where the file has a name or a unit that no session has.
+    const client::SessionDescription& description() const noexcept { return description_; }
     std::chrono::system_clock::time_point started_at() const noexcept { return started_at_; }
     /// By rising index.
     const std::vector<RecordedFrame>& frames() const noexcept { return frames_; }
@@ -77,6 +79,7 @@ private:
     files::RandomAccessFile file_;
     std::string session_id_;
     Settings settings_;
+    client::SessionDescription description_;
     std::chrono::system_clock::time_point started_at_;
     std::vector<RecordedFrame> frames_;
     std::uint64_t cut_bytes_ = 0;

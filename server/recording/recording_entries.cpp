@@ -75,7 +75,7 @@ v1::StreamRequest begin_message(const InputFrame& frame) {
 }  // namespace
 
 std::string recording_begin(const std::string& session_id, const Settings& settings, std::int64_t started_at,
-                            const std::string& owner) {
+                            const std::string& owner, const v1::SessionDescription& description) {
     v1::RecordingEntry entry;
     v1::RecordingBegin& begin = *entry.mutable_begin();
     begin.set_version(files::recording_version);
@@ -83,6 +83,7 @@ std::string recording_begin(const std::string& session_id, const Settings& setti
     *begin.mutable_settings() = conversion::to_wire(settings);
     begin.set_started_at(started_at);
     if (owner.size() <= max_owner_bytes) begin.set_owner(owner);
+    if (description.ByteSizeLong() != 0) *begin.mutable_description() = description;
     std::string out(files::recording_magic);
     append_entry(out, entry);
     return out;

@@ -21,7 +21,7 @@ struct RecordingBytes {
 /// The beginning of a file. Times are microseconds since 1970-01-01 UTC. owner: the creator of the session; may be
 /// empty.
 std::string recording_begin(const std::string& session_id, const Settings& settings, std::int64_t started_at,
-                            const std::string& owner = {});
+                            const std::string& owner = {}, const v1::SessionDescription& description = {});
 RecordingBytes recorded_particles(const InputFrame& frame, std::int64_t arrived_at);
 RecordingBytes recorded_mesh(const EncodedFrame& frame);
 

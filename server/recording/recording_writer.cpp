@@ -142,7 +142,8 @@ void RecordingWriter::leave_out_what_waits() {
 void RecordingWriter::append(RecordedRun& run, const RecordingBytes& bytes) {
     if (!run.file) {
         const RecordedSession& session = *run.session;
-        const std::string begin = recording_begin(session.id, session.settings, run.started_at, session.owner);
+        const std::string begin =
+            recording_begin(session.id, session.settings, run.started_at, session.owner, session.description);
         admit(begin.size() + bytes.size());
         run.file.emplace(options_.directory, session.id);
         run.file->append(begin);

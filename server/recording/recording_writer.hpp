@@ -12,6 +12,7 @@
 
 #include "line_limit.hpp"
 #include "meniscus/settings.hpp"
+#include "meniscus/v1/session_service.pb.h"
 #include "recording/folder_lock.hpp"
 #include "recording/recorded_bytes.hpp"
 #include "recording/recording_entries.hpp"
@@ -33,6 +34,7 @@ struct RecordedSession {
     std::string id;
     Settings settings;
     std::string owner;
+    v1::SessionDescription description;
     std::atomic<bool> stopped{false};  ///< by the writer: nothing more of this session will be written
 };
 

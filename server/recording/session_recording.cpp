@@ -16,11 +16,12 @@ constexpr std::size_t frames_under_way = 8;
 }  // namespace
 
 SessionRecording::SessionRecording(RecordingWriter& writer, std::string session_id, const Settings& settings,
-                                   std::string owner)
+                                   std::string owner, v1::SessionDescription description)
     : writer_(writer), session_(std::make_shared<RecordedSession>()) {
     session_->id = std::move(session_id);
     session_->settings = settings;
     session_->owner = std::move(owner);
+    session_->description = std::move(description);
 }
 
 void SessionRecording::reconstructed(const InputFrame& frame) noexcept {

@@ -21,7 +21,8 @@ class SessionRecording final : public SessionObserver {
 public:
     /// The writer outlives this object. session_id: a UUID, as the edge has verified. owner: the creator of the
     /// session; may be empty.
-    SessionRecording(RecordingWriter& writer, std::string session_id, const Settings& settings, std::string owner = {});
+    SessionRecording(RecordingWriter& writer, std::string session_id, const Settings& settings, std::string owner = {},
+                     v1::SessionDescription description = {});
 
     void reconstructed(const InputFrame& frame) noexcept override;
     void encoded(std::shared_ptr<const EncodedFrame> frame) noexcept override;

@@ -45,8 +45,10 @@ std::shared_ptr<NameAccount> account_of(const Caller& caller, SessionRegistry& r
     return registry.account(caller.account, caller.shares);
 }
 
-std::shared_ptr<Session> find_session(const Caller& caller, SessionRegistry& registry, const std::string& id) {
-    return registry.find(id, [&](const std::string& owner) { return Authorizer::may_see(caller, owner); });
+std::shared_ptr<Session> find_session(const Caller& caller, SessionRegistry& registry, const std::string& id,
+                                      SessionRegistry::Look look) {
+    return registry.find(
+        id, [&](const std::string& owner) { return Authorizer::may_see(caller, owner); }, look);
 }
 
 std::string peer_of(const Authorizer& authorizer, const grpc::ServerContextBase& context) {

@@ -22,6 +22,7 @@ std::string peer_of(const Authorizer& authorizer, const grpc::ServerContextBase&
 std::shared_ptr<NameAccount> account_of(const Caller& caller, SessionRegistry& registry);
 
 /// The session, if it exists for the caller. Throws Refusal, not_found, otherwise.
-std::shared_ptr<Session> find_session(const Caller& caller, SessionRegistry& registry, const std::string& id);
+std::shared_ptr<Session> find_session(const Caller& caller, SessionRegistry& registry, const std::string& id,
+                                      SessionRegistry::Look look = SessionRegistry::Look::uses_it);
 
 }  // namespace meniscus::server

@@ -1,8 +1,11 @@
 #include "rpc/create_session_handler.hpp"
 
+#include <utility>
+
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "rpc/caller.hpp"
+#include "rpc/session_description.hpp"
 #include "rpc/session_message.hpp"
 
 namespace meniscus::server {
@@ -12,12 +15,15 @@ v1::CreateSessionResponse create_session(SessionRegistry& registry, const Caller
     if (!request.has_settings()) throw InvalidInput("CreateSession needs settings");
     const Settings settings = conversion::from_wire(request.settings());
     validate(settings);
+    v1::SessionDescription description = checked_description(request.description());
     v1::CreateSessionResponse response;
-    const auto session = registry.create(
-        request.id(), settings,
-        {.name = caller.name, .account = account_of(caller, registry), .may_see = [&](const std::string& owner) {
-             return Authorizer::may_see(caller, owner);
-         }});
+    const auto [session, is_new] =
+        registry.create(request.id(), settings,
+                        {.name = caller.name,
+                         .account = account_of(caller, registry),
+                         .may_see = [&](const std::string& owner) { return Authorizer::may_see(caller, owner); }},
+                        {.description = std::move(description), .ephemeral = request.ephemeral()});
+    response.set_created(is_new);
     *response.mutable_session() = session_message(*session, caller);
     return response;
 }

@@ -5,12 +5,24 @@
 #include <span>
 #include <vector>
 
+#include "meniscus/error.hpp"
+#include "rpc/session_description.hpp"
+
 namespace meniscus::server {
 
 namespace {
 
-/// Some 500 kB: far below what clients take as one message.
+/// Some 500 kB, and 2 MB with the longest names: below what clients take as one message.
 constexpr std::size_t most = 4096;
+
+/// Empty where it is none: the file may have been written by another program.
+v1::SessionDescription description_of(const v1::RecordingBegin& begin) {
+    try {
+        return checked_description(begin.description());
+    } catch (const InvalidInput&) {
+        return {};
+    }
+}
 
 v1::Recording recording_message(const RecordingName& name, const RecordingIndex& index) {
     v1::Recording message;
@@ -26,6 +38,7 @@ v1::Recording recording_message(const RecordingName& name, const RecordingIndex&
     message.set_being_written(index.being_written());
     message.set_damaged(index.damaged());
     message.set_owner(index.begin().owner());
+    *message.mutable_description() = description_of(index.begin());
     return message;
 }
 

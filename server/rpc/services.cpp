@@ -73,6 +73,9 @@ SurfaceServiceImpl::SurfaceServiceImpl(SessionRegistry& registry, const Authoriz
     add("Watch", [&](grpc::CallbackServerContext& context) {
         return start_watch<v1::WatchRequest>(registry, authorizer, refusals, watchers, context);
     });
+    add("Snapshot", [&](grpc::CallbackServerContext& context) {
+        return start_watch<v1::SnapshotRequest>(registry, authorizer, refusals, watchers, context);
+    });
     add("WatchParticles", [&](grpc::CallbackServerContext& context) {
         return start_watch<v1::WatchParticlesRequest>(registry, authorizer, refusals, watchers, context);
     });

@@ -1,5 +1,7 @@
 #include "rpc/session_message.hpp"
 
+#include <chrono>
+
 #include "conversion/settings_conversion.hpp"
 #include "sessions/statistics_message.hpp"
 
@@ -26,6 +28,10 @@ v1::Session session_message(const Session& session, const Caller& caller) {
     v1::Session message;
     message.set_id(session.id());
     message.set_owner(session.owner());
+    *message.mutable_description() = session.kind().description;
+    message.set_ephemeral(session.kind().ephemeral);
+    message.set_created_at(
+        std::chrono::duration_cast<std::chrono::microseconds>(session.created_at().time_since_epoch()).count());
     *message.mutable_settings() = conversion::to_wire(session.settings());
     message.set_uploading(state.uploading);
     message.set_watchers(state.watchers);

@@ -102,7 +102,9 @@ public:
         const auto self = std::move(self_);
         if (!upload_) return;
         // For a call that ended before its upload: nobody reads, and the session is free for the next stream.
-        session_->cancel_upload(upload_, vanished_);
+        // A read that fails before the call is known to be canceled looks as if nothing followed.
+        if (end_ == UploadEnd::answered && context_.IsCancelled()) end_ = UploadEnd::left;
+        session_->cancel_upload(upload_, end_);
         call_log.write({.session = session_id_}, "stream from {} closed: {}", peer_, outcome_);
     }
 
@@ -379,7 +381,7 @@ private:
 
     void write_next() {
         if (canceled_) {
-            vanished_ = !reading_ended_;
+            end_ = reading_ended_ ? UploadEnd::left : UploadEnd::vanished;
             finish(client_gone());
         } else if (refusal_) {
             finish_with(*refusal_);
@@ -455,7 +457,7 @@ private:
     bool reading_ended_ = false;
     bool writing_ = false;
     bool canceled_ = false;
-    bool vanished_ = false;  ///< canceled while more was to come
+    UploadEnd end_ = UploadEnd::answered;
     bool finished_ = false;
 };
 

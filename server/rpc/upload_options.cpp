@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
 #include "conversion/codec_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "rpc/normal_bits.hpp"
@@ -28,6 +32,15 @@ UploadPolicy policy_of(const v1::StreamOpen& message) {
         fmt::format("policy has the value {}, which this version does not know", static_cast<int>(message.policy())));
 }
 
+std::chrono::milliseconds reconnect_of(const v1::StreamOpen& message) {
+    const double seconds = message.reconnect_seconds();
+    if (!std::isfinite(seconds) || seconds < 0.0)
+        throw InvalidInput(fmt::format("reconnect_seconds is {}; it must be finite and at least 0", seconds));
+    constexpr double as_good_as_for_ever = 1e9;  // so that the milliseconds can be counted
+    return std::chrono::ceil<std::chrono::milliseconds>(
+        std::chrono::duration<double>(std::min(seconds, as_good_as_for_ever)));
+}
+
 }  // namespace
 
 UploadOptions upload_options(const v1::StreamOpen& message) {
@@ -37,7 +50,8 @@ UploadOptions upload_options(const v1::StreamOpen& message) {
             .spray = message.with_spray(),
             .policy = policy_of(message),
             .nth = message.nth(),
-            .run_id = message.run_id()};
+            .run_id = message.run_id(),
+            .reconnect = reconnect_of(message)};
 }
 
 }  // namespace meniscus::server

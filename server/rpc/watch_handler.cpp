@@ -1,5 +1,6 @@
 #include "rpc/watch_handler.hpp"
 
+#include <fmt/format.h>
 #include <grpcpp/alarm.h>
 
 #include <chrono>
@@ -7,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "call_log.hpp"
@@ -18,10 +20,14 @@
 #include "rpc/status.hpp"
 #include "rpc/watch_wishes.hpp"
 #include "rpc/wire_bytes.hpp"
+#include "sessions/refusal.hpp"
 
 namespace meniscus::server {
 
 namespace {
+
+/// For a snapshot's mesh, and for its client to take each message of it: the place is another's then.
+constexpr std::chrono::seconds snapshot_patience{20};
 
 /// Receives its request, then sends what the watch has for it, message by message. Finishes after a cancellation as
 /// soon as neither a read nor a write is under way. Request: what names the session and the wishes.
@@ -40,7 +46,7 @@ public:
     void start(const Authorizer& authorizer) {
         self_ = this->shared_from_this();
         try {
-            caller_ = admit(authorizer, context_, Action::watch);
+            caller_ = admit(authorizer, context_, is_snapshot ? Action::snapshot : Action::watch);
             session_id_ = metadata_session_id(context_);
         } catch (...) {
             return refuse(std::current_exception());
@@ -87,21 +93,29 @@ public:
         timer_.call_is_done();
         if (watch_) {
             session_->close_watch(watch_);
-            call_log.write({.session = session_id_}, "watcher from {} gone", peer_);
+            if (!is_snapshot) call_log.write({.session = session_id_}, "watcher from {} gone", peer_);
         }
         const auto self = std::move(self_);
     }
 
 private:
+    static constexpr bool is_snapshot = std::is_same_v<Request, v1::SnapshotRequest>;
+    static constexpr std::chrono::seconds message_patience = is_snapshot ? snapshot_patience : last_message_patience;
+
     void open(const Request& request) {
+        using Look = SessionRegistry::Look;
         require_same_session(session_id_, request.session_id());
-        session_ = find_session(caller_, registry_, session_id_);
+        const auto account = account_of(caller_, registry_);
+        if (is_snapshot) place_ = registry_.snapshots().take(account);
+        session_ = find_session(caller_, registry_, session_id_, is_snapshot ? Look::leaves_it_idle : Look::uses_it);
         const auto wake = [self = this->weak_from_this()] {
             if (const auto reactor = self.lock()) reactor->write();
         };
-        watch_ =
-            session_->open_watch(watch_wishes_of(request, session_->settings()), wake, account_of(caller_, registry_));
-        call_log.write({.session = session_id_}, "watcher from {} connected", peer_);
+        watch_ = session_->open_watch(watch_wishes_of(request, session_->settings()), wake, account);
+        if (is_snapshot)
+            give_up_after(snapshot_patience);
+        else
+            call_log.write({.session = session_id_}, "watcher from {} connected", peer_);
         // At once: the client knows from here on that it misses no mesh. With metadata, as a refusal has none.
         context_.AddInitialMetadata("x-session-id", session_id_);
         this->StartSendInitialMetadata();
@@ -123,7 +137,7 @@ private:
         if (!opened_ || finished_) return;
         if (writing_) {
             // Otherwise a client that takes nothing any more would keep what the session had.
-            if (watch_->is_finished() && !timer_.runs()) timer_.start(last_message_patience);
+            if (watch_->is_finished() && !timer_.runs()) timer_.start(message_patience);
             return;
         }
         if (canceled_) {
@@ -136,7 +150,7 @@ private:
             outgoing_ = to_bytes(*message);
             writing_ = true;
             this->StartWrite(&outgoing_);
-            if (watch_->is_finished()) timer_.start(last_message_patience);
+            if (watch_->is_finished()) timer_.start(message_patience);
         } else if (const auto* later = std::get_if<Watch::Later>(&next)) {
             write_at(later->at);
         } else if (const auto* end = std::get_if<Watch::End>(&next)) {
@@ -154,6 +168,19 @@ private:
                     });
     }
 
+    /// The mesh may not come: what it is made of may have been overwritten, or there may be no memory for it.
+    void give_up_after(std::chrono::seconds patience) {
+        alarm_ = std::make_unique<grpc::Alarm>();
+        alarm_->Set(std::chrono::system_clock::now() + patience, [self = this->weak_from_this()](bool rang) {
+            if (!rang) return;
+            if (const auto reactor = self.lock())
+                reactor->watch_->finish(std::make_exception_ptr(
+                    Refusal(Refusal::Kind::unavailable,
+                            fmt::format("session {} has had no mesh to show for {} s: try again after its next frame",
+                                        reactor->session_id_, snapshot_patience.count()))));
+        });
+    }
+
     void finish(const grpc::Status& status) {
         finished_ = true;
         this->Finish(status);
@@ -169,12 +196,13 @@ private:
     Caller caller_;
     std::string session_id_;
     grpc::ByteBuffer incoming_;
+    SnapshotPlaces::Place place_;  ///< of a snapshot
     std::shared_ptr<Session> session_;
     std::shared_ptr<Watch> watch_;
 
     std::mutex mutex_;  ///< for what follows
     grpc::ByteBuffer outgoing_;
-    std::unique_ptr<grpc::Alarm> alarm_;  ///< for the next frame, by the rate
+    std::unique_ptr<grpc::Alarm> alarm_;  ///< for the next frame, by the rate; of a snapshot: for the wait's end
     bool opened_ = false;                 ///< until then only the read ends the call
     bool writing_ = false;
     bool canceled_ = false;
@@ -193,6 +221,8 @@ ByteReactor* start_watch(SessionRegistry& registry, const Authorizer& authorizer
 
 template ByteReactor* start_watch<v1::WatchRequest>(SessionRegistry&, const Authorizer&, Refusals&, ActiveCalls&,
                                                     grpc::CallbackServerContext&);
+template ByteReactor* start_watch<v1::SnapshotRequest>(SessionRegistry&, const Authorizer&, Refusals&, ActiveCalls&,
+                                                       grpc::CallbackServerContext&);
 template ByteReactor* start_watch<v1::WatchParticlesRequest>(SessionRegistry&, const Authorizer&, Refusals&,
                                                              ActiveCalls&, grpc::CallbackServerContext&);
 

@@ -1,4 +1,5 @@
-// SurfaceService.Watch and WatchParticles: a session's newest meshes, by difference, and its newest particles.
+// SurfaceService.Watch, Snapshot and WatchParticles: a session's newest meshes, by difference; the newest one, whole;
+// its newest particles.
 #pragma once
 
 #include <grpcpp/server_context.h>
@@ -11,7 +12,7 @@
 
 namespace meniscus::server {
 
-/// The call's reactor, which owns itself until the call is done. Request: v1::WatchRequest or
+/// The call's reactor, which owns itself until the call is done. Request: v1::WatchRequest, v1::SnapshotRequest or
 /// v1::WatchParticlesRequest.
 template <class Request>
 ByteReactor* start_watch(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,

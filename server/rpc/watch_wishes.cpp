@@ -14,7 +14,8 @@ namespace meniscus::server {
 
 namespace {
 
-int position_bits_of(const v1::WatchRequest& request, const Settings& settings) {
+template <class Request>
+int position_bits_of(const Request& request, const Settings& settings) {
     const std::uint32_t finest = offset_bits(settings);
     if (!request.has_position_bits()) return static_cast<int>(finest);
     const std::uint32_t bits = request.position_bits();
@@ -24,12 +25,21 @@ int position_bits_of(const v1::WatchRequest& request, const Settings& settings) 
     return static_cast<int>(bits);
 }
 
-int max_level_of(const v1::WatchRequest& request) {
+template <class Request>
+int max_level_of(const Request& request) {
     if (!request.has_max_level()) return 3;
     const std::uint32_t level = request.max_level();
     if (level < 1 || level > 3)
         throw InvalidInput(fmt::format("max_level is {}; it must be 1 to 3, or not set", level));
     return static_cast<int>(level);
+}
+
+template <class Request>
+MeshFormat format_of(const Request& request, const Settings& settings) {
+    return {.max_level = max_level_of(request),
+            .position_bits = position_bits_of(request, settings),
+            .normal_bits = settings.normals ? normal_bits_of(request) : 0,
+            .codec = conversion::chosen_codec(request.codecs())};
 }
 
 Box region_of(const v1::Box& wire) {
@@ -55,15 +65,18 @@ std::array<double, 3> viewpoint_of(const v1::Vector3& wire) {
 
 WatchWishes watch_wishes_of(const v1::WatchRequest& request, const Settings& settings) {
     WatchWishes wishes;
-    wishes.format = {.max_level = max_level_of(request),
-                     .position_bits = position_bits_of(request, settings),
-                     .normal_bits = normal_bits_of(request),
-                     .codec = conversion::chosen_codec(request.codecs())};
-    if (!settings.normals) wishes.format.normal_bits = 0;
+    wishes.format = format_of(request, settings);
     if (request.has_region()) wishes.region = region_of(request.region());
     wishes.bytes_per_second = request.bytes_per_second();
     wishes.spray = request.with_spray();
     if (request.has_viewpoint()) wishes.viewpoint = viewpoint_of(request.viewpoint());
+    return wishes;
+}
+
+WatchWishes watch_wishes_of(const v1::SnapshotRequest& request, const Settings& settings) {
+    WatchWishes wishes;
+    wishes.format = format_of(request, settings);
+    wishes.once = true;
     return wishes;
 }
 

@@ -10,6 +10,7 @@ namespace meniscus::server {
 /// Wishes that amount to the same mesh in a session of these settings become equal formats. Throws InvalidInput for a
 /// wish out of range.
 WatchWishes watch_wishes_of(const v1::WatchRequest& request, const Settings& settings);
+WatchWishes watch_wishes_of(const v1::SnapshotRequest& request, const Settings& settings);
 WatchWishes watch_wishes_of(const v1::WatchParticlesRequest& request, const Settings& settings);
 
 }  // namespace meniscus::server

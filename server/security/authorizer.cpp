@@ -21,6 +21,8 @@ std::string_view name_of(Action action) {
             return "GetSession";
         case Action::watch:
             return "Watch";
+        case Action::snapshot:
+            return "Snapshot";
         case Action::list_recordings:
             return "ListRecordings";
         case Action::read_recording:
@@ -39,7 +41,8 @@ std::string_view name_of(Action action) {
 
 bool only_looks(Action action) {
     return action == Action::describe_server || action == Action::list_sessions || action == Action::get_session ||
-           action == Action::watch || action == Action::list_recordings || action == Action::read_recording;
+           action == Action::watch || action == Action::snapshot || action == Action::list_recordings ||
+           action == Action::read_recording;
 }
 
 std::string_view bearer_token(std::string_view authorization) {

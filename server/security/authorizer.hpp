@@ -20,6 +20,7 @@ enum class Action {
     list_sessions,
     get_session,
     watch,
+    snapshot,
     list_recordings,
     read_recording,
     create_session,

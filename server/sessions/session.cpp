@@ -100,9 +100,11 @@ std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::
                           fmt::format("another stream uploads to session {}", id()));
         before = upload_;
         orphaned_ = false;
+        awaited_for_ = {};
         set_upload(upload);
         run_ = upload->run;
         unanswered_.push_back(upload);
+        last_upload_ = upload.get();
         if (before) withdrawn = received_.withdraw(*before);
     }
     for (InputFrame* input : withdrawn) inputs_.give_back(*input);
@@ -182,10 +184,16 @@ void Session::end_upload(std::shared_ptr<Upload> upload, std::exception_ptr erro
     received_.put({.upload = std::move(upload), .error = std::move(error)});
 }
 
-void Session::cancel_upload(const std::shared_ptr<Upload>& upload, bool vanished) {
+void Session::cancel_upload(const std::shared_ptr<Upload>& upload, UploadEnd end) {
     {
         const std::lock_guard lock(mutex_);
-        if (vanished && upload_ == upload) orphaned_ = true;
+        if (end == UploadEnd::vanished && upload_ == upload) orphaned_ = true;
+        // One that looked as if it had ended well may have been broken off all the same.
+        if (last_upload_ == upload.get() && !upload->canceled && (end != UploadEnd::answered || has_stream())) {
+            without_stream_since_ = std::chrono::steady_clock::now();
+            awaited_for_ = end == UploadEnd::answered ? std::chrono::milliseconds(0) : upload->options.reconnect;
+        }
+        upload->canceled = true;
     }
     upload->output.close();
     for (InputFrame* input : received_.withdraw(*upload)) inputs_.give_back(*input);
@@ -199,7 +207,12 @@ std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::funct
     const std::lock_guard lock(mutex_);
     if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
     if (draining_) throw shutting_down();
-    require_room_for(wishes, watcher.get());
+    if (!wishes.once) {
+        require_room_for(wishes, watcher.get());
+    } else if (reconstructing_.progress().frames == 0) {
+        watch->finish(nullptr);
+        return watch;
+    }
     if (watchers_.add(watch)) return watch;
     if (!wishes.max_particles) encoding_.look_for_watchers();
     received_.put({.watchers = true});
@@ -207,7 +220,8 @@ std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::funct
 }
 
 void Session::require_room_for(const WatchWishes& wishes, const NameAccount* watcher) const {
-    const auto watches = watchers_.list();
+    auto watches = watchers_.list();
+    std::erase_if(watches, [](const auto& watch) { return watch->wishes().once; });
     const auto is_of_the_name = [&](const auto& watch) { return watch->account().get() == watcher; };
     if (limits().watchers_per_session != 0 && watches.size() >= limits().watchers_per_session)
         throw LimitReached(LimitName::watchers,
@@ -242,7 +256,7 @@ void Session::require_room_for(const WatchWishes& wishes, const NameAccount* wat
 void Session::close_watch(const std::shared_ptr<Watch>& watch) {
     const std::lock_guard lock(mutex_);
     watchers_.remove(watch);
-    last_used_ = std::chrono::steady_clock::now();
+    if (!watch->wishes().once) last_used_ = std::chrono::steady_clock::now();
 }
 
 void Session::finish_upload(const std::shared_ptr<Upload>& upload, std::exception_ptr error) {
@@ -251,8 +265,11 @@ void Session::finish_upload(const std::shared_ptr<Upload>& upload, std::exceptio
     {
         const std::lock_guard lock(mutex_);
         if (upload_ == upload) set_upload(nullptr);
-        std::erase(unanswered_, upload);
         last_used_ = std::chrono::steady_clock::now();
+        if (std::erase(unanswered_, upload) != 0 && !upload->canceled) {
+            without_stream_since_ = last_used_;
+            awaited_for_ = {};
+        }
         if (draining_ && !upload_) done = watchers_.list();
         // Another run may have come since, and is here still or waits for answers.
         moves = upload && upload->moves && !upload_ &&
@@ -336,25 +353,19 @@ void Session::end_stalled_uploads(std::chrono::steady_clock::time_point now, boo
                         stall->bytes_taken, stall->time.count(), Seconds(least.time).count(), least.bytes_per_second)));
         // First, as nobody may ever take what waits.
         upload->output.abort(error);
-        cancel_upload(upload, true);
+        cancel_upload(upload, UploadEnd::vanished);
         upload->stop(error);
     }
 }
 
-bool Session::end_idle(std::chrono::steady_clock::time_point now, bool memory_is_short) {
-    using Clock = std::chrono::steady_clock;
+void Session::end_idle_upload(std::chrono::steady_clock::time_point now, bool memory_is_short) {
     using Seconds = std::chrono::duration<double>;
     end_slow_upload(now);
     end_stalled_uploads(now, memory_is_short);
     std::shared_ptr<Upload> idle;
     {
         const std::lock_guard lock(mutex_);
-        if (!upload_) {
-            const auto unused = unanswered_.empty() && watchers_.count() == 0 ? now - last_used_ : Clock::duration{};
-            const auto reaches = [&](Clock::duration time) { return time.count() != 0 && unused >= time; };
-            return reaches(limits().idle_time) || (orphaned_ && reaches(limits().orphan_time));
-        }
-        if (limits().idle_time.count() == 0) return false;
+        if (!upload_ || limits().idle_time.count() == 0) return;
         if (upload_->owed == 0 && !upload_->pace.paused() && now - upload_->last_activity.load() >= limits().idle_time)
             idle = upload_;
         if (idle) set_upload(nullptr);
@@ -364,7 +375,41 @@ bool Session::end_idle(std::chrono::steady_clock::time_point now, bool memory_is
             fmt::format("nothing has arrived for {:.3g} s; the server keeps an idle stream for {:.3g} s: open another "
                         "when there are frames",
                         Seconds(now - idle->last_activity.load()).count(), Seconds(limits().idle_time).count()))));
-    return false;
+}
+
+std::optional<std::string> Session::unused(std::chrono::steady_clock::time_point now) const {
+    using Clock = std::chrono::steady_clock;
+    const std::lock_guard lock(mutex_);
+    if (upload_) return std::nullopt;
+    if (auto reason = unused_as_ephemeral(now)) return reason;
+    const auto unused = unanswered_.empty() && watchers_.count() == 0 ? now - last_used_ : Clock::duration{};
+    const auto reaches = [&](Clock::duration time) { return time.count() != 0 && unused >= time; };
+    if (orphaned_ && reaches(limits().orphan_time))
+        return "its simulator vanished, and nobody has watched or resumed it since";
+    if (!reaches(limits().idle_time)) return std::nullopt;
+    return fmt::format("nobody has used it for {:.3g} s", std::chrono::duration<double>(limits().idle_time).count());
+}
+
+std::optional<std::string> Session::unused_as_ephemeral(std::chrono::steady_clock::time_point now) const {
+    if (!kind().ephemeral || has_stream()) return std::nullopt;
+    const auto orphan_time = limits().orphan_time;
+    const auto awaited_for = orphan_time.count() == 0 ? awaited_for_ : std::min(awaited_for_, orphan_time);
+    const auto kept_for = std::max(limits().ephemeral_time, awaited_for);
+    if (now - without_stream_since_ < kept_for) return std::nullopt;
+    return fmt::format("it is ephemeral, and has had no stream for {:.3g} s",
+                       std::chrono::duration<double>(kept_for).count());
+}
+
+bool Session::has_stream() const {
+    // The frames of one that was canceled are still being stopped.
+    return upload_ || std::ranges::any_of(unanswered_, [](const auto& upload) { return !upload->canceled; });
+}
+
+std::optional<std::chrono::steady_clock::duration> Session::without_stream(
+    std::chrono::steady_clock::time_point now) const {
+    const std::lock_guard lock(mutex_);
+    if (has_stream()) return std::nullopt;
+    return now - without_stream_since_;
 }
 
 std::future<void> Session::release_buffers() {
@@ -374,14 +419,14 @@ std::future<void> Session::release_buffers() {
     return released;
 }
 
-bool Session::orphaned() const {
-    const std::lock_guard lock(mutex_);
-    return orphaned_;
-}
-
 void Session::touch() {
     const std::lock_guard lock(mutex_);
     last_used_ = std::chrono::steady_clock::now();
+}
+
+void Session::await_stream() {
+    const std::lock_guard lock(mutex_);
+    without_stream_since_ = std::chrono::steady_clock::now();
 }
 
 void Session::close() {
@@ -392,7 +437,7 @@ void Session::close() {
         upload->output.abort(error);
         upload->stop(error);
     }
-    for (const auto& watch : attached.watches) watch->finish(nullptr);
+    for (const auto& watch : attached.watches) watch->finish(watch->wishes().once ? error : nullptr);
 }
 
 Session::Attached Session::detach() {

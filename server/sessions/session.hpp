@@ -67,6 +67,9 @@ public:
     /// Of the caller that created it; may be none.
     const std::shared_ptr<NameAccount>& account() const noexcept { return context_.identity.account; }
     const Settings& settings() const noexcept { return context_.settings; }
+    const SessionKind& kind() const noexcept { return context_.identity.kind; }
+    const std::string& name() const noexcept { return kind().description.name(); }
+    std::chrono::system_clock::time_point created_at() const noexcept { return created_at_; }
     const Limits& limits() const noexcept { return context_.limits; }
     SessionState state() const;
 
@@ -84,13 +87,13 @@ public:
     void submit(std::shared_ptr<Upload> upload, InputFrame& input);
     /// Frames that were submitted before are still answered; then the upload's output ends with the error.
     void end_upload(std::shared_ptr<Upload> upload, std::exception_ptr error);
-    /// Nobody reads any more: its frames that wait are forgotten. vanished: its simulator has gone without a word.
-    void cancel_upload(const std::shared_ptr<Upload>& upload, bool vanished = false);
+    /// Nobody reads any more: its frames that wait are forgotten.
+    void cancel_upload(const std::shared_ptr<Upload>& upload, UploadEnd end = UploadEnd::answered);
 
     // Watching.
 
-    /// The watch has the newest mesh, or its particles, at once if they are there. watcher: may be none. Throws
-    /// LimitExceeded, or Refusal if the session ends.
+    /// The watch has the newest mesh, or its particles, at once if they are there. watcher: may be none. A snapshot is
+    /// no watcher: it ends at once if no frame has come. Throws LimitExceeded, or Refusal if the session ends.
     std::shared_ptr<Watch> open_watch(const WatchWishes& wishes, std::function<void()> wake,
                                       const std::shared_ptr<const NameAccount>& watcher = nullptr);
     void close_watch(const std::shared_ptr<Watch>& watch);
@@ -99,10 +102,15 @@ public:
     /// at once.
     void drain(std::chrono::duration<double> grace);
     /// Ends an upload that has been idle for Limits::idle_time, or whose frame comes too slowly, or whose answers are
-    /// taken too slowly while frames of others wait for the bytes of its own, or are refused for its memory. Returns
-    /// whether the session has been without streams, watchers and calls for that time.
-    /// The same after Limits::orphan_time where its simulator has vanished without a word.
-    bool end_idle(std::chrono::steady_clock::time_point now, bool memory_is_short = false);
+    /// taken too slowly while frames of others wait for the bytes of its own, or are refused for its memory.
+    void end_idle_upload(std::chrono::steady_clock::time_point now, bool memory_is_short);
+    /// Why the session is to end, for the log: it has been without streams, watchers and calls for Limits::idle_time,
+    /// or for Limits::orphan_time where its simulator has vanished without a word; or it is ephemeral and has been
+    /// without a stream for Limits::ephemeral_time, or, where a stream has broken, for as long as its simulator tries
+    /// to come back, but no longer than Limits::orphan_time. None: it is not.
+    std::optional<std::string> unused(std::chrono::steady_clock::time_point now) const;
+    /// For how long it has had no stream, since its creation or the end of the last one; none: it has one.
+    std::optional<std::chrono::steady_clock::duration> without_stream(std::chrono::steady_clock::time_point now) const;
     /// Since when it has had nothing to reconstruct, and may give its buffers back; none: it has, or it works.
     std::optional<std::chrono::steady_clock::time_point> resting_since() const {
         return encoding_.idle() ? reconstructing_.resting_since() : std::nullopt;
@@ -110,10 +118,10 @@ public:
     /// Gives the buffers back, all but the newest particles and what is encoded, unless a frame comes before. Returns
     /// at once. The future is ready when it is done, or given up.
     std::future<void> release_buffers();
-    /// Whether its simulator has vanished without a word, and nobody has resumed it.
-    bool orphaned() const;
     /// Call it for each call about this session: it is not idle.
     void touch();
+    /// A caller has joined it, to stream: an ephemeral session is kept as if it had just been created.
+    void await_stream();
     /// Drops what is in flight, and ends the upload and the watchers. Returns at once.
     void close();
     /// Whether the session was closed or has moved to another server, or a GPU that failed has ended it.
@@ -135,6 +143,9 @@ private:
     /// Throws LimitReached for one watcher too many, or one format.
     void require_room_for(const WatchWishes& wishes, const NameAccount* watcher) const;
     std::shared_ptr<Run> run_of(const UploadOptions& options) const;
+    /// Whether a stream sends, or waits for its answers.
+    bool has_stream() const;
+    std::optional<std::string> unused_as_ephemeral(std::chrono::steady_clock::time_point now) const;
     /// The stream that sends from now on; may be none.
     void set_upload(std::shared_ptr<Upload> upload);
     /// As the upload's policy says. Returns the inputs that are free again.
@@ -151,6 +162,7 @@ private:
     void end_slow_upload(std::chrono::steady_clock::time_point now);
     void end_stalled_uploads(std::chrono::steady_clock::time_point now, bool memory_is_short);
 
+    const std::chrono::system_clock::time_point created_at_ = std::chrono::system_clock::now();
     std::stop_source closing_;
     const SessionContext context_;
     const std::shared_ptr<SessionInFlight> in_flight_;
@@ -167,7 +179,10 @@ private:
     std::shared_ptr<Run> run_;                         ///< of the stream opened last
     std::shared_ptr<Upload> upload_;                   ///< the one that sends
     std::vector<std::shared_ptr<Upload>> unanswered_;  ///< and those whose last frames are still on their way
-    bool orphaned_ = false;
+    bool orphaned_ = false;  ///< its simulator has vanished without a word, and nobody has resumed it
+    std::chrono::steady_clock::time_point without_stream_since_ = std::chrono::steady_clock::now();
+    const Upload* last_upload_ = nullptr;       ///< the stream opened last, which may have gone; to tell it from others
+    std::chrono::milliseconds awaited_for_{0};  ///< its simulator, since its end
     bool draining_ = false;
     bool closed_ = false;
 

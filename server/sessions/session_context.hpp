@@ -6,6 +6,7 @@
 #include <string>
 
 #include "meniscus/settings.hpp"
+#include "meniscus/v1/session_service.pb.h"
 #include "sessions/limits/limits.hpp"
 #include "sessions/limits/name_account.hpp"
 #include "sessions/session_observer.hpp"
@@ -13,10 +14,17 @@
 
 namespace meniscus::server {
 
+/// What a session is beside its settings; whoever joins it need not know.
+struct SessionKind {
+    v1::SessionDescription description{};
+    bool ephemeral = false;  ///< see Session::unused()
+};
+
 struct SessionIdentity {
     std::string id;
     std::string owner{};                     ///< the caller that created it; empty where callers have no names
     std::shared_ptr<NameAccount> account{};  ///< that caller's; none: it has no limits of its own
+    SessionKind kind{};
 };
 
 struct SessionContext {

@@ -11,9 +11,11 @@
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
+#include "sessions/idle_sessions.hpp"
 #include "sessions/limits/limit_reached.hpp"
 #include "sessions/placement.hpp"
 #include "sessions/refusal.hpp"
+#include "sessions/session_name.hpp"
 
 namespace meniscus::server {
 
@@ -29,7 +31,7 @@ BackendOptions with_limits(BackendOptions backend, const Limits& limits) {
 /// Often enough that nothing is kept for much longer than the limit says; 0 if none says anything.
 std::chrono::milliseconds idle_check_interval(const Limits& limits) {
     auto shortest = std::chrono::milliseconds::max();
-    for (const auto time : {limits.idle_time, limits.orphan_time, limits.idle_buffers_time,
+    for (const auto time : {limits.idle_time, limits.orphan_time, limits.ephemeral_time, limits.idle_buffers_time,
                             std::chrono::ceil<std::chrono::milliseconds>(limits.least_pace.time)})
         if (time.count() != 0) shortest = std::min(shortest, time);
     if (shortest == std::chrono::milliseconds::max()) return {};
@@ -68,7 +70,8 @@ SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& bac
       workers_(std::make_shared<WorkerPool>(encoding_threads)),
       metrics_(std::move(metrics)),
       bytes_in_flight_(std::make_shared<BytesInFlight>(limits.bytes_in_flight, limits.sessions)),
-      memory_(shared_memory(limits.total_bytes)) {
+      memory_(shared_memory(limits.total_bytes)),
+      snapshots_(limits.snapshots, limits.snapshots_per_name) {
     joining_ = std::thread([this] {
         while (auto session = removed_.take()) {
             (*session)->join();
@@ -89,8 +92,8 @@ SessionRegistry::~SessionRegistry() {
     for (const auto& [id, session] : sessions_) session->close();
 }
 
-std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Settings& settings,
-                                                 const Creator& creator) {
+SessionRegistry::Created SessionRegistry::create(const std::string& id, const Settings& settings,
+                                                 const Creator& creator, const SessionKind& kind) {
     const std::lock_guard lock(mutex_);
     if (draining_) throw shutting_down();
     remove_ended();
@@ -101,21 +104,12 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
                           fmt::format("session {} is not one of {}'s: choose another id", id, creator.name));
         if (found->second->settings() == settings) {
             found->second->touch();
-            return found->second;
+            found->second->await_stream();
+            return {.session = found->second};
         }
         throw Refusal(Refusal::Kind::already_exists, fmt::format("session {} exists with other settings", id));
     }
-    if (limits_.sessions != 0 && sessions_.size() >= limits_.sessions)
-        throw LimitReached(LimitName::sessions, fmt::format("{} sessions are open; the server holds at most {}",
-                                                            sessions_.size(), limits_.sessions));
-    // As many again may be about to end, so that a session can take the place of one that was just deleted.
-    if (limits_.sessions != 0 && sessions_.size() + ending_ >= std::size_t{2} * limits_.sessions)
-        throw LimitReached(
-            LimitName::sessions,
-            fmt::format("{} sessions that were deleted have not ended yet, beside {} open ones; the server holds at "
-                        "most {} of both: try again later",
-                        ending_.load(), sessions_.size(), std::size_t{2} * limits_.sessions));
-    if (creator.account) require_share(*creator.account);
+    require_room(creator);
     BackendOptions backend = place_session();
     backend.shared_memory = memory_;
     if (backend.backend == Backend::cuda) {
@@ -123,33 +117,30 @@ std::shared_ptr<Session> SessionRegistry::create(const std::string& id, const Se
         if (!device) device = shared_memory(limits_.total_device_bytes);
         backend.shared_device_memory = device;
     }
-    auto session =
-        std::make_shared<Session>(SessionIdentity{.id = id, .owner = creator.name, .account = creator.account},
-                                  settings, limits_, make_reconstruct_(settings, backend), shared_on(backend),
-                                  observe_ ? observe_(id, settings, creator.name) : nullptr);
+    const SessionIdentity identity{.id = id, .owner = creator.name, .account = creator.account, .kind = kind};
+    auto session = std::make_shared<Session>(identity, settings, limits_, make_reconstruct_(settings, backend),
+                                             shared_on(backend), observe_ ? observe_(identity, settings) : nullptr);
     sessions_.emplace(id, session);
     idle_buffers_->add(session);
-    call_log.write({.session = id}, "created on {} ({} open)", place_name(backend), sessions_.size());
-    return session;
+    call_log.write({.session = id}, "{}created on {}{} ({} open)", named(session->name()), place_name(backend),
+                   kind.ephemeral ? ", ephemeral" : "", sessions_.size());
+    return {.session = std::move(session), .is_new = true};
 }
 
-std::shared_ptr<Session> SessionRegistry::find(const std::string& id, const MaySee& may_see) {
+std::shared_ptr<Session> SessionRegistry::find(const std::string& id, const MaySee& may_see, Look look) {
     const std::lock_guard lock(mutex_);
     remove_ended();
     const auto found = sessions_.find(id);
     if (found == sessions_.end() || (may_see && !may_see(found->second->owner())))
         throw Refusal(Refusal::Kind::not_found, fmt::format("no session {}", id));
-    found->second->touch();
+    if (look == Look::uses_it) found->second->touch();
     return found->second;
 }
 
 std::vector<std::shared_ptr<Session>> SessionRegistry::list() {
     const std::lock_guard lock(mutex_);
     remove_ended();
-    std::vector<std::shared_ptr<Session>> sessions;
-    sessions.reserve(sessions_.size());
-    for (const auto& [id, session] : sessions_) sessions.push_back(session);
-    return sessions;
+    return sessions_of(nullptr);
 }
 
 void SessionRegistry::remove(const std::shared_ptr<Session>& session) {
@@ -168,18 +159,44 @@ void SessionRegistry::remove(const std::shared_ptr<Session>& session) {
     call_log.write({.session = session->id()}, "deleted ({} open)", left);
 }
 
-void SessionRegistry::require_share(const NameAccount& account) const {
+void SessionRegistry::require_room(const Creator& creator) const {
+    if (limits_.sessions != 0 && sessions_.size() >= limits_.sessions)
+        throw LimitReached(LimitName::sessions,
+                           fmt::format("{} sessions are open; the server holds at most {}{}", sessions_.size(),
+                                       limits_.sessions, name_idle_sessions(sessions_of(nullptr), creator.may_see)));
+    // As many again may be about to end, so that a session can take the place of one that was just deleted.
+    if (limits_.sessions != 0 && sessions_.size() + ending_ >= std::size_t{2} * limits_.sessions)
+        throw LimitReached(
+            LimitName::sessions,
+            fmt::format("{} sessions that were deleted have not ended yet, beside {} open ones; the server holds at "
+                        "most {} of both: try again later",
+                        ending_.load(), sessions_.size(), std::size_t{2} * limits_.sessions));
+    if (creator.account) require_share(creator);
+}
+
+void SessionRegistry::require_share(const Creator& creator) const {
+    const NameAccount& account = *creator.account;
     const std::uint32_t share = account.shares().sessions;
     if (share == 0) return;
-    const auto open =
-        std::ranges::count_if(sessions_, [&](const auto& entry) { return entry.second->account().get() == &account; });
+    const auto open = sessions_of(&account);
     const std::uint32_t ending = account.ending;
-    if (open >= static_cast<std::ptrdiff_t>(share) || open + ending >= std::ptrdiff_t{2} * share)
+    if (open.size() >= share)
+        throw LimitReached(LimitName::sessions_per_name,
+                           fmt::format("{} has {} sessions; the server holds at most {} of one caller{}",
+                                       account.name(), open.size(), share, name_idle_sessions(open, creator.may_see)));
+    if (open.size() + ending >= std::size_t{2} * share)
         throw LimitReached(
             LimitName::sessions_per_name,
             fmt::format("{} has {} sessions, and {} that were deleted have not ended yet; the server holds at most {} "
-                        "of one caller, and {} of both",
-                        account.name(), open, ending, share, std::int64_t{2} * share));
+                        "of one caller, and {} of both: try again later",
+                        account.name(), open.size(), ending, share, std::uint64_t{2} * share));
+}
+
+std::vector<std::shared_ptr<Session>> SessionRegistry::sessions_of(const NameAccount* account) const {
+    std::vector<std::shared_ptr<Session>> sessions;
+    for (const auto& [id, session] : sessions_)
+        if (account == nullptr || session->account().get() == account) sessions.push_back(session);
+    return sessions;
 }
 
 void SessionRegistry::remove_ended() {
@@ -245,6 +262,7 @@ void SessionRegistry::drain(std::chrono::duration<double> grace) {
 }
 
 void SessionRegistry::end_idle(std::chrono::steady_clock::time_point now) {
+    const std::lock_guard one_at_a_time(idle_check_mutex_);
     const auto released = std::erase_if(releases_, [](const std::future<void>& release) {
         return release.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     });
@@ -255,22 +273,21 @@ void SessionRegistry::end_idle(std::chrono::steady_clock::time_point now) {
         if (limits_.idle_buffers_time.count() != 0 && resting_since &&
             now - *resting_since >= limits_.idle_buffers_time)
             releases_.push_back(session->release_buffers());
-        if (!session->end_idle(now, memory_is_short)) continue;
+        session->end_idle_upload(now, memory_is_short);
+        if (!session->unused(now)) continue;
+        std::optional<std::string> reason;
         {
             const std::lock_guard lock(mutex_);
             // Somebody may have found it, or removed it, in the meantime.
             const auto found = sessions_.find(session->id());
-            if (found == sessions_.end() || found->second != session || !session->end_idle(now)) continue;
+            if (found == sessions_.end() || found->second != session) continue;
+            reason = session->unused(now);
+            if (!reason) continue;
             sessions_.erase(found);
             let_end(session);
         }
         session->close();
-        if (session->orphaned())
-            call_log.write({.session = session->id()},
-                           "removed: its simulator vanished, and nobody has watched or resumed it since");
-        else
-            call_log.write({.session = session->id()}, "removed: nobody has used it for {:.3g} s",
-                           std::chrono::duration<double>(limits_.idle_time).count());
+        call_log.write({.session = session->id()}, "removed: {}", *reason);
     }
 }
 

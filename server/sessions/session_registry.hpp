@@ -20,13 +20,14 @@
 #include "sessions/handover/periodic.hpp"
 #include "sessions/idle_buffers.hpp"
 #include "sessions/limits/limits.hpp"
+#include "sessions/limits/snapshot_places.hpp"
 #include "sessions/session.hpp"
 
 namespace meniscus::server {
 
 /// Makes the observer of a new session.
-using Observe = std::function<std::shared_ptr<SessionObserver>(const std::string& id, const Settings& settings,
-                                                               const std::string& owner)>;
+using Observe =
+    std::function<std::shared_ptr<SessionObserver>(const SessionIdentity& identity, const Settings& settings)>;
 
 /// Makes the functions that a new session reconstructs with.
 using MakeReconstruct = std::function<ReconstructFunctions(const Settings& settings, const BackendOptions& backend)>;
@@ -55,11 +56,17 @@ public:
     SessionRegistry(const SessionRegistry&) = delete;
     SessionRegistry& operator=(const SessionRegistry&) = delete;
 
-    /// Returns the session that exists with equal settings, or a new one, which is the creator's. Throws InvalidInput
-    /// (of settings), LimitExceeded, Refusal, DeviceError.
-    std::shared_ptr<Session> create(const std::string& id, const Settings& settings, const Creator& creator = {});
+    struct Created {
+        std::shared_ptr<Session> session;
+        bool is_new = false;
+    };
+    /// Returns the session that exists with equal settings, which stays of the kind that it is, or a new one, which is
+    /// the creator's. Throws InvalidInput (of settings), LimitExceeded, Refusal, DeviceError.
+    Created create(const std::string& id, const Settings& settings, const Creator& creator = {},
+                   const SessionKind& kind = {});
+    enum class Look : std::uint8_t { uses_it, leaves_it_idle };
     /// Throws Refusal, not_found, if there is none that the caller may see.
-    std::shared_ptr<Session> find(const std::string& id, const MaySee& may_see = nullptr);
+    std::shared_ptr<Session> find(const std::string& id, const MaySee& may_see = nullptr, Look look = Look::uses_it);
     /// Ordered by id.
     std::vector<std::shared_ptr<Session>> list();
     /// Ends the session, its stream and its watchers; its threads end in the background. Throws Refusal if it has gone,
@@ -69,7 +76,7 @@ public:
     /// No new sessions and uploads; those that run end after the frame on its way in. Returns at once. grace: after it,
     /// the server ends the calls that are left.
     void drain(std::chrono::duration<double> grace);
-    /// Ends the streams, and forgets the sessions, that have been idle for Limits::idle_time.
+    /// Ends the streams, and forgets the sessions, that have been idle for too long; see Session.
     void end_idle(std::chrono::steady_clock::time_point now);
 
     const Limits& limits() const noexcept { return limits_; }
@@ -80,24 +87,31 @@ public:
     /// The time that all devices together have spent on frames since the start.
     std::chrono::duration<double> busy_time();
     Metrics& metrics() const noexcept { return *metrics_; }
+    SnapshotPlaces& snapshots() noexcept { return snapshots_; }
     /// A caller's account. name: of its token, or its address. own: what the tokens file says of it.
     std::shared_ptr<NameAccount> account(const std::string& name, const OwnShares& own = {}) {
         return accounts_.of(name, own.over(limits_.per_name));
     }
 
 private:
-    /// Throws LimitExceeded if the account has no room for another session. With the lock held.
-    void require_share(const NameAccount& account) const;
-    /// Forgets the sessions that ended by themselves. With the lock held.
+    // With the lock held.
+
+    /// Throws LimitExceeded if there is no room for another session of this caller.
+    void require_room(const Creator& creator) const;
+    void require_share(const Creator& creator) const;
+    /// account: none: of all.
+    std::vector<std::shared_ptr<Session>> sessions_of(const NameAccount* account) const;
+    /// Forgets the sessions that ended by themselves.
     void remove_ended();
-    /// The session is no longer in the map; its threads end in the background. With the lock held.
+    /// The session is no longer in the map; its threads end in the background.
     void let_end(std::shared_ptr<Session> session);
+    /// What sessions on this place share.
+    SharedResources shared_on(const BackendOptions& place);
+
     /// Where the next session reconstructs.
     BackendOptions place_session() const;
     /// Memory of at most so many bytes, for which idle sessions give theirs back.
     std::shared_ptr<SharedMemory> shared_memory(std::size_t limit);
-    /// What sessions on this place share. With the lock held.
-    SharedResources shared_on(const BackendOptions& place);
 
     const Limits limits_;
     const BackendOptions backend_;
@@ -112,6 +126,7 @@ private:
     const std::shared_ptr<SharedMemory> memory_;
 
     NameAccounts accounts_;
+    SnapshotPlaces snapshots_;
 
     std::mutex mutex_;
     std::map<std::string, std::shared_ptr<Session>> sessions_;
@@ -124,8 +139,10 @@ private:
     Channel<std::shared_ptr<Session>> removed_;
     std::thread joining_;
     std::atomic<bool> sessions_have_ended_{false};  ///< since free pages were returned
-    std::vector<std::future<void>> releases_;       ///< of buffers, that were not over then; of end_idle() alone
-    std::optional<Periodic> idle_check_;            ///< last: it uses the others
+
+    std::mutex idle_check_mutex_;              ///< of end_idle(), for what follows
+    std::vector<std::future<void>> releases_;  ///< of buffers, that were not over then
+    std::optional<Periodic> idle_check_;       ///< last: it uses the others
 };
 
 }  // namespace meniscus::server

@@ -23,14 +23,22 @@ enum class UploadPolicy {
     every_nth,    ///< the first of every n is reconstructed; none of those is lost
 };
 
+/// How a stream's call has ended.
+enum class UploadEnd : std::uint8_t {
+    answered,  ///< with a status that it was sent
+    left,      ///< canceled, or its connection broke, after its simulator had said that nothing follows
+    vanished,  ///< the same while more was to come
+};
+
 struct UploadOptions {
     bool receive_meshes = false;
     int normal_bits = 0;
     Codec codec = Codec::draco;
     bool spray = false;  ///< whether it comes beside the meshes
     UploadPolicy policy = UploadPolicy::every_frame;
-    std::uint32_t nth = 1;     ///< at least 1; for UploadPolicy::every_nth
-    std::uint64_t run_id = 0;  ///< 0: a run of its own
+    std::uint32_t nth = 1;                   ///< at least 1; for UploadPolicy::every_nth
+    std::uint64_t run_id = 0;                ///< 0: a run of its own
+    std::chrono::milliseconds reconnect{0};  ///< for how long its simulator tries to come back
 };
 
 /// Frames that belong together, over one stream or over several, each of which resumed the run.

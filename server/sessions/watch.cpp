@@ -40,6 +40,7 @@ void Watch::put(WatchedFrame frame, Clock::time_point now) {
         else
             newest_since_ = now;
         newest_.swap(replaced);
+        finished_ = wishes_.once;
         if (!behind_since_) behind_since_ = now;
         if (!update_.messages.empty() && writing_since_ && now - *writing_since_ > stalled_after) {
             given_up.swap(update_.messages);

@@ -61,7 +61,8 @@ public:
 
     // The session's side.
 
-    /// frame: in the form that the watcher wishes for. Replaces a frame that has not been taken.
+    /// frame: in the form that the watcher wishes for. Replaces a frame that has not been taken. It is the last where
+    /// the watcher wishes for one alone.
     void put(WatchedFrame frame, Clock::time_point now = Clock::now());
     /// Tells the watcher, between two messages, that the server goes down after this time.
     void announce_end(std::chrono::duration<double> grace);

@@ -19,6 +19,7 @@ struct WatchWishes {
     std::optional<Box> region{};         ///< world units: only bricks that touch it
     std::uint64_t bytes_per_second = 0;  ///< in the mean; 0: no limit
     bool spray = false;                  ///< whether it comes beside the meshes, all of it
+    bool once = false;                   ///< a snapshot: the newest mesh, and nothing after it; no watcher
     /// Set: the frames' particles in place of their meshes; of a frame with more than this number, every k-th; 0: all.
     std::optional<std::uint64_t> max_particles{};
     std::optional<std::array<double, 3>>

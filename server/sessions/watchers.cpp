@@ -6,8 +6,25 @@
 
 namespace meniscus::server {
 
+namespace {
+
+/// Not a snapshot.
+bool is_watcher(const std::shared_ptr<Watch>& watch) {
+    return !watch->wishes().once;
+}
+
+}  // namespace
+
 bool Watchers::add(const std::shared_ptr<Watch>& watch) {
     const std::lock_guard lock(mutex_);
+    if (watch->wishes().once) {
+        const auto found = meshes_.find(watch->wishes().format);
+        if (found == meshes_.end())
+            watches_.push_back(watch);
+        else
+            watch->put(found->second);
+        return found != meshes_.end();
+    }
     watches_.push_back(watch);
     if (!watch->wishes().wants_meshes()) {
         const auto stride = stride_of(*watch);
@@ -29,14 +46,14 @@ void Watchers::remove(const std::shared_ptr<Watch>& watch) {
     const std::lock_guard lock(mutex_);
     if (std::erase(watches_, watch) != 0) skipped_by_the_gone_ += watch->progress().frames_skipped;
     const MeshFormat& format = watch->wishes().format;
-    if (!wish_for(format) && !kept_.contains(format)) mesh = meshes_.extract(format);
+    if (!keeps(format)) mesh = meshes_.extract(format);
     if (const auto stride = stride_of(*watch); stride && !wish_for_stride(*stride))
         particles = particles_.extract(*stride);
 }
 
 std::size_t Watchers::count() const {
     const std::lock_guard lock(mutex_);
-    return watches_.size();
+    return static_cast<std::size_t>(std::ranges::count_if(watches_, is_watcher));
 }
 
 std::vector<std::shared_ptr<Watch>> Watchers::list() const {
@@ -46,8 +63,10 @@ std::vector<std::shared_ptr<Watch>> Watchers::list() const {
 
 Watchers::Progress Watchers::progress() const {
     const std::lock_guard lock(mutex_);
-    Progress sum{.watchers = static_cast<std::uint32_t>(watches_.size()), .frames_skipped = skipped_by_the_gone_};
+    Progress sum{.frames_skipped = skipped_by_the_gone_};
     for (const auto& watch : watches_) {
+        if (!is_watcher(watch)) continue;
+        ++sum.watchers;
         const Watch::Progress progress = watch->progress();
         sum.frames_skipped += progress.frames_skipped;
         sum.lag = std::max(sum.lag, progress.lag);
@@ -62,6 +81,10 @@ std::optional<std::uint64_t> Watchers::stride_of(const Watch& watch) const {
 
 bool Watchers::wish_for(const MeshFormat& format) const {
     return std::ranges::any_of(watches_, [&](const auto& watch) { return watch->wishes().wants(format); });
+}
+
+bool Watchers::keeps(const MeshFormat& format) const {
+    return kept_.contains(format) || of_snapshot_ == format || wish_for(format);
 }
 
 bool Watchers::wish_for_stride(std::uint64_t stride) const {
@@ -97,6 +120,7 @@ void Watchers::publish(std::uint64_t stride, const std::shared_ptr<const Particl
 Encodings Watchers::replace_meshes() {
     const std::lock_guard lock(mutex_);
     kept_.clear();
+    of_snapshot_.reset();
     return std::exchange(meshes_, {});
 }
 
@@ -130,13 +154,19 @@ std::optional<MeshFormat> Watchers::next_unpublished_format(const std::function<
 
 void Watchers::publish(const MeshFormat& format, const std::shared_ptr<const EncodedFrame>& frame, Keep keep) {
     std::vector<std::shared_ptr<Watch>> watches;
+    Encodings::node_type of_other_snapshot;  // destroyed outside of the lock
     {
         const std::lock_guard lock(mutex_);
         if (keep == Keep::until_the_next_frame) kept_.insert(format);
-        if (!kept_.contains(format) && !wish_for(format)) return;
-        meshes_[format] = frame;
         std::ranges::copy_if(watches_, std::back_inserter(watches),
                              [&](const auto& watch) { return watch->wishes().wants(format); });
+        if (!std::ranges::all_of(watches, is_watcher)) {
+            const auto other = std::exchange(of_snapshot_, format);
+            if (other && !keeps(*other)) of_other_snapshot = meshes_.extract(*other);
+        }
+        if (!keeps(format)) return;
+        meshes_[format] = frame;
+        std::erase_if(watches_, [&](const auto& watch) { return !is_watcher(watch) && watch->wishes().wants(format); });
     }
     for (const auto& watch : watches) watch->put(frame);
 }

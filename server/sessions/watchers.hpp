@@ -22,7 +22,8 @@ namespace meniscus::server {
 using Encodings = std::map<MeshFormat, std::shared_ptr<const EncodedFrame>>;
 
 /// Thread-safe. A frame that is published goes to all watchers that wish for its form, and to each that comes later. It
-/// is forgotten once no watcher wishes for that form any more.
+/// is forgotten once no watcher wishes for that form any more. A watch that wishes for one frame alone (a snapshot) is
+/// here until it has that, and counts as no watcher.
 class Watchers {
 public:
     struct Progress {
@@ -36,6 +37,7 @@ public:
     void remove(const std::shared_ptr<Watch>& watch);
 
     std::size_t count() const;
+    /// Snapshots that wait included.
     std::vector<std::shared_ptr<Watch>> list() const;
     Progress progress() const;
 
@@ -69,13 +71,15 @@ private:
     /// Of the particles that the watch wishes for; none if it wishes for meshes, or no frame has come.
     std::optional<std::uint64_t> stride_of(const Watch& watch) const;
     bool wish_for(const MeshFormat& format) const;
+    bool keeps(const MeshFormat& format) const;
     bool wish_for_stride(std::uint64_t stride) const;
 
     mutable std::mutex mutex_;                     ///< for what follows
     std::vector<std::shared_ptr<Watch>> watches_;  ///< those first whose format has waited longest for its turn
     std::uint64_t skipped_by_the_gone_ = 0;
     Encodings meshes_;
-    std::set<MeshFormat> kept_;  ///< of those, until the next frame
+    std::set<MeshFormat> kept_;              ///< of those, until the next frame
+    std::optional<MeshFormat> of_snapshot_;  ///< likewise, or until a snapshot in another format: many ask alike
     std::optional<std::uint64_t> particle_count_;
     std::map<std::uint64_t, std::shared_ptr<const ParticleMessages>> particles_;  ///< by stride
 };

@@ -3,13 +3,17 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "meniscus/client/client.hpp"
@@ -50,6 +54,7 @@ protected:
         server::ServerOptions options;
         options.listen = "unix:" + (directory / "socket").string();
         options.backend.threads = 1;
+        options.limits.ephemeral_time = std::chrono::seconds(2);
         return options;
     }
 
@@ -175,6 +180,106 @@ TEST_F(Operators, AreToldByTopThatTheServerHasGone) {
     top.press('q');
     top.read_until("never drawn", 1);
     EXPECT_EQ(top.exit_code(), 0);
+}
+
+/// meniscus simulate, which goes on until it is ended.
+class Simulate {
+public:
+    Simulate(const std::string& address, std::vector<std::string> more) {
+        std::vector<std::string> arguments{MENISCUS_CLI, "simulate", "--particles", "200",
+                                           "--frames",   "1000000",  "--server",    address};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        std::vector<char*> argv;
+        for (std::string& argument : arguments) argv.push_back(argument.data());
+        argv.push_back(nullptr);
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+        EXPECT_EQ(::posix_spawn(&pid_, MENISCUS_CLI, &actions, nullptr, argv.data(), environ), 0);
+        posix_spawn_file_actions_destroy(&actions);
+    }
+    ~Simulate() {
+        if (pid_ > 0) end_by(SIGKILL);
+    }
+    Simulate(const Simulate&) = delete;
+    Simulate& operator=(const Simulate&) = delete;
+
+    /// Returns the signal that has ended it; 0: none.
+    int end_by(int signal) {
+        ::kill(pid_, signal);
+        int status = 0;
+        ::waitpid(std::exchange(pid_, -1), &status, 0);
+        return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    }
+
+private:
+    pid_t pid_ = -1;
+};
+
+/// With a frame; none within a minute: a failure.
+client::SessionInfo wait_for_session(client::Client& client, const std::string& name) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (std::chrono::steady_clock::now() < deadline)
+        for (const client::SessionInfo& session : client.sessions())
+            if (session.description.name == name && session.frames > 0) return session;
+    ADD_FAILURE() << "no session " << name;
+    return {};
+}
+
+TEST_F(Operators, EndWhatTheyBeganWithTheCommandHoweverThatEnds) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        Simulate simulate(server.address(), {"--name", "wave pool", "--up-axis", "y", "--length-unit", "m"});
+        const client::SessionInfo session = wait_for_session(client, "wave pool");
+        EXPECT_TRUE(session.ephemeral);
+        EXPECT_EQ(session.description.up_axis, client::UpAxis::y);
+        EXPECT_EQ(session.description.length_unit, "m");
+        EXPECT_EQ(simulate.end_by(signal), signal);
+        EXPECT_EQ(client.sessions().size(), 1U) << "the one of the fixture";
+    }
+    Simulate simulate(server.address(), {"--name", "killed", "--reconnect", "0"});
+    wait_for_session(client, "killed");
+    EXPECT_EQ(simulate.end_by(SIGKILL), SIGKILL);
+    while (client.sessions().size() > 1) std::this_thread::yield();
+}
+
+TEST_F(Operators, KeepASessionOnlyIfTheyWishTo) {
+    EXPECT_EQ(run({"simulate", "--particles", "200", "--frames", "2"}).exit_code, 0);
+    EXPECT_EQ(client.sessions().size(), 1U);
+    EXPECT_EQ(run({"simulate", "--particles", "200", "--frames", "2", "--keep-session", "--name", "kept"}).exit_code,
+              0);
+    const client::SessionInfo kept = wait_for_session(client, "kept");
+    EXPECT_FALSE(kept.ephemeral);
+    EXPECT_EQ(kept.frames, 2U);
+    // A session that was there before is not the command's to end.
+    EXPECT_EQ(run({"simulate", "--particles", "200", "--frames", "2", "--session", kept.id}).exit_code, 0);
+    EXPECT_EQ(client.session(kept.id).frames, 4U);
+}
+
+TEST_F(Operators, DeleteSessionsByIdAndByNameAndAreToldOfThoseThatAreNone) {
+    Settings settings;
+    settings.particle_radius = 0.1;
+    for (const char* name : {"one", "two", "two"})
+        client.create_session(client::new_session_id(), settings, {.description = {.name = name}});
+    const ProcessResult table = run({"sessions"});
+    EXPECT_NE(table.out.find(" one "), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("AGE"), std::string::npos) << table.out;
+    const ProcessResult result = run({"sessions", "--delete", id, "two", "one", "three"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.out.find("deleted " + id), std::string::npos) << result.out;
+    EXPECT_NE(result.err.find("2 sessions have the name \"two\"; say which by its id"), std::string::npos)
+        << result.err;
+    EXPECT_NE(result.err.find("no session has the name or id \"three\""), std::string::npos) << result.err;
+    EXPECT_EQ(client.sessions().size(), 2U);
+    const ProcessResult none = run({"sessions", "--delete"});
+    EXPECT_EQ(none.exit_code, 2) << "an empty list is no list of all";
+}
+
+TEST_F(Operators, AreToldBeforeAnythingIsSentThatANameIsNone) {
+    const ProcessResult result = run({"simulate", "--name", "a\nb", "--frames", "1"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("\\u{000a}"), std::string::npos) << result.err;
+    EXPECT_EQ(run({"simulate", "--up-axis", "w", "--frames", "1"}).exit_code, 2);
+    EXPECT_EQ(client.sessions().size(), 1U);
 }
 
 }  // namespace

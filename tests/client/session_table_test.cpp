@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
+
+#include "cli/times.hpp"
+#include "description/label.hpp"
 
 namespace meniscus::test {
 namespace {
@@ -19,8 +23,11 @@ client::SessionInfo session(const std::string& id, std::uint64_t frames) {
 }
 
 TEST(SessionTable, HasColumnsThatAlign) {
+    const auto now = std::chrono::system_clock::now();
     client::SessionInfo busy = session("6a1f0a3c-5a37-4a39-b6ae-2f7f6b1f6d51", 123'456);
     busy.owner = "simulation-cluster";
+    busy.description.name = "w\u00e4ter \u6c34";
+    busy.created_at = now - std::chrono::minutes(12);
     busy.uploading = true;
     busy.watchers = 3;
     busy.frames_dropped = 17;
@@ -34,16 +41,34 @@ TEST(SessionTable, HasColumnsThatAlign) {
     of_an_admin.waits_for_session = busy.id;
     client::SessionInfo full = waiting;
     full.waits_for = client::SessionWait::bytes_in_flight;
-    const std::string table =
-        cli::session_table({{busy, 59.94}, {waiting, std::nullopt}, {of_an_admin, std::nullopt}, {full, std::nullopt}});
+    const std::string table = cli::session_table(
+        {{busy, 59.94}, {waiting, std::nullopt}, {of_an_admin, std::nullopt}, {full, std::nullopt}}, now);
     std::istringstream lines(table);
     std::string header;
     std::getline(lines, header);
-    for (std::string line; std::getline(lines, line);) EXPECT_EQ(line.size(), header.size()) << line;
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_EQ(description::count_characters(line), header.size()) << line;
     for (const char* word :
-         {"simulation-cluster", "uploading", "123k", "59.9", "12.3", "1.00M", "17", "idle", "device: another session",
-          "device: 6a1f0a3c-5a37-4a39-b6ae-2f7f6b1f6d51", "bytes in flight"})
+         {"w\u00e4ter \u6c34", "12 min", "simulation-cluster", "uploading", "123k", "59.9", "12.3", "1.00M", "17",
+          "idle", "device: another session", "device: 6a1f0a3c-5a37-4a39-b6ae-2f7f6b1f6d51", "bytes in flight"})
         EXPECT_NE(table.find(word), std::string::npos) << word << '\n' << table;
+}
+
+TEST(SessionTable, IsOneLineForEachSessionWhateverItsNameIs) {
+    client::SessionInfo hostile = session("new", 0);
+    hostile.description.name = "a\nb\x1b[2J";  // from a server that lets it pass
+    const std::string table = cli::session_table({{hostile, std::nullopt}});
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2);
+    EXPECT_EQ(table.find('\x1b'), std::string::npos);
+}
+
+TEST(SessionTable, ShortensAges) {
+    using namespace std::chrono_literals;
+    EXPECT_EQ(cli::short_time(-5s), "0 s") << "the server's clock is ahead";
+    EXPECT_EQ(cli::short_time(59s), "59 s");
+    EXPECT_EQ(cli::short_time(60s), "1 min");
+    EXPECT_EQ(cli::short_time(47h), "47 h");
+    EXPECT_EQ(cli::short_time(48h), "2 d");
 }
 
 TEST(SessionTable, ShortensCountsWithoutPretendingTooMuch) {

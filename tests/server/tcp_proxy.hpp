@@ -47,6 +47,12 @@ public:
 
     std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
 
+    /// Ends all connections, and for so long each new one at once.
+    void refuse_for(std::chrono::milliseconds time) {
+        refuses_until_ = std::chrono::steady_clock::now() + time;
+        cut();
+    }
+
     /// Ends all connections; new ones may be made.
     void cut() {
         const std::lock_guard lock(mutex_);
@@ -69,6 +75,10 @@ private:
         for (;;) {
             const int client = ::accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC);
             if (client < 0) return;
+            if (std::chrono::steady_clock::now() < refuses_until_.load()) {
+                ::close(client);
+                continue;
+            }
             std::this_thread::sleep_for(distance_);
             const int server = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
             const sockaddr_in address = loopback(upstream_);
@@ -106,6 +116,7 @@ private:
 
     const std::uint16_t upstream_;
     const std::chrono::milliseconds distance_;
+    std::atomic<std::chrono::steady_clock::time_point> refuses_until_{std::chrono::steady_clock::time_point::min()};
     int listening_ = -1;
     std::uint16_t port_ = 0;
     std::mutex mutex_;  ///< for the next two

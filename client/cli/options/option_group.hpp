@@ -29,6 +29,7 @@ inline constexpr const char* sequence_heading = "Sequences";
 inline constexpr const char* surface_heading = "Surface";
 inline constexpr const char* grid_heading = "Grid";
 inline constexpr const char* place_heading = "Place of the reconstruction";
+inline constexpr const char* session_heading = "The session on the server";
 inline constexpr const char* server_heading = "Reaching a server";
 inline constexpr const char* other_heading = "Other";
 

@@ -5,9 +5,11 @@
 #include "connection/connection.hpp"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "particle_watcher_impl.hpp"
+#include "receiving/session_description.hpp"
 #include "recording_reader_impl.hpp"
 #include "session_calls.hpp"
 #include "session_impl.hpp"
+#include "snapshot.hpp"
 #include "stream_impl.hpp"
 #include "unary_call.hpp"
 #include "watcher_impl.hpp"
@@ -135,6 +137,10 @@ Stream Client::stream(const std::string& session_id, const StreamOptions& option
 
 Watcher Client::watch(const std::string& session_id, const WatchOptions& options) {
     return Watcher(std::make_unique<Watcher::Impl>(impl_->connection(), session_id, options));
+}
+
+std::optional<ReceivedFrame> Client::snapshot(const std::string& session_id, const SnapshotOptions& options) {
+    return take_snapshot(*impl_->connection(), session_id, options);
 }
 
 ParticleWatcher Client::watch_particles(const std::string& session_id, const ParticleWatchOptions& options) {

@@ -4,50 +4,15 @@
 
 #include "conversion/settings_conversion.hpp"
 #include "receiving/frame_statistics.hpp"
+#include "receiving/session_description.hpp"
 #include "unary_call.hpp"
 
 namespace meniscus::client {
-
-namespace {
-
-v1::UpAxis to_wire(UpAxis axis) {
-    switch (axis) {
-        case UpAxis::unspecified:
-            return v1::UP_AXIS_UNSPECIFIED;
-        case UpAxis::x:
-            return v1::UP_AXIS_X;
-        case UpAxis::y:
-            return v1::UP_AXIS_Y;
-        case UpAxis::z:
-            return v1::UP_AXIS_Z;
-    }
-    return v1::UP_AXIS_UNSPECIFIED;
-}
-
-v1::SessionDescription to_wire(const SessionDescription& description) {
-    v1::SessionDescription wire;
-    wire.set_name(description.name);
-    wire.set_up_axis(to_wire(description.up_axis));
-    wire.set_length_unit(description.length_unit);
-    return wire;
-}
-
-}  // namespace
 
 std::chrono::system_clock::time_point time_from_wire(std::int64_t microseconds) {
     using Time = std::chrono::system_clock::time_point;
     constexpr auto last = std::chrono::duration_cast<std::chrono::microseconds>(Time::max().time_since_epoch()).count();
     return Time(std::chrono::microseconds(std::clamp<std::int64_t>(microseconds, 0, last)));
-}
-
-SessionDescription from_wire(const v1::SessionDescription& wire) {
-    SessionDescription description;
-    description.name = wire.name();
-    description.length_unit = wire.length_unit();
-    if (wire.up_axis() == v1::UP_AXIS_X) description.up_axis = UpAxis::x;
-    if (wire.up_axis() == v1::UP_AXIS_Y) description.up_axis = UpAxis::y;
-    if (wire.up_axis() == v1::UP_AXIS_Z) description.up_axis = UpAxis::z;
-    return description;
 }
 
 SessionInfo from_wire(const v1::Session& wire) {

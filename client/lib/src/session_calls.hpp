@@ -17,7 +17,6 @@ SessionInfo session_info(const Connection& connection, const std::string& id, st
 void delete_session(const Connection& connection, const std::string& id, std::chrono::milliseconds timeout);
 
 SessionInfo from_wire(const v1::Session& wire);
-SessionDescription from_wire(const v1::SessionDescription& wire);
 /// Microseconds since 1970.
 std::chrono::system_clock::time_point time_from_wire(std::int64_t microseconds);
 

@@ -16,6 +16,8 @@ enum class LimitName : std::uint8_t {
     watchers_per_name,
     formats,
     formats_per_name,
+    snapshots,
+    snapshots_per_name,
     frames_per_second,
     frames_per_second_per_name,
     bytes_in_flight,
@@ -39,6 +41,10 @@ constexpr std::string_view name_of(LimitName limit) {
             return "formats";
         case LimitName::formats_per_name:
             return "formats_per_name";
+        case LimitName::snapshots:
+            return "snapshots";
+        case LimitName::snapshots_per_name:
+            return "snapshots_per_name";
         case LimitName::frames_per_second:
             return "frames_per_second";
         case LimitName::frames_per_second_per_name:

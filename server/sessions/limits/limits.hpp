@@ -20,6 +20,9 @@ struct Limits {
     std::uint32_t watchers_per_session = 64;
     /// Of all watchers of a session: each is encoded once for each frame; see WatchForm.
     std::uint32_t formats_per_session = 8;
+    /// Snapshots under way at a time, and those of one name.
+    std::uint32_t snapshots = 16;
+    std::uint32_t snapshots_per_name = 8;
     /// Connections to the gRPC port, as far as the process's descriptors are enough.
     std::uint32_t connections = 4096;
     /// Connections from one address to one port; not of loopback, Unix sockets and trusted proxies.
@@ -54,6 +57,8 @@ struct Limits {
     std::chrono::milliseconds idle_time{0};
     /// A session whose simulator has vanished without a word ends after it, unless it is watched or resumed.
     std::chrono::milliseconds orphan_time{0};
+    /// An ephemeral session without a stream ends after it.
+    std::chrono::milliseconds ephemeral_time{5'000};
     /// Of one message as it arrives; at least that of a full chunk.
     std::size_t message_bytes = std::size_t{4} << 20;
 };

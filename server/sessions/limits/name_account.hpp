@@ -44,7 +44,8 @@ public:
     }
     const std::shared_ptr<NameInFlight>& in_flight() const noexcept { return in_flight_; }
 
-    std::atomic<std::uint32_t> ending{0};  ///< sessions that were removed, and whose threads may run still
+    std::atomic<std::uint32_t> ending{0};     ///< sessions that were removed, and whose threads may run still
+    std::atomic<std::uint32_t> snapshots{0};  ///< under way
 
 private:
     const std::string name_;

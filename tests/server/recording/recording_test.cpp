@@ -106,6 +106,54 @@ TEST_F(RecordedSession, GivesTheSameMeshesWhenItIsReplayed) {
     expect_meshes_of_all_frames(Recording(directory_ / "replayed" / session / "000001.recording"));
 }
 
+TEST_F(RecordedSession, KeepsItsNameAndIsReplayedUnderItOrAnother) {
+    const client::SessionDescription named{.name = "w\u00e4ve", .up_axis = client::UpAxis::z, .length_unit = "mm"};
+    const std::string id = client::new_session_id();
+    std::filesystem::path recorded = directory_ / "recorded" / id / "000001.recording";
+    {
+        RunningServer running(recorded_in(folder("recorded")));
+        running.client.create_session(id, settings(), {.description = named});
+        auto stream = running.client.stream(id);
+        stream.push(frames()[0].view(), 0, 0.0);
+        stream.finish();
+        while (stream.next()) {
+        }
+        EXPECT_EQ(running.client.recordings().at(0).description.name, named.name);
+        EXPECT_EQ(running.client.recordings().at(0).description.length_unit, "mm");
+    }
+    EXPECT_EQ(Recording(recorded).description().name, named.name);
+    EXPECT_EQ(Recording(recorded).description().up_axis, client::UpAxis::z);
+    const auto replayed_as = [&](std::vector<std::string> more) {
+        const std::string session = client::new_session_id();
+        RunningServer other(recorded_in(folder("replayed")));
+        std::vector<std::string> arguments{"replay",    recorded.string(), "--server", other.server.address(),
+                                           "--session", session,           "--speed",  "max"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(meniscus(arguments), 0);
+        other.server.shutdown();
+        return Recording(directory_ / "replayed" / session / "000001.recording").description();
+    };
+    EXPECT_EQ(replayed_as({}).name, named.name);
+    EXPECT_EQ(replayed_as({}).length_unit, "mm");
+    EXPECT_EQ(replayed_as({"--name", "again"}).name, "again");
+    EXPECT_EQ(replayed_as({"--name", "again"}).up_axis, client::UpAxis::z);
+}
+
+TEST_F(RecordedSession, HasNoNameWhereTheFileHasOneThatNoSessionHas) {
+    const auto file = record();
+    v1::SessionDescription hostile;
+    hostile.set_name("a\x1b[2J");
+    const std::string id = client::new_session_id();
+    const auto folder_of_it = file.parent_path().parent_path() / id;
+    std::filesystem::create_directory(folder_of_it);
+    std::ofstream(folder_of_it / "000001.recording", std::ios::binary)
+        << recording_begin(id, settings(), 1, "", hostile);
+    EXPECT_EQ(Recording(folder_of_it / "000001.recording").description().name, "");
+    RunningServer running(recorded_in(file.parent_path().parent_path()));
+    for (const client::RecordingInfo& recording : running.client.recordings())
+        EXPECT_EQ(recording.description.name, "") << recording.session_id;
+}
+
 TEST_F(RecordedSession, ReplaysTheFramesThatAreAskedFor) {
     const auto recorded = record();
     const std::string session = client::new_session_id();

@@ -169,7 +169,7 @@ TEST(FrameOfARealSession, IsStoppedAfterItsTimeAndTheNextIsAnswered) {
     Settings settings = test::settings();
     settings.cell_size = 0.1;
     SessionRegistry registry({.work_per_frame = 0.0, .frame_time = milliseconds(300)}, {.backend = Backend::cpu}, 1);
-    const auto session = registry.create(id, settings);
+    const auto session = registry.create(id, settings).session;
     Simulator simulator(*session, {});
     const auto start = std::chrono::steady_clock::now();
     simulator.send(0, fine);
@@ -185,7 +185,7 @@ TEST(FrameOfARealSession, IsStoppedAfterItsTimeAndTheNextIsAnswered) {
 
 TEST(FrameOfARealSession, ThatIsRefusedKeepsTheSurfaceForTheWatcherOfACoarserLevel) {
     SessionRegistry registry({}, {.backend = Backend::cpu}, 1);
-    const auto session = registry.create(id, test::settings());
+    const auto session = registry.create(id, test::settings()).session;
     Simulator simulator(*session, {});
     simulator.send(0, test::wave(6, 0.0));
     test::Particles bad = test::wave(6, 0.0);

@@ -68,9 +68,9 @@ struct IdleBuffersOfASession : testing::Test {
     const BackendOptions cpu{.backend = Backend::cpu, .threads = 1};
     SessionRegistry registry{Limits{}, cpu, 1};
     SessionRegistry other_registry{Limits{}, cpu, 1};
-    const std::shared_ptr<Session> session = registry.create(session_id(1), test::settings());
+    const std::shared_ptr<Session> session = registry.create(session_id(1), test::settings()).session;
     /// It never gives its buffers back.
-    const std::shared_ptr<Session> other = other_registry.create(session_id(1), test::settings());
+    const std::shared_ptr<Session> other = other_registry.create(session_id(1), test::settings()).session;
     const test::Particles particles = test::wave(6, 0.0);
     /// The newest particles.
     const std::size_t kept = particles.positions.size() * sizeof(float);
@@ -164,7 +164,7 @@ TEST_F(IdleBuffersOfASession, AreGivenBackAfterAFrameThatWasRefused) {
 TEST(IdleBuffers, AreGivenBackAfterTheTimeOfTheLimit) {
     SessionRegistry registry{Limits{.idle_buffers_time = std::chrono::milliseconds(20)},
                              BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
-    const auto session = registry.create(session_id(1), test::settings());
+    const auto session = registry.create(session_id(1), test::settings()).session;
     const test::Particles particles = test::wave(4, 0.0);
     send(*session, 0, particles);
     const std::size_t kept = particles.positions.size() * sizeof(float);
@@ -178,13 +178,13 @@ TEST(IdleBuffers, OfLargeSessionsMakeRoomForSmallOnes) {
     std::size_t bytes_of_large = 0;
     {
         SessionRegistry alone{Limits{}, cpu, 1};
-        const auto session = alone.create(session_id(0), test::settings());
+        const auto session = alone.create(session_id(0), test::settings()).session;
         send(*session, 0, large);
         bytes_of_large = alone.reconstruction_bytes();
     }
     SessionRegistry registry{Limits{.sessions = 16, .total_bytes = 2 * bytes_of_large}, cpu, 1};
     std::vector<std::shared_ptr<Session>> sessions;
-    for (int i = 0; i < 16; ++i) sessions.push_back(registry.create(session_id(i), test::settings()));
+    for (int i = 0; i < 16; ++i) sessions.push_back(registry.create(session_id(i), test::settings()).session);
     for (std::uint64_t frame = 0; frame < 3; ++frame)
         for (std::size_t i = 0; i < sessions.size(); ++i) {
             send(*sessions[i], frame, i < 6 ? large : small);
@@ -195,7 +195,7 @@ TEST(IdleBuffers, OfLargeSessionsMakeRoomForSmallOnes) {
 
 TEST(IdleBuffers, CannotMakeRoomForASessionThatIsTooLargeAlone) {
     SessionRegistry registry{Limits{.total_bytes = 100'000}, BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
-    const auto session = registry.create(session_id(1), test::settings());
+    const auto session = registry.create(session_id(1), test::settings()).session;
     Simulator simulator(*session, {});
     simulator.send(0, test::wave(16, 0.0));
     simulator.receive_all();

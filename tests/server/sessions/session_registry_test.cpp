@@ -24,7 +24,7 @@ struct Registry : testing::Test {
 };
 
 TEST_F(Registry, JoinsASessionWithEqualSettings) {
-    EXPECT_EQ(registry.create(first_id, test::settings()), registry.create(first_id, test::settings()));
+    EXPECT_EQ(registry.create(first_id, test::settings()).session, registry.create(first_id, test::settings()).session);
     EXPECT_EQ(registry.list().size(), 1U);
 }
 
@@ -41,7 +41,7 @@ TEST_F(Registry, RefusesOtherSettingsUnderTheSameId) {
 }
 
 TEST_F(Registry, RefusesSessionsPastTheLimitUntilOneIsRemoved) {
-    const auto first = registry.create(first_id, test::settings());
+    const auto first = registry.create(first_id, test::settings()).session;
     registry.create(second_id, test::settings());
     EXPECT_THROW(registry.create(third_id, test::settings()), LimitExceeded);
     EXPECT_NO_THROW(registry.create(second_id, test::settings()));
@@ -57,31 +57,31 @@ TEST_F(Registry, ListsSessionsInTheOrderOfTheirIds) {
 }
 
 TEST_F(Registry, KnowsNoSessionThatWasRemoved) {
-    const auto first = registry.create(first_id, test::settings());
+    const auto first = registry.create(first_id, test::settings()).session;
     registry.remove(first);
     EXPECT_THROW(registry.find(first_id), Refusal);
     EXPECT_THROW(registry.remove(first), Refusal);
 }
 
 TEST_F(Registry, RemovesTheSessionThatWasMeantAndNotItsSuccessorOfTheSameId) {
-    const auto first = registry.create(first_id, test::settings());
+    const auto first = registry.create(first_id, test::settings()).session;
     registry.remove(first);
-    const auto successor = registry.create(first_id, test::settings());
+    const auto successor = registry.create(first_id, test::settings()).session;
     EXPECT_THROW(registry.remove(first), Refusal);
     EXPECT_EQ(registry.find(first_id), successor);
 }
 
 TEST_F(Registry, ForgetsASessionThatEndedByItself) {
-    const auto ended = registry.create(first_id, test::settings());
+    const auto ended = registry.create(first_id, test::settings()).session;
     registry.create(second_id, test::settings());
     ended->close();
     EXPECT_THROW(registry.find(first_id), Refusal);
     EXPECT_EQ(registry.list().size(), 1U);
-    EXPECT_NE(registry.create(first_id, test::settings()), ended);
+    EXPECT_NE(registry.create(first_id, test::settings()).session, ended);
 }
 
 TEST_F(Registry, FreesTheMemoryOfADeletedSessionThatACallStillHolds) {
-    const auto session = registry.create(first_id, test::settings());
+    const auto session = registry.create(first_id, test::settings()).session;
     test::Simulator simulator(*session, {.receive_meshes = true});
     simulator.send(0, test::wave(6, 0.0));
     simulator.end();
@@ -92,7 +92,7 @@ TEST_F(Registry, FreesTheMemoryOfADeletedSessionThatACallStillHolds) {
 }
 
 TEST_F(Registry, TakesNoSessionsWhileItDrains) {
-    const auto session = registry.create(first_id, test::settings());
+    const auto session = registry.create(first_id, test::settings()).session;
     registry.drain(std::chrono::seconds(1));
     EXPECT_THROW(registry.create(second_id, test::settings()), Refusal);
     EXPECT_THROW(session->open_upload(
@@ -105,7 +105,7 @@ TEST(IdleRegistry, ForgetsASessionThatNobodyHasUsedForAsLongAsTheLimitSaysAndNon
     constexpr auto limit = std::chrono::hours(1);
     SessionRegistry registry{Limits{.idle_time = limit}, BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
     const auto before = Clock::now();
-    const auto used = registry.create(first_id, test::settings());
+    const auto used = registry.create(first_id, test::settings()).session;
     const auto upload = used->open_upload(
         {}, [] {}, [] {});
     registry.create(second_id, test::settings());
@@ -144,12 +144,12 @@ struct BusyRegistry : testing::Test {
 };
 
 TEST_F(BusyRegistry, LetsDeletedSessionsEndWhoseFramesWaitForTheDevice) {
-    const auto busy = registry.create(first_id, test::settings());
+    const auto busy = registry.create(first_id, test::settings()).session;
     test::Simulator holds(*busy, {});
     holds.send(0, particles);
     while (begun == 0) std::this_thread::yield();
     for (int i = 0; i < 50; ++i) {
-        auto session = registry.create(second_id, test::settings());
+        auto session = registry.create(second_id, test::settings()).session;
         auto waiting = std::make_unique<test::Simulator>(*session, UploadOptions{});
         waiting->send(0, particles);
         registry.remove(session);
@@ -162,7 +162,7 @@ TEST_F(BusyRegistry, LetsDeletedSessionsEndWhoseFramesWaitForTheDevice) {
 }
 
 TEST_F(BusyRegistry, GivesTheBytesOfADeletedSessionsFramesToOthers) {
-    const auto session = registry.create(first_id, test::settings());
+    const auto session = registry.create(first_id, test::settings()).session;
     std::exception_ptr told;
     InputFrame* lent = nullptr;
     const auto upload = session->open_upload(
@@ -194,12 +194,12 @@ TEST_F(BusyRegistry, GivesTheBytesOfADeletedSessionsFramesToOthers) {
 TEST_F(BusyRegistry, CountsDeletedSessionsThatHaveNotEnded) {
     std::vector<std::unique_ptr<test::Simulator>> simulators;
     // Each has the device when it is deleted, one after the other; none of them can be stopped.
-    const auto first = registry.create(first_id, test::settings());
+    const auto first = registry.create(first_id, test::settings()).session;
     simulators.push_back(std::make_unique<test::Simulator>(*first, UploadOptions{}));
     simulators.back()->send(0, particles);
     while (begun == 0) std::this_thread::yield();
     registry.remove(first);
-    for (int i = 0; i < 7; ++i) registry.remove(registry.create(second_id, test::settings()));
+    for (int i = 0; i < 7; ++i) registry.remove(registry.create(second_id, test::settings()).session);
     EXPECT_THROW(registry.create(second_id, test::settings()), LimitExceeded) << "eight are about to end";
     gate.release();
     for (bool refused = true; refused;) {
@@ -217,7 +217,8 @@ TEST_F(BusyRegistry, GivesTurnsToCallersHoweverManySessionsEachHas) {
     std::vector<std::unique_ptr<test::Simulator>> simulators;
     std::vector<std::shared_ptr<Session>> sessions;
     const auto send = [&](const char* id, const std::string& name) {
-        sessions.push_back(registry.create(id, test::settings(), {.name = name, .account = registry.account(name)}));
+        sessions.push_back(
+            registry.create(id, test::settings(), {.name = name, .account = registry.account(name)}).session);
         simulators.push_back(std::make_unique<test::Simulator>(*sessions.back(), UploadOptions{}));
         simulators.back()->send(0, particles);
     };
@@ -241,7 +242,7 @@ TEST(SharedRegistry, HoldsASharesWorthOfSessionsForEachCaller) {
     SessionRegistry registry{Limits{.sessions = 4, .per_name = {.sessions = 2}},
                              BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
     const auto create = [&](const char* id, const std::string& name, const OwnShares& own = {}) {
-        return registry.create(id, test::settings(), {.name = name, .account = registry.account(name, own)});
+        return registry.create(id, test::settings(), {.name = name, .account = registry.account(name, own)}).session;
     };
     const auto first = create(first_id, "ada");
     create(second_id, "ada");
@@ -262,16 +263,16 @@ TEST(OrphanedRegistry, ForgetsASessionWhoseSimulatorVanishedUnlessItIsWatchedOrR
         return session.open_upload(
             {.run_id = 7}, [] {}, [] {});
     };
-    const auto vanish = [&](Session& session) { session.cancel_upload(open(session), true); };
-    const auto watched = registry.create(first_id, test::settings());
+    const auto vanish = [&](Session& session) { session.cancel_upload(open(session), UploadEnd::vanished); };
+    const auto watched = registry.create(first_id, test::settings()).session;
     vanish(*watched);
     const auto watch = watched->open_watch({}, [] {});
-    const auto resumed = registry.create(second_id, test::settings());
+    const auto resumed = registry.create(second_id, test::settings()).session;
     vanish(*resumed);
     const auto again = open(*resumed);
-    const auto ended = registry.create(third_id, test::settings());
+    const auto ended = registry.create(third_id, test::settings()).session;
     ended->cancel_upload(open(*ended));
-    const auto orphaned = registry.create("00000000-0000-4000-8000-000000000004", test::settings());
+    const auto orphaned = registry.create("00000000-0000-4000-8000-000000000004", test::settings()).session;
     vanish(*orphaned);
     registry.end_idle(Clock::now() + limit / 2);
     EXPECT_EQ(registry.list().size(), 4U);

@@ -1,4 +1,5 @@
 // Streams that are refused as they are opened: ids, wishes, sessions that are not there or not free.
+#include <limits>
 #include <utility>
 
 #include "rpc/bad_input/case.hpp"
@@ -77,7 +78,18 @@ std::vector<BadInputCase> open_cases() {
             open.set_nth(nth);
         });
     };
+    const auto reconnect = [](double seconds) {
+        return open_with([=](v1::StreamOpen& open) { open.set_reconnect_seconds(seconds); });
+    };
+    constexpr double endless = std::numeric_limits<double>::infinity();
     return {
+        {"ATryToComeBackForALifetime", ok, "", reconnect(1e300)},
+        {"ATryToComeBackForLessThanNoTime", invalid, "reconnect_seconds is -1; it must be finite and at least 0",
+         reconnect(-1.0)},
+        {"ATryToComeBackForEver", invalid, "reconnect_seconds is inf; it must be finite and at least 0",
+         reconnect(endless)},
+        {"ATryToComeBackForATimeThatIsNoNumber", invalid, "reconnect_seconds is nan; it must be finite",
+         reconnect(std::numeric_limits<double>::quiet_NaN())},
         {"NoNormals", ok, "", normal_bits(0)},
         {"OneNormalBit", invalid, "normal_bits is 1; it must be 0 (no normals) or 2 to 16", normal_bits(1)},
         {"TwoNormalBits", ok, "", normal_bits(2)},

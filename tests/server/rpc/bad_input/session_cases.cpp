@@ -35,6 +35,17 @@ std::function<grpc::Status(RunningServer&)> settings_with(std::function<void(v1:
     };
 }
 
+/// The same, with this change of its description.
+std::function<grpc::Status(RunningServer&)> description_with(std::function<void(v1::SessionDescription&)> change) {
+    return [change = std::move(change)](RunningServer& running) {
+        v1::CreateSessionRequest request;
+        request.set_id(client::new_session_id());
+        *request.mutable_settings() = conversion::to_wire(settings());
+        change(*request.mutable_description());
+        return create(running, request.id(), request);
+    };
+}
+
 /// The same, with this field and nothing of another.
 std::function<grpc::Status(RunningServer&)> field_with(v1::Field field, std::function<void(v1::Settings&)> change) {
     return settings_with([=, change = std::move(change)](v1::Settings& s) {
@@ -125,7 +136,28 @@ std::vector<BadInputCase> session_cases() {
             s.mutable_domain()->mutable_max()->set_z(1.0);
         });
     };
+    const auto name = [](const std::string& text) {
+        return description_with([=](v1::SessionDescription& d) { d.set_name(text); });
+    };
+    const auto unit = [](const std::string& text) {
+        return description_with([=](v1::SessionDescription& d) { d.set_length_unit(text); });
+    };
     return {
+        {"TheLongestNameOfASession", ok, "", name(std::string(64, 'a'))},
+        {"ANameOfASessionThatIsTooLong", invalid, "it must be 1 to 64 characters of UTF-8", name(std::string(65, 'a'))},
+        {"ANameOfASessionOfAMegabyte", grpc::StatusCode::RESOURCE_EXHAUSTED, "bytes; at most 65536 are taken",
+         name(std::string(1 << 20, 'a'))},
+        {"ANameOfASessionThatMovesTheCursor", invalid, "description.name is \"a\\u{001b}[2J\"; it must be",
+         name("a\x1b[2J")},
+        {"ANameOfASessionThatEndsItsLine", invalid, "and has \\u{000a}", name("a\nb")},
+        {"ANameOfASessionThatRunsBackward", invalid, "and has \\u{202e}", name("a\u202egnp.exe")},
+        {"ANameOfASessionThatCannotBeSeen", invalid, "it must have a character that can be seen", name(" ")},
+        {"ANameOfASessionThatIsNotUtf8", invalid, "is not a CreateSessionRequest", name("a\xff")},
+        {"TheLongestUnit", ok, "", unit(std::string(16, 'm'))},
+        {"AUnitThatIsTooLong", invalid, "description.length_unit is \"mmmmmmmmmmmmmmmmm\"; it must be 1 to 16",
+         unit(std::string(17, 'm'))},
+        {"AnUnknownUpAxis", invalid, "description.up_axis has the value 4, which this version does not know",
+         description_with([](v1::SessionDescription& d) { d.set_up_axis(static_cast<v1::UpAxis>(4)); })},
         {"NoSettings", invalid, "particle radius is 0, must be finite and greater than 0",
          settings_with([](v1::Settings& s) { s.Clear(); })},
         {"ARadiusBelowZero", invalid, "particle radius is -1, must be finite and greater than 0", radius_of(-1.0)},

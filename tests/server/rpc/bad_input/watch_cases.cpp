@@ -38,6 +38,13 @@ grpc::Status watch(RunningServer& running, const std::string& session, const v1:
     return watch(running, session, *connection.surfaces->WatchParticles(&context, request));
 }
 
+grpc::Status watch(RunningServer& running, const std::string& session, const v1::SnapshotRequest& request) {
+    const client::Connection connection = connect(running);
+    grpc::ClientContext context;
+    client::add_session_id(context, session);
+    return watch(running, session, *connection.surfaces->Snapshot(&context, request));
+}
+
 /// Watches a new session, with this wish.
 template <class Request>
 std::function<grpc::Status(RunningServer&)> wish(std::function<void(Request&)> change) {
@@ -56,6 +63,10 @@ std::function<grpc::Status(RunningServer&)> wish(std::function<void(v1::WatchReq
 
 std::function<grpc::Status(RunningServer&)> wish_for_particles(std::function<void(v1::WatchParticlesRequest&)> change) {
     return wish<v1::WatchParticlesRequest>(std::move(change));
+}
+
+std::function<grpc::Status(RunningServer&)> wish_for_snapshot(std::function<void(v1::SnapshotRequest&)> change) {
+    return wish<v1::SnapshotRequest>(std::move(change));
 }
 
 /// Watches a session that has this many watchers already.
@@ -146,6 +157,27 @@ std::vector<BadInputCase> watch_cases() {
         {"AsManyWatchersOfParticlesAsTheLimit", ok, "", beside<v1::WatchParticlesRequest>(1)},
         {"AWatcherOfParticlesPastTheLimit", grpc::StatusCode::RESOURCE_EXHAUSTED,
          "has 2 watchers; the server takes at most 2 per session", beside<v1::WatchParticlesRequest>(2)},
+        {"ASnapshotOfASessionFullOfWatchers", ok, "", beside<v1::SnapshotRequest>(2)},
+        {"ASnapshotOfTheLevelZeroOfGrid", invalid, "max_level is 0; it must be 1 to 3, or not set",
+         wish_for_snapshot([](v1::SnapshotRequest& request) { request.set_max_level(0); })},
+        {"ASnapshotOfPositionsFinerThanTheMesh", invalid, "position_bits is 7; it must be 2 to 6",
+         wish_for_snapshot([](v1::SnapshotRequest& request) { request.set_position_bits(7); })},
+        {"ASnapshotWithSeventeenNormalBits", invalid, "normal_bits is 17; it must be 0 (no normals) or 2 to 16",
+         wish_for_snapshot([](v1::SnapshotRequest& request) { request.set_normal_bits(17); })},
+        {"ASnapshotOfACodecOfTheFuture", invalid, "codecs has the value 2, which this version does not offer",
+         wish_for_snapshot([](v1::SnapshotRequest& request) { request.add_codecs(static_cast<v1::Codec>(2)); })},
+        {"ASnapshotOfAnotherSessionThanTheMetadataSays", invalid, "but the message's session id is " + no_session,
+         wish_for_snapshot([](v1::SnapshotRequest& request) { request.set_session_id(no_session); })},
+        {"ASnapshotOfNoSession", grpc::StatusCode::NOT_FOUND, "no session " + no_session,
+         [](RunningServer& running) {
+             v1::SnapshotRequest request;
+             request.set_session_id(no_session);
+             return watch(running, no_session, request);
+         }},
+        {"ARequestForASnapshotThatIsNoMessage", invalid, "is not a SnapshotRequest",
+         wish_for_snapshot([](v1::SnapshotRequest& request) {
+             request = with_raw_field<v1::SnapshotRequest>(v1::SnapshotRequest::kSessionIdFieldNumber, "\xff\xfe");
+         })},
         {"AsManyParticlesAsThereAreNumbers", ok, "", wish_for_particles([](v1::WatchParticlesRequest& request) {
              request.set_max_particles(std::numeric_limits<std::uint64_t>::max());
          })},

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ public:
     /// The session must exist.
     Stream stream(const std::string& session_id, const StreamOptions& options = {});
     Watcher watch(const std::string& session_id, const WatchOptions& options = {});
+    /// The session's newest mesh; none if no frame has come yet. Throws InvalidInput, LimitExceeded where too many
+    /// snapshots are under way, or ServerError.
+    std::optional<ReceivedFrame> snapshot(const std::string& session_id, const SnapshotOptions& options = {});
     ParticleWatcher watch_particles(const std::string& session_id, const ParticleWatchOptions& options);
     ParticleWatcher watch_particles(const std::string& session_id, std::uint64_t max_particles = 0,
                                     std::chrono::milliseconds reconnect = {});

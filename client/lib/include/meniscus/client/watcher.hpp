@@ -38,6 +38,13 @@ struct WatchOptions {
     std::stop_token stop{};  ///< when a stop is requested: as cancel()
 };
 
+/// How a session's newest mesh is wished for; as in WatchOptions.
+struct SnapshotOptions {
+    int normal_bits = 8;
+    std::optional<int> position_bits{};
+    int max_level = 3;
+};
+
 /// Receives a session's meshes, always the newest; frames that came while the caller was busy are skipped by the
 /// server. All but cancel() belongs to one thread.
 class Watcher {

@@ -1,0 +1,60 @@
+#include "cli/options/session_flags.hpp"
+
+#include <CLI/CLI.hpp>
+#include <vector>
+
+#include "cli/options/option_group.hpp"
+#include "description/label.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+/// require: throws InvalidInput for a text that it does not take.
+template <class Require>
+CLI::Validator checked_by(Require require) {
+    return {[require](std::string& text) -> std::string {
+                try {
+                    require(text);
+                    return {};
+                } catch (const InvalidInput& error) {
+                    return error.what();
+                }
+            },
+            ""};
+}
+
+}  // namespace
+
+void SessionFlags::add_to(CLI::App& command, CLI::Option& server) {
+    using client::UpAxis;
+    const OptionGroup group(command, session_heading);
+    command
+        .add_option("--session", id,
+                    "With --server: UUID of the session to create, or to join if it is there (default: a new one)")
+        ->type_name("UUID")
+        ->needs(&server);
+    command.add_option("--name", description.name, "With --server: what people call the session, 1 to 64 characters")
+        ->check(checked_by([](const std::string& text) { description::require_name(text); }))
+        ->needs(&server);
+    command
+        .add_option_function<std::string>(
+            "--up-axis",
+            [this](const std::string& name) {
+                for (const UpAxis axis : {UpAxis::x, UpAxis::y, UpAxis::z})
+                    if (name_of(axis) == name) description.up_axis = axis;
+            },
+            "With --server: the axis that viewers show upright")
+        ->type_name("AXIS")
+        ->check(CLI::IsMember(std::vector<std::string>{"x", "y", "z"}))
+        ->needs(&server);
+    command
+        .add_option("--length-unit", description.length_unit,
+                    "With --server: unit of the coordinates, such as m, 1 to 16 characters")
+        ->check(checked_by([](const std::string& text) { description::require_length_unit(text); }))
+        ->needs(&server);
+    command.add_flag("--keep-session", keep, "With --server: leave the session, and its last surface, on the server")
+        ->needs(&server);
+}
+
+}  // namespace meniscus::cli

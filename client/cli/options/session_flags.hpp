@@ -1,0 +1,25 @@
+// The flags that say which session to open on a server, and what people call it.
+#pragma once
+
+#include <string>
+
+#include "meniscus/client/client.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace meniscus::cli {
+
+/// --session, --name, --up-axis, --length-unit and --keep-session.
+struct SessionFlags {
+    std::string id;  ///< empty: a new one
+    client::SessionDescription description;
+    bool keep = false;
+
+    /// server: the option that they need.
+    void add_to(CLI::App& command, CLI::Option& server);
+};
+
+}  // namespace meniscus::cli
