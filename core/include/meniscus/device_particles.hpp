@@ -7,6 +7,7 @@
 namespace meniscus {
 
 /// The arrays lie in memory of the reconstructor's GPU, device or managed, and stay as they are until the call returns.
+/// No warning is given for a radius that does not fit their spacing.
 struct DeviceParticleFrame {
     const float* positions = nullptr;      ///< x y z per particle, world units
     std::size_t count = 0;                 ///< particles

@@ -221,7 +221,7 @@ TEST(CInProcess, RefusesWrongOptionsNamingValueAndLimit) {
         {{{"domain", "0 0 0 1 1"}}, "option 'domain' is '0 0 0 1 1', must be 6 numbers"},
         {{{"domain", "0 0 0 1 1 1 1"}}, "must be 6 numbers"},
         {{{"domain", "0 0 0 1 1 -1"}}, "domain runs from 0 to -1 along z"},
-        {{{"threads", "4000000000"}}, "4000000000 threads were asked for, at most 4096"},
+        {{{"threads", "4000000000"}}, "the threads are 4000000000, must be at most 1024"},
         {{{"backend", "gpu"}}, "option 'backend' is 'gpu', must be auto, cpu or cuda"},
     };
     for (const Case& c : cases) {
