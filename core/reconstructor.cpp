@@ -20,16 +20,6 @@
 namespace meniscus {
 namespace {
 
-ParticlesByLevel count_levels(const ParticleFrame& frame) {
-    ParticlesByLevel particles{frame.count()};
-    for (unsigned level = 1; level <= max_particle_level && !frame.levels.empty(); ++level) {
-        const auto of_level = std::count(frame.levels.begin(), frame.levels.end(), static_cast<std::uint8_t>(level));
-        particles[level] = static_cast<std::uint64_t>(of_level);
-        particles[0] -= particles[level];
-    }
-    return particles;
-}
-
 /// A particle of level k stands for a cube of twice its radius: 8^k times that of level 0. World units cubed.
 double volume_of(const ParticlesByLevel& particles, const Settings& settings) {
     std::uint64_t cubes = 0;

@@ -1,6 +1,7 @@
 // A frame, and the memory in which its arrays lie.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -18,5 +19,16 @@ struct PlacedFrame {
 
 /// Particles of each level.
 using ParticlesByLevel = std::array<std::uint64_t, max_particle_level + 1>;
+
+/// Of a frame in host memory.
+inline ParticlesByLevel count_levels(const ParticleFrame& frame) {
+    ParticlesByLevel particles{frame.count()};
+    for (unsigned level = 1; level <= max_particle_level && !frame.levels.empty(); ++level) {
+        const auto of_level = std::count(frame.levels.begin(), frame.levels.end(), static_cast<std::uint8_t>(level));
+        particles[level] = static_cast<std::uint64_t>(of_level);
+        particles[0] -= particles[level];
+    }
+    return particles;
+}
 
 }  // namespace meniscus
