@@ -1,6 +1,6 @@
 #include "address/default_port.hpp"
 
-#include <arpa/inet.h>
+#include <algorithm>
 
 namespace meniscus::address {
 
@@ -11,8 +11,8 @@ std::string with_port(const std::string& address) {
 }
 
 bool is_bare_ipv6(const std::string& address) {
-    in6_addr ip{};
-    return ::inet_pton(AF_INET6, address.c_str(), &ip) == 1;
+    return std::count(address.begin(), address.end(), ':') > 1 &&
+           address.find_first_not_of("0123456789abcdefABCDEF:.") == address.npos;
 }
 
 }  // namespace meniscus::address

@@ -12,7 +12,7 @@ inline constexpr std::string_view default_port = "50051";
 /// "HOST" and "[IPV6]" with the default port; as it is what names a port, a Unix socket, or a scheme of gRPC's.
 std::string with_port(const std::string& address);
 
-/// Whether this is an IPv6 address without the brackets that would tell it from a port.
+/// Whether this looks like an IPv6 address without the brackets that would tell it from a port.
 bool is_bare_ipv6(const std::string& address);
 
 }  // namespace meniscus::address

@@ -43,6 +43,8 @@ std::vector<prometheus::MetricFamily> limit_gauges(const Limits& limits, const B
                           {"formats_per_name", number(limits.per_name.formats)},
                           {"connections", number(limits.connections)},
                           {"connections_per_peer", number(limits.connections_per_peer)},
+                          {"snapshots", number(limits.snapshots)},
+                          {"snapshots_per_name", number(limits.snapshots_per_name)},
                           {"recording_readers", number(limits.recording_readers)},
                           {"particles_per_frame", number(limits.particles_per_frame)},
                           {"chunks_per_frame", number(limits.chunks_per_frame)}}),

@@ -274,8 +274,8 @@ TEST_F(Cli, SimulatesAndWritesParticlesThatItReadsBack) {
 }
 
 TEST_F(Cli, WarnsInALineEachAndInTheFigures) {
-    const ProcessResult result =
-        run_meniscus(reconstruct({"--field", "density", "--cell-size", "2", "--iso", "9", "--stats", path("s.json")}));
+    const ProcessResult result = run_meniscus(
+        reconstruct({"-q", "--field", "density", "--cell-size", "2", "--iso", "9", "--stats", path("s.json")}));
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 2) << result.err;
     for (const std::string& words : {"meniscus: warning: " + in_ + ": the surface is empty: the greatest value",
@@ -292,14 +292,15 @@ TEST_F(Cli, WarnsInALineEachAndInTheFigures) {
 }
 
 TEST_F(Cli, SaysNothingOfAFrameThatFitsHoweverStrict) {
-    const ProcessResult result = run_meniscus(reconstruct({"--strict"}));
+    const ProcessResult result = run_meniscus(reconstruct({"-q", "--strict"}));
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "");
     EXPECT_EQ(stats({}).at("warnings"), nlohmann::json::array());
 }
 
 TEST_F(Cli, WhereStrictIsAskedForWarningsAreExitCode3AndAllIsWrittenAllTheSame) {
-    const ProcessResult result = run_meniscus(reconstruct({"--cell-size", "2", "--strict", "--stats", path("s.json")}));
+    const ProcessResult result =
+        run_meniscus(reconstruct({"-q", "--cell-size", "2", "--strict", "--stats", path("s.json")}));
     EXPECT_EQ(result.exit_code, 3);
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_FALSE(formats::read_mesh(out_).triangles.empty());

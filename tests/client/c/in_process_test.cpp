@@ -164,7 +164,10 @@ std::vector<std::pair<std::string, std::string>> documented_settings() {
     const std::regex row(R"(\| `--([a-z-]+)` \| ([^|]*)\|.*)");
     std::vector<std::pair<std::string, std::string>> settings;
     std::smatch match;
-    for (std::string line; std::getline(file, line) && line != "### Presets";)
+    std::string line;
+    while (std::getline(file, line) && line != "## Settings") {
+    }
+    while (std::getline(file, line) && line != "### Presets")
         if (std::regex_match(line, match, row)) settings.emplace_back(match[1], match[2]);
     return settings;
 }

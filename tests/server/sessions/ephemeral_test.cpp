@@ -23,7 +23,7 @@ constexpr auto orphaned = hours(100);
 
 struct EphemeralSession : testing::Test {
     explicit EphemeralSession(std::chrono::milliseconds orphan_time = orphaned)
-        : registry(Limits{.orphan_time = orphan_time, .ephemeral_time = kept},
+        : registry(Limits{.sessions = 1000, .orphan_time = orphan_time, .ephemeral_time = kept},
                    BackendOptions{.backend = Backend::cpu, .threads = 1}, 1) {}
 
     std::shared_ptr<Session> create() {

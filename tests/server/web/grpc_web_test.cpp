@@ -288,9 +288,10 @@ TEST(GrpcWeb, ServesExactlyTheMethodsWithoutSideEffects) {
     }
     const std::string watch_particles = "/meniscus.v1.SurfaceService/WatchParticles";
     const std::string list = "/meniscus.v1.SessionService/ListSessions";
-    EXPECT_EQ(served,
-              (std::set<std::string>{list_recordings, read_recording, info, get, list, watch, watch_particles}));
-    EXPECT_EQ(streams, (std::set<std::string>{read_recording, watch, watch_particles}));
+    const std::string snapshot = "/meniscus.v1.SurfaceService/Snapshot";
+    EXPECT_EQ(served, (std::set<std::string>{list_recordings, read_recording, info, get, list, snapshot, watch,
+                                             watch_particles}));
+    EXPECT_EQ(streams, (std::set<std::string>{read_recording, snapshot, watch, watch_particles}));
     EXPECT_FALSE(GrpcWeb{}.serves(info)) << "without a channel";
 }
 
