@@ -195,6 +195,7 @@ private:
 
     const ServerOptions options_;
     Access access_;
+    const FrameAncestors frame_ancestors_;
     const BackendDescription backend_;
     const ConnectionShares shares_;
     const Limits limits_;  ///< in force: connections as far as there are descriptors
@@ -222,6 +223,7 @@ private:
 Server::Impl::Impl(const ServerOptions& options)
     : options_((require_closed_to_others(options), options)),
       access_(options.tls, options.tokens, options.trusted_proxies),
+      frame_ancestors_(options.web_frame_ancestors),
       backend_(describe(options)),
       shares_(shares_of(options, backend_)),
       limits_(in_force(options.limits, shares_)),
@@ -333,7 +335,7 @@ void Server::Impl::serve_http_if_possible(const AllowedOrigins& origins) {
 std::unique_ptr<HttpServer> Server::Impl::open_http(const std::string& listen, const AllowedOrigins& origins) {
     const std::shared_ptr<const TlsContext> tls = access_.http_tls();
     Router router;
-    add_viewer_pages(router, FrameAncestors(options_.web_frame_ancestors));
+    add_viewer_pages(router, frame_ancestors_);
     add_observation(router);
     const GrpcWeb calls{.channel = grpc_->InProcessChannel({}),
                         .origins = origins,
