@@ -10,7 +10,8 @@ import { startReplay } from './support/recording.mjs';
 import { link, open, says, state, surface } from './support/viewer.mjs';
 
 const id = (n) => `00000000-0000-4000-8000-00000000000${n}`;
-const now = Date.now() * 1000;
+/** In microseconds, as the contract has times. */
+const now = () => Date.now() * 1000;
 /** As in session_service.proto. */
 const session = (n, name, uploading, createdAt) =>
   protobuf([1, id(n)], [3, Number(uploading)], [5, 12], [12, protobuf([1, name])], [13, createdAt]);
@@ -22,9 +23,9 @@ describe('the list', { skip: missing }, () => {
     const server = await startServer();
     const page = await open();
     const listed = [
-      session(1, hostile, false, now - 90e6),
-      session(2, arabic, true, now - 7200e6),
-      session(3, 'wave tank', false, now - 5e6),
+      session(1, hostile, false, now() - 90e6),
+      session(2, arabic, true, now() - 7200e6),
+      session(3, 'wave tank', false, now() - 5e6),
     ];
     await page.route('**/ListSessions', (route) =>
       route.fulfill(answer(protobuf(...listed.map((bytes) => [1, bytes])))),
@@ -47,7 +48,7 @@ describe('the list', { skip: missing }, () => {
     const entry = page.locator(`[data-session="${id(3)}"]`);
     await entry.focus();
     // The next list leaves the focus where it is, and its order does.
-    listed.push(session(4, 'new', true, now));
+    listed.push(session(4, 'new', true, now()));
     await page.locator(`[data-session="${id(4)}"]`).waitFor();
     assert.equal(await page.evaluate(() => document.activeElement.dataset.session), id(3));
     await entry.click();
