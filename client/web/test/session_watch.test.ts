@@ -198,6 +198,22 @@ describe('SessionWatch', () => {
     expect(server.calls.length > 1).toBe(kind === 'waiting' || kind === 'absent');
   });
 
+  it('keeps telling when the session ended, also to those who pause, and after the server was out of reach', async () => {
+    await server.last.send(...frame({ index: 1 }));
+    await server.last.end();
+    const ended = state();
+    expect(ended.kind).toBe('ended');
+    watch.setPaused(true);
+    expect(state()).toEqual(ended);
+    watch.setPaused(false);
+    expect(state()).toEqual(ended);
+    await server.last.end(unavailable);
+    expect(state().kind).toBe('waiting');
+    await vi.advanceTimersByTimeAsync(8000);
+    await server.last.end(new RpcError(Code.notFound, 'no such session'));
+    expect(state()).toEqual(ended);
+  });
+
   it('says that the session has ended, and shows it again when its simulator makes it again', async () => {
     await server.last.send(...frame({ index: 1 }));
     await server.last.end();

@@ -44,6 +44,12 @@ describe('thumbnails', () => {
     expect(asked).toEqual(['a', 'c']);
   });
 
+  it('are asked for of what was on the screen before its list came: of a tab that was opened behind others', () => {
+    see('b');
+    thumbnails.update(sessions(1, 1));
+    expect(asked).toEqual(['b']);
+  });
+
   it('are asked for again after ten seconds at the earliest, and only where there is a newer frame', async () => {
     thumbnails.update(sessions(1, 1));
     see('a', 'b');

@@ -2,13 +2,14 @@
 
 interface Entry {
   frames: bigint;
-  visible: boolean;
   /** When its picture was asked for last, and of how many frames the session was then. */
   asked: { readonly at: number; readonly frames: bigint } | undefined;
 }
 
 export class ThumbnailSchedule {
   private readonly entries = new Map<string, Entry>();
+  /** May be told before the list that has them. */
+  private readonly visible = new Set<string>();
 
   /** every: ms between two pictures of one session. */
   constructor(private readonly every: number) {}
@@ -16,17 +17,17 @@ export class ThumbnailSchedule {
   /** What the list holds now. */
   update(sessions: readonly { readonly id: string; readonly frames: bigint }[]): void {
     const ids = new Set(sessions.map(({ id }) => id));
-    for (const id of this.entries.keys()) if (!ids.has(id)) this.entries.delete(id);
+    for (const kept of [this.entries, this.visible]) for (const id of kept.keys()) if (!ids.has(id)) kept.delete(id);
     for (const { id, frames } of sessions) {
       const entry = this.entries.get(id);
       if (entry) entry.frames = frames;
-      else this.entries.set(id, { frames, visible: false, asked: undefined });
+      else this.entries.set(id, { frames, asked: undefined });
     }
   }
 
   setVisible(id: string, visible: boolean): void {
-    const entry = this.entries.get(id);
-    if (entry) entry.visible = visible;
+    if (visible) this.visible.add(id);
+    else this.visible.delete(id);
   }
 
   /** As if the session's picture had not been asked for; without one: all pictures. */
@@ -38,8 +39,8 @@ export class ThumbnailSchedule {
   next(now: number): string | undefined {
     let next: string | undefined;
     let longest = -1;
-    for (const [id, { frames, visible, asked }] of this.entries) {
-      if (!visible || frames === 0n || frames === asked?.frames) continue;
+    for (const [id, { frames, asked }] of this.entries) {
+      if (!this.visible.has(id) || frames === 0n || frames === asked?.frames) continue;
       const waited = asked ? now - asked.at : Infinity;
       if (waited < this.every || waited <= longest) continue;
       next = id;

@@ -46,8 +46,10 @@ export class SessionWatch {
   private paused = false;
   /** Whether nothing is tried any more. */
   private over = false;
-  /** Whether the session has ended: its simulator may make it again. */
-  private ended = false;
+  /** When the session ended, ms since 1970; its simulator may make it again. */
+  private endedAt: number | undefined;
+  /** What was told last. */
+  private told: WatchState['kind'] | undefined;
 
   constructor(
     private readonly server: WatchServer,
@@ -62,12 +64,13 @@ export class SessionWatch {
     this.stop();
     this.over = false;
     if (this.paused) {
-      this.events.state({ kind: 'paused' });
+      // An end stays one, also for those who look at what came before it.
+      if (!this.tellEnd()) this.tell({ kind: 'paused' });
       return;
     }
     const call = new AbortController();
     this.call = call;
-    if (!this.ended) this.events.state({ kind: 'connecting' });
+    if (this.endedAt === undefined) this.tell({ kind: 'connecting' });
     void this.run(call.signal);
   }
 
@@ -94,7 +97,7 @@ export class SessionWatch {
   private async run(signal: AbortSignal): Promise<void> {
     const receiver = new FrameReceiver();
     const opened = (): void => {
-      if (!signal.aborted && !this.ended) this.events.state({ kind: 'connected' });
+      if (!signal.aborted && (this.endedAt === undefined || this.told !== 'ended')) this.tell({ kind: 'connected' });
     };
     try {
       for await (const { message, bytes } of this.server.watch(
@@ -106,8 +109,8 @@ export class SessionWatch {
         this.take(receiver, message, bytes);
       }
       if (signal.aborted) return;
-      this.ended = true;
-      this.events.state({ kind: 'ended', at: Date.now() });
+      this.endedAt = Date.now();
+      this.tellEnd();
       this.scheduleRetry();
     } catch (error) {
       if (!signal.aborted) this.fail(error);
@@ -117,12 +120,12 @@ export class SessionWatch {
   private take(receiver: FrameReceiver, message: WatchResponse, bytes: number): void {
     this.events.received(bytes);
     if (message.message.case === 'draining') {
-      this.events.state({ kind: 'draining', seconds: message.message.value.seconds });
+      this.tell({ kind: 'draining', seconds: message.message.value.seconds });
       return;
     }
     if (message.message.case === 'meshBegin' && !receiver.begun) {
-      this.ended = false;
-      this.events.state({ kind: 'live' });
+      this.endedAt = undefined;
+      this.tell({ kind: 'live' });
     }
     const frame = receiver.take(message, bytes, performance.now());
     if (!frame) return;
@@ -140,25 +143,37 @@ export class SessionWatch {
       });
     else if (error.code === Code.unauthenticated || error.code === Code.permissionDenied)
       this.end({ kind: 'token', reason });
-    else if (error.code === Code.notFound && this.ended) this.scheduleRetry();
-    else if (error.code === Code.notFound) this.events.state({ kind: 'absent', retryAt: this.scheduleRetry(), reason });
-    else if (passing.has(error.code)) this.events.state({ kind: 'waiting', retryAt: this.scheduleRetry(), reason });
+    else if (error.code === Code.notFound && this.tellEnd()) this.scheduleRetry();
+    else if (error.code === Code.notFound) this.tell({ kind: 'absent', retryAt: this.scheduleRetry(), reason });
+    else if (passing.has(error.code)) this.tell({ kind: 'waiting', retryAt: this.scheduleRetry(), reason });
     else this.end({ kind: 'refused', reason });
   }
 
   /** When: on the page's clock, ms. */
   private scheduleRetry(): number {
     this.call = undefined;
-    const wait = (this.ended ? this.longBackoff : this.backoff).next();
+    const wait = (this.endedAt !== undefined ? this.longBackoff : this.backoff).next();
     this.retry = setTimeout(() => {
       this.start();
     }, wait);
     return performance.now() + wait;
   }
 
+  private tell(state: WatchState): void {
+    this.told = state.kind;
+    this.events.state(state);
+  }
+
+  /** Unless that is what was told last; a server that was out of reach meanwhile is not the last word. False: it has not ended. */
+  private tellEnd(): boolean {
+    if (this.endedAt === undefined) return false;
+    if (this.told !== 'ended') this.tell({ kind: 'ended', at: this.endedAt });
+    return true;
+  }
+
   private end(state: WatchState): void {
     this.call = undefined;
     this.over = true;
-    this.events.state(state);
+    this.tell(state);
   }
 }
