@@ -81,6 +81,14 @@ describe('the viewer in a page of others', { skip: missing }, () => {
       });
       assert.equal(kept, 0);
 
+      // The camera may be moved again and again: the water stays alone, and the server is not asked each time.
+      let asked = 0;
+      page.on('request', (request) => (asked += /(GetSession|Watch)$/.test(request.url()) ? 1 : 0));
+      for (let i = 0; i < 20; ++i) await page.evaluate((view) => window.frame.show(view), { session, camera, token });
+      assert.ok(asked < 10, `${asked} calls`);
+      for (const tool of ['scale', 'domain'])
+        assert.equal(await frame.getAttribute(`#${tool}`, 'aria-pressed'), 'false', tool);
+
       // A window that the viewer does not know says nothing to it, and hears nothing.
       await frame.evaluate(() =>
         window.postMessage({ meniscus: 'show', nonce: '', number: 9, session: '', token: '' }),

@@ -14,6 +14,10 @@ describe('a warning', { skip: missing }, () => {
     await warning.getByText(/^finest cells of .* are too large to show single particles/).waitFor();
     assert.equal(await warning.count(), 1);
     await screenshot(page, 'warning');
+    // The tools' panels, in the same corner, leave it to be read.
+    await page.keyboard.press('c');
+    const [above, below] = [await warning.boundingBox(), await page.locator('#cut-panel').boundingBox()];
+    assert.ok(above.y + above.height <= below.y, JSON.stringify([above, below]));
     await warning.getByRole('button').click();
     const drawn = await page.getAttribute('#view', 'data-frame');
     await page.waitForFunction((frame) => document.getElementById('view').dataset.frame !== frame, drawn);

@@ -55,6 +55,10 @@ export class App {
   private particles = false;
   /** From the link, for the first picture. */
   private linked: PageState = {};
+  /** Whether nothing is tried any more. */
+  private watchIsOver = false;
+  /** What the page around has handed over last cannot be. */
+  private handingFailed = false;
 
   constructor() {
     // In a frame there is none but the one that the page around hands over, and none stays.
@@ -222,12 +226,18 @@ export class App {
 
   private firstFrame(): void {
     this.inPlaceOfPicture('');
-    if (this.linked.camera) this.viewer.cameraPlace = this.linked.camera;
+    this.place(this.linked.camera);
+  }
+
+  /** camera: none where all of the water is to be in view. */
+  private place(camera: PageState['camera']): void {
+    if (camera) this.viewer.cameraPlace = camera;
     else this.viewer.fit();
   }
 
   private watchState(state: WatchState): void {
     this.canvas.dataset.state = state.kind;
+    this.watchIsOver = state.kind === 'token' || state.kind === 'refused';
     this.banner.watching(state);
     this.heading.watching(state);
     if (state.kind === 'ended' || state.kind === 'absent') {
@@ -281,6 +291,7 @@ export class App {
         this.showHanded(handed);
       },
       refused: (reason) => {
+        this.handingFailed = true;
         this.banner.say(reason);
       },
     });
@@ -289,15 +300,17 @@ export class App {
   private showHanded({ state, token }: HandedOver): void {
     const known = state.session === this.at.session && token === this.server.token;
     this.server.token = token;
-    if (!known || !this.screen.shown) {
+    if (!known || this.watchIsOver) {
       this.open(state);
       return;
     }
-    this.banner.say('');
+    // The watch goes on, and what it has told holds: a page may move the camera as often as it likes.
+    if (this.handingFailed) this.banner.say('');
+    this.handingFailed = false;
+    this.linked = state;
     this.setLook(state.look ?? 'water');
-    this.tools.open(state);
-    if (state.camera) this.viewer.cameraPlace = state.camera;
-    else this.viewer.fit();
+    this.tools.chooseUp(state.up);
+    if (this.screen.shown) this.place(state.camera);
   }
 
   private bindControls(): void {

@@ -2,6 +2,7 @@
 import { BesideView } from '../beside_view';
 import type { DecodePool } from '../decode/decode_pool';
 import type { Session } from '../gen/meniscus/v1/session_service_pb';
+import { givenName, shortId } from '../list/session_name';
 import type { Server } from '../rpc/server';
 import { explain } from '../rpc/status';
 import { element } from '../ui/page';
@@ -28,6 +29,10 @@ export class BesideTool {
   private made: { readonly pane: Pane; readonly view: BesideView } | undefined;
   private chosen: string | undefined;
   private first: string | undefined;
+  /** Of the sessions that were offered, by id. */
+  private names = new Map<string, string>();
+  /** What there is to say of the session that is shown. */
+  private said = '';
   private theme: Theme = 'light';
 
   constructor(
@@ -144,7 +149,9 @@ export class BesideTool {
   }
 
   private say(text: string): void {
-    this.title.textContent = [this.chosen ?? '', text].filter((part) => part !== '').join(': ');
+    this.said = text;
+    const name = this.chosen === undefined ? '' : (this.names.get(this.chosen) ?? this.chosen);
+    this.title.textContent = [name, text].filter((part) => part !== '').join(': ');
   }
 
   /** Fills the list of sessions. */
@@ -160,9 +167,12 @@ export class BesideTool {
     const none = reason !== '' ? reason : names.size === 0 ? 'There is no other session' : 'Choose a session';
     this.select.replaceChildren(new Option(none, ''), ...[...names].map(([id, name]) => new Option(name, id)));
     this.select.value = this.chosen ?? '';
+    this.names = names;
+    this.say(this.said);
   }
 }
 
-function nameOf({ id, description }: Session): string {
-  return description && description.name !== '' ? `${description.name} (${id.slice(0, 8)})` : id;
+function nameOf(session: Session): string {
+  const name = givenName(session);
+  return name === '' ? session.id : `${name} (${shortId(session.id)})`;
 }

@@ -138,8 +138,7 @@ export class Tools {
       element(id, HTMLButtonElement).addEventListener('click', action);
     this.upSelect.addEventListener('change', () => {
       if (!isAxis(this.upSelect.value)) return;
-      this.chosenUp = this.upSelect.value;
-      this.applyUp();
+      this.chooseUp(this.upSelect.value);
       this.viewer.fit();
       this.events.changed();
     });
@@ -159,6 +158,12 @@ export class Tools {
   /** Of the scene: what a person has chosen, or else what the session says. */
   get up(): UpAxis {
     return this.chosenUp ?? this.facts?.up ?? 'y';
+  }
+
+  /** None: what the session says. */
+  chooseUp(up: UpAxis | undefined): void {
+    this.chosenUp = up;
+    this.applyUp();
   }
 
   /** For the link. */

@@ -46,9 +46,9 @@ export function readLink(hash: string): PageState {
 
 function problemOf(session: string | null, recording: string | null): string | undefined {
   if (session !== null && !isSessionId(session))
-    return `This address names the session "${short(session)}", which cannot be: a session's name is a UUID, as 01234567-89ab-cdef-0123-456789abcdef. It may have been cut off.`;
+    return `This address names the session "${short(session)}", which cannot be: addresses have a session's id, a UUID, as 01234567-89ab-cdef-0123-456789abcdef. It may have been cut off.`;
   if (recording !== null && !readRecordingName(recording))
-    return `This address names the recording "${short(recording)}", which cannot be: a recording's name is a UUID and a number, as 01234567-89ab-cdef-0123-456789abcdef/1. It may have been cut off.`;
+    return `This address names the recording "${short(recording)}", which cannot be: addresses have its session's id and a number, as 01234567-89ab-cdef-0123-456789abcdef/1. It may have been cut off.`;
   return undefined;
 }
 
