@@ -44,6 +44,17 @@ describe('thumbnails', () => {
     expect(asked).toEqual(['a', 'c']);
   });
 
+  it('are asked for again where one has not come, also of a session that rests', async () => {
+    thumbnails.update(sessions(1));
+    see('a');
+    await under[0]!.end(new RpcError(Code.unavailable, 'busy'));
+    thumbnails.update(sessions(1));
+    expect(asked).toEqual(['a']);
+    now = thumbnailEvery;
+    thumbnails.update(sessions(1));
+    expect(asked).toEqual(['a', 'a']);
+  });
+
   it('are asked for of what was on the screen before its list came: of a tab that was opened behind others', () => {
     see('b');
     thumbnails.update(sessions(1, 1));

@@ -35,6 +35,12 @@ export class ThumbnailSchedule {
     for (const [id, entry] of this.entries) if (session === undefined || id === session) entry.asked = undefined;
   }
 
+  /** Its picture was asked for, and did not come: it falls due again in its time, also without a newer frame. */
+  missed(session: string): void {
+    const entry = this.entries.get(session);
+    if (entry?.asked) entry.asked = { at: entry.asked.at, frames: -1n };
+  }
+
   /** The session that has waited longest, of those that are due; it counts as asked for. now: ms. */
   next(now: number): string | undefined {
     let next: string | undefined;

@@ -56,6 +56,7 @@ export class Thumbnails {
       .catch((error: unknown) => {
         // After whatever else went wrong the next picture may come: the list tells of what concerns it as well.
         if (error instanceof RpcError && error.code === Code.unimplemented) this.none = true;
+        if (this.call === call) this.schedule.missed(session);
       })
       .then(() => {
         if (this.call !== call) return;
