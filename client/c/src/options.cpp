@@ -148,7 +148,12 @@ meniscus_result meniscus_options_set_number(meniscus_options* options, const cha
     return guarded([&] {
         auto& values = required(options, "options").values;
         std::array<char, 32> text{};  // the shortest that is read as the same number has 24 at most
-        std::to_chars(text.data(), text.data() + text.size() - 1, value);
+        char* const end = text.data() + text.size() - 1;
+        // The shortest form of a round number has an exponent, as 1e+09, which options of whole numbers refuse.
+        if (constexpr double first_inexact = 0x1p53; value == std::trunc(value) && std::abs(value) < first_inexact)
+            std::to_chars(text.data(), end, value, std::chars_format::fixed);
+        else
+            std::to_chars(text.data(), end, value);
         values.insert_or_assign(&required(name, "name"), text.data());
         return MENISCUS_OK;
     });

@@ -199,6 +199,20 @@ TEST(CInProcess, NumbersAreReadWhateverTheLocale) {
     std::setlocale(LC_NUMERIC, before.c_str());
 }
 
+TEST(CInProcess, RoundNumbersAreWholeOnes) {
+    auto options = options_of({{"backend", "cpu"}});
+    CReconstructor reconstructor;
+    for (const auto& [name, value] :
+         std::initializer_list<std::pair<const char*, double>>{{"particle-radius", 1e5},
+                                                               {"memory-limit", 1e9},
+                                                               {"memory-limit", 4503599627370496.0},
+                                                               {"threads", 10.0}}) {
+        EXPECT_EQ(meniscus_options_set_number(options.get(), name, value), MENISCUS_OK);
+        EXPECT_EQ(meniscus_reconstructor_create(options.get(), reconstructor.out()), MENISCUS_OK)
+            << meniscus_error_message();
+    }
+}
+
 TEST(CInProcess, RefusesWrongOptionsNamingValueAndLimit) {
     struct Case {
         std::initializer_list<std::pair<const char*, const char*>> values;

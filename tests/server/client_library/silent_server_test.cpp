@@ -44,6 +44,7 @@ TEST_F(SilentServer, EndsEveryCallThatIsAnsweredOnce) {
     expect_late("session", [&] { client.session(id); });
     expect_late("sessions", [&] { client.sessions(); });
     expect_late("delete_session", [&] { client.delete_session(id); });
+    expect_late("snapshot", [&] { client.snapshot(id); });
     expect_late("recordings", [&] { client.recordings(); });
     expect_late("delete_recording", [&] { client.delete_recording(id, 1); });
     expect_late("stream, reconnecting", [&] { client.stream(id, {.reconnect = 60s}); });
