@@ -268,7 +268,8 @@ void Session::finish_upload(const std::shared_ptr<Upload>& upload, std::exceptio
         last_used_ = std::chrono::steady_clock::now();
         if (std::erase(unanswered_, upload) != 0 && !upload->canceled) {
             without_stream_since_ = last_used_;
-            awaited_for_ = {};
+            // Of an earlier stream, whose connection was noticed to be dead after a later one had broken, too.
+            if (last_upload_ == upload.get()) awaited_for_ = {};
         }
         if (draining_ && !upload_) done = watchers_.list();
         // Another run may have come since, and is here still or waits for answers.

@@ -93,6 +93,17 @@ TEST_F(EphemeralSession, IsKeptForASimulatorWhoseBrokenStreamLookedAsIfItHadEnde
     EXPECT_FALSE(is_there_after(hours(5)));
 }
 
+TEST_F(EphemeralSession, WaitsForABrokenStreamThoughAnEarlierOneOfItsRunEndsLater) {
+    const auto session = create();
+    const auto earlier = open(*session);
+    const auto later = open(*session, 3 * kept);
+    session->cancel_upload(later, UploadEnd::vanished);
+    session->end_upload(earlier, nullptr);
+    wait_for_end(*session);
+    EXPECT_TRUE(is_there_after(3 * kept - a_little));
+    EXPECT_FALSE(is_there_after(3 * kept + a_little));
+}
+
 TEST_F(EphemeralSession, IsNotKeptForASimulatorThatHasAllItsAnswers) {
     const auto session = create();
     session->cancel_upload(open(*session, hours(5)), UploadEnd::answered);
