@@ -108,7 +108,7 @@ bool Client::serving() {
 
 bool Client::create_session(const std::string& id, const Settings& settings, const SessionOptions& options) {
     const Connection& connection = *impl_->connection();
-    return client::create_session(connection, id, settings, options, connection.timeout);
+    return client::create_session(connection, id, settings, options, connection.timeout).created();
 }
 
 SessionInfo Client::session(const std::string& id) {

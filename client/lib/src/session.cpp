@@ -14,8 +14,8 @@ namespace meniscus::client {
 
 namespace {
 
-/// So that a Session goes within a second, though nothing answers.
-constexpr std::chrono::milliseconds farewell_time{500};
+/// Of each of two calls, so that a Session goes within a second, though nothing answers.
+constexpr std::chrono::milliseconds farewell_time{400};
 
 }  // namespace
 
@@ -24,25 +24,37 @@ Session::Impl::Impl(std::shared_ptr<Connection> connection, const Settings& sett
       id_(options.id.empty() ? new_session_id() : options.id),
       settings_(settings),
       options_{.description = options.description, .ephemeral = options.ephemeral},
-      owned_(create_session(*connection_, id_, settings_, options_, connection_->timeout)) {}
+      owned_(create().created()) {}
 
 Session::Impl::~Impl() {
     if (!owned_) return;
     try {
-        delete_session(*connection_, id_, farewell_time);
+        delete_own(farewell_time);
     } catch (...) {
         // Nobody is left to be told. The server ends an ephemeral session by itself.
     }
 }
 
 void Session::Impl::create_again() {
-    if (owned_ && options_.ephemeral) create_session(*connection_, id_, settings_, options_, connection_->timeout);
+    if (!owned_ || !options_.ephemeral) return;
+    const v1::CreateSessionResponse response = create();
+    owned_ = made_->has(time_from_wire(response.session().created_at()));
+}
+
+v1::CreateSessionResponse Session::Impl::create() {
+    v1::CreateSessionResponse response = create_session(*connection_, id_, settings_, options_, connection_->timeout);
+    made_->note(response);
+    return response;
+}
+
+void Session::Impl::delete_own(std::chrono::milliseconds timeout) {
+    if (made_->has(session_info(*connection_, id_, timeout).created_at)) delete_session(*connection_, id_, timeout);
 }
 
 void Session::Impl::end() {
     if (!owned_) return;
     try {
-        delete_session(*connection_, id_, connection_->timeout);
+        delete_own(connection_->timeout);
     } catch (const ServerError& error) {
         if (error.code() != ErrorCode::not_found) throw;
     }
@@ -68,7 +80,7 @@ SessionInfo Session::info() {
 
 Stream Session::stream(const StreamOptions& options) {
     impl_->create_again();
-    return Stream(std::make_unique<Stream::Impl>(impl_->connection(), impl_->id(), options));
+    return Stream(std::make_unique<Stream::Impl>(impl_->connection(), impl_->id(), options, impl_->made()));
 }
 
 Watcher Session::watch(const WatchOptions& options) {

@@ -39,8 +39,8 @@ SessionInfo from_wire(const v1::Session& wire) {
     return info;
 }
 
-bool create_session(const Connection& connection, const std::string& id, const Settings& settings,
-                    const SessionOptions& options, std::chrono::milliseconds timeout) {
+v1::CreateSessionResponse create_session(const Connection& connection, const std::string& id, const Settings& settings,
+                                         const SessionOptions& options, std::chrono::milliseconds timeout) {
     v1::CreateSessionRequest request;
     request.set_id(id);
     *request.mutable_settings() = conversion::to_wire(settings);
@@ -48,7 +48,7 @@ bool create_session(const Connection& connection, const std::string& id, const S
     request.set_ephemeral(options.ephemeral);
     v1::CreateSessionResponse response;
     call(connection, *connection.sessions, &v1::SessionService::Stub::CreateSession, id, request, response, timeout);
-    return response.created();
+    return response;
 }
 
 SessionInfo session_info(const Connection& connection, const std::string& id, std::chrono::milliseconds timeout) {

@@ -11,8 +11,8 @@
 namespace meniscus::client {
 
 /// As Client's; they throw what the call failed with. timeout: for an answer.
-bool create_session(const Connection& connection, const std::string& id, const Settings& settings,
-                    const SessionOptions& options, std::chrono::milliseconds timeout);
+v1::CreateSessionResponse create_session(const Connection& connection, const std::string& id, const Settings& settings,
+                                         const SessionOptions& options, std::chrono::milliseconds timeout);
 SessionInfo session_info(const Connection& connection, const std::string& id, std::chrono::milliseconds timeout);
 void delete_session(const Connection& connection, const std::string& id, std::chrono::milliseconds timeout);
 

@@ -1,10 +1,12 @@
 // The inside of a Session.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 
 #include "connection/connection.hpp"
+#include "made_sessions.hpp"
 #include "meniscus/client/session.hpp"
 
 namespace meniscus::client {
@@ -19,16 +21,24 @@ public:
     const std::shared_ptr<Connection>& connection() const noexcept { return connection_; }
     const std::string& id() const noexcept { return id_; }
     bool is_owned() const noexcept { return owned_; }
+    /// For streams, which create it again where a server has lost it.
+    const std::shared_ptr<MadeSessions>& made() const noexcept { return made_; }
     /// If it is owned, and has ended meanwhile.
     void create_again();
     void end();
     void leave() noexcept { owned_ = false; }
 
 private:
+    /// Joins it if it is there.
+    v1::CreateSessionResponse create();
+    /// Ends it, unless it has ended, and somebody else has created another one of this id. timeout: for each call.
+    void delete_own(std::chrono::milliseconds timeout);
+
     const std::shared_ptr<Connection> connection_;
     const std::string id_;
     const Settings settings_;
     const SessionOptions options_;
+    const std::shared_ptr<MadeSessions> made_ = std::make_shared<MadeSessions>();
     bool owned_;
 };
 

@@ -85,8 +85,12 @@ v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContex
 
 }  // namespace
 
-Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options)
-    : connection_(std::move(connection)), options_(options), open_(open_message(session_id, options)) {
+Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options,
+                   std::shared_ptr<MadeSessions> made)
+    : connection_(std::move(connection)),
+      options_(options),
+      made_(std::move(made)),
+      open_(open_message(session_id, options)) {
     if (resumes()) {
         grpc::ClientContext context;
         session_ = as_it_is_now(*connection_, context, session_id);
@@ -388,7 +392,9 @@ grpc::Status Stream::Impl::create_session(grpc::ClientContext& context, Clock::t
     connection_->add_metadata(context, session_.id());
     wait_for_connection(context, give_up_at);
     v1::CreateSessionResponse response;
-    return connection_->sessions->CreateSession(&context, session_, &response);
+    grpc::Status status = connection_->sessions->CreateSession(&context, session_, &response);
+    if (status.ok() && made_) made_->note(response);
+    return status;
 }
 
 void Stream::Impl::end(std::exception_ptr error) {

@@ -19,6 +19,7 @@
 #include "backoff.hpp"
 #include "byte_pool.hpp"
 #include "connection/connection.hpp"
+#include "made_sessions.hpp"
 #include "meniscus/client/client.hpp"
 #include "particle_buffer_memory.hpp"
 #include "pushed_frame.hpp"
@@ -31,7 +32,9 @@ namespace meniscus::client {
 /// the session belongs.
 class Stream::Impl {
 public:
-    Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options);
+    /// made: is told of each session that this creates again; may be none.
+    Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options,
+         std::shared_ptr<MadeSessions> made = nullptr);
     ~Impl();
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
@@ -93,6 +96,7 @@ private:
 
     const std::shared_ptr<Connection> connection_;
     const StreamOptions options_;
+    const std::shared_ptr<MadeSessions> made_;
     const std::shared_ptr<BytePool> pool_ = std::make_shared<BytePool>();
     v1::StreamOpen open_;
     v1::CreateSessionRequest session_;  ///< for a server that has lost it

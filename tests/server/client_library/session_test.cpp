@@ -51,6 +51,25 @@ TEST(OwnedSession, LeavesASessionThatWasThereBefore) {
     EXPECT_TRUE(is_there(running, id));
 }
 
+TEST(OwnedSession, LeavesASessionThatCameInItsPlace) {
+    RunningServer running;
+    std::optional<Session> first = running.client.open_session(settings());
+    std::optional<Session> late = running.client.open_session(settings());
+    const std::string id = first->id();
+    const std::string id_of_late = late->id();
+    for (const std::string& one : {id, id_of_late}) {
+        running.client.delete_session(one);
+        running.client.create_session(one, settings(), {.ephemeral = true});
+    }
+    first->end();
+    late->stream();
+    EXPECT_FALSE(late->is_owned());
+    first.reset();
+    late.reset();
+    EXPECT_TRUE(is_there(running, id));
+    EXPECT_TRUE(is_there(running, id_of_late));
+}
+
 TEST(OwnedSession, StaysWhenItIsLeft) {
     RunningServer running;
     std::string id;

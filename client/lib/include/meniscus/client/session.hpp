@@ -20,9 +20,10 @@ struct OpenOptions {
     bool ephemeral = true;
 };
 
-/// A session on the server, from Client::open_session(). When it goes, it ends the session if it has created it; a
-/// session that was there before stays. Its streams and watchers may go before it or after it, as may the Client; those
-/// that go after it see the session end. Belongs to one thread at a time.
+/// A session on the server, from Client::open_session(). When it goes, it ends the session if it has created it, itself
+/// or by its streams; a session that was there before stays, and so does one that somebody else has created under its
+/// id since it ended. Its streams and watchers may go before it or after it, as may the Client; those that go after it
+/// see the session end. Belongs to one thread at a time.
 class Session {
 public:
     Session(Session&&) noexcept;
