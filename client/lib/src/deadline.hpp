@@ -6,12 +6,14 @@
 
 namespace meniscus::client {
 
-/// From now; a wait of years is one of ten, so that no sum overflows.
+/// A wait of years is one of ten, so that no sum overflows.
+inline constexpr std::chrono::milliseconds longest_wait = std::chrono::hours(24 * 365 * 10);
+
+/// From now.
 template <class Clock>
 typename Clock::time_point deadline_after(std::chrono::milliseconds wait) {
-    constexpr std::chrono::milliseconds longest = std::chrono::hours(24 * 365 * 10);
     return Clock::now() + std::chrono::duration_cast<typename Clock::duration>(
-                              std::clamp(wait, std::chrono::milliseconds(0), longest));
+                              std::clamp(wait, std::chrono::milliseconds(0), longest_wait));
 }
 
 }  // namespace meniscus::client

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <random>
 #include <utility>
 
@@ -67,6 +68,11 @@ v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& 
     return open;
 }
 
+StreamOptions with_bounded_waits(StreamOptions options) {
+    options.reconnect = std::min(options.reconnect, longest_wait);
+    return options;
+}
+
 /// What creates it again, with its name and kind.
 v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContext& context,
                                       const std::string& session_id) {
@@ -88,7 +94,7 @@ v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContex
 Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options,
                    std::shared_ptr<MadeSessions> made)
     : connection_(std::move(connection)),
-      options_(options),
+      options_(with_bounded_waits(options)),
       made_(std::move(made)),
       open_(open_message(session_id, options)) {
     if (resumes()) {

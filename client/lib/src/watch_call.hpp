@@ -3,6 +3,7 @@
 
 #include <grpcpp/support/sync_stream.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -51,6 +52,7 @@ public:
           session_id_(std::move(session_id)),
           persistence_(std::move(persistence)),
           start_(std::move(start)) {
+        persistence_.patience = std::min(persistence_.patience, longest_wait);
         on_stop_.emplace(persistence_.stop, [this] { cancel(); });
         open();
         if (persistence_.patience.count() > 0 && persistence_.route_check.count() > 0)
@@ -239,7 +241,7 @@ private:
 
     const std::shared_ptr<Connection> connection_;
     const std::string session_id_;
-    const WatchPersistence persistence_;
+    WatchPersistence persistence_;  ///< as it is from the constructor on
     const std::function<Reader(grpc::ClientContext&)> start_;
     bool ended_ = false;
     bool late_ = false;  ///< the call was not answered in time

@@ -61,6 +61,21 @@ TEST(ReconnectEvents, TellOfEveryBreakOfAStream) {
     }
 }
 
+TEST(ReconnectEvents, TheLongestWaitIsNoneThatIsOverAtOnce) {
+    RunningServer running(on_tcp());
+    TcpProxy proxy(port_of(running.server.address()));
+    client::Client far(proxy.address());
+    const std::string id = running.session();
+    auto stream = far.stream(id, {.reconnect = std::chrono::milliseconds::max()});
+    auto watcher = far.watch(id, {.reconnect = std::chrono::milliseconds::max()});
+    for (std::uint64_t i = 0; i < 2; ++i) {
+        stream.push(wave(4, 0.0).view(), i, 0.0);
+        ASSERT_TRUE(stream.next());
+        ASSERT_TRUE(watcher.next());
+        proxy.cut();
+    }
+}
+
 TEST(ReconnectEvents, TellOfEveryBreakOfAWatcher) {
     RunningServer running(on_tcp());
     TcpProxy proxy(port_of(running.server.address()));
