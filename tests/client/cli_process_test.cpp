@@ -50,6 +50,7 @@ TEST_F(Cli, RefusesBadArguments) {
     expect_refused({"simulate", "--threads", "1025"}, {"--threads", "1025", "1024"});
     expect_refused(reconstruct({"--normal-bits", "1"}), {"--normal-bits", "1"});
     expect_refused({"info", "--server", "::1"}, {"::1", "[::1]:50051"});
+    expect_refused({"info", "--server", "localhost:116087"}, {"localhost:116087", "65535"});
     expect_refused(reconstruct({"--backend", "abacus"}), {"backend", "abacus", "auto", "cpu", "cuda"});
     expect_refused({"reconstruct", in_, "-o", out_}, {"--particle-radius"});
     expect_refused({"reconstruct", in_, "--particle-radius", "0.5"}, {"-o", "--stats"});

@@ -55,6 +55,8 @@ std::string checked_address(const std::string& address) {
     if (address::is_bare_ipv6(address))
         throw InvalidInput("the server's address " + address + " is IPv6 without brackets: write [" + address +
                            "], or [" + address + "]:" + std::string(address::default_port));
+    if (address::has_bad_port(address))
+        throw InvalidInput("the server's address " + address + " has no port from 1 to 65535 behind its host");
     return address::with_port(address);
 }
 

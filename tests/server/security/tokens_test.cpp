@@ -430,6 +430,18 @@ TEST(DefaultPort, StandsBehindAHostAloneAndNothingElse) {
         EXPECT_EQ(address::with_port(address), address);
 }
 
+TEST(DefaultPort, WhatIsNoPortIsRefused) {
+    for (const char* address : {"localhost:65536", "localhost:116087", "localhost:0", "localhost:", "localhost:50051x",
+                                "localhost: 50051", "[::1]:99999"}) {
+        EXPECT_TRUE(address::has_bad_port(address)) << address;
+        EXPECT_THROW(client::Client{address}, InvalidInput) << address;
+    }
+    for (const char* address :
+         {"localhost", "localhost:1", "localhost:65535", "localhost:https", "[::1]", "[::1]:443", "unix:socket",
+          "unix:/run/meniscus", "unix-abstract:socket", "dns:localhost", "dns:///localhost:1", "ipv4:127.0.0.1:1", ""})
+        EXPECT_FALSE(address::has_bad_port(address)) << address;
+}
+
 TEST(DefaultPort, IsNotGuessedForIpv6WithoutBrackets) {
     for (const char* address : {"::1", "2001:db8::7", "::1:50051"}) {
         EXPECT_TRUE(address::is_bare_ipv6(address)) << address;
