@@ -1,6 +1,7 @@
 #include "cli/command_line.hpp"
 
 #include <google/protobuf/stubs/logging.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -42,9 +43,12 @@ void move_help_last(CLI::App& command) {
 void require_written() {
     errno = 0;
     std::cout.flush();
-    if (!std::cout)
-        throw std::runtime_error("standard output: writing failed" +
-                                 (errno == 0 ? "" : ": " + std::generic_category().message(errno)));
+    if (std::cout) return;
+    // More than a buffer has failed before, and left no reason: one more byte has the same.
+    [[maybe_unused]] const ssize_t written = errno == 0 ? ::write(STDOUT_FILENO, "\n", 1) : 0;
+    const int error = errno;
+    throw std::runtime_error("standard output: writing failed" +
+                             (error == 0 ? "" : ": " + std::generic_category().message(error)));
 }
 
 int report(std::string message, ExitCode code) {

@@ -11,11 +11,14 @@ namespace meniscus::cli {
 
 void FrameSelection::add_to(CLI::App& command) {
     const OptionGroup group(command, sequence_heading);
-    command.add_option("--start", start, "First frame (default: the first that is there)")
-        ->check(CLI::NonNegativeNumber);
-    command.add_option("--end", end, "Last frame (default: the last that is there)")->check(CLI::NonNegativeNumber);
+    // Those of CLI11 tell the range in floating point, to its 309 digits.
+    constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+    const CLI::Validator not_negative = CLI::Range(std::uint64_t{0}, most).description("NONNEGATIVE");
+    const CLI::Validator positive = CLI::Range(std::uint64_t{1}, most).description("POSITIVE");
+    command.add_option("--start", start, "First frame (default: the first that is there)")->check(not_negative);
+    command.add_option("--end", end, "Last frame (default: the last that is there)")->check(not_negative);
     command.add_option("--step", step, "One of this many frame numbers, from the first frame on")
-        ->check(CLI::PositiveNumber)
+        ->check(positive)
         ->capture_default_str();
     command.add_flag("--skip-missing", skip_missing,
                      "Leave out frames from --start to --end that are not there, in place of refusing them");

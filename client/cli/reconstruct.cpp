@@ -95,6 +95,9 @@ void check_files(const ReconstructOptions& options, Plan& plan) {
         if (!options.input_format) formats::particle_format_of(frame.in);
         distinct.add_input(frame.in);
     }
+    // Those of the sequence that are not among the frames are somebody's input, too.
+    if (plan.sequence)
+        for (const auto& [number, path] : FilePattern(options.in).match_existing()) distinct.add_input(path);
     for (const FrameFiles& frame : plan.frames) {
         if (!frame.out.empty()) {
             plan.format = check_mesh_path(frame.out, options.format);

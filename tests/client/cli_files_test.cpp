@@ -88,7 +88,8 @@ TEST_F(CliFiles, RefusesAFrameThatIsNamedAndNotThere) {
     expect_refused(sequence({"--end", "11"}), {"f_11.vtk"});
     expect_refused(sequence({"--start", "20"}), {"f_{}.vtk", "no such file", "from 20"});
     expect_refused(sequence({"--start", "9", "--skip-missing", "--step", "2"}), {"f_{}.vtk", "--step of 2", "9"});
-    expect_refused(sequence({"--step", "0"}), {"--step"});
+    expect_refused(sequence({"--step", "0"}), {"--step", "0 not in range 1 to 18446744073709551615"});
+    expect_refused(sequence({"--start", "-1"}), {"--start", "-1 not in range 0 to 18446744073709551615"});
     expect_refused(reconstruct({"--step", "2"}), {"--step", "{}"});
     write_frames({"f_8.vtk"});
     expect_refused(sequence({}), {"f_8.vtk", "f_08.vtk", "frame 8"});
@@ -148,6 +149,15 @@ TEST_F(CliFiles, NoFrameOfASequenceIsWrittenOverAnother) {
                    {"standard output", "is the file of the output"});
 }
 
+TEST_F(CliFiles, FramesOfASequenceThatAreNotSelectedAreNotWrittenOver) {
+    for (const char* name : {"f_0.ply", "f_1.ply", "f_10.ply"}) write(name, ply_of_points(positions_));
+    const std::string before = formats::read_file(path("f_10.ply"));
+    expect_refused(
+        {"reconstruct", path("f_{}.ply"), "-o", path("f_1{}.ply"), "-r", "0.5", "--end", "0", "--skip-missing"},
+        {"is the file of the input", "f_10.ply"});
+    EXPECT_EQ(formats::read_file(path("f_10.ply")), before);
+}
+
 TEST_F(CliFiles, PipesTakeTheSameBytesAsFiles) {
     ASSERT_EQ(run_meniscus(reconstruct({})).exit_code, 0);
     const ProcessResult piped = run_meniscus(
@@ -202,6 +212,7 @@ TEST_F(CliFiles, ADiskThatIsFullSaysSo) {
             run_meniscus({"reconstruct", in_, "-o", "-", "--format", format, "-r", "0.5", "-q"}, {.out = full}), words);
     expect_failed(run_meniscus({"reconstruct", in_, "--stats", "/dev/full", "-r", "0.5", "-q"}), words);
     expect_failed(run_meniscus({"info", "--backend", "cpu"}, {.out = full}), words);
+    expect_failed(run_meniscus({"help", "reconstruct"}, {.out = full}), words);  // more than a buffer
     ASSERT_EQ(run_meniscus(reconstruct({})).exit_code, 0);
     expect_failed(run_meniscus({"picture", out_, "-o", "/dev/full", "--width", "60", "--height", "40"}), words);
     expect_failed(run_meniscus({"compare", out_, out_, "--samples", "100"}, {.out = full}), words);
