@@ -126,7 +126,8 @@ DecodedBrick decode_draco_brick(const EncodedBrick& brick, std::uint32_t offset_
     }
     if (const auto* attribute = mesh->GetNamedAttribute(draco::GeometryAttribute::NORMAL)) {
         decoded.normals.reserve(weld.positions.size());
-        for (const std::uint32_t point : weld.point_of_vertex) decoded.normals.push_back(decoded_normal(*attribute, point));
+        for (const std::uint32_t point : weld.point_of_vertex)
+            decoded.normals.push_back(decoded_normal(*attribute, point));
     }
     std::vector<std::optional<std::uint16_t>> cells;
     std::array<bool, cells_per_brick> occupied{};

@@ -47,8 +47,7 @@ protected:
         EXPECT_EQ(result.exit_code, 0) << result.err;
         std::vector<int> numbers;
         const nlohmann::json figures = nlohmann::json::parse(formats::read_file(path("s.json")));
-        for (const auto& frame : figures.at("frames"))
-            numbers.push_back(frame.at("frame"));
+        for (const auto& frame : figures.at("frames")) numbers.push_back(frame.at("frame"));
         return numbers;
     }
 };

@@ -111,8 +111,9 @@ TEST(Validation, RefusesEverySettingOutOfRangeNamingItsValue) {
 }
 
 TEST(Validation, RefusesMoreThreadsThanAreOfUse) {
-    const std::string message =
-        refusal([&] { Reconstructor reconstructor(test::default_settings(), {Backend::cpu, max_threads + 1, 0}); });
+    const std::string message = refusal([&] {
+        Reconstructor reconstructor(test::default_settings(), {Backend::cpu, max_threads + 1, 0});
+    });
     EXPECT_NE(message.find("1025"), std::string::npos) << message;
     EXPECT_NE(message.find("1024"), std::string::npos) << message;
 }

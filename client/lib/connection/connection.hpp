@@ -24,7 +24,7 @@ public:
     /// Gives a call the token, and the id of the session that it is about; empty: about none.
     void add_metadata(grpc::ClientContext& context, const std::string& session_id) const;
 
-    const std::string address;  ///< with its port
+    const std::string address;                ///< with its port
     const std::chrono::milliseconds timeout;  ///< for an answer
     const std::shared_ptr<grpc::Channel> channel;
     const std::unique_ptr<v1::ServerService::Stub> server;

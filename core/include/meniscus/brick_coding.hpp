@@ -79,8 +79,8 @@ EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& opti
 /// The content of a brick, encoded.
 EncodedBrick encode_brick(const Mesh& mesh, std::size_t brick, const CodingOptions& options = {});
 
-/// Gives the mesh the normals that it would have if it were encoded with CodingOptions::normal_bits and decoded: rounded,
-/// or with 0 none. Throws InvalidInput for bits out of range.
+/// Gives the mesh the normals that it would have if it were encoded with CodingOptions::normal_bits and decoded:
+/// rounded, or with 0 none. Throws InvalidInput for bits out of range.
 void round_normals(Mesh& mesh, int normal_bits);
 
 /// A brick's own mesh: its vertices are welded by position.

@@ -29,7 +29,9 @@ def choices_of(help_text):
 class Bash(unittest.TestCase):
     def completions(self, *words):
         """Of the last word, which may be empty."""
-        script = 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _meniscus; printf "%s\\n" "${COMPREPLY[@]}"'
+        script = (
+            'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _meniscus; printf "%s\\n" "${COMPREPLY[@]}"'
+        )
         run = subprocess.run(
             ["bash", "-euc", script, "bash", BASH_SCRIPT, "meniscus", *words],
             check=True,
