@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>

@@ -62,6 +62,9 @@ public:
     /// From now on nothing arrives, on either side, and no connection ends: as from a server that was stopped.
     void swallow() { swallows_ = true; }
 
+    /// From now on nothing is read, on either side, and no connection ends: who goes on writing waits.
+    void stall() { stalls_ = true; }
+
 private:
     static sockaddr_in loopback(std::uint16_t port) {
         sockaddr_in address{};
@@ -95,12 +98,14 @@ private:
     void forward(int client, int server) const {
         std::array<pollfd, 2> ends{pollfd{client, POLLIN, 0}, pollfd{server, POLLIN, 0}};
         while (::poll(ends.data(), ends.size(), -1) > 0)
-            for (std::size_t from = 0; from < 2; ++from)
-                if (ends[from].revents != 0 && !pass_on(ends[from].fd, ends[1 - from].fd)) {
-                    ::shutdown(client, SHUT_RDWR);
-                    ::shutdown(server, SHUT_RDWR);
-                    return;
-                }
+            for (std::size_t from = 0; from < 2; ++from) {
+                if (ends[from].revents == 0) continue;
+                if (stalls_) return;
+                if (pass_on(ends[from].fd, ends[1 - from].fd)) continue;
+                ::shutdown(client, SHUT_RDWR);
+                ::shutdown(server, SHUT_RDWR);
+                return;
+            }
     }
 
     bool pass_on(int from, int to) const {
@@ -123,6 +128,7 @@ private:
     std::vector<int> sockets_;
     std::vector<std::thread> forwarding_;
     std::atomic<bool> swallows_{false};
+    std::atomic<bool> stalls_{false};
     std::thread accepting_;
 };
 

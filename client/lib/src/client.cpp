@@ -132,7 +132,7 @@ Session Client::open_session(const Settings& settings, const OpenOptions& option
 }
 
 Stream Client::stream(const std::string& session_id, const StreamOptions& options) {
-    return Stream(std::make_unique<Stream::Impl>(impl_->connection(), session_id, options));
+    return Stream(Stream::Impl::open(impl_->connection(), session_id, options));
 }
 
 Watcher Client::watch(const std::string& session_id, const WatchOptions& options) {

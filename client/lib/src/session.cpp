@@ -80,7 +80,7 @@ SessionInfo Session::info() {
 
 Stream Session::stream(const StreamOptions& options) {
     impl_->create_again();
-    return Stream(std::make_unique<Stream::Impl>(impl_->connection(), impl_->id(), options, impl_->made()));
+    return Stream(Stream::Impl::open(impl_->connection(), impl_->id(), options, impl_->made()));
 }
 
 Watcher Session::watch(const WatchOptions& options) {

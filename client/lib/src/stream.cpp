@@ -21,6 +21,9 @@ namespace {
 /// frame on a busy server: watchers there would not hear of the move.
 constexpr std::chrono::seconds leaving_time{60};
 
+/// Of who leaves a stream. A canceled call ends within milliseconds.
+constexpr std::chrono::milliseconds patience_with_threads{300};
+
 std::uint64_t random_run_id() {
     std::random_device device;
     std::uniform_int_distribution<std::uint64_t> ids(1);
@@ -103,18 +106,53 @@ Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& se
         created_by_ = ended_by(context);
     }
     call_ = open_call();
-    receiver_ = std::thread([this, call = call_] { receive(call); });
-    sender_ = std::thread([this] { send(); });
-    if (resumes() && options_.route_check.count() > 0) route_checker_ = std::thread([this] { check_route(); });
+}
+
+std::shared_ptr<Stream::Impl> Stream::Impl::open(std::shared_ptr<Connection> connection, const std::string& session_id,
+                                                 const StreamOptions& options, std::shared_ptr<MadeSessions> made) {
+    auto impl = std::make_shared<Impl>(std::move(connection), session_id, options, std::move(made));
+    try {
+        impl->start(impl);
+    } catch (...) {
+        impl->leave();
+        throw;
+    }
+    return impl;
+}
+
+void Stream::Impl::start(const std::shared_ptr<Impl>& self) {
+    threads_.push_back(run(self, [this, call = call_] { receive(call); }));
+    threads_.push_back(run(self, [this] { send(); }));
+    if (resumes() && options_.route_check.count() > 0) threads_.push_back(run(self, [this] { check_route(); }));
     on_stop_.emplace(options_.stop, [this] { cancel(); });
 }
 
-Stream::Impl::~Impl() {
+template <class Work>
+std::thread Stream::Impl::run(const std::shared_ptr<Impl>& self, Work work) {
+    threads_.reserve(threads_.size() + 1);
+    std::thread thread([self, work = std::move(work)] {
+        work();
+        const std::lock_guard lock(self->mutex_);
+        --self->running_;
+        self->stopped_.notify_all();
+    });
+    const std::lock_guard lock(mutex_);
+    ++running_;
+    return thread;
+}
+
+void Stream::Impl::leave() noexcept {
     on_stop_.reset();
     cancel();
-    receiver_.join();
-    sender_.join();
-    if (route_checker_.joinable()) route_checker_.join();
+    std::unique_lock lock(mutex_);
+    const bool stopped = stopped_.wait_for(lock, patience_with_threads, [&] { return running_ == 0; });
+    lock.unlock();
+    for (std::thread& thread : threads_)
+        if (stopped)
+            thread.join();
+        else
+            thread.detach();
+    threads_.clear();
 }
 
 void Stream::Impl::cancel() {
@@ -450,10 +488,21 @@ bool Stream::Impl::is_elsewhere(const std::string& instance, grpc::ClientContext
     return create_session(creating, give_up_at).ok() && ended_by(creating) != instance;
 }
 
-Stream::Stream(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Stream::Stream(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Stream::Stream(Stream&&) noexcept = default;
-Stream& Stream::operator=(Stream&&) noexcept = default;
-Stream::~Stream() = default;
+Stream& Stream::operator=(Stream&& other) noexcept {
+    if (this == &other) return *this;
+    leave();
+    impl_ = std::move(other.impl_);
+    return *this;
+}
+Stream::~Stream() {
+    leave();
+}
+
+void Stream::leave() noexcept {
+    if (impl_) impl_->leave();
+}
 
 void Stream::push(const ParticleFrame& frame, std::uint64_t index, double simulation_time) {
     impl_->push(index, Impl::WhenFull::wait,

@@ -33,9 +33,11 @@ namespace meniscus::client {
 class Stream::Impl {
 public:
     /// made: is told of each session that this creates again; may be none.
+    static std::shared_ptr<Impl> open(std::shared_ptr<Connection> connection, const std::string& session_id,
+                                      const StreamOptions& options, std::shared_ptr<MadeSessions> made = nullptr);
     Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options,
-         std::shared_ptr<MadeSessions> made = nullptr);
-    ~Impl();
+         std::shared_ptr<MadeSessions> made);
+    ~Impl() = default;
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
@@ -56,12 +58,19 @@ public:
     Next<ReceivedFrame> next(std::optional<std::chrono::steady_clock::time_point> until);
     void cancel();
     std::uint64_t dropped() const;
+    /// Cancels, and ends the threads. gRPC holds up one that writes to a server that reads nothing any more, although
+    /// the call is canceled: it is left to itself, and keeps this object until the connection ends.
+    void leave() noexcept;
 
 private:
     using Clock = std::chrono::steady_clock;
 
     bool wait_for_room(std::uint64_t index, WhenFull when_full);
     void enqueue(std::shared_ptr<PushedFrame> frame);
+    void start(const std::shared_ptr<Impl>& self);
+    /// A thread that runs this object's work.
+    template <class Work>
+    std::thread run(const std::shared_ptr<Impl>& self, Work work);
 
     std::shared_ptr<UploadCall> open_call() const;
     bool resumes() const { return options_.reconnect.count() > 0; }
@@ -132,10 +141,10 @@ private:
     bool ended_ = false;           ///< the server has answered all it will
     std::exception_ptr error_;
     std::condition_variable over_;  ///< left_ or ended_
+    int running_ = 0;               ///< threads
+    std::condition_variable stopped_;
 
-    std::thread receiver_;
-    std::thread sender_;
-    std::thread route_checker_;
+    std::vector<std::thread> threads_;
     std::optional<std::stop_callback<std::function<void()>>> on_stop_;
 };
 

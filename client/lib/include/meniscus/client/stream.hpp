@@ -73,7 +73,7 @@ class Stream {
 public:
     Stream(Stream&&) noexcept;
     Stream& operator=(Stream&&) noexcept;
-    ~Stream();  ///< cancels what is in flight
+    ~Stream();  ///< cancels what is in flight; returns soon, even where the server reads nothing any more
 
     /// Sends one frame; blocks while the server does not take more, or is out of reach. `index` is greater than the one
     /// before. The particles are copied. Throws InvalidInput, too, for arrays whose lengths do not fit each other, and
@@ -128,8 +128,9 @@ private:
     friend class Client;
     friend class Session;
     class Impl;
-    explicit Stream(std::unique_ptr<Impl> impl);
-    std::unique_ptr<Impl> impl_;
+    explicit Stream(std::shared_ptr<Impl> impl);
+    void leave() noexcept;
+    std::shared_ptr<Impl> impl_;  ///< shared with its threads
 };
 
 }  // namespace meniscus::client
