@@ -15,6 +15,7 @@
 #include "particles/placed_frame.hpp"
 #include "pipeline/backend.hpp"
 #include "processor.hpp"
+#include "steps/register_particles/crowd.hpp"
 #include "warnings.hpp"
 
 namespace meniscus {
@@ -212,6 +213,9 @@ private:
             call();
         } catch (const Stopped&) {
             throw;  // giving back much memory would take long
+        } catch (const Crowded& crowded) {
+            backend_.reset();
+            throw LimitExceeded(crowded.what() + fitting_radius_hint(frame.particles, settings_));
         } catch (...) {
             // The arrays may have grown up to the limit, or a device may have failed: the next frame begins afresh.
             backend_.reset();

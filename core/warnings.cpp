@@ -157,4 +157,10 @@ void find_warnings(const PlacedFrame& particles, const ParticlesByLevel& by_leve
     add(too_small_support(settings));
 }
 
+std::string fitting_radius_hint(const PlacedFrame& particles, const Settings& settings) {
+    if (particles.on_device) return {};
+    const std::optional<double> fitting = radius_that_fits(particles.frame, settings.particle_radius);
+    return fitting ? " A particle radius of about " + shown(*fitting) + " fits their spacing" : "";
+}
+
 }  // namespace meniscus

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
@@ -15,5 +16,9 @@ namespace meniscus {
 /// particles that are on the GPU, the radius is not held against their spacing, which would take them to the host.
 void find_warnings(const PlacedFrame& particles, const ParticlesByLevel& by_level, const Settings& settings,
                    const std::function<float()>& greatest_sample, Statistics& statistics);
+
+/// For a refusal of the frame, after its last word: the radius that fits the particles' spacing; empty where none is
+/// known.
+std::string fitting_radius_hint(const PlacedFrame& particles, const Settings& settings);
 
 }  // namespace meniscus

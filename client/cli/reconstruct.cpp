@@ -182,8 +182,13 @@ void reconstruct(const ReconstructOptions& options) {
         std::optional<QuantizedPositions> quantized;
         if (options.positions == PositionEncoding::uint16) quantized.emplace(particles.frame());
         // Files do not tell their simulation time.
-        for (unsigned run = 0; run < options.repeat; ++run)
-            surfaces->submit(quantized ? quantized->frame() : particles.frame(), 0.0);
+        for (unsigned run = 0; run < options.repeat; ++run) try {
+                surfaces->submit(quantized ? quantized->frame() : particles.frame(), 0.0);
+            } catch (const LimitExceeded& e) {
+                // A server's refusal may be that of an earlier frame.
+                if (!options.surfaces.server.address.empty()) throw;
+                throw LimitExceeded(formats::input_name(frame.in) + ": " + e.what());
+            }
     }
     surfaces->finish();
     if (!options.stats.empty()) {

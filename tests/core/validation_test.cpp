@@ -248,6 +248,24 @@ TEST(Validation, RefusesParticlesThatCrowdBeforeTheirFieldIsSummed) {
     EXPECT_NO_THROW(test::reconstruct(coarse, test::splash(1, 40).frame()));
 }
 
+TEST(Validation, SaysWhichRadiusFitsParticlesThatCrowd) {
+    test::Particles water;
+    for (int i = 0; i < 30 * 30 * 30; ++i)
+        water.add(0.05F * static_cast<float>(i % 30), 0.05F * static_cast<float>(i / 30 % 30),
+                  0.05F * static_cast<float>(i / 900));
+    Settings settings;
+    settings.particle_radius = 1.0;
+    Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
+    Mesh mesh;
+    try {
+        reconstructor.reconstruct(water.frame(), mesh);
+        ADD_FAILURE() << "not refused";
+    } catch (const LimitExceeded& error) {
+        EXPECT_TRUE(std::string(error.what()).ends_with("A particle radius of about 0.022 fits their spacing"))
+            << error.what();
+    }
+}
+
 TEST(Validation, TheCudaBackendSaysWhyItCannotBeUsed) {
     const int no_device = 1000;
     EXPECT_NE(refusal([&] {

@@ -24,9 +24,14 @@ MENISCUS_HD inline bool is_crowded(std::uint64_t crowd, std::uint64_t particles,
            most_crowded * room * static_cast<double>(particles < small ? small : particles);
 }
 
-/// Refuses a frame that is_crowded().
+/// The refusal of a frame that is_crowded(), to which the reconstructor adds the radius that fits.
+class Crowded : public LimitExceeded {
+public:
+    using LimitExceeded::LimitExceeded;
+};
+
 [[noreturn]] inline void throw_crowded(std::uint64_t crowd, std::uint64_t particles) {
-    throw LimitExceeded("a particle shares its surroundings of one kernel support with " +
+    throw Crowded("a particle shares its surroundings of one kernel support with " +
                         std::to_string(crowd / particles) +
                         " others in the mean, far more than the field can be summed over (about " +
                         std::to_string(static_cast<int>(most_crowded)) +
