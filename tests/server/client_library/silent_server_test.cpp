@@ -66,21 +66,25 @@ TEST_F(SilentServer, HoldsUpNoLimitedWait) {
 
 // gRPC holds up who writes there, canceled or not.
 TEST(ServerThatReadsNothingMore, HoldsUpNoStreamThatIsLeft) {
-    const RunningServer running{on_tcp()};
+    RunningServer running{on_tcp()};
     const std::string id = running.session();
     TcpProxy proxy{port_of(running.server.address())};
     client::Client client{proxy.address()};
+    const std::vector<float> few(30, 0.0F);
+    const std::vector<float> more_than_sockets_hold(std::size_t{3} << 22);
+    ParticleFrame small;
+    small.positions = few;
+    ParticleFrame large;
+    large.positions = more_than_sockets_hold;
     std::chrono::steady_clock::time_point left;
     {
         auto stream = client.stream(id);
-        const std::vector<float> few(30, 0.0F);
-        stream.push({.positions = few}, 0, 0.0);
+        stream.push(small, 0, 0.0);
         ASSERT_TRUE(stream.next());
         proxy.stall();
-        const std::vector<float> more_than_sockets_hold(std::size_t{16} << 20);
-        stream.push({.positions = more_than_sockets_hold}, 1, 0.0);
-        stream.push({.positions = few}, 2, 0.0);  // waits until the one before is on its way
-        while (stream.try_push({.positions = few}, 3, 0.0)) {
+        stream.push(large, 1, 0.0);
+        stream.push(small, 2, 0.0);  // waits until the one before is on its way
+        while (stream.try_push(small, 3, 0.0)) {
         }
         left = std::chrono::steady_clock::now();
     }
