@@ -1,20 +1,37 @@
 #include "cli/frame_selection.hpp"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <system_error>
 
 #include "cli/options/option_group.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {
+namespace {
+
+/// CLI11's own takes -1 for 2^64 - 1, or tells the range in floating point, to its 309 digits.
+CLI::Validator whole_number_from(std::uint64_t least) {
+    return {[least](const std::string& text) -> std::string {
+                std::uint64_t number = 0;
+                const char* const last = text.data() + text.size();
+                const auto [end, error] = std::from_chars(text.data(), last, number);
+                if (error == std::errc() && end == last && number >= least) return {};
+                return text + " not in range " + std::to_string(least) + " to " +
+                       std::to_string(std::numeric_limits<std::uint64_t>::max());
+            },
+            ""};
+}
+
+}  // namespace
 
 void FrameSelection::add_to(CLI::App& command) {
     const OptionGroup group(command, sequence_heading);
-    // Those of CLI11 tell the range in floating point, to its 309 digits.
-    constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-    const CLI::Validator not_negative = CLI::Range(std::uint64_t{0}, most).description("NONNEGATIVE");
-    const CLI::Validator positive = CLI::Range(std::uint64_t{1}, most).description("POSITIVE");
+    const CLI::Validator not_negative = whole_number_from(0).description("NONNEGATIVE");
+    const CLI::Validator positive = whole_number_from(1).description("POSITIVE");
     command.add_option("--start", start, "First frame (default: the first that is there)")->check(not_negative);
     command.add_option("--end", end, "Last frame (default: the last that is there)")->check(not_negative);
     command.add_option("--step", step, "One of this many frame numbers, from the first frame on")
