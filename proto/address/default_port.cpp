@@ -1,7 +1,6 @@
 #include "address/default_port.hpp"
 
 #include <algorithm>
-
 #include <array>
 #include <charconv>
 #include <cstddef>

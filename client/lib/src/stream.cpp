@@ -8,7 +8,6 @@
 #include "error_mapping.hpp"
 #include "meniscus/error.hpp"
 #include "receiving/frame_receiver.hpp"
-#include "reconnecting.hpp"
 #include "session_look.hpp"
 #include "stream_impl.hpp"
 #include "unary_call.hpp"
@@ -16,10 +15,6 @@
 namespace meniscus::client {
 
 namespace {
-
-/// A server that the session is to leave, and that answers nothing for so long, is given up. Long enough for a large
-/// frame on a busy server: watchers there would not hear of the move.
-constexpr std::chrono::seconds leaving_time{60};
 
 /// Of who leaves a stream. A canceled call ends within milliseconds.
 constexpr std::chrono::milliseconds patience_with_threads{300};
@@ -357,135 +352,12 @@ bool Stream::Impl::settle(std::uint64_t index) {
     return true;
 }
 
-bool Stream::Impl::is_worth_another_call(const grpc::Status& status, const UploadCall& call) const {
-    // The call came to another server than the one that had just created the session.
-    const bool astray = status.error_code() == grpc::StatusCode::NOT_FOUND && ended_by(call.context()) != created_by_;
-    if (!astray && !may_go_on(status, call.context())) return false;
-    const std::lock_guard lock(mutex_);
-    return resumes() && !left_;
-}
-
-bool Stream::Impl::wait_for_use(const grpc::Status& status) {
-    if (!resumes()) require_ok(status, connection_->address);
-    std::unique_lock lock(mutex_);
-    call_.reset();
-    changed_.wait(lock, [&] { return left_ || finished_ || !unanswered_.empty(); });
-    return !left_ && !unanswered_.empty();
-}
-
-std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
-    if (!broken_at_) {
-        broken_at_ = Clock::now();
-        backoff_.reset();
-        attempts_ = 0;
-    }
-    broken_reason_ = status.error_message();
-    std::unique_lock lock(mutex_);
-    call_.reset();
-    const auto deadline = *broken_at_ + options_.reconnect;
-    for (;;) {
-        const auto attempt_at = Clock::now() + backoff_.next();
-        if (attempt_at >= deadline)
-            throw ServerError(
-                "the server at " + connection_->address + " has not been available for " +
-                    std::to_string(std::chrono::duration_cast<std::chrono::seconds>(options_.reconnect).count()) +
-                    " s (" + status.error_message() + "): frame " +
-                    (unanswered_.empty() ? "none" : std::to_string(unanswered_.front()->begin.frame_index())) +
-                    " is the first without an answer",
-                ErrorCode::unavailable, "UNAVAILABLE");
-        if (changed_.wait_until(lock, attempt_at, [&] { return left_; })) return nullptr;
-        const auto creating = std::make_shared<grpc::ClientContext>();
-        creating_ = creating;
-        lock.unlock();
-        ++attempts_;
-        tell(false, deadline);
-        grpc::Status created = create_session(*creating, deadline);
-        std::shared_ptr<UploadCall> call;
-        if (created.ok()) {
-            created_by_ = ended_by(*creating);
-            call = open_call();
-            connecting_ = true;
-        }
-        lock.lock();
-        creating_.reset();
-        if (left_) {
-            if (call) call->cancel();
-            return call;
-        }
-        if (call) {
-            call_ = call;
-            sent_ = 0;
-            half_closed_ = false;
-            draining_ = false;
-            moving_ = false;
-            instance_.clear();
-            changed_.notify_all();
-            return call;
-        }
-        // A server that is full, of another's sessions perhaps, may have room later.
-        const bool full = created.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED;
-        if (!full && !may_go_on(created, *creating)) require_ok(created, connection_->address);
-        // A wait that was in vain says less than what was before.
-        if (created.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED) continue;
-        status = std::move(created);
-        broken_reason_ = status.error_message();
-    }
-}
-
-grpc::Status Stream::Impl::create_session(grpc::ClientContext& context, Clock::time_point give_up_at) const {
-    connection_->add_metadata(context, session_.id());
-    wait_for_connection(context, give_up_at);
-    v1::CreateSessionResponse response;
-    grpc::Status status = connection_->sessions->CreateSession(&context, session_, &response);
-    if (status.ok() && made_) made_->note(response);
-    return status;
-}
-
 void Stream::Impl::end(std::exception_ptr error) {
     const std::lock_guard lock(mutex_);
     ended_ = true;
     error_ = std::move(error);
     changed_.notify_all();
     over_.notify_all();
-}
-
-void Stream::Impl::tell(bool connected, Clock::time_point give_up_at) const {
-    tell_of_reconnecting(
-        options_.on_reconnect,
-        {.attempt = attempts_, .connected = connected, .reason = broken_reason_, .left = time_left(give_up_at)});
-}
-
-void Stream::Impl::check_route() {
-    std::unique_lock lock(mutex_);
-    while (!over_.wait_for(lock, options_.route_check, [&] { return left_ || ended_; })) {
-        if (moving_ && call_ && Clock::now() - moving_since_ > leaving_time) call_->cancel();
-        if (moving_ || !call_ || half_closed_ || instance_.empty()) continue;
-        const std::shared_ptr<UploadCall> call = call_;
-        const std::string instance = instance_;
-        for (auto& context : route_calls_) context = std::make_shared<grpc::ClientContext>();
-        const auto [looking, creating] = route_calls_;
-        lock.unlock();
-        const bool elsewhere = is_elsewhere(instance, *looking, *creating);
-        lock.lock();
-        if (!elsewhere || call_ != call || half_closed_) continue;
-        moving_ = true;
-        moving_since_ = Clock::now();
-        changed_.notify_all();
-    }
-}
-
-bool Stream::Impl::is_elsewhere(const std::string& instance, grpc::ClientContext& looking,
-                                grpc::ClientContext& creating) const {
-    const auto give_up_at = Clock::now() + options_.reconnect;
-    wait_for_connection(looking, give_up_at);
-    v1::Session session;
-    const grpc::Status status = get_session(*connection_, looking, session_.id(), session);
-    const std::string other = ended_by(looking);
-    if (other.empty() || other == instance) return false;
-    // A session that somebody uploads to is theirs.
-    if (status.ok() ? session.uploading() : status.error_code() != grpc::StatusCode::NOT_FOUND) return false;
-    // Only a server that has room for the session is worth giving up the stream.
-    return create_session(creating, give_up_at).ok() && ended_by(creating) != instance;
 }
 
 Stream::Stream(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
