@@ -31,11 +31,10 @@ public:
 };
 
 [[noreturn]] inline void throw_crowded(std::uint64_t crowd, std::uint64_t particles) {
-    throw Crowded("a particle shares its surroundings of one kernel support with " +
-                        std::to_string(crowd / particles) +
-                        " others in the mean, far more than the field can be summed over (about " +
-                        std::to_string(static_cast<int>(most_crowded)) +
-                        "): are the positions in the unit of the particle radius, and not all in one place?");
+    throw Crowded("a particle shares its surroundings of one kernel support with " + std::to_string(crowd / particles) +
+                  " others in the mean, far more than the field can be summed over (about " +
+                  std::to_string(static_cast<int>(most_crowded)) +
+                  "): are the positions in the unit of the particle radius, and not all in one place?");
 }
 
 }  // namespace meniscus
