@@ -26,11 +26,13 @@ public:
     std::optional<Frame> next() { return ahead_.valid() ? ahead_.get() : receive_(); }
 
     Next<Frame> next(std::chrono::milliseconds timeout) {
+        if (ended_) return {.ended = true};
         if (!ahead_.valid()) begin();
         if (ahead_.wait_until(deadline_after<std::chrono::steady_clock>(timeout)) != std::future_status::ready)
             return {};
         std::optional<Frame> frame = ahead_.get();
-        if (!frame) return {.ended = true};
+        ended_ = !frame.has_value();
+        if (ended_) return {.ended = true};
         begin();
         return {.frame = std::move(frame)};
     }
@@ -45,6 +47,7 @@ private:
 
     const std::function<std::optional<Frame>()> receive_;
     std::future<std::optional<Frame>> ahead_;
+    bool ended_ = false;  ///< the last frame has been waited for
 };
 
 }  // namespace meniscus::client
