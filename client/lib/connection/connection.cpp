@@ -10,6 +10,7 @@
 
 #include "address/default_port.hpp"
 #include "address/loopback.hpp"
+#include "connection/deadline.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::client {
@@ -62,9 +63,8 @@ std::string checked_address(const std::string& address) {
 
 /// Whether the channel is connected before it is time to give up.
 bool connect(grpc::Channel& channel, const ConnectionOptions& options) {
-    const auto start = std::chrono::system_clock::now();
-    const auto last_retry = start + options.wait;
-    const auto deadline = start + std::max(options.timeout, options.wait);
+    const auto last_retry = deadline_after<std::chrono::system_clock>(options.wait);
+    const auto deadline = deadline_after<std::chrono::system_clock>(std::max(options.timeout, options.wait));
     for (;;) {
         const grpc_connectivity_state state = channel.GetState(true);
         if (state == GRPC_CHANNEL_READY) return true;

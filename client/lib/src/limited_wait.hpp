@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "deadline.hpp"
+#include "connection/deadline.hpp"
 #include "meniscus/client/next.hpp"
 
 namespace meniscus::client {

@@ -6,8 +6,8 @@
 #include <thread>
 #include <utility>
 
+#include "connection/deadline.hpp"
 #include "conversion/codec_conversion.hpp"
-#include "deadline.hpp"
 #include "error_mapping.hpp"
 #include "receiving/frame_receiver.hpp"
 #include "unary_call.hpp"

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "call_end.hpp"
+#include "connection/deadline.hpp"
 #include "conversion/codec_conversion.hpp"
-#include "deadline.hpp"
 #include "error_mapping.hpp"
 #include "meniscus/error.hpp"
 #include "receiving/frame_receiver.hpp"
@@ -67,7 +67,8 @@ v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& 
 }
 
 StreamOptions with_bounded_waits(StreamOptions options) {
-    options.reconnect = std::min(options.reconnect, longest_wait);
+    options.reconnect = std::clamp(options.reconnect, std::chrono::milliseconds(0), longest_wait);
+    options.route_check = std::min(options.route_check, longest_wait);
     return options;
 }
 
@@ -94,7 +95,7 @@ Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& se
     : connection_(std::move(connection)),
       options_(with_bounded_waits(options)),
       made_(std::move(made)),
-      open_(open_message(session_id, options)) {
+      open_(open_message(session_id, options_)) {
     if (resumes()) {
         grpc::ClientContext context;
         session_ = as_it_is_now(*connection_, context, session_id);

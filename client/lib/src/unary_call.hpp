@@ -8,7 +8,7 @@
 #include <string>
 
 #include "connection/connection.hpp"
-#include "deadline.hpp"
+#include "connection/deadline.hpp"
 #include "error_mapping.hpp"
 
 namespace meniscus::client {

@@ -20,7 +20,7 @@
 #include "backoff.hpp"
 #include "call_end.hpp"
 #include "connection/connection.hpp"
-#include "deadline.hpp"
+#include "connection/deadline.hpp"
 #include "error_mapping.hpp"
 #include "meniscus/client/reconnect_event.hpp"
 #include "reconnecting.hpp"
@@ -53,6 +53,7 @@ public:
           persistence_(std::move(persistence)),
           start_(std::move(start)) {
         persistence_.patience = std::min(persistence_.patience, longest_wait);
+        persistence_.route_check = std::min(persistence_.route_check, longest_wait);
         on_stop_.emplace(persistence_.stop, [this] { cancel(); });
         open();
         if (persistence_.patience.count() > 0 && persistence_.route_check.count() > 0)

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "observation/metrics.hpp"
 #include "running_server.hpp"
 #include "tcp_proxy.hpp"
 #include "tcp_server.hpp"
@@ -74,6 +75,24 @@ TEST(ReconnectEvents, TheLongestWaitIsNoneThatIsOverAtOnce) {
         ASSERT_TRUE(watcher.next());
         proxy.cut();
     }
+}
+
+TEST(LongestWaits, AreNotOverAtOnce) {
+    ServerOptions options = on_tcp();
+    options.http = "127.0.0.1:0";
+    RunningServer running(options);
+    constexpr auto longest = std::chrono::milliseconds::max();
+    client::Client client(running.server.address(), {.timeout = longest, .wait = longest});
+    const std::string id = running.session();
+    auto stream = client.stream(id, {.reconnect = longest, .route_check = longest});
+    auto watcher = client.watch(id, {.reconnect = longest, .route_check = longest});
+    for (std::uint64_t i = 0; i < 5; ++i) {
+        stream.push(wave(4, 0.0).view(), i, 0.0);
+        ASSERT_TRUE(stream.next());
+        ASSERT_TRUE(watcher.next());
+    }
+    EXPECT_EQ(sum_of(scrape(running.server.http_address()), "grpc_server_started_total{", "\"GetSession\""), 1.0)
+        << "one look before the stream, and none after its route";
 }
 
 TEST(ReconnectEvents, TellOfEveryBreakOfAWatcher) {
