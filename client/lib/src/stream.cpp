@@ -141,6 +141,7 @@ void Stream::Impl::leave() noexcept {
     on_stop_.reset();
     cancel();
     std::unique_lock lock(mutex_);
+    stopped_.wait(lock, [&] { return !telling_; });
     const bool stopped = stopped_.wait_for(lock, patience_with_threads, [&] { return running_ == 0; });
     lock.unlock();
     for (std::thread& thread : threads_)

@@ -59,7 +59,8 @@ public:
     void cancel();
     std::uint64_t dropped() const;
     /// Cancels, and ends the threads. gRPC holds up one that writes to a server that reads nothing any more, although
-    /// the call is canceled: it is left to itself, and keeps this object until the connection ends.
+    /// the call is canceled: it is left to itself, and keeps this object until the connection ends. None of them calls
+    /// on_reconnect afterwards, which may refer to what goes with the caller.
     void leave() noexcept;
 
 private:
@@ -96,7 +97,8 @@ private:
     std::shared_ptr<UploadCall> reopen(grpc::Status status);
     grpc::Status create_session(grpc::ClientContext& context, Clock::time_point give_up_at) const;
     void end(std::exception_ptr error);
-    void tell(bool connected, Clock::time_point give_up_at) const;
+    /// Of an attempt, unless the stream was left.
+    void tell(bool connected, Clock::time_point give_up_at);
 
     // The thread that looks.
     void check_route();
@@ -140,9 +142,10 @@ private:
     bool left_ = false;            ///< by the caller
     bool ended_ = false;           ///< the server has answered all it will
     std::exception_ptr error_;
-    std::condition_variable over_;  ///< left_ or ended_
-    int running_ = 0;               ///< threads
-    std::condition_variable stopped_;
+    std::condition_variable over_;     ///< left_ or ended_
+    int running_ = 0;                  ///< threads
+    bool telling_ = false;             ///< on_reconnect is being called
+    std::condition_variable stopped_;  ///< a thread, or on_reconnect
 
     std::vector<std::thread> threads_;
     std::optional<std::stop_callback<std::function<void()>>> on_stop_;

@@ -94,10 +94,18 @@ grpc::Status Stream::Impl::create_session(grpc::ClientContext& context, Clock::t
     return status;
 }
 
-void Stream::Impl::tell(bool connected, Clock::time_point give_up_at) const {
+void Stream::Impl::tell(bool connected, Clock::time_point give_up_at) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (left_) return;
+        telling_ = true;
+    }
     tell_of_reconnecting(
         options_.on_reconnect,
         {.attempt = attempts_, .connected = connected, .reason = broken_reason_, .left = time_left(give_up_at)});
+    const std::lock_guard lock(mutex_);
+    telling_ = false;
+    stopped_.notify_all();
 }
 
 }  // namespace meniscus::client

@@ -1,9 +1,12 @@
 // What a caller is told while a connection is broken.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "observation/metrics.hpp"
@@ -112,6 +115,28 @@ TEST(ReconnectEvents, TellOfEveryBreakOfAWatcher) {
         ASSERT_TRUE(looks ? places.next(60s).frame : places.next());
         listener.expect_attempts_and_success();
     }
+}
+
+TEST(ReconnectEvents, AreNotToldOnceTheStreamHasGone) {
+    auto running = std::make_unique<RunningServer>(on_tcp());
+    client::Client client(running->server.address());
+    std::promise<void> told;
+    std::promise<void> leaving;
+    std::atomic<int> returned = 0;
+    {
+        const auto listen = [&](const client::ReconnectEvent& event) {
+            if (event.attempt > 1) return;
+            told.set_value();
+            leaving.get_future().wait();
+            std::this_thread::sleep_for(500ms);  // longer than threads are waited for that write in vain
+            ++returned;
+        };
+        auto stream = client.stream(running->session(), {.reconnect = 60s, .on_reconnect = listen});
+        running.reset();
+        told.get_future().wait();
+        leaving.set_value();
+    }
+    EXPECT_EQ(returned, 1);
 }
 
 TEST(ReconnectEvents, MayBeAnsweredWithCancel) {

@@ -60,6 +60,7 @@ struct StreamOptions {
     /// two frames, and watchers with `reconnect` follow it. Only with `reconnect`; 0: never.
     std::chrono::milliseconds route_check{2000};
     /// Told of each attempt to go on after the connection broke, in a thread of the stream's own, which waits for it.
+    /// So does the stream's destructor: it is not called once the stream has gone.
     ReconnectHandler on_reconnect{};
     std::stop_token stop{};  ///< when a stop is requested: as cancel()
 };
