@@ -37,8 +37,9 @@ void check(const void* first, std::size_t count, std::size_t stride, std::size_t
                            " bytes are more than memory can hold");
 }
 
-std::array<double, 3> float64_at(const std::byte* place) {
-    std::array<double, 3> position;
+template <class Number>
+std::array<Number, 3> numbers_at(const std::byte* place) {
+    std::array<Number, 3> position;
     std::memcpy(position.data(), place, sizeof position);
     return position;
 }
@@ -54,6 +55,24 @@ std::array<double, 3> float64_at(const std::byte* place) {
     else
         what << ", positions must be finite";
     throw InvalidInput(what.str());
+}
+
+template <class Number>
+void copy_numbers(const std::byte* first, std::size_t stride, std::span<float> positions) {
+    bool all_fit = true;
+    for (std::size_t i = 0; i < positions.size() / 3; ++i) {
+        const std::array<Number, 3> position = numbers_at<Number>(first + i * stride);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            all_fit &= is_float32(position[axis]);
+            positions[3 * i + axis] = static_cast<float>(position[axis]);
+        }
+    }
+    if (all_fit) return;
+    for (std::size_t i = 0; i < positions.size() / 3; ++i) {
+        const std::array<Number, 3> position = numbers_at<Number>(first + i * stride);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (!is_float32(position[axis])) refuse(i, axis, position[axis]);
+    }
 }
 
 }  // namespace
@@ -75,25 +94,10 @@ void StridedPositions::copy_to(std::span<float> positions) const {
     if (positions.size() != 3 * count_)
         throw InvalidInput("there is room for " + std::to_string(positions.size()) +
                            " coordinates, must be three for " + "each of " + std::to_string(count_) + " particles");
-    if (!is_float64_) {
-        for (std::size_t i = 0; i < count_; ++i)
-            std::memcpy(&positions[3 * i], first_ + i * stride_, 3 * sizeof(float));
-        return;
-    }
-    bool all_fit = true;
-    for (std::size_t i = 0; i < count_; ++i) {
-        const std::array<double, 3> position = float64_at(first_ + i * stride_);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            all_fit &= is_float32(position[axis]);
-            positions[3 * i + axis] = static_cast<float>(position[axis]);
-        }
-    }
-    if (all_fit) return;
-    for (std::size_t i = 0; i < count_; ++i) {
-        const std::array<double, 3> position = float64_at(first_ + i * stride_);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (!is_float32(position[axis])) refuse(i, axis, position[axis]);
-    }
+    if (is_float64_)
+        copy_numbers<double>(first_, stride_, positions);
+    else
+        copy_numbers<float>(first_, stride_, positions);
 }
 
 }  // namespace meniscus

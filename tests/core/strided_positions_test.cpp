@@ -59,6 +59,8 @@ TEST(StridedPositions, AreRefusedWhereFloat32CannotHoldThem) {
         const std::string said = refusal_to_copy([&] { return StridedPositions(numbers); });
         EXPECT_NE(said.find("particle 0 has y = "), std::string::npos) << said;
         EXPECT_NE(said.find("must be finite"), std::string::npos) << said;
+        const std::vector<float> narrow{0.0F, static_cast<float>(value), 0.0F};
+        EXPECT_EQ(refusal_to_copy([&] { return StridedPositions(narrow); }), said);
     }
 }
 

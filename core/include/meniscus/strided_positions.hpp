@@ -20,7 +20,7 @@ public:
     /// Particles.
     std::size_t count() const noexcept { return count_; }
     /// Writes x y z per particle, 3 count() numbers; float64 is rounded to the nearest float32. Throws InvalidInput for
-    /// another number of numbers, and, with the particle and its value, for a float64 that is not finite, or that
+    /// another number of numbers, and, with the particle and its value, for one of them that is not finite, or that
     /// float32 cannot hold; what was written by then is undefined.
     void copy_to(std::span<float> positions) const;
 

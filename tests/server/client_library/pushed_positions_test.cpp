@@ -126,6 +126,9 @@ TEST_F(PushedPositions, AreRefusedWithTheirPlaceAndValueWhereFloat32CannotHoldTh
     doubles[3 * 5 + 1] = std::numeric_limits<double>::quiet_NaN();
     const std::string none = refusal(StridedPositions(doubles), 0U, 0.0);
     EXPECT_NE(none.find("particle 5 has y = nan, positions must be finite"), std::string::npos) << none;
+    std::vector<float> floats = particles.positions;
+    floats[3 * 5 + 1] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(refusal(StridedPositions(floats), 0U, 0.0), none);
     stream.push(particles.view(), 0, 0.0);
     EXPECT_EQ(next_hash(), expected);
 }
