@@ -2,11 +2,15 @@
 #include "cli/interrupts.hpp"
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <optional>
 
 namespace meniscus::cli {
 namespace {
@@ -37,6 +41,36 @@ TEST(InterruptsDeathTest, EndTheProcessThoughThatTakesForEver) {
             wait_for_ever();
         },
         testing::KilledBySignal(SIGINT), "");
+}
+
+/// The exit code of a first process, as in a container, that is sent SIGTERM; none where there can be no such process.
+std::optional<int> exit_code_of_a_first_process() {
+    constexpr int cannot = 77;
+    const pid_t outside = ::fork();
+    if (outside == 0) {
+        if (::unshare(CLONE_NEWUSER | CLONE_NEWPID) != 0) ::_exit(cannot);
+        const pid_t first = ::fork();
+        if (first == 0) {
+            ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+            const Interrupts interrupts([] {});
+            ::kill(::getpid(), SIGTERM);
+            wait_for_ever();
+        }
+        ::alarm(10);
+        int status = 0;
+        ::waitpid(first, &status, 0);
+        ::_exit(WIFEXITED(status) ? WEXITSTATUS(status) : 1);
+    }
+    int status = 0;
+    ::waitpid(outside, &status, 0);
+    if (!WIFEXITED(status)) return -1;
+    return WEXITSTATUS(status) == cannot ? std::nullopt : std::optional(WEXITSTATUS(status));
+}
+
+TEST(Interrupts, EndTheFirstProcessOfAContainerToo) {
+    const auto code = exit_code_of_a_first_process();
+    if (!code) GTEST_SKIP() << "no namespaces here";
+    EXPECT_EQ(*code, 128 + SIGTERM);
 }
 
 TEST(InterruptsDeathTest, LeaveASignalIgnoredThatWas) {
