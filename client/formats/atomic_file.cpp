@@ -27,6 +27,13 @@ bool stays(const std::filesystem::path& path) {
     return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
 }
 
+/// Where the file is that the path leads to: a link stays, /dev/stdout among them.
+std::filesystem::path behind_links(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::path place = std::filesystem::canonical(path, error);
+    return error ? path : place;
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
@@ -35,7 +42,10 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
     } else {
         if (std::filesystem::is_directory(path_))
             throw InvalidInput(path_.string() + ": cannot be written: it is a directory");
-        if (!stays(path_)) (temporary_ = path_) += ".partial-" + std::to_string(::getpid());
+        if (!stays(path_)) {
+            place_ = behind_links(path_);
+            (temporary_ = place_) += ".partial-" + std::to_string(::getpid());
+        }
         descriptor_ = ::open(temporary_.empty() ? path_.c_str() : temporary_.c_str(),
                              O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     }
@@ -62,7 +72,7 @@ void AtomicFile::commit() {
     if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
     if (temporary_.empty()) return;
     std::error_code error;
-    std::filesystem::rename(temporary_, path_, error);
+    std::filesystem::rename(temporary_, place_, error);
     if (error) throw InvalidInput(path_.string() + ": cannot be written: " + error.message());
     temporary_.clear();
 }

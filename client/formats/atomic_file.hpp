@@ -7,8 +7,9 @@
 
 namespace meniscus::formats {
 
-/// Writes to a temporary file beside `path`. commit() renames it to `path`; without commit() nothing remains. What
-/// cannot be replaced is written as it is: "-", which is standard output, a pipe, a device.
+/// Writes to a temporary file beside `path`, or beside the file that it is a link to. commit() renames it to that;
+/// without commit() nothing remains. What cannot be replaced is written as it is: "-", which is standard output, a
+/// pipe, a device.
 class AtomicFile {
 public:
     /// Throws InvalidInput, naming the path and the reason, if it cannot be created there.
@@ -28,7 +29,8 @@ private:
     void write_now(std::string_view bytes);
     [[noreturn]] void fail(int error) const;
 
-    std::filesystem::path path_;
+    std::filesystem::path path_;       ///< as it was given
+    std::filesystem::path place_;      ///< without links
     std::filesystem::path temporary_;  ///< empty: there is none, or it has been renamed
     int descriptor_ = -1;
     std::string gathered_;

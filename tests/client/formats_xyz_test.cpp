@@ -93,6 +93,20 @@ TEST(AtomicFile, WritesAPipeAsItIsAndHoldsAllThatIsWritten) {
     EXPECT_TRUE(std::filesystem::is_fifo(directory / "pipe"));
 }
 
+// As /dev/stdout is, which everybody misses once a file has taken its place.
+TEST(AtomicFile, LeavesALinkAndReplacesWhatItLeadsTo) {
+    const TemporaryDirectory directory;
+    std::filesystem::create_directory(directory / "links");
+    formats::write_file(directory / "file", "old");
+    std::filesystem::create_symlink(directory / "file", directory / "links/one");
+    std::filesystem::create_symlink("one", directory / "links/two");
+    formats::write_file(directory / "links/two", "new");
+    EXPECT_TRUE(std::filesystem::is_symlink(directory / "links/two"));
+    EXPECT_TRUE(std::filesystem::is_symlink(directory / "links/one"));
+    EXPECT_EQ(formats::read_file(directory / "file"), "new");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory / "links"), {}), 2);
+}
+
 TEST(AtomicFile, RefusesAPathThatCannotBeWritten) {
     const TemporaryDirectory directory;
     EXPECT_NE(refusal([&] { formats::write_file(directory / "no/such/folder", "x"); }).find("cannot be written"),
