@@ -11,7 +11,13 @@
 namespace meniscus::formats {
 
 std::string read_input(const std::filesystem::path& path) {
-    if (!is_standard_stream(path)) return read_file(path);
+    if (!is_standard_stream(path)) {
+        std::error_code ignored;
+        if (std::filesystem::is_fifo(path, ignored))
+            throw InvalidInput(path.string() + ": a pipe is read as standard input: write - in its place, and <" +
+                               path.string());
+        return read_file(path);
+    }
     constexpr std::size_t step = std::size_t{1} << 20;
     std::string bytes;
     for (std::size_t size = 0;;) {

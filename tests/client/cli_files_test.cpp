@@ -1,6 +1,7 @@
 // What the command line reads and writes: sequences, pipes, disks that are full, and files that must not be destroyed.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -174,6 +175,13 @@ TEST_F(CliFiles, PipesTakeTheSameBytesAsFiles) {
 
     const ProcessResult stats = run_meniscus({"reconstruct", in_, "--stats", "-", "-r", "0.5"});
     EXPECT_EQ(nlohmann::json::parse(stats.out).at("particles"), 64);
+}
+
+TEST_F(CliFiles, ANamedPipeIsRefusedInALineThatSaysHowToReadIt) {
+    const std::string pipe = path("pipe.xyz");
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    expect_refused({"reconstruct", pipe, "-o", out_, "-r", "0.5"}, {pipe, "a pipe", "write -", "<" + pipe});
+    expect_refused({"picture", pipe, "--input-format", "ply", "-o", path("p.png")}, {pipe, "a pipe", "write -"});
 }
 
 TEST_F(CliFiles, FormatsAreNamedWhereThereIsNoExtensionAndOverrideOne) {
