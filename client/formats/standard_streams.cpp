@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
@@ -18,17 +19,18 @@ std::string read_input(const std::filesystem::path& path) {
                                path.string());
         return read_file(path);
     }
-    constexpr std::size_t step = std::size_t{1} << 20;
+    constexpr std::size_t first_room = std::size_t{1} << 20;
     std::string bytes;
     for (std::size_t size = 0;;) {
-        bytes.resize(size + step);
-        const ssize_t count = ::read(STDIN_FILENO, bytes.data() + size, step);
+        if (size == bytes.size()) bytes.resize(std::max(first_room, 2 * size));
+        const ssize_t count = ::read(STDIN_FILENO, bytes.data() + size, bytes.size() - size);
         if (count < 0 && errno == EINTR) continue;
         if (count < 0)
             throw InvalidInput(input_name(path) + ": cannot be read: " + std::generic_category().message(errno));
         size += static_cast<std::size_t>(count);
+        if (count > 0) continue;
         bytes.resize(size);
-        if (count == 0) return bytes;
+        return bytes;
     }
 }
 
