@@ -48,7 +48,9 @@ TEST_F(Cli, RefusesBadArguments) {
     expect_refused(reconstruct({"--repeat", "0"}), {"--repeat", "0"});
     expect_refused(reconstruct({"--threads", "100000"}), {"--threads", "100000", "1024"});
     expect_refused({"simulate", "--threads", "1025"}, {"--threads", "1025", "1024"});
-    expect_refused(reconstruct({"--normal-bits", "1"}), {"--normal-bits", "1"});
+    for (const char* bits : {"1", "17", "2.5", "-2", "eight"})
+        expect_refused(reconstruct({"--normal-bits", bits}),
+                       {"--normal-bits: " + std::string(bits) + " is not 0 or a whole number from 2 to 16"});
     expect_refused({"info", "--server", "::1"}, {"::1", "[::1]:50051"});
     expect_refused({"info", "--server", "localhost:116087"}, {"localhost:116087", "65535"});
     expect_refused(reconstruct({"--backend", "abacus"}), {"backend", "abacus", "auto", "cpu", "cuda"});
