@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <string>
 #include <utility>
 
 #include "cli/local_surfaces.hpp"
@@ -89,6 +90,9 @@ void SurfacesOptions::add_to(CLI::App& command) {
 }
 
 std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfaces::Handler handler) const {
+    if (!settings.normals && normal_bits.value_or(0) != 0)
+        throw InvalidInput("--normal-bits " + std::to_string(*normal_bits) +
+                           " is of normals, and --no-normals leaves them out: give one of the two");
     if (server.address.empty())
         return std::make_unique<LocalSurfaces>(settings, backend, normal_bits, std::move(handler));
     client::StreamOptions options = stream;

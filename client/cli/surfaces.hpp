@@ -79,7 +79,8 @@ struct SurfacesOptions {
     client::StreamOptions stream;    ///< to it
 
     void add_to(CLI::App& command);
-    /// The handler may be called from another thread, one call at a time.
+    /// The handler may be called from another thread, one call at a time. Throws InvalidInput for bits of normals that
+    /// the settings leave out.
     std::unique_ptr<Surfaces> open(const Settings& settings, Surfaces::Handler handler) const;
 };
 

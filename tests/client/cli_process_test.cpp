@@ -116,6 +116,8 @@ TEST_F(Cli, RefusesContradictions) {
     expect_refused(
         {"reconstruct", path("f_{}.vtk"), "-o", out_, "--particle-radius", "1", "--start", "1", "--end", "2"}, {"{}"});
     expect_refused(reconstruct({"--quiet", "--verbose"}), {"--quiet", "--verbose"});
+    expect_refused(reconstruct({"--no-normals", "--normal-bits", "8"}), {"--normal-bits 8", "--no-normals"});
+    EXPECT_EQ(run_meniscus(reconstruct({"--no-normals", "--normal-bits", "0"})).exit_code, 0);
     expect_refused({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "1", "--start", "3",
                     "--end", "2"},
                    {"3", "2"});
