@@ -58,6 +58,13 @@ TEST_F(Cli, RefusesBadArguments) {
     expect_refused({"reconstruct", in_, "--particle-radius", "0.5"}, {"-o", "--stats"});
 }
 
+TEST_F(Cli, RefusesOptionsThatAreEmptyInPlaceOfTakingThemAsNotGiven) {
+    expect_refused(reconstruct({"--server", ""}), {"--server", "empty", "HOST:PORT"});
+    expect_refused({"info", "--server", ""}, {"--server", "empty", "HOST:PORT"});
+    for (const char* flag : {"--session", "--name", "--length-unit", "--tls-ca", "--token-file"})
+        expect_refused({"simulate", "--frames", "1", "--server", "127.0.0.1:1", flag, ""}, {flag, "empty"});
+}
+
 TEST_F(Cli, RefusesParametersOfAChoiceThatIsNotMade) {
     expect_refused(reconstruct({"--criterion", "count", "--tolerance", "0.2"}),
                    {"--tolerance", "--criterion curvature", "count"});

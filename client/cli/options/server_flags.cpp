@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
+#include "cli/options/not_empty.hpp"
 #include "cli/options/option_group.hpp"
 #include "formats/byte_cursor.hpp"
 #include "meniscus/error.hpp"
@@ -24,9 +25,14 @@ std::string read_token(const std::string& file) {
 
 CLI::Option* ServerFlags::add_to(CLI::App& command, const std::string& description) {
     const OptionGroup group(command, server_heading);
-    CLI::Option* server = command.add_option("--server", address, description)->type_name("HOST[:PORT]");
+    CLI::Option* server = command.add_option("--server", address, description)
+                              ->type_name("HOST[:PORT]")
+                              ->check(not_empty("HOST, HOST:PORT or unix:PATH"));
     const auto add_file = [&](const std::string& flag, std::string& file, const std::string& meaning) {
-        return command.add_option(flag, file, meaning)->type_name("FILE")->needs(server);
+        return command.add_option(flag, file, meaning)
+            ->type_name("FILE")
+            ->check(not_empty("a file's name"))
+            ->needs(server);
     };
     CLI::Option* ca =
         add_file("--tls-ca", options.ca_file,
@@ -39,6 +45,7 @@ CLI::Option* ServerFlags::add_to(CLI::App& command, const std::string& descripti
                     "Name in the server's certificate, if not the address's host (with MENISCUS_SERVER_CA: "
                     "MENISCUS_SERVER_NAME)")
         ->type_name("NAME")
+        ->check(not_empty("the name in the server's certificate"))
         ->needs(ca);
     add_file("--token-file", token_file, "File with the token to call with (default: the variable MENISCUS_TOKEN)");
     command.add_flag("--insecure", options.insecure, "Let the token travel to another machine without TLS")

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <vector>
 
+#include "cli/options/not_empty.hpp"
 #include "cli/options/option_group.hpp"
 #include "description/label.hpp"
 #include "meniscus/error.hpp"
@@ -33,8 +34,10 @@ void SessionFlags::add_to(CLI::App& command, CLI::Option& server) {
         .add_option("--session", id,
                     "With --server: UUID of the session to create, or to join if it is there (default: a new one)")
         ->type_name("UUID")
+        ->check(not_empty("a UUID"))
         ->needs(&server);
     command.add_option("--name", description.name, "With --server: what people call the session, 1 to 64 characters")
+        ->check(not_empty("1 to 64 characters"))
         ->check(checked_by([](const std::string& text) { description::require_name(text); }))
         ->needs(&server);
     command
@@ -51,6 +54,7 @@ void SessionFlags::add_to(CLI::App& command, CLI::Option& server) {
     command
         .add_option("--length-unit", description.length_unit,
                     "With --server: unit of the coordinates, such as m, 1 to 16 characters")
+        ->check(not_empty("1 to 16 characters"))
         ->check(checked_by([](const std::string& text) { description::require_length_unit(text); }))
         ->needs(&server);
     command.add_flag("--keep-session", keep, "With --server: leave the session, and its last surface, on the server")

@@ -51,6 +51,7 @@ TEST(ErrorCode, TellsWhyTheServerRefused) {
     const std::string absent = client::new_session_id();
     Settings other = settings();
     other.particle_radius *= 2.0;
+    EXPECT_EQ(code_from([] { client::Client(""); }), ErrorCode::invalid_input);
     EXPECT_EQ(code_from([&] { client.session(absent); }), ErrorCode::not_found);
     EXPECT_EQ(code_from([&] { client.watch(absent).next(); }), ErrorCode::not_found);
     EXPECT_EQ(code_from([&] { client.create_session(id, other); }), ErrorCode::already_exists);
