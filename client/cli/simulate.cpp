@@ -51,12 +51,12 @@ simulator::LeveledParticles snapshot(const simulator::Simulation& simulation, bo
 }
 
 void simulate(const SimulateOptions& options) {
-    check_folder(options.stats);
     simulator::Simulation simulation(simulator::make_scene(options.scene, options.particles));
     const Settings settings = options.settings.build(static_cast<double>(simulation.scene().particle_radius));
     if (!options.verbosity.quiet) std::cerr << "particle radius " << settings.particle_radius << '\n';
     for (const std::string& folder : {options.out, options.particles_out})
         if (!folder.empty()) formats::make_directory(folder);
+    check_folder(options.stats);  // which may be one of those
 
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     Warnings warnings(options.strict);

@@ -267,12 +267,13 @@ TEST_F(Cli, AnEmptyFrameGivesAnEmptyMesh) {
 }
 
 TEST_F(Cli, SimulatesAndWritesParticlesThatItReadsBack) {
-    const ProcessResult result = run_meniscus(
-        {"simulate", "--local", "--particles", "500", "--frames", "3", "--adaptive", "--positions", "uint16",
-         "--cell-size", "1", "--out", path("meshes"), "--particles-out", path("particles"), "--stats", path("s.json")});
+    const ProcessResult result =
+        run_meniscus({"simulate", "--local", "--particles", "500", "--frames", "3", "--adaptive", "--positions",
+                      "uint16", "--cell-size", "1", "--out", path("meshes"), "--particles-out", path("particles"),
+                      "--stats", path("meshes/s.json")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(std::filesystem::exists(path("meshes/frame_000002.ply")));
-    const nlohmann::json last = nlohmann::json::parse(formats::read_file(path("s.json"))).at("frames").at(2);
+    const nlohmann::json last = nlohmann::json::parse(formats::read_file(path("meshes/s.json"))).at("frames").at(2);
     const std::string label = "particle radius ";
     const std::size_t at = result.err.find(label);
     ASSERT_NE(at, std::string::npos) << result.err;
