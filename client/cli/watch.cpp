@@ -1,6 +1,7 @@
 // meniscus watch: the meshes of somebody else's session, as they come.
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -63,6 +64,10 @@ void watch(const WatchOptions& options) {
     if (!options.spray_directory.empty()) {
         check_spray(session.settings);
         formats::make_directory(options.spray_directory);
+        if (options.format == MeshFormat::ply &&
+            std::filesystem::equivalent(options.directory, options.spray_directory))
+            throw InvalidInput("-o and --spray-out are one folder, '" + options.directory +
+                               "', in which a frame's mesh and its spray have one name: name two");
     }
     Warnings warnings(options.strict);
     client::Watcher watcher = client.watch(id, wishes);

@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -90,6 +91,35 @@ TEST_F(Operators, MayStopWatchingASessionThatRests) {
     EXPECT_NE(result.err.find("meniscus: no frame of session " + id + " has come for 0.2 s (--timeout)\n"),
               std::string::npos)
         << result.err;
+}
+
+TEST_F(Operators, AreToldWhereMeshesAndSprayWouldHaveOneName) {
+    Settings settings;
+    settings.particle_radius = 0.1;
+    settings.spray = Spray::points;
+    const std::string with_spray = client::new_session_id();
+    client.create_session(with_spray, settings);
+    auto stream = client.stream(with_spray);
+    ParticleFrame frame;
+    const std::vector<float> positions{0.0F, 0.0F, 0.0F};
+    frame.positions = positions;
+    stream.push(frame, 0, 0.0);
+    ASSERT_TRUE(stream.next());
+    const auto folder = directory / "meshes";
+    std::filesystem::create_directory(folder);
+    std::filesystem::create_symlink(folder, directory / "link");
+    const auto watch = [&](const char* format) {
+        return run({"watch", with_spray, "--frames", "1", "--format", format, "-o", folder.string(), "--spray-out",
+                    (directory / "link").string()});
+    };
+    const ProcessResult refused = watch("ply");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("-o and --spray-out are one folder, '" + folder.string() + "'"), std::string::npos)
+        << refused.err;
+    EXPECT_TRUE(std::filesystem::is_empty(folder));
+    EXPECT_EQ(watch("obj").exit_code, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "frame_000000.obj"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "frame_000000.ply"));
 }
 
 TEST_F(Operators, GetOneTableOfTopWhereThereIsNoTerminal) {
