@@ -10,7 +10,6 @@
 #include <iostream>
 #include <memory>
 #include <new>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -39,22 +38,22 @@ void move_help_last(CLI::App& command) {
     command.set_help_flag("-h,--help", "Print this help message and exit");
 }
 
-/// What is printed is buffered, so that a full disk shows late.
-void require_written() {
-    errno = 0;
-    std::cout.flush();
-    if (std::cout) return;
-    // More than a buffer has failed before, and left no reason: one more byte has the same.
-    [[maybe_unused]] const ssize_t written = errno == 0 ? ::write(STDOUT_FILENO, "\n", 1) : 0;
-    const int error = errno;
-    throw std::runtime_error("standard output: writing failed" +
-                             (error == 0 ? "" : ": " + std::generic_category().message(error)));
-}
-
 int report(std::string message, ExitCode code) {
     std::replace(message.begin(), message.end(), '\n', ' ');
     std::cerr << "meniscus: " << message << '\n';
     return code;
+}
+
+/// What is printed is buffered, so that a full disk shows late.
+int end_of_printing() {
+    errno = 0;
+    std::cout.flush();
+    if (std::cout) return success;
+    // More than a buffer has failed before, and left no reason: one more byte has the same.
+    [[maybe_unused]] const ssize_t written = errno == 0 ? ::write(STDOUT_FILENO, "\n", 1) : 0;
+    const int error = errno;
+    return report("standard output: writing failed" + (error == 0 ? "" : ": " + std::generic_category().message(error)),
+                  failure);
 }
 
 }  // namespace
@@ -84,11 +83,11 @@ int run(int argc, const char* const* argv) {
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty()) throw InvalidInput("a subcommand is needed; meniscus --help lists them");
-        require_written();
-        return success;
+        return end_of_printing();
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
-        return report(refusal(app, e), bad_input);
+        if (e.get_exit_code() != 0) return report(refusal(app, e), bad_input);
+        app.exit(e);  // prints --help or --version
+        return end_of_printing();
     } catch (const Warned&) {
         return warned;
     } catch (const InvalidInput& e) {

@@ -220,6 +220,9 @@ TEST_F(CliFiles, ADiskThatIsFullSaysSo) {
     expect_failed(run_meniscus({"reconstruct", in_, "--stats", "/dev/full", "-r", "0.5", "-q"}), words);
     expect_failed(run_meniscus({"info", "--backend", "cpu"}, {.out = full}), words);
     expect_failed(run_meniscus({"help", "reconstruct"}, {.out = full}), words);  // more than a buffer
+    for (const std::vector<std::string>& asked :
+         {std::vector<std::string>{"--help"}, {"reconstruct", "--help"}, {"--version"}})
+        expect_failed(run_meniscus(asked, {.out = full}), words);
     ASSERT_EQ(run_meniscus(reconstruct({})).exit_code, 0);
     expect_failed(run_meniscus({"picture", out_, "-o", "/dev/full", "--width", "60", "--height", "40"}), words);
     expect_failed(run_meniscus({"compare", out_, out_, "--samples", "100"}, {.out = full}), words);
