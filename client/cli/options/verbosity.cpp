@@ -12,7 +12,7 @@ void Verbosity::add_to(CLI::App& command) {
 
 void Verbosity::add_quiet_to(CLI::App& command) {
     const OptionGroup group(command, other_heading);
-    command.add_flag("-q,--quiet", quiet, "Say nothing but errors");
+    command.add_flag("-q,--quiet", quiet, "Say nothing but warnings and errors");
 }
 
 }  // namespace meniscus::cli

@@ -8,7 +8,7 @@ class App;
 namespace meniscus::cli {
 
 struct Verbosity {
-    bool quiet = false;    ///< errors alone
+    bool quiet = false;    ///< warnings and errors alone
     bool verbose = false;  ///< also what each step took
 
     void add_to(CLI::App& command);

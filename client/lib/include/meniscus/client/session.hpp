@@ -36,7 +36,8 @@ public:
 
     /// Throws ServerError, here and below; of a session that has ended: not_found.
     SessionInfo info();
-    /// As Client::stream(). An owned session that the server has ended meanwhile, since nothing came, is created again.
+    /// As Client::stream(). An owned ephemeral session that has ended meanwhile, since no stream was open, is created
+    /// again.
     Stream stream(const StreamOptions& options = {});
     /// As those of Client.
     Watcher watch(const WatchOptions& options = {});
