@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
     // Every frame takes megabytes and gives them back. Those that are kept need not be cleared for the next one.
     mallopt(M_MMAP_THRESHOLD, 32 << 20);
     mallopt(M_TRIM_THRESHOLD, 256 << 20);
-    // A reader that goes away, and a limit on the size of files, are errors of the write.
+    // A reader that goes away, and a limit on the size of files, are errors of the write. Of standard error:
+    // listener.hpp.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     return meniscus::cli::run(argc, argv);

@@ -12,6 +12,7 @@
 #include "cli/examples.hpp"
 #include "cli/file_pattern.hpp"
 #include "cli/frame_selection.hpp"
+#include "cli/listener.hpp"
 #include "cli/mesh_output.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/option_group.hpp"
@@ -129,6 +130,7 @@ void say(const FrameFiles& frame, const Statistics& statistics, bool stages) {
         if (!path.empty()) std::cerr << ", " << formats::output_name(path);
     std::cerr << '\n';
     if (stages) std::cerr << stages_text(statistics);
+    require_listener();
 }
 
 void reconstruct(const ReconstructOptions& options) {

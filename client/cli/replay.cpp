@@ -7,6 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/examples.hpp"
+#include "cli/listener.hpp"
 #include "cli/opened_session.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/server_flags.hpp"
@@ -86,6 +87,7 @@ void upload(const formats::Recording& recording, const ReplayOptions& options, c
     Answers answers(stream, warnings, options.verbosity.quiet);
     for (std::uint64_t round = 0; round == 0 || options.loop; ++round)
         for (const formats::RecordedFrame& frame : frames) {
+            if (!options.verbosity.quiet) require_listener();
             const formats::RecordedParticles particles = recording.particles(frame);
             pace.wait((frame.arrived_at - first.arrived_at) + static_cast<double>(round) * (seconds + interval));
             stream.push(particles.view(), frame.index + round * (last.index - first.index + 1), frame.simulation_time);

@@ -7,6 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/examples.hpp"
+#include "cli/listener.hpp"
 #include "cli/mesh_output.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/option_group.hpp"
@@ -72,6 +73,7 @@ void simulate(const SimulateOptions& options) {
         if (!options.verbosity.quiet) std::cerr << "frame " << surface.index() << ": " << summary(s) << '\n';
         if (options.verbosity.verbose) std::cerr << stages_text(s);
         warnings.say("frame " + std::to_string(surface.index()), s.warnings);
+        if (!options.verbosity.quiet) require_listener();
     };
     const auto surfaces = options.surfaces.open(settings, handle);
     if (const std::string session = surfaces->session(); !session.empty() && !options.verbosity.quiet)

@@ -10,6 +10,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/examples.hpp"
+#include "cli/listener.hpp"
 #include "cli/mesh_output.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/option_group.hpp"
@@ -85,6 +86,7 @@ void watch(const WatchOptions& options) {
         for (const auto& brick : frame->bricks) triangles += brick->triangles;
         std::cerr << path.string() << ": " << triangles << " triangles, " << frame->changed.size() << " of "
                   << frame->bricks.size() << " bricks new\n";
+        require_listener();
     }
     warnings.finish();
 }

@@ -239,5 +239,19 @@ TEST_F(CliFiles, AReaderThatGoesAwayIsAnErrorLine) {
     ::close(pipe[1]);
 }
 
+TEST_F(CliFiles, ACommandEndsWithTheReaderOfWhatItSays) {
+    std::array<int, 2> pipe{};
+    ASSERT_EQ(::pipe2(pipe.data(), O_CLOEXEC), 0);
+    ::close(pipe[0]);
+    const std::vector<std::string> simulate{"simulate", "--particles", "200", "--frames", "1000000"};
+    EXPECT_EQ(run_meniscus(simulate, {.err = pipe[1]}).exit_code, 1);
+    write_frames({"f_1.vtk", "f_2.vtk"});
+    EXPECT_EQ(run_meniscus(sequence({}), {.err = pipe[1]}).exit_code, 1);
+    EXPECT_TRUE(std::filesystem::exists(path("m_1.ply")));
+    EXPECT_FALSE(std::filesystem::exists(path("m_2.ply")));
+    EXPECT_EQ(run_meniscus(sequence({"-q"}), {.err = pipe[1]}).exit_code, 0) << "what says nothing needs no reader";
+    ::close(pipe[1]);
+}
+
 }  // namespace
 }  // namespace meniscus::test

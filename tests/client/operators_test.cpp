@@ -8,6 +8,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -91,6 +92,16 @@ TEST_F(Operators, MayStopWatchingASessionThatRests) {
     EXPECT_NE(result.err.find("meniscus: no frame of session " + id + " has come for 0.2 s (--timeout)\n"),
               std::string::npos)
         << result.err;
+}
+
+TEST_F(Operators, EndWatchingWithTheReaderOfWhatIsSaid) {
+    std::array<int, 2> pipe{};
+    ASSERT_EQ(::pipe2(pipe.data(), O_CLOEXEC), 0);
+    ::close(pipe[0]);
+    const std::vector<std::string> watch{"watch",          id,   "--server",
+                                         server.address(), "-o", (directory / "meshes").string()};
+    EXPECT_EQ(run_process(MENISCUS_CLI, watch, {.err = pipe[1]}).exit_code, 1);
+    ::close(pipe[1]);
 }
 
 TEST_F(Operators, AreToldWhereMeshesAndSprayWouldHaveOneName) {

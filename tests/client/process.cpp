@@ -25,6 +25,7 @@ ProcessResult run_process(const std::string& program, const std::vector<std::str
     if (!redirection.in.empty())
         posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, redirection.in.c_str(), O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), flags, 0600);
+    if (redirection.err >= 0) posix_spawn_file_actions_adddup2(&actions, redirection.err, STDERR_FILENO);
     std::vector<std::string> copies{program};
     copies.insert(copies.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;

@@ -16,6 +16,7 @@ struct ProcessResult {
 struct Redirection {
     std::string in = {};  ///< the file that is its standard input; empty: as this process has it
     int out = -1;         ///< the descriptor that is its standard output; -1: ProcessResult::out
+    int err = -1;         ///< likewise
 };
 
 /// Runs `program` with these arguments and waits for its end.
