@@ -45,7 +45,7 @@ int main(void) {
         size_t triangle_count = 0;
         check(meniscus_mesh_vertices_float(mesh, &vertices, &vertex_count));
         check(meniscus_mesh_triangles(mesh, &triangles, &triangle_count));
-        float highest = vertices[2];
+        float highest = -INFINITY;
         for (size_t i = 0; i < vertex_count; ++i) highest = fmaxf(highest, vertices[3 * i + 2]);
 
         char hash[MENISCUS_SHA256_SIZE];

@@ -181,8 +181,9 @@ typedef struct meniscus_watcher meniscus_watcher;
 /* A received frame, with the mesh still encoded. */
 typedef struct meniscus_frame meniscus_frame;
 
-/* address: "HOST:PORT" or "unix:PATH". options: tls-ca, tls-cert, tls-key (PEM files), tls-server-name, token, insecure
- * (true or false), timeout (seconds for which a host may not answer), wait (seconds for a server that is starting). */
+/* address: "HOST:PORT", "HOST" for port 50051, or "unix:PATH". options: tls-ca, tls-cert, tls-key (PEM files),
+ * tls-server-name, token, insecure (true or false), timeout (seconds for which a host may not answer), wait (seconds
+ * for a server that is starting). */
 MENISCUS_API meniscus_result meniscus_client_connect(const char* address, const meniscus_options* options,
                                                      meniscus_client** client);
 MENISCUS_API void meniscus_client_destroy(meniscus_client* client);
