@@ -93,14 +93,17 @@ TEST(ReconnectingStream, WaitsForAServerThatIsFull) {
     auto running = std::make_unique<RunningServer>(on_tcp());
     const std::uint16_t port = port_of(running->server.address());
     const std::string id = running->session();
-    client::Client client("127.0.0.1:" + std::to_string(port));
+    TcpProxy proxy(port);
+    client::Client client(proxy.address());
     auto stream = client.stream(id, {.reconnect = patient});
+    proxy.refuse_for(std::chrono::hours(1));  // until the only place is taken
     running.reset();
     ServerOptions small = on_tcp(port);
     small.http = "127.0.0.1:0";
     small.limits.sessions = 1;
     running = std::make_unique<RunningServer>(small);
     const std::string other = running->session();
+    proxy.refuse_for(std::chrono::hours(0));
     stream.push(wave(4, 0.0).view(), 0, 0.0);
     while (calls_ended(scrape(running->server.http_address()), "ResourceExhausted") == 0) std::this_thread::yield();
     running->client.delete_session(other);
