@@ -10,9 +10,9 @@
 
 namespace meniscus::server {
 
-/// Deletes the file, and the folder of its session if that has no other. Readers that have it open can read it to its
-/// end. frames: those with a mesh; bytes: of the file; reason: the end of the line. Throws std::system_error that names
-/// the path.
+/// Deletes the file, and the folder of its session if that has no other. No later recording of the session is given its
+/// number. Readers that have it open can read it to its end. frames: those with a mesh; bytes: of the file; reason: the
+/// end of the line. Throws std::system_error that names the path.
 void delete_recording(const std::filesystem::path& path, const RecordingName& name, std::uint64_t frames,
                       std::uint64_t bytes, std::string_view reason);
 

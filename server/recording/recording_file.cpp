@@ -11,6 +11,7 @@
 
 #include "files/recording_format.hpp"
 #include "files/writing_mark.hpp"
+#include "recording/deleted_numbers.hpp"
 #include "recording/free_number.hpp"
 
 namespace meniscus::server {
@@ -19,6 +20,21 @@ namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
     throw std::runtime_error(fmt::format("{}: {}", path.string(), std::generic_category().message(error)));
+}
+
+/// The next one of the session that no recording has, or had. Those above the greatest that was deleted were taken in
+/// order, whatever is missing among those below.
+std::uint32_t next_number(const std::filesystem::path& directory, const std::string& session_id) {
+    for (;;) {
+        const std::uint32_t deleted = greatest_deleted(directory, session_id);
+        const std::uint32_t number =
+            deleted + free_number([&](std::uint32_t above) {
+                struct stat ignored {};
+                return ::lstat((directory / session_id / recording_file_name(deleted + above)).c_str(), &ignored) == 0;
+            });
+        // One that was deleted meanwhile was noted before it was missed.
+        if (greatest_deleted(directory, session_id) == deleted) return number;
+    }
 }
 
 }  // namespace
@@ -33,10 +49,7 @@ RecordingFile::RecordingFile(const std::filesystem::path& directory, const std::
     constexpr int most_attempts = 8;
     for (int attempt = 1; descriptor_ < 0; ++attempt) {
         if (::mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) fail(folder, errno);
-        number_ = free_number([&](std::uint32_t taken) {
-            struct stat ignored {};
-            return ::lstat((folder / recording_file_name(taken)).c_str(), &ignored) == 0;
-        });
+        number_ = next_number(directory, session_id);
         path_ = folder / recording_file_name(number_);
         descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
         if (descriptor_ < 0 && (errno != ENOENT || attempt == most_attempts)) fail(path_, errno);

@@ -14,8 +14,9 @@ std::string recording_file_name(std::uint32_t number);
 /// Blocks; for one thread. Readable for the operator alone: folders have mode 0700, files 0600.
 class RecordingFile {
 public:
-    /// Creates directory/SESSION/NNNNNN.recording with the next number that is free. session_id: a UUID, as the edge
-    /// has verified. Throws std::runtime_error that names the path and the reason.
+    /// Creates directory/SESSION/NNNNNN.recording with the next number that is free, and of no recording that was
+    /// deleted. session_id: a UUID, as the edge has verified. Throws std::runtime_error that names the path and the
+    /// reason.
     RecordingFile(const std::filesystem::path& directory, const std::string& session_id);
     ~RecordingFile();
     RecordingFile(const RecordingFile&) = delete;

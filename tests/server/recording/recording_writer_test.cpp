@@ -189,6 +189,26 @@ TEST_F(RecordingWriterTest, KeepsWhatAnEarlierServerRecorded) {
     EXPECT_EQ(std::filesystem::file_size(file(1)), std::filesystem::file_size(file(2)));
 }
 
+TEST_F(RecordingWriterTest, GivesNoRecordingTheNumberOfOneThatWasDeleted) {
+    const auto next = [&] { return RecordingFile(directory_, session_id).number(); };
+    const auto remove = [&](std::uint32_t number) {
+        delete_recording(directory_ / session_id / recording_file_name(number),
+                         {.session_id = session_id, .number = number}, 0, 0, "a test");
+    };
+    log_of([&] {
+        for (const std::uint32_t number : {1U, 2U, 3U}) EXPECT_EQ(next(), number);
+        remove(2);
+        EXPECT_EQ(next(), 4U) << "one from among them had gone";
+        remove(4);
+        EXPECT_EQ(next(), 5U) << "the newest had gone";
+        for (const std::uint32_t number : {5U, 1U, 3U}) remove(number);
+        EXPECT_FALSE(std::filesystem::exists(directory_ / session_id));
+        EXPECT_EQ(next(), 6U) << "all had gone, and the folder with them";
+        EXPECT_EQ(RecordingFile(directory_, "00000000-0000-4000-8000-000000000002").number(), 1U)
+            << "of another session";
+    });
+}
+
 TEST_F(RecordingWriterTest, IsTheOperatorsAlone) {
     {
         RecordingWriter writer({.directory = directory_ / "made"});
