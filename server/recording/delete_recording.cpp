@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <system_error>
 
-#include "call_log.hpp"
 #include "log.hpp"
 #include "recording/deleted_numbers.hpp"
 
@@ -32,8 +31,9 @@ void delete_recording(const std::filesystem::path& path, const RecordingName& na
     if (::unlink(path.c_str()) != 0)
         throw std::system_error(errno, std::generic_category(), fmt::format("{} is not deleted", path.string()));
     ::rmdir(path.parent_path().c_str());  // refused where there is more in it
-    call_log.write({.session = name.session_id}, "its recording {} is deleted: {} frames, {} bytes; {}", name.number,
-                   frames, bytes, reason);
+    // However many there are: no more can go than were recorded.
+    log_info({.session = name.session_id}, "its recording {} is deleted: {} frames, {} bytes; {}", name.number, frames,
+             bytes, reason);
 }
 
 std::string fewer_frames_than(std::uint64_t min_frames) {

@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "call_log.hpp"
 #include "files/recording_format.hpp"
 #include "log.hpp"
 #include "meniscus/error.hpp"
@@ -207,6 +208,15 @@ TEST_F(RecordingWriterTest, GivesNoRecordingTheNumberOfOneThatWasDeleted) {
         EXPECT_EQ(RecordingFile(directory_, "00000000-0000-4000-8000-000000000002").number(), 1U)
             << "of another session";
     });
+}
+
+TEST_F(RecordingWriterTest, TellsOfADeletionWhateverElseIsLogged) {
+    const std::string log = log_of([&] {
+        for (int i = 0; i < 4000; ++i) call_log.write({}, "more than what is let through at a time");
+        const RecordingFile file(directory_, session_id);
+        delete_recording(file.path(), {.session_id = session_id, .number = file.number()}, 0, 0, "a test");
+    });
+    EXPECT_NE(log.find("its recording 1 is deleted"), std::string::npos);
 }
 
 TEST_F(RecordingWriterTest, IsTheOperatorsAlone) {
