@@ -1,14 +1,12 @@
 // Draws meshes small, with the viewer's own picture, on a canvas that nobody sees.
 import type { Shown } from '../bricks/brick_store';
-import { FrameReceiver } from '../bricks/frame_receiver';
 import type { DecodePool } from '../decode/decode_pool';
 import type { Server } from '../rpc/server';
 import type { Theme } from '../view/environment';
 import type { UpAxis } from '../view/up_axis';
 import { Viewer } from '../view/viewer';
+import { newestMesh } from './newest_mesh';
 
-/** The coarsest: a thumbnail shows no more. */
-const maxLevel = 1;
 const noMargins = { top: 0, right: 0, bottom: 0 };
 
 export class ThumbnailPainter {
@@ -48,19 +46,15 @@ export class ThumbnailPainter {
   }
 
   private async newest(sessionId: string, signal: AbortSignal): Promise<Shown | undefined> {
-    const receiver = new FrameReceiver();
-    for await (const { message, bytes } of this.server.snapshot({ sessionId, maxLevel }, signal)) {
-      const frame = receiver.take(message, bytes, performance.now());
-      if (!frame) continue;
-      const bricks = await Promise.all(
-        [...frame.bricks].map(
-          async ([key, encoded]) =>
-            [key, { encoded, decoded: await this.pool.decode(encoded, frame.offsetBits) }] as const,
-        ),
-      );
-      return { frame, bricks: new Map(bricks) };
-    }
-    return undefined;
+    const frame = await newestMesh((maxLevel) => this.server.snapshot({ sessionId, maxLevel }, signal));
+    if (!frame) return undefined;
+    const bricks = await Promise.all(
+      [...frame.bricks].map(
+        async ([key, encoded]) =>
+          [key, { encoded, decoded: await this.pool.decode(encoded, frame.offsetBits) }] as const,
+      ),
+    );
+    return { frame, bricks: new Map(bricks) };
   }
 
   private start(): Viewer {
