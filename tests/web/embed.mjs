@@ -119,7 +119,9 @@ describe('the viewer in a page of others', { skip: missing }, () => {
     const page = await open(`${server.url}?embed#session=${session}`, { viewport: { width: 320, height: 240 } });
     await drawn(page);
     assert.equal(await page.locator('header').isVisible(), false);
-    assert.equal(await page.locator('#controls').isVisible(), false);
+    for (const key of ['c', 'i', 'r', 'm']) await page.keyboard.press(key);
+    for (const panel of ['#controls', '#panels', '#overlay', '#warnings'])
+      assert.equal(await page.locator(panel).isVisible(), false, panel);
     await page.context().close();
     const other = await open(`${server.url}?embed`);
     await other.getByText('No session is chosen.').waitFor();

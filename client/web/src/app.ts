@@ -346,7 +346,7 @@ export class App {
     for (const [id, action] of Object.entries(actions))
       element(id, HTMLButtonElement).addEventListener('click', action);
     element('full', HTMLButtonElement).hidden = !document.fullscreenEnabled;
-    bindKeys(this.viewer.controls, () => this.looking);
+    bindKeys(this.viewer.controls, this.embedding !== undefined, () => this.looking);
   }
 
   private setLook(look: Look): void {

@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import { ownsKey } from '../src/keys/key_owner';
-import { keyTable, rowOf, type ActionOf, type KeyRow } from '../src/keys/key_table';
+import { keysOf, keyTable, rowOf, type ActionOf, type KeyRow } from '../src/keys/key_table';
 import { Keyboard } from '../src/keys/keyboard';
 
 const rowWith = (row: KeyRow): string => ('button' in row ? row.button : row.action);
@@ -37,6 +37,16 @@ describe('the table of keys', () => {
       undefined,
       undefined,
     ]);
+  });
+
+  it('opens no panels where the water is shown alone', () => {
+    const embedded = (key: string): string | undefined => {
+      const found = rowOf<KeyRow>(keysOf(true), press(key));
+      return found && rowWith(found.row);
+    };
+    expect(['c', 'i', 'r', 'm'].map(embedded)).toEqual([undefined, undefined, undefined, undefined]);
+    expect(['f', ' ', 'x', '?'].map(embedded)).toEqual(['fit', 'pause', 'view-x', 'show-keys']);
+    expect(keysOf(false)).toBe(keyTable);
   });
 
   it('repeats what is held where that is of use', () => {

@@ -13,6 +13,8 @@ interface KeyOf {
   readonly repeats?: boolean;
   /** Whether it is done where nothing is looked at, too. */
   readonly everywhere?: boolean;
+  /** Whether it opens a panel over the picture: a viewer in a frame of another page has none. */
+  readonly panel?: boolean;
 }
 
 /** button: the id of the one that is pressed. */
@@ -31,16 +33,21 @@ export const keyTable = [
   { button: 'view-y', keys: ['y'], shown: 'Y', words: 'look along Y' },
   { button: 'view-z', keys: ['z'], shown: 'Z', words: 'look along Z' },
   { button: 'scale', keys: ['s'], shown: 'S', words: 'scale bar and axes' },
-  { button: 'cut', keys: ['c'], shown: 'C', words: 'cut through the water' },
-  { button: 'probe', keys: ['i'], shown: 'I', words: 'place and level under the pointer' },
-  { button: 'ruler', keys: ['r'], shown: 'R', words: 'distance between two points' },
+  { button: 'cut', keys: ['c'], shown: 'C', words: 'cut through the water', panel: true },
+  { button: 'probe', keys: ['i'], shown: 'I', words: 'place and level under the pointer', panel: true },
+  { button: 'ruler', keys: ['r'], shown: 'R', words: 'distance between two points', panel: true },
   { button: 'picture', keys: ['g'], shown: 'G', words: 'save a picture' },
   { button: 'pause', keys: [' '], shown: 'Space', words: 'pause, and go on' },
   { button: 'back', keys: [','], shown: 'Comma', words: 'one frame back', repeats: true },
   { button: 'forward', keys: ['.'], shown: 'Period', words: 'one frame forward', repeats: true },
-  { button: 'measure', keys: ['m'], shown: 'M', words: 'show or hide the figures' },
+  { button: 'measure', keys: ['m'], shown: 'M', words: 'show or hide the figures', panel: true },
   { button: 'show-keys', keys: ['?'], shown: '?', words: 'show these keys', everywhere: true },
 ] as const satisfies readonly KeyRow[];
+
+/** embedded: whether the viewer is to show the water alone. */
+export function keysOf(embedded: boolean): readonly (typeof keyTable)[number][] {
+  return embedded ? keyTable.filter((row) => !('panel' in row)) : keyTable;
+}
 
 /** What a table asks for that no button does. */
 export type ActionOf<Row> = Row extends { readonly action: infer Name extends string } ? Name : never;

@@ -2,15 +2,16 @@
 import { KeysDialog } from '../ui/keys_dialog';
 import { element } from '../ui/page';
 import type { CameraControls } from '../view/camera_controls';
-import { keyTable } from './key_table';
+import { keysOf } from './key_table';
 import { Keyboard } from './keyboard';
 
-/** looking: whether a session or a recording is looked at. */
-export function bindKeys(camera: CameraControls, looking: () => boolean): void {
-  new KeysDialog(keyTable);
+/** embedded: whether the viewer is to show the water alone. looking: whether a session or a recording is looked at. */
+export function bindKeys(camera: CameraControls, embedded: boolean, looking: () => boolean): void {
+  const table = keysOf(embedded);
+  new KeysDialog(table);
   new Keyboard(
     document,
-    keyTable,
+    table,
     {
       turn: (key) => {
         camera.turn(key);
