@@ -36,9 +36,10 @@ int max_level_of(const Request& request) {
 
 template <class Request>
 MeshFormat format_of(const Request& request, const Settings& settings) {
+    const int normal_bits = normal_bits_of(request);  // refused out of range also where there are no normals
     return {.max_level = max_level_of(request),
             .position_bits = position_bits_of(request, settings),
-            .normal_bits = settings.normals ? normal_bits_of(request) : 0,
+            .normal_bits = settings.normals ? normal_bits : 0,
             .codec = conversion::chosen_codec(request.codecs())};
 }
 

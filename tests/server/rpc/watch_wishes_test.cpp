@@ -56,6 +56,16 @@ TEST(WatchWishes, AreRefusedOutOfRangeWithValueAndLimit) {
                    [](auto& m) { m.mutable_viewpoint()->set_x(std::numeric_limits<double>::infinity()); });
 }
 
+TEST(WatchWishes, ForNormalsAreRefusedOutOfRangeAlsoWhereThereAreNone) {
+    Settings without_normals = settings();
+    without_normals.normals = false;
+    v1::SnapshotRequest snapshot;
+    snapshot.set_normal_bits(17);
+    EXPECT_THROW(watch_wishes_of(snapshot, without_normals), InvalidInput);
+    EXPECT_THROW(watch_wishes_of(request([](auto& m) { m.set_normal_bits(1); }), without_normals), InvalidInput);
+    EXPECT_EQ(watch_wishes_of(request([](auto& m) { m.set_normal_bits(16); }), without_normals).format.normal_bits, 0);
+}
+
 TEST(WatchWishes, AreTakenOnTheirLimits) {
     for (const std::uint32_t bits : {0U, 2U, 16U})
         EXPECT_EQ(watch_wishes_of(request([&](auto& m) { m.set_normal_bits(bits); }), settings()).format.normal_bits,
