@@ -157,7 +157,7 @@ private:
     void finish_upload(const std::shared_ptr<Upload>& upload, std::exception_ptr error);
     void end(const std::exception_ptr& error);
 
-    // Of end_idle().
+    // Of end_idle_upload().
 
     void end_slow_upload(std::chrono::steady_clock::time_point now);
     void end_stalled_uploads(std::chrono::steady_clock::time_point now, bool memory_is_short);
