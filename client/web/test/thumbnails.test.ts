@@ -1,5 +1,5 @@
-import { beforeEach, describe, expect, it } from 'vitest';
-import { Thumbnails, thumbnailEvery } from '../src/list/thumbnails';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { Thumbnails, thumbnailEvery, thumbnailPatience } from '../src/list/thumbnails';
 import { Code, RpcError } from '../src/rpc/status';
 
 describe('thumbnails', () => {
@@ -108,6 +108,24 @@ describe('thumbnails', () => {
     see('a');
     thumbnails.update(sessions(1, 1));
     expect(asked).toEqual(['a', 'a']);
+  });
+
+  it('are not held up by one of which nothing is heard', async () => {
+    vi.useFakeTimers();
+    try {
+      thumbnails.update(sessions(1, 1));
+      see('a', 'b');
+      vi.advanceTimersByTime(thumbnailPatience - 1);
+      expect(under[0]!.signal.aborted).toBe(false);
+      vi.advanceTimersByTime(1);
+      expect(under[0]!.signal.aborted).toBe(true);
+      await under[0]!.end(new RpcError(Code.canceled, 'canceled'));
+      expect(asked).toEqual(['a', 'b']);
+      await under[1]!.end();
+      expect(vi.getTimerCount()).toBe(0);
+    } finally {
+      vi.useRealTimers();
+    }
   });
 
   it('go on after one that failed, and stop where the server makes none', async () => {

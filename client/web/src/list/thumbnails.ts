@@ -4,6 +4,8 @@ import { ThumbnailSchedule } from './thumbnail_schedule';
 
 /** ms between two pictures of one session. */
 export const thumbnailEvery = 10_000;
+/** ms for one picture: longer than a server takes to say that there is none. One that says nothing holds up no others. */
+export const thumbnailPatience = 30_000;
 
 export class Thumbnails {
   private readonly schedule = new ThumbnailSchedule(thumbnailEvery);
@@ -52,6 +54,9 @@ export class Thumbnails {
     if (session === undefined) return;
     const call = { session, abort: new AbortController() };
     this.call = call;
+    const late = setTimeout(() => {
+      call.abort.abort();
+    }, thumbnailPatience);
     void this.draw(session, call.abort.signal)
       .catch((error: unknown) => {
         // After whatever else went wrong the next picture may come: the list tells of what concerns it as well.
@@ -59,6 +64,7 @@ export class Thumbnails {
         if (this.call === call) this.schedule.missed(session);
       })
       .then(() => {
+        clearTimeout(late);
         if (this.call !== call) return;
         this.call = undefined;
         this.goOn();
