@@ -146,11 +146,11 @@ void validate_lengths(const ParticleFrame& frame) {
         throw LimitExceeded("the frame has " + std::to_string(frame.arrays.size()) + " arrays, at most " +
                             std::to_string(max_particle_arrays) + " are possible: leave some out");
     for (const ParticleArray& array : frame.arrays) {
-        if (array.element_bytes < 1)
-            throw InvalidInput("array '" + std::string(array.name) + "' has elements of 0 bytes, must have at least 1");
-        if (array.data.size() / array.element_bytes != count || array.data.size() % array.element_bytes != 0)
+        if (array.element_bytes() < 1)
+            throw InvalidInput("array '" + std::string(array.name) + "' has 0 components, must have at least 1");
+        if (array.data.size() / array.element_bytes() != count || array.data.size() % array.element_bytes() != 0)
             throw InvalidInput("array '" + std::string(array.name) + "' has " + std::to_string(array.data.size()) +
-                               " bytes, must have " + std::to_string(array.element_bytes) + " for each of " +
+                               " bytes, must have " + std::to_string(array.element_bytes()) + " for each of " +
                                std::to_string(count) + " particles");
     }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/mesh_format.hpp"
+#include "formats/named_values.hpp"
 #include "meniscus/mesh.hpp"
 
 namespace meniscus::formats {
@@ -26,9 +27,11 @@ bool needs_double(const Mesh& mesh);
 /// A triangle mesh from a file of any program.
 struct TriangleMesh {
     std::vector<std::array<double, 3>> positions;
-    std::vector<Normal> normals;       ///< empty, or one per position
-    std::vector<Triangle> triangles;   ///< indices into `positions`, checked
-    std::vector<std::uint8_t> levels;  ///< empty, or per triangle 1, 2, 3, crack 0
+    std::vector<Normal> normals;          ///< empty, or one per position
+    std::vector<Triangle> triangles;      ///< indices into `positions`, checked
+    std::vector<std::uint8_t> levels;     ///< empty, or per triangle 1, 2, 3, crack 0
+    std::vector<NamedValues> attributes;  ///< of the positions
+    bool wide = false;                    ///< float32 would merge positions: files need float64
 };
 
 TriangleMesh to_triangles(const Mesh& mesh);

@@ -18,11 +18,23 @@ ParticleFormat particle_format_of(const std::filesystem::path& path) {
     if (extension == ".vtk") return ParticleFormat::vtk;
     if (extension == ".ply") return ParticleFormat::ply;
     if (extension == ".xyz" || extension == ".bin" || extension == ".raw") return ParticleFormat::xyz;
-    throw InvalidInput(path.string() + ": particle files end in .vtk, .ply, .xyz, .bin or .raw, not in '" + extension +
-                       "'");
+    if (extension == ".vtu") return ParticleFormat::vtu;
+    if (extension == ".vtp") return ParticleFormat::vtp;
+    if (extension == ".bgeo" || path.string().ends_with(".bgeo.gz")) return ParticleFormat::bgeo;
+    if (extension == ".npy") return ParticleFormat::npy;
+    if (extension == ".npz") return ParticleFormat::npz;
+    if (extension == ".h5" || extension == ".hdf5" || extension == ".h5part") return ParticleFormat::hdf5;
+    if (extension == ".json") return ParticleFormat::json;
+    if (extension == ".bi4") return ParticleFormat::bi4;
+    throw InvalidInput(
+        path.string() +
+        ": particle files end in .vtk, .vtu, .vtp, .ply, .bgeo, .npy, .npz, .h5, .hdf5, .h5part, .json, .bi4, "
+        ".xyz, .bin or .raw, not in '" +
+        extension + "'");
 }
 
-Particles read_particles(const std::filesystem::path& path, std::optional<ParticleFormat> format) {
+Particles read_particles(const std::filesystem::path& path, std::optional<ParticleFormat> format,
+                         const ReadLimits& limits) {
     if (!format) format = particle_format_of(path);
     const std::string bytes = read_input(path);
     const std::string name = input_name(path);
@@ -33,6 +45,21 @@ Particles read_particles(const std::filesystem::path& path, std::optional<Partic
             return read_particle_ply(name, bytes);
         case ParticleFormat::xyz:
             return read_xyz(name, bytes);
+        case ParticleFormat::vtu:
+        case ParticleFormat::vtp:
+            return read_vtk_xml(name, bytes, limits);
+        case ParticleFormat::bgeo:
+            return read_bgeo(name, bytes, limits);
+        case ParticleFormat::npy:
+            return read_npy(name, bytes);
+        case ParticleFormat::npz:
+            return read_npz(name, bytes, limits);
+        case ParticleFormat::hdf5:
+            return read_hdf5(name, bytes, limits);
+        case ParticleFormat::json:
+            return read_particle_json(name, bytes);
+        case ParticleFormat::bi4:
+            return read_bi4(name, bytes);
     }
     return {};
 }
@@ -59,6 +86,17 @@ float to_coordinate(double value, std::size_t particle, const ByteCursor& at) {
         at.fail(message.str());
     }
     return static_cast<float>(value);
+}
+
+std::string array_name(std::string_view name) {
+    std::string out;
+    for (const char c : name.substr(0, 64)) {
+        if (c >= 'A' && c <= 'Z')
+            out += static_cast<char>(c - 'A' + 'a');
+        else
+            out += (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ? c : '_';
+    }
+    return out.empty() ? "_" : out;
 }
 
 std::uint8_t to_level(double value, std::size_t particle, const ByteCursor& at) {

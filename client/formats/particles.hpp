@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/named_values.hpp"
+#include "formats/read_limits.hpp"
 #include "meniscus/particle_frame.hpp"
 
 namespace meniscus::formats {
@@ -18,11 +20,14 @@ class ByteCursor;
 struct Particles {
     std::vector<float> positions;      ///< x y z per particle, world units; may hold NaN or infinity if the file does
     std::vector<std::uint8_t> levels;  ///< empty, or one per particle, 0 (finest) to max_particle_level
+    /// What else the file tells of each particle, in its order, under array_name(): at most max_particle_arrays.
+    std::vector<NamedValues> arrays;
 
     /// Faces that the file has beside its points: it is a mesh, whose corners are taken as particles. 0 of particles.
     std::size_t faces = 0;
 
     std::size_t count() const { return positions.size() / 3; }
+    /// Without arrays.
     ParticleFrame frame() const {
         ParticleFrame view;
         view.positions = positions;
@@ -35,7 +40,15 @@ struct Particles {
 enum class ParticleFormat {
     vtk,  ///< legacy VTK
     ply,
-    xyz,  ///< float32 triples, little-endian; also .bin and .raw
+    xyz,   ///< float32 triples, little-endian; also .bin and .raw
+    vtu,   ///< VTK's XML, unstructured grid
+    vtp,   ///< VTK's XML, polygonal data
+    bgeo,  ///< Houdini's classic format, also gzipped, as Partio and SPlisHSPlasH write it
+    npy,   ///< numpy, positions alone
+    npz,   ///< numpy, zipped arrays
+    hdf5,  ///< H5Part and PySPH; .h5, .hdf5, .h5part
+    json,  ///< splashsurf's list of triples
+    bi4,   ///< DualSPHysics
 };
 constexpr std::string_view name_of(ParticleFormat format) {
     switch (format) {
@@ -45,6 +58,22 @@ constexpr std::string_view name_of(ParticleFormat format) {
             return "ply";
         case ParticleFormat::xyz:
             return "xyz";
+        case ParticleFormat::vtu:
+            return "vtu";
+        case ParticleFormat::vtp:
+            return "vtp";
+        case ParticleFormat::bgeo:
+            return "bgeo";
+        case ParticleFormat::npy:
+            return "npy";
+        case ParticleFormat::npz:
+            return "npz";
+        case ParticleFormat::hdf5:
+            return "hdf5";
+        case ParticleFormat::json:
+            return "json";
+        case ParticleFormat::bi4:
+            return "bi4";
     }
     return {};
 }
@@ -54,12 +83,23 @@ ParticleFormat particle_format_of(const std::filesystem::path& path);
 
 /// Reads a file, or standard input for "-". format: without it, the extension's. Throws InvalidInput, in one line that
 /// names the file, for any other extension and for a file that is not of the format.
-Particles read_particles(const std::filesystem::path& path, std::optional<ParticleFormat> format = std::nullopt);
+Particles read_particles(const std::filesystem::path& path, std::optional<ParticleFormat> format = std::nullopt,
+                         const ReadLimits& limits = {});
 
 /// The readers behind it. name: the file, for messages.
 Particles read_vtk(const std::string& name, std::string_view bytes);
 Particles read_particle_ply(const std::string& name, std::string_view bytes);
 Particles read_xyz(const std::string& name, std::string_view bytes);
+Particles read_vtk_xml(const std::string& name, std::string_view bytes, const ReadLimits& limits);
+Particles read_bgeo(const std::string& name, std::string_view bytes, const ReadLimits& limits);
+Particles read_npy(const std::string& name, std::string_view bytes);
+Particles read_npz(const std::string& name, std::string_view bytes, const ReadLimits& limits);
+Particles read_hdf5(const std::string& name, std::string_view bytes, const ReadLimits& limits);
+Particles read_particle_json(const std::string& name, std::string_view bytes);
+Particles read_bi4(const std::string& name, std::string_view bytes);
+
+/// A name of a file as one of arrays: lower case, other characters than a-z, 0-9 and _ become _, at most 64.
+std::string array_name(std::string_view name);
 
 /// A coordinate as float32. Throws InvalidInput, naming the particle, if a finite value is beyond float32.
 float to_coordinate(double value, std::size_t particle, const ByteCursor& at);

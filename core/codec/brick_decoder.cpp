@@ -153,7 +153,7 @@ DecodedBrick decode_draco_brick(const EncodedBrick& brick, std::uint32_t offset_
 
 }  // namespace
 
-DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits) {
+DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits, std::span<const CodedAttribute>) {
     switch (brick.codec) {
         case Codec::draco:
             return decode_draco_brick(brick, offset_bits);

@@ -33,7 +33,7 @@ inline PayloadView payload_view(const ParticleFrame& frame) {
     PayloadView view;
     for (const ParticleArray& array : frame.arrays) {
         view.data[view.arrays] = array.data.data();
-        view.element_bytes[view.arrays++] = array.element_bytes;
+        view.element_bytes[view.arrays++] = array.element_bytes();
     }
     return view;
 }

@@ -52,7 +52,7 @@ struct RandomPayload {
             const std::size_t element_bytes = 1 + random() % 40;
             auto& data = bytes.emplace_back(particles * element_bytes);
             for (std::byte& b : data) b = static_cast<std::byte>(random() % 3);
-            arrays.push_back({"array", data, element_bytes});
+            arrays.push_back({"array", data, ElementType::uint8, element_bytes});
         }
     }
 };

@@ -92,7 +92,7 @@ TEST(PayloadEmulated, HasTheCpusOrder) {
                 auto& data = bytes.emplace_back(size * frame.count());
                 for (std::size_t i = 0; i < data.size(); i += size)
                     data[i + size - 1] = static_cast<std::byte>(random() % 8 == 0 ? 255 : 0);
-                arrays.push_back({"array", data, size});
+                arrays.push_back({"array", data, ElementType::uint8, size});
             }
             frame.arrays = arrays;
             EXPECT_EQ(Device().sources(frame), sources_on_cpu(frame));
@@ -106,7 +106,7 @@ TEST(PayloadEmulated, TakesRoomForItsOwnBytesHoweverManyParticlesEarlierFramesHa
     test::Particles one;
     one.add(0.0F, 0.0F, 0.0F);
     const std::vector<std::byte> element(std::size_t{1} << 20);
-    const ParticleArray array{"large", element, element.size()};
+    const ParticleArray array{"large", element, ElementType::uint8, element.size()};
     ParticleFrame frame = one.frame();
     frame.arrays = {&array, 1};
     const std::uint64_t before = device.bytes();
@@ -120,7 +120,7 @@ TEST(PayloadEmulated, OfNoParticlesTakesNoRoomHoweverLargeItsElements) {
     const auto expected = device.sorted_payloads(particles);
     Device other;
     // Large enough for their product with a capacity to wrap around.
-    const ParticleArray array{"none", {}, std::size_t{1} << 56};
+    const ParticleArray array{"none", {}, ElementType::uint8, std::size_t{1} << 56};
     ParticleFrame empty;
     empty.arrays = {&array, 1};
     other.run(empty);

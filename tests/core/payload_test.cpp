@@ -124,8 +124,8 @@ TEST(Payload, IsRefusedByNameWhereItDoesNotFitTheParticles) {
     ParticleFrame frame = particles.frame();
     particles.arrays[1].data = particles.arrays[1].data.first(particles.arrays[1].data.size() - 1);
     expect_refusal(frame, "array 'phase' has");
-    particles.arrays[1].element_bytes = 0;
-    expect_refusal(frame, "array 'phase' has elements of 0 bytes");
+    particles.arrays[1].components = 0;
+    expect_refusal(frame, "array 'phase' has 0 components");
     const std::vector<ParticleArray> many(max_particle_arrays + 1, particles.arrays[0]);
     frame.arrays = many;
     expect_refusal(frame, "17 arrays, at most 16");

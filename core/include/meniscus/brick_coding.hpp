@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "meniscus/attribute_coding.hpp"
 #include "meniscus/codec.hpp"
 #include "meniscus/memory.hpp"
 #include "meniscus/mesh.hpp"
@@ -27,6 +28,7 @@ struct CodingOptions {
                             ///< 0: they are not rounded
     int speed = 10;         ///< Draco's speed, 0 (smallest) to 10 (fastest)
     Codec codec = Codec::draco;
+    std::vector<CodedAttribute> attributes;  ///< as coded_attributes() gives them for this mesh
 };
 
 /// The lattice that vertices lie on once they are encoded. Throws InvalidInput for position_bits out of range.
@@ -42,6 +44,10 @@ struct BrickContent {
     std::vector<Normal> normals;                          ///< one per vertex; empty if none are sent
     std::vector<Triangle> triangles;
     std::vector<std::byte> cell_levels;  ///< see EncodedBrick
+    /// Of CodingOptions::attributes, in that order: coded_bytes() for each vertex, little-endian.
+    std::vector<std::vector<std::byte>> attributes;
+    std::vector<CodedAttribute>
+        attribute_forms;  ///< part of the content: the same bytes over another range are other values
 
     /// Equal for equal content; different content has the same hash with a chance of about 2^-128. Not proof against
     /// forgery, and not for files: another version may hash otherwise.
@@ -89,12 +95,14 @@ struct DecodedBrick {
     std::vector<LatticePosition> vertices;  ///< absolute, refined lattice
     std::vector<Normal> normals;            ///< empty if none were sent
     std::vector<Triangle> triangles;
-    std::vector<TriangleLevel> levels;  ///< one per triangle
+    std::vector<TriangleLevel> levels;      ///< one per triangle
+    std::vector<MeshAttribute> attributes;  ///< as they were announced
 };
 
-/// Throws InvalidInput for bytes that are not a brick of this lattice, and for a codec that this version does not know,
-/// with its number; never crashes on any bytes.
-DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits);
+/// attributes: those that the brick's mesh announced. Throws InvalidInput for bytes that are not a brick of this
+/// lattice, and for a codec that this version does not know, with its number; never crashes on any bytes.
+DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits,
+                          std::span<const CodedAttribute> attributes = {});
 
 /// Welds bricks into one mesh, ordered as reconstruct() orders it (triangles within a brick and level excepted).
 /// Throws InvalidInput if a brick occurs twice.

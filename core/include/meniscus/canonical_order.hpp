@@ -5,10 +5,10 @@
 
 namespace meniscus {
 
-/// The same surface, in the same order wherever it was made: vertices by x, then y, then z; of a triangle the first
-/// vertex of these first, the orientation kept; the triangles of a level by their first, second and third vertex. Files
-/// are written in this order, and mesh_sha256() hashes in it. The triangles of a brick do not lie together in it, so
-/// that the result has no `bricks`.
+/// The same surface, in the same order wherever it was made: vertices, with all that they have, by x, then y, then z;
+/// of a triangle the first vertex of these first, the orientation kept; the triangles of a level by their first, second
+/// and third vertex. Files are written in this order, and mesh_sha256() hashes in it. The triangles of a brick do not
+/// lie together in it, so that the result has no `bricks`.
 Mesh in_canonical_order(const Mesh& mesh);
 
 }  // namespace meniscus

@@ -6,8 +6,11 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "meniscus/element_type.hpp"
 #include "meniscus/memory.hpp"
 #include "meniscus/names.hpp"
 
@@ -67,6 +70,17 @@ struct MeshBrick {
     }
 };
 
+/// What the vertices have of an array of the particles: the mean of the particles near, weighted as the field weights
+/// them; of ids, that of the particle with the largest weight.
+struct MeshAttribute {
+    std::string name;
+    ElementType type = ElementType::float32;
+    std::size_t components = 1;  ///< numbers per vertex
+    Array<std::byte> data;       ///< element_bytes() for each vertex, one vertex after the other
+
+    std::size_t element_bytes() const { return size_of(type) * components; }
+};
+
 /// Triangles are ordered by level, by brick (z, y, x) within a level; they run counter-clockwise seen from outside.
 struct Mesh {
     double cell_size = 0.0;           ///< finest cell's edge c, world units
@@ -76,6 +90,7 @@ struct Mesh {
     Array<Triangle> triangles;        ///< indices into `vertices`
     std::array<TriangleRange, triangle_level_count> levels{};  ///< into `triangles`
     Array<MeshBrick> bricks;                                   ///< ordered by coordinate (z, y, x)
+    std::vector<MeshAttribute> attributes;                     ///< as the settings name them, in that order
     Array<Point> spray;  ///< places of the particles left out of the surface, in no order of the frame's; Spray::points
 
     /// World position of a lattice position of this mesh: exact product in double, one rounding.

@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "meniscus/element_type.hpp"
 #include "meniscus/settings.hpp"
 
 namespace meniscus {
@@ -18,9 +19,12 @@ inline constexpr std::size_t max_particle_arrays = 16;
 
 /// A value that every particle carries beside its position and level, such as a velocity; borrowed.
 struct ParticleArray {
-    std::string_view name;            ///< for messages
-    std::span<const std::byte> data;  ///< element_bytes for each particle, one particle after the other
-    std::size_t element_bytes = 0;    ///< at least 1
+    std::string_view name;
+    std::span<const std::byte> data;  ///< element_bytes() for each particle, one particle after the other
+    ElementType type = ElementType::float32;
+    std::size_t components = 1;  ///< numbers per particle, at least 1
+
+    std::size_t element_bytes() const { return size_of(type) * components; }
 };
 
 /// Positions in one of two encodings; the other stays empty. Borrowed: the memory must outlive the call.
@@ -29,7 +33,8 @@ struct ParticleFrame {
     std::span<const std::uint16_t> quantized;  ///< x y z per particle: min + q (max - min) / 65535 of quantization_box
     Box quantization_box;                      ///< used with `quantized` only
     std::span<const std::uint8_t> levels;      ///< empty (uniform SPH), or one per particle, 0 (finest) to 3
-    /// Their bytes order particles that lie at one place; the surface does not depend on them.
+    /// Those that the settings name become attributes of the mesh's vertices. The bytes of all of them order particles
+    /// that lie at one place; the surface does not depend on them.
     std::span<const ParticleArray> arrays{};
 
     bool is_quantized() const { return !quantized.empty(); }

@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace meniscus {
 
@@ -125,6 +127,11 @@ struct Settings {
     bool normals = true;
     /// Crops the surface, closed at the border; rounded outward to whole finest cells. None: no limit.
     std::optional<Box> domain;
+    /// Names of the particles' arrays that become attributes of the vertices, at most max_particle_arrays, each once: 1
+    /// to 64 of a-z, 0-9 and _, other than "position" and "level". Frames must bring them.
+    std::vector<std::string> attributes;
+    /// Every array that the first frame brings becomes one, and further frames must bring it; `attributes` is empty.
+    bool all_attributes = false;
 
     bool operator==(const Settings&) const = default;
 };

@@ -54,8 +54,9 @@ struct Statistics {
     std::uint64_t triangles = 0;
     std::array<std::uint64_t, triangle_level_count> triangles_by_level{};  ///< indexed by TriangleLevel
     std::uint64_t spray_particles = 0;  ///< particles without company, whatever Settings::spray makes of them
-    double volume = 0.0;                ///< enclosed by the mesh, world units cubed: exact until it is rounded here
-    double particle_volume = 0.0;       ///< of the frame: the sum of (2 r)^3, world units cubed
+    std::uint64_t vertices_without_particles = 0;  ///< those that no particle is near: their attributes are 0
+    double volume = 0.0;           ///< enclosed by the mesh, world units cubed: exact until it is rounded here
+    double particle_volume = 0.0;  ///< of the frame: the sum of (2 r)^3, world units cubed
     std::array<std::uint64_t, 3> base_cells_by_level{};  ///< cells of the surface band, levels 1, 2, 3
     std::uint64_t field_evaluations = 0;                 ///< points at which the field was summed
     std::array<double, stage_count> stage_seconds{};     ///< indexed by Stage

@@ -20,8 +20,8 @@ struct ParticlesWithPayload {
     std::vector<ParticleArray> arrays;
 
     ParticleFrame frame() {
-        arrays = {{"velocity", std::as_bytes(std::span(velocities)), 3 * sizeof(float)},
-                  {"phase", std::as_bytes(std::span(phases)), 1}};
+        arrays = {{"velocity", std::as_bytes(std::span(velocities)), ElementType::float32, 3},
+                  {"phase", std::as_bytes(std::span(phases)), ElementType::uint8, 1}};
         ParticleFrame f = particles.frame();
         f.arrays = arrays;
         return f;

@@ -53,7 +53,7 @@ TEST(Stream, RefusesAFrameWithAnArrayThatServersDoNotTakeByItsName) {
     auto stream = running.client.stream(running.session());
     const Particles particles = wave(2, 0.0);
     const std::vector<std::byte> numbers(4 * particles.view().count());
-    const ParticleArray array{.name = "id", .data = numbers, .element_bytes = 4};
+    const ParticleArray array{.name = "id", .data = numbers, .type = ElementType::uint32};
     ParticleFrame frame = particles.view();
     frame.arrays = {&array, 1};
     try {
