@@ -1,0 +1,38 @@
+// Attributes of vertices on the wire and in core.
+#pragma once
+
+#include <google/protobuf/repeated_ptr_field.h>
+
+#include <span>
+#include <vector>
+
+#include "meniscus/attribute_coding.hpp"
+#include "meniscus/element_type.hpp"
+#include "meniscus/mesh.hpp"
+#include "meniscus/v1/mesh.pb.h"
+#include "meniscus/v1/surface_service.pb.h"
+
+namespace meniscus::conversion {
+
+v1::AttributeType attribute_type(ElementType type);
+/// Throws InvalidInput, with the number, for one that this version does not know, or that no attribute has.
+ElementType from_wire(v1::AttributeType type);
+v1::ElementType element_type(ElementType type);
+/// Likewise.
+ElementType from_wire(v1::ElementType type);
+
+using AttributeWishes = google::protobuf::RepeatedPtrField<v1::AttributeWish>;
+
+/// Throws InvalidInput for more than max_particle_arrays, for one that comes twice, and for names and bits that no
+/// attribute has.
+std::vector<AttributeWish> attribute_wishes(const AttributeWishes& wire);
+AttributeWishes to_wire(std::span<const AttributeWish> wishes);
+
+/// Announces all attributes of the mesh. ranges: attribute_ranges() of it. coded: those that the bricks carry.
+void to_wire(const Mesh& mesh, std::span<const AttributeRange> ranges, std::span<const CodedAttribute> coded,
+             v1::MeshBegin& message);
+
+/// Those that the bricks carry. Throws InvalidInput unless all that is announced is what to_wire() makes of some mesh.
+std::vector<CodedAttribute> coded_attributes(const v1::MeshBegin& message);
+
+}  // namespace meniscus::conversion
