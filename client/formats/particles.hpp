@@ -21,7 +21,7 @@ struct Particles {
     std::vector<float> positions;      ///< x y z per particle, world units; may hold NaN or infinity if the file does
     std::vector<std::uint8_t> levels;  ///< empty, or one per particle, 0 (finest) to max_particle_level
     /// What else the file tells of each particle, in its order, under array_name(): at most max_particle_arrays.
-    std::vector<NamedValues> arrays;
+    std::vector<NamedValues> arrays{};
 
     /// Faces that the file has beside its points: it is a mesh, whose corners are taken as particles. 0 of particles.
     std::size_t faces = 0;

@@ -28,7 +28,7 @@ struct CodingOptions {
                             ///< 0: they are not rounded
     int speed = 10;         ///< Draco's speed, 0 (smallest) to 10 (fastest)
     Codec codec = Codec::draco;
-    std::vector<CodedAttribute> attributes;  ///< as coded_attributes() gives them for this mesh
+    std::vector<CodedAttribute> attributes{};  ///< as coded_attributes() gives them for this mesh
 };
 
 /// The lattice that vertices lie on once they are encoded. Throws InvalidInput for position_bits out of range.
