@@ -90,7 +90,10 @@ void upload(const formats::Recording& recording, const ReplayOptions& options, c
             if (!options.verbosity.quiet) require_listener();
             const formats::RecordedParticles particles = recording.particles(frame);
             pace.wait((frame.arrived_at - first.arrived_at) + static_cast<double>(round) * (seconds + interval));
-            stream.push(particles.view(), frame.index + round * (last.index - first.index + 1), frame.simulation_time);
+            ParticleFrame view = particles.view();
+            const std::vector<ParticleArray> arrays = formats::views_of(particles.arrays);
+            view.arrays = arrays;
+            stream.push(view, frame.index + round * (last.index - first.index + 1), frame.simulation_time);
         }
     answers.finish();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,11 @@ struct NamedValues {
     std::size_t count() const { return data.size() / element_bytes(); }
     ParticleArray view() const { return {name, data, type, components}; }
 };
+
+inline std::vector<ParticleArray> views_of(std::span<const NamedValues> arrays) {
+    std::vector<ParticleArray> views;
+    for (const NamedValues& values : arrays) views.push_back(values.view());
+    return views;
+}
 
 }  // namespace meniscus::formats

@@ -28,6 +28,7 @@ public:
         fill(std::as_writable_bytes(std::span(particles.positions)));
         fill(std::as_writable_bytes(std::span(particles.quantized)));
         fill(std::as_writable_bytes(std::span(particles.levels)));
+        for (NamedValues& array : particles.arrays) fill(array.data);
         if (!chunk_.empty()) fail("more bytes than its particles have");
         next(v1::StreamRequest::kFrameEnd, "frame_end");
         if (!messages_.at_end()) fail("messages behind frame_end");
@@ -58,12 +59,22 @@ private:
         } else {
             particles.positions.resize(3 * count);
         }
+        if (layout.has_levels && layout.levels_after != layout.position_bytes)
+            fail("array \"level\" does not follow \"position\"");
         if (layout.has_levels) particles.levels.resize(count);
+        for (const conversion::FurtherArray& array : layout.further) {
+            if (!array.can_be_attribute())
+                fail("array \"" + array.name + "\" is " + conversion::form_of(array) + ", of which no attribute is made");
+            particles.arrays.push_back({.name = array.name,
+                                        .type = *array.type,
+                                        .components = array.components,
+                                        .data = std::vector<std::byte>(count * array.bytes)});
+        }
     }
 
     conversion::ParticleLayout layout(const v1::FrameBegin& message) const {
         try {
-            return conversion::particle_layout(message.arrays(), conversion::UnknownArrays::refuse);
+            return conversion::particle_layout(message.arrays());
         } catch (const InvalidInput& e) {
             fail(e.what());
         }

@@ -10,6 +10,7 @@
 
 #include "files/random_access_file.hpp"
 #include "files/recording_scan.hpp"
+#include "formats/named_values.hpp"
 #include "meniscus/client/client.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
@@ -34,7 +35,9 @@ struct RecordedParticles {
     std::vector<std::uint16_t> quantized;
     Box quantization_box;
     std::vector<std::uint8_t> levels;
+    std::vector<NamedValues> arrays;  ///< those of which the session made attributes
 
+    /// Without arrays.
     ParticleFrame view() const {
         return {.positions = positions, .quantized = quantized, .quantization_box = quantization_box, .levels = levels};
     }

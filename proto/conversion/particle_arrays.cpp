@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "meniscus/error.hpp"
 
@@ -16,12 +18,19 @@ struct Element {
     v1::ElementType type;
     std::string_view name;
     unsigned bytes;
+    std::optional<ElementType> in_core;
 };
 
+constexpr Element element_of(v1::ElementType type, ElementType in_core) {
+    return {type, name_of(in_core), static_cast<unsigned>(size_of(in_core)), in_core};
+}
+
 constexpr std::array elements{
-    Element{v1::ELEMENT_TYPE_FLOAT32, "float32", 4}, Element{v1::ELEMENT_TYPE_UINT8, "uint8", 1},
-    Element{v1::ELEMENT_TYPE_UINT16, "uint16", 2},   Element{v1::ELEMENT_TYPE_INT32, "int32", 4},
-    Element{v1::ELEMENT_TYPE_UINT32, "uint32", 4},
+    element_of(v1::ELEMENT_TYPE_FLOAT32, ElementType::float32),
+    element_of(v1::ELEMENT_TYPE_UINT8, ElementType::uint8),
+    Element{v1::ELEMENT_TYPE_UINT16, "uint16", 2, std::nullopt},
+    element_of(v1::ELEMENT_TYPE_INT32, ElementType::int32),
+    element_of(v1::ELEMENT_TYPE_UINT32, ElementType::uint32),
 };
 static_assert(elements.size() == v1::ElementType_ARRAYSIZE - 1, "every element type of the contract has a row");
 
@@ -67,8 +76,8 @@ void require_name(const std::string& name, int place) {
                                std::to_string(static_cast<unsigned char>(c)) + "; it must be of a-z, 0-9 and _");
 }
 
-/// Bytes per particle, for any array.
-std::uint64_t bytes_of(const v1::ParticleArray& array) {
+/// Any array, as one beside positions and levels. after: bytes per particle of those before it.
+FurtherArray described(const v1::ParticleArray& array, std::uint64_t after) {
     const auto element = std::ranges::find(elements, array.type(), &Element::type);
     if (element == elements.end())
         throw InvalidInput("array " + quoted(array.name()) + " has the element type " +
@@ -76,7 +85,11 @@ std::uint64_t bytes_of(const v1::ParticleArray& array) {
     if (array.components() < 1 || array.components() > max_array_components)
         throw InvalidInput("array " + quoted(array.name()) + " has " + std::to_string(array.components()) +
                            " components; it must have 1 to " + std::to_string(max_array_components));
-    return std::uint64_t{element->bytes} * array.components();
+    return {.name = array.name(),
+            .type = element->in_core,
+            .components = array.components(),
+            .bytes = std::uint64_t{element->bytes} * array.components(),
+            .after = after};
 }
 
 void require_form(const KnownArray& known, const v1::ParticleArray& array) {
@@ -89,22 +102,21 @@ void require_form(const KnownArray& known, const v1::ParticleArray& array) {
                        text(known.forms));
 }
 
-[[noreturn]] void refuse_unknown(const std::string& name) {
-    std::string takes;
-    for (const KnownArray& known : known_arrays) takes += (takes.empty() ? "" : ", ") + quoted(known.name);
-    throw InvalidInput("array " + quoted(name) + " is not known to this version, which takes " + takes);
-}
-
-void add(ParticleArrays& arrays, const KnownArray& known, const Form& form) {
+void add(ParticleArrays& arrays, std::string_view name, const Form& form) {
     v1::ParticleArray& array = *arrays.Add();
-    array.set_name(std::string(known.name));
+    array.set_name(std::string(name));
     array.set_type(form.type);
     array.set_components(form.components);
 }
 
 }  // namespace
 
-ParticleLayout particle_layout(const ParticleArrays& arrays, UnknownArrays unknown) {
+std::string form_of(const FurtherArray& array) {
+    const auto element = std::ranges::find(elements, array.type, &Element::in_core);
+    return std::string(element->name) + " x " + std::to_string(array.components);
+}
+
+ParticleLayout particle_layout(const ParticleArrays& arrays) {
     if (arrays.size() > max_announced_arrays)
         throw InvalidInput(std::to_string(arrays.size()) + " arrays; at most " + std::to_string(max_announced_arrays) +
                            " are taken");
@@ -119,28 +131,31 @@ ParticleLayout particle_layout(const ParticleArrays& arrays, UnknownArrays unkno
         const auto before = arrays.begin() + i;
         if (std::any_of(arrays.begin(), before, [&](const auto& other) { return other.name() == array.name(); }))
             throw InvalidInput("array " + quoted(array.name()) + " comes twice; each comes once");
-        const std::uint64_t bytes = bytes_of(array);
+        FurtherArray further = described(array, layout.particle_bytes);
+        layout.particle_bytes += further.bytes;
         const auto known = std::ranges::find(known_arrays, array.name(), &KnownArray::name);
-        if (known != known_arrays.end())
-            require_form(*known, array);
-        else if (unknown == UnknownArrays::refuse)
-            refuse_unknown(array.name());
+        if (known != known_arrays.end()) require_form(*known, array);
         if (array.name() == position_array.name) {
             layout.quantized = array.type() == v1::ELEMENT_TYPE_UINT16;
-            layout.position_bytes = bytes;
+            layout.position_bytes = further.bytes;
         } else if (array.name() == level_array.name) {
             layout.has_levels = true;
-            layout.levels_after = layout.particle_bytes;
+            layout.levels_after = further.after;
+        } else {
+            layout.further.push_back(std::move(further));
         }
-        layout.particle_bytes += bytes;
     }
     return layout;
 }
 
-ParticleArrays particle_arrays(bool quantized, bool has_levels) {
+ParticleArrays particle_arrays(bool quantized, bool has_levels, std::span<const ParticleArray> further) {
     ParticleArrays arrays;
-    add(arrays, position_array, position_forms.at(quantized ? 1 : 0));
-    if (has_levels) add(arrays, level_array, level_forms.front());
+    add(arrays, position_array.name, position_forms.at(quantized ? 1 : 0));
+    if (has_levels) add(arrays, level_array.name, level_forms.front());
+    for (const ParticleArray& array : further) {
+        const auto element = std::ranges::find(elements, std::optional(array.type), &Element::in_core);
+        add(arrays, array.name, {element->type, static_cast<std::uint32_t>(array.components)});
+    }
     return arrays;
 }
 

@@ -197,6 +197,8 @@ Settings from_wire(const v1::Settings& wire) {
     settings.edge_points = edge_points_from_wire(wire);
     if (wire.has_normals()) settings.normals = wire.normals();
     if (wire.has_domain()) settings.domain = from_wire(wire.domain(), "settings.domain");
+    settings.attributes.assign(wire.attributes().begin(), wire.attributes().end());
+    settings.all_attributes = wire.all_attributes();
     // Sessions of one surface have equal settings, whether or not their makers named a default.
     return in_force(settings);
 }
@@ -219,6 +221,8 @@ v1::Settings to_wire(const Settings& given) {
     std::visit([&](const auto& edge_points) { to_wire(edge_points, wire); }, settings.edge_points);
     wire.set_normals(settings.normals);
     if (settings.domain) *wire.mutable_domain() = to_wire(*settings.domain);
+    wire.mutable_attributes()->Assign(settings.attributes.begin(), settings.attributes.end());
+    wire.set_all_attributes(settings.all_attributes);
     return wire;
 }
 

@@ -149,6 +149,7 @@ void to_wire(const Statistics& statistics, v1::FrameStatistics& wire) {
     wire.set_backend(statistics.backend);
     wire.set_threads(statistics.threads);
     wire.set_spray_particles(statistics.spray_particles);
+    wire.set_vertices_without_particles(statistics.vertices_without_particles);
     wire.set_volume(statistics.volume);
     wire.set_particle_volume(statistics.particle_volume);
     for (const Warning& warning : statistics.warnings) {
@@ -185,6 +186,7 @@ Statistics from_wire(const v1::FrameStatistics& wire) {
     statistics.backend = wire.backend();
     statistics.threads = wire.threads();
     statistics.spray_particles = wire.spray_particles();
+    statistics.vertices_without_particles = wire.vertices_without_particles();
     statistics.volume = wire.volume();
     statistics.particle_volume = wire.particle_volume();
     for (const v1::Warning& warning : wire.warnings()) {

@@ -1,6 +1,8 @@
 #include "recording/recording_entries.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -61,13 +63,18 @@ void append_chunk(std::string& out, std::string_view data) {
     out.append(outer).append(inner).append(data);
 }
 
+void append_chunks(std::string& out, std::span<const std::byte> bytes) {
+    for (; !bytes.empty(); bytes = bytes.subspan(std::min(bytes.size(), chunk_bytes)))
+        append_chunk(out, {reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), chunk_bytes)});
+}
+
 v1::StreamRequest begin_message(const InputFrame& frame) {
     v1::StreamRequest request;
     v1::FrameBegin& begin = *request.mutable_frame_begin();
     begin.set_frame_index(frame.index);
     begin.set_simulation_time(frame.simulation_time);
     begin.set_particle_count(frame.particle_count);
-    *begin.mutable_arrays() = conversion::particle_arrays(frame.quantized, frame.has_levels);
+    *begin.mutable_arrays() = conversion::particle_arrays(frame.quantized, frame.has_levels, frame.view().arrays);
     if (frame.quantized) *begin.mutable_quantization_box() = conversion::to_wire(frame.quantization_box);
     return request;
 }
@@ -91,16 +98,17 @@ std::string recording_begin(const std::string& session_id, const Settings& setti
 
 RecordingBytes recorded_particles(const InputFrame& frame, std::int64_t arrived_at) {
     RecordingBytes bytes;
+    const v1::StreamRequest begin = begin_message(frame);
+    const std::span<const ParticleArray> arrays = frame.view().arrays;
     // Not to grow while the particles are copied: 12 bytes at most before each chunk, and the messages around them.
-    constexpr std::size_t overhead = 512;
-    bytes.messages.reserve(frame.bytes.size() + frame.bytes.size() / chunk_bytes * 16 + overhead);
-    append_delimited(bytes.messages, begin_message(frame));
-    std::string_view rest(reinterpret_cast<const char*>(frame.bytes.data()), frame.bytes.size());
-    while (!rest.empty()) {
-        const std::string_view chunk = rest.substr(0, chunk_bytes);
-        append_chunk(bytes.messages, chunk);
-        rest.remove_prefix(chunk.size());
-    }
+    constexpr std::size_t before_a_chunk = 16;
+    constexpr std::size_t around = 64;
+    bytes.messages.reserve(frame.bytes.size() +
+                           (frame.bytes.size() / chunk_bytes + arrays.size() + 1) * before_a_chunk +
+                           begin.ByteSizeLong() + around);
+    append_delimited(bytes.messages, begin);
+    append_chunks(bytes.messages, std::span(frame.bytes).first(frame.particle_bytes()));
+    for (const ParticleArray& array : arrays) append_chunks(bytes.messages, array.data);
     v1::StreamRequest end;
     end.mutable_frame_end();
     append_delimited(bytes.messages, end);

@@ -36,6 +36,14 @@ void FrameChunkReader::copy_to(std::span<std::byte> place) {
     }
 }
 
+void FrameChunkReader::skip(std::size_t bytes) {
+    while (bytes > 0 && (!block_.empty() || next_block())) {
+        const std::size_t part = std::min(bytes, block_.size());
+        block_ = block_.subspan(part);
+        bytes -= part;
+    }
+}
+
 bool FrameChunkReader::next_block() {
     const void* data = nullptr;
     int size = 0;

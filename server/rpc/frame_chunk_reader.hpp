@@ -20,8 +20,9 @@ public:
 
     /// The size of the particle data; none if the message is another one.
     std::optional<std::size_t> bytes() const noexcept { return bytes_; }
-    /// Called once, with a place of bytes() bytes.
+    /// Takes the next bytes, or passes over them: bytes() in all.
     void copy_to(std::span<std::byte> place);
+    void skip(std::size_t bytes);
 
 private:
     bool next_block();

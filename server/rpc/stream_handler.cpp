@@ -136,7 +136,7 @@ private:
         if (!bytes.status().ok()) return false;
         FrameChunkReader chunk(bytes, incoming_.Length());
         if (!chunk.bytes()) return false;
-        chunk.copy_to(assembler_.append(*chunk.bytes(), *input_));
+        assembler_.append(*chunk.bytes(), *input_, chunk);
         upload_->pace.arrived(*chunk.bytes());
         return true;
     }
@@ -271,6 +271,7 @@ private:
         // Before it, as a server that stops waits for streams of its sessions alone.
         if (!active_) active_.emplace(calls_);
         auto upload = session->open_upload(options, wake, drain, stop);
+        assembler_ = FrameAssembler(registry_.limits(), session->settings());
         call_log.write({.session = session_id_}, "stream from {} opened", peer_);
         {
             const std::lock_guard lock(mutex_);
@@ -436,7 +437,7 @@ private:
     // Of the reading side.
     grpc::ByteBuffer incoming_;
     v1::StreamRequest request_;
-    FrameAssembler assembler_;
+    FrameAssembler assembler_;  ///< of the session, once there is one
     InputFrame* input_ = nullptr;
     std::optional<Upload::Clock::time_point> open_until_;  ///< none: the session was free at once
     std::unique_ptr<grpc::Alarm> alarm_;                   ///< for the next attempt

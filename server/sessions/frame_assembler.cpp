@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "conversion/particle_arrays.hpp"
 #include "conversion/settings_conversion.hpp"
@@ -14,14 +15,6 @@
 namespace meniscus::server {
 
 namespace {
-
-conversion::ParticleLayout layout_of(const v1::FrameBegin& message) {
-    try {
-        return conversion::particle_layout(message.arrays(), conversion::UnknownArrays::refuse);
-    } catch (const InvalidInput& error) {
-        throw InvalidInput(fmt::format("frame {}: {}", message.frame_index(), error.what()));
-    }
-}
 
 Box quantization_box(const v1::FrameBegin& message) {
     if (!message.has_quantization_box())
@@ -43,20 +36,39 @@ Box quantization_box(const v1::FrameBegin& message) {
     return box;
 }
 
+/// Of a FrameChunk.
+class ChunkSource {
+public:
+    explicit ChunkSource(const v1::FrameChunk& chunk) : left_(std::as_bytes(std::span(chunk.data()))) {}
+    void copy_to(std::span<std::byte> place) {
+        std::memcpy(place.data(), left_.data(), place.size());
+        skip(place.size());
+    }
+    void skip(std::size_t bytes) { left_ = left_.subspan(bytes); }
+
+private:
+    std::span<const std::byte> left_;
+};
+
 }  // namespace
 
-std::size_t FrameAssembler::admitted_bytes(const v1::FrameBegin& message, std::uint64_t particle_bytes) const {
+FramePlan FrameAssembler::plan(const v1::FrameBegin& message, const conversion::ParticleLayout& layout) const {
+    const std::vector<conversion::FurtherArray> kept = arrays_to_keep(layout, settings_);
     const std::uint64_t count = message.particle_count();
     if (limits_.particles_per_frame != 0 && count > limits_.particles_per_frame)
         throw LimitExceeded(fmt::format("frame {}: {} particles; the server takes at most {} per frame",
                                         message.frame_index(), count, limits_.particles_per_frame));
-    const std::uint64_t limit =
-        limits_.bytes_per_session != 0 ? limits_.bytes_per_session : std::numeric_limits<std::ptrdiff_t>::max();
+    constexpr std::uint64_t countable = std::numeric_limits<std::ptrdiff_t>::max();
+    const std::uint64_t limit = limits_.bytes_per_session != 0 ? limits_.bytes_per_session : countable;
+    const std::uint64_t particle_bytes = kept_bytes_per_particle(layout, kept);
     if (count > limit / particle_bytes)
         throw LimitExceeded(
             fmt::format("frame {}: {} particles of {} bytes; the server holds at most {} bytes per session",
                         message.frame_index(), count, particle_bytes, limit));
-    return static_cast<std::size_t>(count * particle_bytes);
+    if (count > countable / layout.particle_bytes)
+        throw LimitExceeded(fmt::format("frame {}: {} particles of {} bytes; the server takes at most {} bytes",
+                                        message.frame_index(), count, layout.particle_bytes, countable));
+    return plan_frame(layout, kept, static_cast<std::size_t>(count));
 }
 
 void FrameAssembler::begin(const v1::FrameBegin& message, InputFrame& frame) {
@@ -68,12 +80,18 @@ void FrameAssembler::begin(const v1::FrameBegin& message, InputFrame& frame) {
     if (!std::isfinite(message.simulation_time()))
         throw InvalidInput(fmt::format("frame {}: simulation_time is {}; it must be finite", message.frame_index(),
                                        message.simulation_time()));
-    const conversion::ParticleLayout layout = layout_of(message);
+    conversion::ParticleLayout layout;
+    try {
+        layout = conversion::particle_layout(message.arrays());
+        plan_ = plan(message, layout);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(fmt::format("frame {}: {}", message.frame_index(), error.what()));
+    }
     const Box box = layout.quantized ? quantization_box(message) : Box{};
-    expected_ = admitted_bytes(message, layout.particle_bytes);
+    expected_ = static_cast<std::size_t>(message.particle_count() * layout.particle_bytes);
 
     try {
-        frame.allocate(expected_);
+        frame.allocate(plan_.bytes);
     } catch (const LimitReached& error) {
         throw LimitReached(error.limit(), fmt::format("frame {}: {}", message.frame_index(), error.what()));
     } catch (const LimitExceeded& error) {
@@ -85,18 +103,21 @@ void FrameAssembler::begin(const v1::FrameBegin& message, InputFrame& frame) {
     frame.quantized = layout.quantized;
     frame.quantization_box = box;
     frame.has_levels = layout.has_levels;
+    frame.keep_arrays(std::move(plan_.arrays));
     index_ = message.frame_index();
+    piece_ = 0;
     filled_ = 0;
+    kept_ = 0;
     chunks_ = 0;
     in_frame_ = true;
 }
 
 void FrameAssembler::append(const v1::FrameChunk& message, InputFrame& frame) {
-    const std::span<std::byte> place = append(message.data().size(), frame);
-    if (!place.empty()) std::memcpy(place.data(), message.data().data(), place.size());
+    ChunkSource source(message);
+    append(message.data().size(), frame, source);
 }
 
-std::span<std::byte> FrameAssembler::append(std::size_t bytes, InputFrame& frame) {
+void FrameAssembler::admit_chunk(std::size_t bytes, const InputFrame& frame) {
     if (!in_frame_) throw InvalidInput("a chunk outside of a frame; frame_begin comes first");
     if (bytes > chunk_bytes)
         throw InvalidInput(
@@ -108,10 +129,7 @@ std::span<std::byte> FrameAssembler::append(std::size_t bytes, InputFrame& frame
     if (bytes > expected_ - filled_)
         throw InvalidInput(fmt::format("frame {}: at least {} bytes for {} particles; {} were announced", *index_,
                                        filled_ + bytes, frame.particle_count, expected_));
-    const std::span<std::byte> place(frame.bytes.data() + filled_, bytes);
-    filled_ += bytes;
     ++chunks_;
-    return place;
 }
 
 void FrameAssembler::end(InputFrame& frame) {

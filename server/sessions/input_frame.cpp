@@ -10,12 +10,28 @@ void InputFrame::allocate(std::size_t size) {
     in_flight_.announce(size);
     retained_.drop();
     shown_in_run.reset();
+    keep_arrays({});
     if (bytes.capacity() < size) {
         // A fresh array: growing the old one would hold both for a moment, and copy what nobody needs.
         Array<std::byte>(bytes.get_allocator()).swap(bytes);
         bytes.reserve(size);
     }
     bytes.resize(size);
+}
+
+void InputFrame::keep_arrays(std::vector<KeptArray> arrays) {
+    arrays_ = std::move(arrays);
+    array_views_.clear();
+    for (const KeptArray& array : arrays_) {
+        ParticleArray view{.name = array.name, .data = {}, .type = array.type, .components = array.components};
+        view.data = {bytes.data() + array.offset, view.element_bytes() * particle_count};
+        array_views_.push_back(view);
+    }
+}
+
+std::size_t InputFrame::particle_bytes() const {
+    const std::size_t coordinate_bytes = quantized ? sizeof(std::uint16_t) : sizeof(float);
+    return particle_count * (3 * coordinate_bytes + (has_levels ? 1 : 0));
 }
 
 ParticleFrame InputFrame::view() const {
@@ -32,6 +48,7 @@ ParticleFrame InputFrame::view() const {
     }
     if (has_levels)
         frame.levels = {reinterpret_cast<const std::uint8_t*>(bytes.data()) + position_bytes, particle_count};
+    frame.arrays = array_views_;
     return frame;
 }
 

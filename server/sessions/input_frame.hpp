@@ -7,7 +7,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "meniscus/memory.hpp"
 #include "meniscus/particle_frame.hpp"
@@ -17,6 +19,14 @@
 namespace meniscus::server {
 
 struct InputFrame {
+    /// An array beside positions and levels, of those that the session's settings name.
+    struct KeptArray {
+        std::string name;
+        ElementType type = ElementType::float32;
+        std::size_t components = 1;
+        std::size_t offset = 0;  ///< in `bytes`, behind positions and levels; a multiple of size_of(type)
+    };
+
     /// memory: counts what stays here between two frames; may be none.
     explicit InputFrame(const std::shared_ptr<MemoryAccount>& account,
                         std::shared_ptr<BytesInFlight> all_sessions = std::make_shared<BytesInFlight>(),
@@ -39,6 +49,7 @@ struct InputFrame {
     void free_memory() noexcept {
         Array<std::byte>(bytes.get_allocator()).swap(bytes);
         particle_count = 0;
+        keep_arrays({});
         shown_in_run.reset();
         retained_.drop();
     }
@@ -53,13 +64,19 @@ struct InputFrame {
         // Its allocator stays, with its account.
         Array<std::byte> taken(other.bytes.get_allocator());
         taken.swap(other.bytes);
-        bytes = std::move(taken);
+        bytes = std::move(taken);  // the memory that the arrays lie in
+        arrays_ = std::exchange(other.arrays_, {});
+        array_views_ = std::exchange(other.array_views_, {});
         retained_ = std::move(other.retained_);
         received_at = other.received_at;
         shown_in_run = std::exchange(other.shown_in_run, std::nullopt);
     }
+    /// After allocate(), which forgets those of the frame before; particle_count is set.
+    void keep_arrays(std::vector<KeptArray> arrays);
     /// The particles, in place.
     ParticleFrame view() const;
+    /// Of positions and levels, which come first.
+    std::size_t particle_bytes() const;
 
     std::uint64_t index = 0;
     double simulation_time = 0.0;
@@ -67,12 +84,14 @@ struct InputFrame {
     bool quantized = false;
     bool has_levels = false;
     Box quantization_box;
-    Array<std::byte> bytes;  ///< all positions, then all levels
+    Array<std::byte> bytes;  ///< all positions, then all levels, then the arrays
     std::chrono::steady_clock::time_point received_at;
     /// Of the run, once the session has shown these particles; none again from allocate() on.
     std::optional<std::uint64_t> shown_in_run;
 
 private:
+    std::vector<KeptArray> arrays_;
+    std::vector<ParticleArray> array_views_;  ///< of them
     FrameInFlight in_flight_;
     RetainedMemory retained_;
 };

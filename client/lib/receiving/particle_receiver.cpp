@@ -34,7 +34,7 @@ Box box_of(const v1::ParticlesBegin& message) {
 
 conversion::ParticleLayout layout_of(const v1::ParticlesBegin& message) {
     try {
-        const auto layout = conversion::particle_layout(message.arrays(), conversion::UnknownArrays::skip);
+        auto layout = conversion::particle_layout(message.arrays());
         if (!layout.quantized) throw InvalidInput("positions of float32; they must be of uint16");
         return layout;
     } catch (const InvalidInput& error) {
