@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "conversion/attribute_conversion.hpp"
 #include "conversion/codec_conversion.hpp"
 #include "conversion/spray_conversion.hpp"
 #include "conversion/statistics_conversion.hpp"
@@ -41,6 +42,12 @@ v1::StreamResponse begin_message(const client::ReceivedFrame& frame) {
     begin.set_brick_count(static_cast<std::uint32_t>(frame.bricks.size()));
     begin.set_run_id(frame.run_id);
     begin.set_spray_count(frame.spray.size());
+    for (const client::FrameAttribute& attribute : frame.attributes) {
+        const auto coded = std::ranges::find(frame.coded_attributes, attribute.name, &CodedAttribute::name);
+        conversion::announce({attribute.name, attribute.type, attribute.components, {}},
+                             attribute.range ? &*attribute.range : nullptr,
+                             coded == frame.coded_attributes.end() ? nullptr : &*coded, begin);
+    }
     std::uint64_t triangles = 0;
     for (const auto& brick : frame.bricks) triangles += brick->triangles;
     begin.set_triangle_count(triangles);
@@ -133,6 +140,17 @@ client::ReceivedFrame read_frame(const ByteCursor& in, Messages& messages) {
     in.fail("not a file of bricks");
 }
 
+std::vector<client::FrameAttribute> attributes_of(const Mesh& mesh) {
+    const std::vector<AttributeRange> ranges = attribute_ranges(mesh);
+    std::vector<client::FrameAttribute> attributes;
+    for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
+        const MeshAttribute& attribute = mesh.attributes[a];
+        attributes.push_back({attribute.name, attribute.type, attribute.components, {}});
+        if (!ranges.empty()) attributes.back().range = ranges[a];
+    }
+    return attributes;
+}
+
 }  // namespace
 
 void write_bricks(const std::filesystem::path& path, const client::ReceivedFrame& frame) {
@@ -189,6 +207,8 @@ client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistic
     frame.cell_size = mesh.cell_size;
     frame.offset_bits = mesh.offset_bits;
     frame.spray.assign(mesh.spray.begin(), mesh.spray.end());
+    frame.attributes = attributes_of(mesh);
+    frame.coded_attributes = options.attributes;
     static_cast<Statistics&>(frame.statistics) = statistics;
     for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
         const auto brick = std::make_shared<const EncodedBrick>(encode_brick(mesh, i, options));

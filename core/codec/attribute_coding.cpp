@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -126,7 +127,8 @@ std::vector<CodedAttribute> coded_attributes(const Mesh& mesh, std::span<const A
     std::vector<CodedAttribute> result;
     for (const AttributeWish& wish : wishes) require_bits(wish);
     for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
-        const auto wish = std::ranges::find(wishes, mesh.attributes[a].name, &AttributeWish::name);
+        auto wish = std::ranges::find(wishes, mesh.attributes[a].name, &AttributeWish::name);
+        if (wish == wishes.end()) wish = std::ranges::find(wishes, std::string_view(), &AttributeWish::name);
         if (wish == wishes.end()) continue;
         CodedAttribute coded = coded_attribute(mesh.attributes[a], wish->bits);
         for (std::size_t c = 0; coded.bits != 0 && !ranges.empty() && c < coded.components; ++c)

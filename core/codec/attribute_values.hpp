@@ -1,29 +1,24 @@
-// Values of an attribute as the numbers that stand for them in bricks.
+// Values of attributes as the bytes that stand for them in bricks, and back.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "meniscus/attribute_coding.hpp"
 
 namespace meniscus {
 
-/// One component of an attribute with bits: steps from the lower end of its range.
+/// One component of an attribute with bits: a value is a number of steps from the lower end of its range.
 class CodedRange {
 public:
-    CodedRange(const CodedAttribute& form, std::size_t component)
-        : minimum_(form.minimum[component]),
-          extent_(double{form.maximum[component]} - minimum_),
-          steps_(static_cast<double>((1U << form.bits) - 1)),
-          steps_per_unit_(extent_ > 0.0 ? steps_ / extent_ : 0.0) {}
+    CodedRange(const CodedAttribute& form, std::size_t component);
 
-    /// Of the nearest step; value: within the range.
-    std::uint32_t number(float value) const {
-        return static_cast<std::uint32_t>(std::clamp((value - minimum_) * steps_per_unit_ + 0.5, 0.0, steps_));
-    }
+    /// The nearest step's; of a value beyond the range that of its end.
+    std::uint32_t number(float value) const;
     /// number: at most 2^bits - 1.
-    float value(std::uint32_t number) const { return static_cast<float>(minimum_ + number * extent_ / steps_); }
+    float value(std::uint32_t number) const;
 
 private:
     double minimum_;
@@ -31,5 +26,16 @@ private:
     double steps_;
     double steps_per_unit_;
 };
+
+/// Throws InvalidInput unless an attribute can be coded so.
+void require_codable(const CodedAttribute& form);
+
+/// coded_bytes() for each of these vertices, little-endian. form: of this attribute.
+std::vector<std::byte> coded_values(const MeshAttribute& attribute, const CodedAttribute& form,
+                                    std::span<const std::uint32_t> vertices);
+
+/// coded: coded_bytes() for each vertex. Throws InvalidInput for numbers of more than the form's bits, and for float32
+/// that is not finite.
+MeshAttribute decoded_values(const CodedAttribute& form, std::span<const std::byte> coded);
 
 }  // namespace meniscus

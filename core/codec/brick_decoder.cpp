@@ -1,11 +1,14 @@
 // Bytes from anywhere become a brick, or a refusal.
-#include <draco/compression/decode.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <string>
 
+#include "codec/attribute_values.hpp"
+#include "codec/draco_attributes.hpp"
 #include "codec/draco_header.hpp"
 #include "codec/normal_rounding.hpp"
 #include "codec/triangle_levels.hpp"
@@ -24,7 +27,7 @@ constexpr std::size_t cells_per_brick = std::size_t{brick_base_cells} * brick_ba
 
 /// Draco allocates by the counts that its bytes claim, before it finds that the bytes do not hold them. The counts are
 /// compared first, with those announced and with the most that this number of bytes can hold.
-void require_plausible(const EncodedBrick& brick) {
+void require_plausible(const EncodedBrick& brick, std::size_t attributes) {
     if (brick.triangles > max_brick_triangles || brick.vertices > max_brick_triangles)
         refuse(brick, "announces " + std::to_string(brick.triangles) + " triangles and " +
                           std::to_string(brick.vertices) + " vertices, a brick has at most " +
@@ -41,21 +44,41 @@ void require_plausible(const EncodedBrick& brick) {
         refuse(brick, "has " + std::to_string(header->faces) + " triangles, announced were " +
                           std::to_string(brick.triangles));
     if (header->vertices > 3 * header->faces || header->symbols > header->faces ||
-        header->split_symbols > header->symbols || header->attribute_connectivities > 1)
+        header->split_symbols > header->symbols || header->attribute_connectivities > 1 + attributes)
         refuse(brick, "its Draco mesh has " + std::to_string(header->vertices) + " vertices, " +
                           std::to_string(header->symbols) + " symbols, " + std::to_string(header->split_symbols) +
                           " splits and " + std::to_string(header->attribute_connectivities) +
                           " more connectivities, which do not fit " + std::to_string(header->faces) + " triangles");
 }
 
-std::unique_ptr<draco::Mesh> decode_draco(const EncodedBrick& brick) {
-    require_plausible(brick);
+/// Looks at the attributes once Draco has read what they are, before it allocates their values.
+class AnnouncedMeshDecoder : public draco::MeshEdgebreakerDecoder {
+public:
+    explicit AnnouncedMeshDecoder(std::span<const CodedAttribute> announced) : announced_(announced) {}
+
+    const std::string& misfit() const { return misfit_; }
+
+protected:
+    bool DecodeAllAttributes() override {
+        misfit_ = meniscus::misfit(*point_cloud(), announced_);
+        return misfit_.empty() && MeshEdgebreakerDecoder::DecodeAllAttributes();
+    }
+
+private:
+    std::span<const CodedAttribute> announced_;
+    std::string misfit_;
+};
+
+std::unique_ptr<draco::Mesh> decode_draco(const EncodedBrick& brick, std::span<const CodedAttribute> announced) {
+    require_plausible(brick, announced.size());
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(brick.data.data()), brick.data.size());
-    draco::Decoder decoder;
-    auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!mesh.ok()) refuse(brick, "its bytes are not a Draco mesh (" + mesh.status().error_msg_string() + ")");
-    return std::move(mesh).value();
+    AnnouncedMeshDecoder decoder(announced);
+    auto mesh = std::make_unique<draco::Mesh>();
+    const draco::Status status = decoder.Decode({}, &buffer, mesh.get());
+    if (!decoder.misfit().empty()) refuse(brick, decoder.misfit());
+    if (!status.ok()) refuse(brick, "its bytes are not a Draco mesh (" + status.error_msg_string() + ")");
+    return mesh;
 }
 
 /// For every point of the Draco mesh, the vertex that it belongs to: points at one position are one vertex.
@@ -67,8 +90,7 @@ struct Weld {
 
 Weld weld_points(const EncodedBrick& brick, const draco::Mesh& mesh) {
     const draco::PointAttribute* attribute = mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
-    if (attribute == nullptr || attribute->data_type() != draco::DT_UINT16 || attribute->num_components() != 3)
-        refuse(brick, "its Draco mesh has no positions of three uint16");
+    if (attribute == nullptr) refuse(brick, "its Draco mesh has no positions");
     const std::uint32_t points = mesh.num_points();
     std::vector<std::pair<LocalPosition, std::uint32_t>> sorted;
     sorted.reserve(points);
@@ -105,12 +127,14 @@ LatticePosition brick_origin(const EncodedBrick& brick, std::uint32_t offset_bit
     return origin;
 }
 
-DecodedBrick decode_draco_brick(const EncodedBrick& brick, std::uint32_t offset_bits) {
+DecodedBrick decode_draco_brick(const EncodedBrick& brick, std::uint32_t offset_bits,
+                                std::span<const CodedAttribute> attributes) {
     if (offset_bits < min_offset_bits || offset_bits > max_offset_bits)
         throw InvalidInput("the mesh has " + std::to_string(offset_bits) + " offset bits, must have " +
                            std::to_string(min_offset_bits) + " to " + std::to_string(max_offset_bits));
     const LatticePosition origin = brick_origin(brick, offset_bits);
-    const auto mesh = decode_draco(brick);
+    for (const CodedAttribute& form : attributes) require_codable(form);
+    const auto mesh = decode_draco(brick, attributes);
     const Weld weld = weld_points(brick, *mesh);
     if (mesh->num_faces() != brick.triangles || weld.positions.size() != brick.vertices)
         refuse(brick, "has " + std::to_string(mesh->num_faces()) + " triangles and " +
@@ -129,6 +153,9 @@ DecodedBrick decode_draco_brick(const EncodedBrick& brick, std::uint32_t offset_
         for (const std::uint32_t point : weld.point_of_vertex)
             decoded.normals.push_back(decoded_normal(*attribute, point));
     }
+    for (std::size_t a = 0; a < attributes.size(); ++a)
+        decoded.attributes.push_back(
+            decoded_values(attributes[a], draco_attribute(*mesh, a, attributes[a], weld.point_of_vertex)));
     std::vector<std::optional<std::uint16_t>> cells;
     std::array<bool, cells_per_brick> occupied{};
     for (std::uint32_t t = 0; t < brick.triangles; ++t) {
@@ -153,10 +180,11 @@ DecodedBrick decode_draco_brick(const EncodedBrick& brick, std::uint32_t offset_
 
 }  // namespace
 
-DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits, std::span<const CodedAttribute>) {
+DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits,
+                          std::span<const CodedAttribute> attributes) {
     switch (brick.codec) {
         case Codec::draco:
-            return decode_draco_brick(brick, offset_bits);
+            return decode_draco_brick(brick, offset_bits, attributes);
     }
     refuse(brick, "has the codec " + std::to_string(static_cast<std::uint32_t>(brick.codec)) +
                       ", which this version does not know; it knows " + known_codecs());

@@ -2,12 +2,15 @@
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "codec/attribute_values.hpp"
 #include "codec/brick_index.hpp"
+#include "codec/draco_attributes.hpp"
 #include "codec/normal_rounding.hpp"
 #include "codec/round_position.hpp"
 #include "codec/triangle_levels.hpp"
@@ -80,6 +83,8 @@ std::vector<std::byte> encode_draco(const BrickContent& content, const CodingOpt
             add_attribute(draco_mesh, draco::GeometryAttribute::NORMAL, draco::DT_FLOAT32, content.normals);
         encoder.SetAttributeQuantization(normals, options.normal_bits);
     }
+    for (std::size_t a = 0; a < content.attributes.size(); ++a)
+        add_draco_attribute(draco_mesh, a, content.attribute_forms[a], content.attributes[a]);
     draco::EncoderBuffer buffer;
     const draco::Status status = encoder.EncodeToBuffer(&buffer);
     if (!status.ok()) throw std::runtime_error("Draco could not encode a brick: " + status.error_msg_string());
@@ -94,6 +99,18 @@ std::vector<std::byte> encode(const BrickContent& content, const CodingOptions& 
     }
     throw InvalidInput("codec is " + std::to_string(static_cast<std::uint32_t>(options.codec)) +
                        ", which this version does not know; it knows " + known_codecs());
+}
+
+/// The mesh's attribute that is to be coded so. Throws unless there is one.
+const MeshAttribute& attribute_of(const Mesh& mesh, const CodedAttribute& form) {
+    const auto attribute = std::ranges::find(mesh.attributes, form.name, &MeshAttribute::name);
+    if (attribute == mesh.attributes.end() || attribute->type != form.type ||
+        attribute->components != form.components ||
+        attribute->data.size() != mesh.vertices.size() * attribute->element_bytes())
+        throw InvalidInput("the mesh has no attribute '" + form.name + "' of " + std::string(name_of(form.type)) +
+                           " x " + std::to_string(form.components) + " for each vertex");
+    require_codable(form);
+    return *attribute;
 }
 
 }  // namespace
@@ -124,6 +141,9 @@ BrickContent brick_content(const Mesh& mesh, std::size_t brick_number, const Cod
         content.normals.reserve(index.vertices.size());
         for (const std::uint32_t v : index.vertices) content.normals.push_back(mesh.normals[v]);
     }
+    for (const CodedAttribute& form : options.attributes)
+        content.attributes.push_back(coded_values(attribute_of(mesh, form), form, index.vertices));
+    content.attribute_forms = options.attributes;
     return content;
 }
 

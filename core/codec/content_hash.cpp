@@ -2,6 +2,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include <array>
 #include <span>
 #include <type_traits>
 
@@ -18,6 +19,15 @@ void add(XXH3_state_t& state, const std::vector<T>& values) {
     XXH3_128bits_update(&state, values.data(), std::span(values).size_bytes());
 }
 
+void add(XXH3_state_t& state, const CodedAttribute& form) {
+    const std::array<std::uint64_t, 4> numbers{form.name.size(), static_cast<std::uint64_t>(form.type), form.components,
+                                               static_cast<std::uint64_t>(form.bits)};
+    XXH3_128bits_update(&state, numbers.data(), sizeof numbers);
+    XXH3_128bits_update(&state, form.name.data(), form.name.size());
+    XXH3_128bits_update(&state, form.minimum.data(), sizeof form.minimum);
+    XXH3_128bits_update(&state, form.maximum.data(), sizeof form.maximum);
+}
+
 }  // namespace
 
 ContentHash BrickContent::hash() const {
@@ -27,6 +37,8 @@ ContentHash BrickContent::hash() const {
     add(state, normals);
     add(state, triangles);
     add(state, cell_levels);
+    for (const CodedAttribute& form : attribute_forms) add(state, form);
+    for (const std::vector<std::byte>& values : attributes) add(state, values);
     const XXH128_hash_t hash = XXH3_128bits_digest(&state);
     return {hash.high64, hash.low64};
 }

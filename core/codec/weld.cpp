@@ -1,5 +1,6 @@
 // Vertices of neighboring bricks meet by their integer coordinates.
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -20,6 +21,35 @@ struct BrickVertex {
     std::uint32_t vertex;  ///< in that brick
 };
 
+std::string place_name(const DecodedBrick& brick) {
+    const auto& c = brick.coordinate;
+    return "(" + std::to_string(c[0]) + ", " + std::to_string(c[1]) + ", " + std::to_string(c[2]) + ")";
+}
+
+void require_same_attributes(const std::vector<const DecodedBrick*>& bricks) {
+    const auto form_is = [](const MeshAttribute& a, const MeshAttribute& b) {
+        return a.name == b.name && a.type == b.type && a.components == b.components;
+    };
+    for (const DecodedBrick* brick : bricks)
+        if (!std::ranges::equal(brick->attributes, bricks[0]->attributes, form_is))
+            throw InvalidInput("bricks " + place_name(*bricks[0]) + " and " + place_name(*brick) +
+                               " have different attributes");
+}
+
+/// sources: of the mesh's vertices.
+void gather_attributes(const std::vector<const DecodedBrick*>& bricks, const std::vector<BrickVertex>& sources,
+                       Mesh& mesh) {
+    for (std::size_t a = 0; a < bricks[0]->attributes.size(); ++a) {
+        const MeshAttribute& form = bricks[0]->attributes[a];
+        MeshAttribute& welded = mesh.attributes.emplace_back(MeshAttribute{form.name, form.type, form.components, {}});
+        const std::size_t size = form.element_bytes();
+        welded.data.resize(sources.size() * size);
+        for (std::size_t v = 0; v < sources.size(); ++v)
+            std::memcpy(welded.data.data() + v * size,
+                        bricks[sources[v].brick]->attributes[a].data.data() + sources[v].vertex * size, size);
+    }
+}
+
 }  // namespace
 
 Mesh weld_bricks(std::span<const DecodedBrick> unordered, double cell_size, std::uint32_t offset_bits) {
@@ -29,11 +59,8 @@ Mesh weld_bricks(std::span<const DecodedBrick> unordered, double cell_size, std:
               [](const auto* a, const auto* b) { return zyx(a->coordinate) < zyx(b->coordinate); });
     const auto twice = std::adjacent_find(bricks.begin(), bricks.end(),
                                           [](const auto* a, const auto* b) { return a->coordinate == b->coordinate; });
-    if (twice != bricks.end()) {
-        const auto& c = (*twice)->coordinate;
-        throw InvalidInput("brick (" + std::to_string(c[0]) + ", " + std::to_string(c[1]) + ", " +
-                           std::to_string(c[2]) + ") occurs twice");
-    }
+    if (twice != bricks.end()) throw InvalidInput("brick " + place_name(**twice) + " occurs twice");
+    require_same_attributes(bricks);
 
     Mesh mesh;
     mesh.cell_size = cell_size;
@@ -56,6 +83,12 @@ Mesh weld_bricks(std::span<const DecodedBrick> unordered, double cell_size, std:
             if (has_normals) mesh.normals.push_back(bricks[v.brick]->normals[v.vertex]);
         }
         welded[v.brick][v.vertex] = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+    }
+    if (!bricks.empty() && !bricks[0]->attributes.empty()) {
+        all.erase(std::unique(all.begin(), all.end(),
+                              [](const BrickVertex& a, const BrickVertex& b) { return a.position == b.position; }),
+                  all.end());
+        gather_attributes(bricks, all, mesh);
     }
 
     for (const DecodedBrick* b : bricks) {

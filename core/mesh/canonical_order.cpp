@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -87,6 +88,16 @@ void order_triangles(std::span<const Triangle> triangles, const std::vector<std:
         if (next[v] - first > 1) std::sort(ordered.begin() + first, ordered.begin() + next[v]);
 }
 
+/// The same values, in the order of these vertices.
+MeshAttribute ordered_attribute(const MeshAttribute& attribute, const std::vector<Numbered>& vertices) {
+    MeshAttribute ordered{attribute.name, attribute.type, attribute.components, {}};
+    const std::size_t size = attribute.element_bytes();
+    ordered.data.resize(vertices.size() * size);
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+        std::memcpy(ordered.data.data() + v * size, attribute.data.data() + vertices[v].vertex * size, size);
+    return ordered;
+}
+
 /// Gives the mesh its vertices in order. Returns the place of each.
 std::vector<std::uint32_t> order_vertices(const Mesh& mesh, Mesh& ordered) {
     const std::vector<Numbered> vertices = sorted_vertices(mesh);
@@ -99,6 +110,8 @@ std::vector<std::uint32_t> order_vertices(const Mesh& mesh, Mesh& ordered) {
         if (normals) ordered.normals[v] = mesh.normals[vertices[v].vertex];
         place[vertices[v].vertex] = v;
     }
+    for (const MeshAttribute& attribute : mesh.attributes)
+        ordered.attributes.push_back(ordered_attribute(attribute, vertices));
     return place;
 }
 

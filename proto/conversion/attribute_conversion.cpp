@@ -16,16 +16,20 @@ std::string quoted(const std::string& name) {
     return '"' + name + '"';
 }
 
+enum class EmptyName { refused, allowed };
+
 /// Of `noun`s, in messages. Throws for a list that is too long, and for a name that none has or that comes twice.
 template <class Named>
-void require_names(const google::protobuf::RepeatedPtrField<Named>& list, const std::string& noun) {
+void require_names(const google::protobuf::RepeatedPtrField<Named>& list, const std::string& noun,
+                   EmptyName empty = EmptyName::refused) {
     if (list.size() > static_cast<int>(max_particle_arrays))
         throw InvalidInput(std::to_string(list.size()) + " " + noun + "s; at most " +
                            std::to_string(max_particle_arrays) + " are possible");
     for (int i = 0; i < list.size(); ++i) {
         const std::string& name = list[i].name();
         const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
-        if (name.empty() || name.size() > max_array_name_bytes || !std::ranges::all_of(name, allowed))
+        if ((name.empty() && empty == EmptyName::refused) || name.size() > max_array_name_bytes ||
+            !std::ranges::all_of(name, allowed))
             throw InvalidInput("the name of " + noun + " " + std::to_string(i) + " must be 1 to " +
                                std::to_string(max_array_name_bytes) + " of a-z, 0-9 and _");
         const auto before = list.begin() + i;
@@ -147,7 +151,7 @@ ElementType from_wire(v1::ElementType type) {
 }
 
 std::vector<AttributeWish> attribute_wishes(const AttributeWishes& wire) {
-    require_names(wire, "wished attribute");
+    require_names(wire, "wished attribute", EmptyName::allowed);
     std::vector<AttributeWish> wishes;
     for (const v1::AttributeWish& wish : wire)
         wishes.push_back({wish.name(), wish.has_bits() ? checked_bits(wish.bits(), "wished attribute", wish.name())
@@ -162,28 +166,34 @@ AttributeWishes to_wire(std::span<const AttributeWish> wishes) {
         added.set_name(wish.name);
         added.set_bits(static_cast<std::uint32_t>(wish.bits));
     }
+    (void)attribute_wishes(wire);
     return wire;
+}
+
+void announce(const MeshAttribute& form, const AttributeRange* range, const CodedAttribute* coded,
+              v1::MeshBegin& message) {
+    v1::MeshAttribute& wire = *message.add_attributes();
+    wire.set_name(form.name);
+    wire.set_type(attribute_type(form.type));
+    wire.set_components(static_cast<std::uint32_t>(form.components));
+    for (std::size_t c = 0; range != nullptr && c < form.components; ++c) {
+        wire.add_minimum(range->minimum[c]);
+        wire.add_maximum(range->maximum[c]);
+    }
+    if (coded == nullptr) return;
+    wire.set_bits(static_cast<std::uint32_t>(coded->bits));
+    for (std::size_t c = 0; coded->bits != 0 && c < form.components; ++c) {
+        wire.add_coded_minimum(coded->minimum[c]);
+        wire.add_coded_maximum(coded->maximum[c]);
+    }
 }
 
 void to_wire(const Mesh& mesh, std::span<const AttributeRange> ranges, std::span<const CodedAttribute> coded,
              v1::MeshBegin& message) {
     for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
-        const MeshAttribute& attribute = mesh.attributes[a];
-        v1::MeshAttribute& wire = *message.add_attributes();
-        wire.set_name(attribute.name);
-        wire.set_type(attribute_type(attribute.type));
-        wire.set_components(static_cast<std::uint32_t>(attribute.components));
-        for (std::size_t c = 0; !ranges.empty() && c < attribute.components; ++c) {
-            wire.add_minimum(ranges[a].minimum[c]);
-            wire.add_maximum(ranges[a].maximum[c]);
-        }
-        const auto form = std::ranges::find(coded, attribute.name, &CodedAttribute::name);
-        if (form == coded.end()) continue;
-        wire.set_bits(static_cast<std::uint32_t>(form->bits));
-        for (std::size_t c = 0; form->bits != 0 && c < attribute.components; ++c) {
-            wire.add_coded_minimum(form->minimum[c]);
-            wire.add_coded_maximum(form->maximum[c]);
-        }
+        const auto form = std::ranges::find(coded, mesh.attributes[a].name, &CodedAttribute::name);
+        announce(mesh.attributes[a], ranges.empty() ? nullptr : &ranges[a], form == coded.end() ? nullptr : &*form,
+                 message);
     }
 }
 

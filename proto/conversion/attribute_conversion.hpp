@@ -26,8 +26,13 @@ using AttributeWishes = google::protobuf::RepeatedPtrField<v1::AttributeWish>;
 /// Throws InvalidInput for more than max_particle_arrays, for one that comes twice, and for names and bits that no
 /// attribute has.
 std::vector<AttributeWish> attribute_wishes(const AttributeWishes& wire);
+/// Throws likewise.
 AttributeWishes to_wire(std::span<const AttributeWish> wishes);
 
+/// Announces one attribute. form: its name, type and components. range: null for a mesh without vertices. coded: null
+/// unless the bricks carry it.
+void announce(const MeshAttribute& form, const AttributeRange* range, const CodedAttribute* coded,
+              v1::MeshBegin& message);
 /// Announces all attributes of the mesh. ranges: attribute_ranges() of it. coded: those that the bricks carry.
 void to_wire(const Mesh& mesh, std::span<const AttributeRange> ranges, std::span<const CodedAttribute> coded,
              v1::MeshBegin& message);

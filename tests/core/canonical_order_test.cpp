@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "meniscus/meniscus.hpp"
+#include "support/attributes.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus {
@@ -20,6 +21,7 @@ Mesh splash(Mode mode, bool normals = true) {
     Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
     Mesh mesh;
     reconstructor.reconstruct(test::splash(61).frame(), mesh);
+    test::add_attributes(mesh);
     return mesh;
 }
 
@@ -33,6 +35,11 @@ Mesh shuffled(const Mesh& mesh, unsigned seed) {
     for (std::size_t v = 0; v < place.size(); ++v) {
         out.vertices[place[v]] = mesh.vertices[v];
         if (!mesh.normals.empty()) out.normals[place[v]] = mesh.normals[v];
+        for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
+            const std::size_t size = mesh.attributes[a].element_bytes();
+            std::copy_n(mesh.attributes[a].data.begin() + static_cast<std::ptrdiff_t>(v * size), size,
+                        out.attributes[a].data.begin() + static_cast<std::ptrdiff_t>(place[v] * size));
+        }
     }
     for (Triangle& t : out.triangles) {
         for (std::uint32_t& v : t) v = place[v];
@@ -51,6 +58,9 @@ void expect_equal(const Mesh& a, const Mesh& b) {
         EXPECT_EQ(a.levels[level].first, b.levels[level].first);
         EXPECT_EQ(a.levels[level].count, b.levels[level].count);
     }
+    ASSERT_EQ(a.attributes.size(), b.attributes.size());
+    for (std::size_t i = 0; i < a.attributes.size(); ++i)
+        EXPECT_TRUE(a.attributes[i].data == b.attributes[i].data) << a.attributes[i].name;
 }
 
 TEST(CanonicalOrder, IsThatOfPositionsAndKeepsTheSurface) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "meniscus/meniscus.hpp"
+#include "support/attributes.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus {
@@ -28,6 +29,7 @@ struct Scene {
     test::Particles particles;
     CodingOptions options;
     std::size_t brick;  ///< of the mesh
+    std::vector<AttributeWish> wishes{};
 };
 
 /// Every setting is written out, so that no default changes the bricks.
@@ -85,6 +87,13 @@ std::vector<Scene> scenes() {
         {"levels and cracks, normals of 8 bits", settings(), large_and_small(), {}, 0},
         {"8 offset bits, without normals", bisected, two_drops(), {}, 0},
         {"rounded to 2 offset bits, normals of 10 bits", uniform, block(), {.normal_bits = 10, .position_bits = 2}, 0},
+        {"attributes of every form, float32 of 8, of 12 bits and exactly",
+         settings(),
+         two_drops(),
+         {},
+         0,
+         {{"speed", 12}, {"velocity", 8}, {"tensor", 0}, {"phase"}, {"color"}, {"paint"}, {"charge"}, {"id"}}},
+        {"one bit, without normals", bisected, two_drops(), {}, 0, {{"velocity", 1}}},
     };
 }
 
@@ -103,6 +112,53 @@ std::vector<std::byte> from_hexadecimal(const std::string& digits) {
     for (std::size_t i = 0; i < bytes.size(); ++i)
         bytes[i] = static_cast<std::byte>(std::stoi(digits.substr(2 * i, 2), nullptr, 16));
     return bytes;
+}
+
+template <class Number>
+ordered_json numbers(const MeshAttribute& attribute, const std::vector<std::uint32_t>& order) {
+    const std::vector<Number> all = test::numbers_of<Number>(attribute);
+    ordered_json out = ordered_json::array();
+    for (const std::uint32_t v : order)
+        for (std::size_t c = 0; c < attribute.components; ++c) out.push_back(all[v * attribute.components + c]);
+    return out;
+}
+
+ordered_json values(const MeshAttribute& attribute, const std::vector<std::uint32_t>& order) {
+    switch (attribute.type) {
+        case ElementType::float32:
+            return numbers<float>(attribute, order);
+        case ElementType::uint8:
+            return numbers<std::uint8_t>(attribute, order);
+        case ElementType::int32:
+            return numbers<std::int32_t>(attribute, order);
+        case ElementType::uint32:
+            return numbers<std::uint32_t>(attribute, order);
+    }
+    return {};
+}
+
+ordered_json announced(const CodedAttribute& form) {
+    ordered_json out{
+        {"name", form.name}, {"type", name_of(form.type)}, {"components", form.components}, {"bits", form.bits}};
+    for (std::size_t c = 0; form.bits != 0 && c < form.components; ++c) {
+        out["coded_minimum"].push_back(form.minimum[c]);
+        out["coded_maximum"].push_back(form.maximum[c]);
+    }
+    return out;
+}
+
+CodedAttribute announced(const ordered_json& json) {
+    CodedAttribute form;
+    form.name = json.at("name");
+    for (const ElementType type : choices<ElementType>)
+        if (name_of(type) == json.at("type")) form.type = type;
+    form.components = json.at("components");
+    form.bits = json.at("bits");
+    for (std::size_t c = 0; form.bits != 0 && c < form.components; ++c) {
+        form.minimum[c] = json.at("coded_minimum").at(c);
+        form.maximum[c] = json.at("coded_maximum").at(c);
+    }
+    return form;
 }
 
 /// What a decoder must make of the brick, in an order of its own: vertices ascending, triangles by their least vertex.
@@ -133,13 +189,18 @@ ordered_json contents(const DecodedBrick& brick, std::uint32_t offset_bits) {
         triangles.push_back({triangle[0], triangle[1], triangle[2], level_byte(brick.levels[t])});
     }
     std::ranges::sort(triangles);
-    return {{"vertices", vertices}, {"normals", normals}, {"triangles", triangles}};
+    ordered_json out{{"vertices", vertices}, {"normals", normals}, {"triangles", triangles}};
+    for (const MeshAttribute& attribute : brick.attributes) out["attribute_values"].push_back(values(attribute, order));
+    return out;
 }
 
 ordered_json golden(const Scene& scene) {
-    const Mesh mesh = test::reconstruct(scene.settings, scene.particles.frame());
-    const std::uint32_t offset_bits = encoded_offset_bits(mesh, scene.options);
-    const EncodedBrick brick = encode_brick(mesh, scene.brick, scene.options);
+    Mesh mesh = test::reconstruct(scene.settings, scene.particles.frame());
+    test::add_attributes(mesh);
+    CodingOptions options = scene.options;
+    options.attributes = coded_attributes(mesh, attribute_ranges(mesh), scene.wishes);
+    const std::uint32_t offset_bits = encoded_offset_bits(mesh, options);
+    const EncodedBrick brick = encode_brick(mesh, scene.brick, options);
     ordered_json out{{"name", scene.name},
                      {"offset_bits", offset_bits},
                      {"place", brick.coordinate},
@@ -148,7 +209,8 @@ ordered_json golden(const Scene& scene) {
                      {"codec", static_cast<std::uint32_t>(brick.codec)},
                      {"cell_levels", hexadecimal(brick.cell_levels)},
                      {"data", hexadecimal(brick.data)}};
-    out.update(contents(decode_brick(brick, offset_bits), offset_bits));
+    for (const CodedAttribute& form : options.attributes) out["attributes"].push_back(announced(form));
+    out.update(contents(decode_brick(brick, offset_bits, options.attributes), offset_bits));
     return out;
 }
 
@@ -187,9 +249,13 @@ TEST(GoldenBricks, AreDecodedToTheContentsThatTheyHad) {
         encoded.cell_levels = from_hexadecimal(brick.at("cell_levels"));
         encoded.data = from_hexadecimal(brick.at("data"));
         const std::uint32_t offset_bits = brick.at("offset_bits");
-        const ordered_json decoded = contents(decode_brick(encoded, offset_bits), offset_bits);
-        for (const char* part : {"vertices", "normals", "triangles"})
-            EXPECT_EQ(decoded.at(part), brick.at(part)) << brick.at("name") << ' ' << part;
+        std::vector<CodedAttribute> attributes;
+        for (const ordered_json& json : brick.value("attributes", ordered_json::array()))
+            attributes.push_back(announced(json));
+        const ordered_json decoded = contents(decode_brick(encoded, offset_bits, attributes), offset_bits);
+        for (const char* part : {"vertices", "normals", "triangles", "attribute_values"})
+            EXPECT_EQ(decoded.value(part, ordered_json()), brick.value(part, ordered_json()))
+                << brick.at("name") << ' ' << part;
     }
 }
 

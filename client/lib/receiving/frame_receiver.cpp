@@ -1,10 +1,12 @@
 #include "receiving/frame_receiver.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
 #include <utility>
 
+#include "conversion/attribute_conversion.hpp"
 #include "conversion/spray_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "receiving/frame_statistics.hpp"
@@ -37,6 +39,26 @@ std::string frame_name(std::uint64_t index) {
     return "frame " + std::to_string(index);
 }
 
+/// What coded_attributes() of the same message accepts.
+FrameAttribute announced(const v1::MeshAttribute& wire) {
+    FrameAttribute attribute{
+        .name = wire.name(), .type = conversion::from_wire(wire.type()), .components = wire.components()};
+    if (wire.minimum_size() == 0) return attribute;
+    AttributeRange& range = attribute.range.emplace();
+    std::ranges::copy(wire.minimum(), range.minimum.begin());
+    std::ranges::copy(wire.maximum(), range.maximum.begin());
+    return attribute;
+}
+
+void take_attributes(const v1::MeshBegin& message, ReceivedFrame& frame) {
+    try {
+        frame.coded_attributes = conversion::coded_attributes(message);
+    } catch (const InvalidInput& error) {
+        throw ServerError(frame_name(message.frame_index()) + ": " + error.what());
+    }
+    for (const v1::MeshAttribute& wire : message.attributes()) frame.attributes.push_back(announced(wire));
+}
+
 }  // namespace
 
 void FrameReceiver::end_of_stream() const {
@@ -65,6 +87,7 @@ void FrameReceiver::begin(const v1::MeshBegin& message) {
     frame.brick_count = message.brick_count();
     frame.spray_count = message.spray_count();
     frame.triangles = message.triangle_count();
+    take_attributes(message, frame.header);
     begin_difference(message, frame);
     frame_ = std::move(frame);
 }
@@ -138,6 +161,18 @@ void FrameReceiver::add(const v1::SprayPoints& message) {
                           " points that were announced");
 }
 
+void FrameReceiver::take_difference(const std::string& name, Frame& frame) {
+    for (const Place& place : frame.vanished) bricks_.erase(place);
+    // A brick that stays would be decoded as other values.
+    if (frame.header.coded_attributes != whole_->coded_attributes)
+        for (const auto& [place, brick] : bricks_)
+            if (!frame.bricks.contains(place))
+                throw ServerError(name +
+                                  " has other attributes, or other ranges of them, than the frame before, but "
+                                  "keeps a brick of it");
+    for (auto& [place, brick] : frame.bricks) bricks_.insert_or_assign(place, std::move(brick));
+}
+
 void FrameReceiver::complete_mesh(const v1::FrameStatistics& message) {
     const std::string name = frame_name(message.frame_index());
     if (!frame_ || frame_->header.index != message.frame_index())
@@ -151,12 +186,10 @@ void FrameReceiver::complete_mesh(const v1::FrameStatistics& message) {
     if (!frame.header.spray.empty() && frame.header.spray.size() != frame.spray_count)
         throw ServerError(name + " ended after " + std::to_string(frame.header.spray.size()) +
                           " points of spray; announced were " + std::to_string(frame.spray_count));
-    if (frame.has_base) {
-        for (const Place& place : frame.vanished) bricks_.erase(place);
-        for (auto& [place, brick] : frame.bricks) bricks_.insert_or_assign(place, std::move(brick));
-    } else {
+    if (frame.has_base)
+        take_difference(name, frame);
+    else
         bricks_ = std::move(frame.bricks);
-    }
     std::uint64_t triangles = 0;
     for (const auto& [place, brick] : bricks_) triangles += brick->triangles;
     if (triangles != frame.triangles)

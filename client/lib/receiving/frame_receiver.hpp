@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 
 #include "meniscus/client/client.hpp"
 #include "meniscus/v1/mesh.pb.h"
@@ -70,6 +71,7 @@ private:
     void add(const v1::SprayPoints& message);
     ReceivedFrame end(const v1::FrameStatistics& message);
     void complete_mesh(const v1::FrameStatistics& message);
+    void take_difference(const std::string& name, Frame& frame);
 
     const bool meshes_;
     const bool differences_;

@@ -1,5 +1,6 @@
 #include "pushed_frame.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -14,26 +15,37 @@ namespace meniscus::client {
 
 namespace {
 
-/// Without its bytes.
-PushedFrame begin_frame(const ParticleFrame& frame, std::uint64_t index, double simulation_time) {
-    validate_lengths(frame);
-    if (!frame.arrays.empty())
-        throw InvalidInput("frame " + std::to_string(index) + " brings the array \"" +
-                           std::string(frame.arrays.front().name) + "\"; servers take positions and levels alone");
+/// Without its bytes. arrays: those beside positions and levels.
+PushedFrame begin_frame(const ParticleFrame& frame, std::span<const ParticleArray> arrays, std::uint64_t index,
+                        double simulation_time) {
     PushedFrame pushed;
     pushed.begin.set_frame_index(index);
     pushed.begin.set_simulation_time(simulation_time);
     pushed.begin.set_particle_count(frame.count());
-    *pushed.begin.mutable_arrays() = conversion::particle_arrays(frame.is_quantized(), !frame.levels.empty());
+    *pushed.begin.mutable_arrays() = conversion::particle_arrays(frame.is_quantized(), !frame.levels.empty(), arrays);
     if (frame.is_quantized()) *pushed.begin.mutable_quantization_box() = conversion::to_wire(frame.quantization_box);
     return pushed;
 }
 
+std::vector<ParticleArray> chosen_arrays(std::span<const ParticleArray> arrays, std::size_t particles,
+                                         const NamedArrays& named, std::uint64_t index) {
+    try {
+        return named.of(arrays, particles);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput("frame " + std::to_string(index) + ": " + error.what());
+    }
+}
+
 }  // namespace
 
-PushedFrame copy_frame(const ParticleFrame& frame, std::uint64_t index, double simulation_time, BytePool& pool) {
-    PushedFrame copy = begin_frame(frame, index, simulation_time);
-    auto bytes = pool.take(frame.positions.size_bytes() + frame.quantized.size_bytes() + frame.levels.size_bytes());
+PushedFrame copy_frame(const ParticleFrame& frame, const NamedArrays& named, std::uint64_t index,
+                       double simulation_time, BytePool& pool) {
+    validate_lengths(frame);
+    const std::vector<ParticleArray> arrays = chosen_arrays(frame.arrays, frame.count(), named, index);
+    PushedFrame copy = begin_frame(frame, arrays, index, simulation_time);
+    std::size_t size = frame.positions.size_bytes() + frame.quantized.size_bytes() + frame.levels.size_bytes();
+    for (const ParticleArray& array : arrays) size += array.data.size();
+    auto bytes = pool.take(size);
     std::byte* place = bytes->data();
     const auto append = [&place](std::span<const std::byte> part) {
         if (part.empty()) return;
@@ -43,28 +55,45 @@ PushedFrame copy_frame(const ParticleFrame& frame, std::uint64_t index, double s
     append(std::as_bytes(frame.positions));
     append(std::as_bytes(frame.quantized));
     append(std::as_bytes(frame.levels));
+    for (const ParticleArray& array : arrays) append(array.data);
     copy.parts.emplace_back(bytes->data(), bytes->size());
     copy.memory = std::move(bytes);
     return copy;
 }
 
-PushedFrame copy_frame(const StridedPositions& positions, std::span<const std::uint8_t> levels, std::uint64_t index,
+PushedFrame copy_frame(const StridedPositions& positions, std::span<const std::uint8_t> levels,
+                       std::span<const ParticleArray> arrays, const NamedArrays& named, std::uint64_t index,
                        double simulation_time, BytePool& pool) {
-    ParticleBuffer buffer = ParticleBufferMemory::pooled(pool, positions.count(), levels.size());
+    const std::vector<ParticleArray> chosen = chosen_arrays(arrays, positions.count(), named, index);
+    std::vector<ArrayForm> forms;
+    for (const ParticleArray& array : chosen) forms.push_back({std::string(array.name), array.type, array.components});
+    ParticleBuffer buffer = ParticleBufferMemory::pooled(pool, positions.count(), levels.size(), forms);
+    ParticleFrame given;
+    given.positions = buffer.positions();
+    given.levels = levels;
+    given.arrays = arrays;
+    validate_lengths(given);
+    for (std::size_t a = 0; a < chosen.size(); ++a)
+        std::ranges::copy(chosen[a].data, ParticleBufferMemory::bytes_of(buffer, a).begin());
     if (!levels.empty()) std::memcpy(buffer.levels().data(), levels.data(), levels.size());
     positions.copy_to(buffer.positions());
-    return take_frame(buffer, index, simulation_time);
+    return take_frame(buffer, named, index, simulation_time);
 }
 
-PushedFrame take_frame(ParticleBuffer& buffer, std::uint64_t index, double simulation_time) {
+PushedFrame take_frame(ParticleBuffer& buffer, const NamedArrays& named, std::uint64_t index, double simulation_time) {
     if (buffer.is_taken())
         throw InvalidInput("frame " + std::to_string(index) +
                            " comes in a buffer that was pushed or moved from before: take a new one for each frame");
+    const std::vector<ParticleArray> brought = ParticleBufferMemory::arrays_of(buffer);
     ParticleFrame frame;
     frame.positions = buffer.positions();
     frame.levels = buffer.levels();
-    PushedFrame pushed = begin_frame(frame, index, simulation_time);
+    frame.arrays = brought;
+    validate_lengths(frame);
+    const std::vector<ParticleArray> arrays = chosen_arrays(frame.arrays, frame.count(), named, index);
+    PushedFrame pushed = begin_frame(frame, arrays, index, simulation_time);
     pushed.parts = {std::as_bytes(frame.positions), std::as_bytes(frame.levels)};
+    for (const ParticleArray& array : arrays) pushed.parts.push_back(array.data);
     pushed.memory = ParticleBufferMemory::of(std::move(buffer));
     return pushed;
 }

@@ -12,6 +12,7 @@
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/strided_positions.hpp"
 #include "meniscus/v1/surface_service.pb.h"
+#include "named_arrays.hpp"
 
 namespace meniscus::client {
 
@@ -21,16 +22,19 @@ struct PushedFrame {
     std::vector<std::span<const std::byte>> parts;  ///< the frame's bytes, one part after the other
 };
 
-/// Copies the particles, which the caller may change afterwards. Throws InvalidInput for arrays that do not fit each
-/// other, and for a frame with further arrays; LimitExceeded for more particles than can be numbered.
-PushedFrame copy_frame(const ParticleFrame& frame, std::uint64_t index, double simulation_time, BytePool& pool);
+/// Copies the particles, which the caller may change afterwards, and those of the further arrays that are named. Throws
+/// InvalidInput for arrays that do not fit each other, and as NamedArrays::of(); LimitExceeded for more particles than
+/// can be numbered.
+PushedFrame copy_frame(const ParticleFrame& frame, const NamedArrays& named, std::uint64_t index,
+                       double simulation_time, BytePool& pool);
 
 /// Likewise; float64 positions are rounded. Throws InvalidInput for one that cannot be.
-PushedFrame copy_frame(const StridedPositions& positions, std::span<const std::uint8_t> levels, std::uint64_t index,
+PushedFrame copy_frame(const StridedPositions& positions, std::span<const std::uint8_t> levels,
+                       std::span<const ParticleArray> arrays, const NamedArrays& named, std::uint64_t index,
                        double simulation_time, BytePool& pool);
 
 /// Takes the buffer's memory over. Throws InvalidInput for a buffer that was taken before, and as copy_frame(); the
 /// buffer is then as it was.
-PushedFrame take_frame(ParticleBuffer& buffer, std::uint64_t index, double simulation_time);
+PushedFrame take_frame(ParticleBuffer& buffer, const NamedArrays& named, std::uint64_t index, double simulation_time);
 
 }  // namespace meniscus::client

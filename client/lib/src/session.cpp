@@ -80,7 +80,8 @@ SessionInfo Session::info() {
 
 Stream Session::stream(const StreamOptions& options) {
     impl_->create_again();
-    return Stream(Stream::Impl::open(impl_->connection(), impl_->id(), options, impl_->made()));
+    return Stream(
+        Stream::Impl::open(impl_->connection(), impl_->id(), options, impl_->made(), NamedArrays(impl_->settings())));
 }
 
 Watcher Session::watch(const WatchOptions& options) {

@@ -21,6 +21,7 @@ public:
     const std::shared_ptr<Connection>& connection() const noexcept { return connection_; }
     const std::string& id() const noexcept { return id_; }
     bool is_owned() const noexcept { return owned_; }
+    const Settings& settings() const noexcept { return settings_; }
     /// For streams, which create it again where a server has lost it.
     const std::shared_ptr<MadeSessions>& made() const noexcept { return made_; }
     /// If it is owned, and has ended meanwhile.

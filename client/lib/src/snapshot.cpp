@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "connection/deadline.hpp"
+#include "conversion/attribute_conversion.hpp"
 #include "conversion/codec_conversion.hpp"
 #include "error_mapping.hpp"
 #include "receiving/frame_receiver.hpp"
@@ -87,6 +88,7 @@ std::optional<ReceivedFrame> take_snapshot(const Connection& connection, const s
     v1::SnapshotRequest request;
     request.set_session_id(session_id);
     request.set_normal_bits(static_cast<std::uint32_t>(options.normal_bits));
+    *request.mutable_attributes() = conversion::to_wire(std::span(options.attributes));
     if (options.position_bits) request.set_position_bits(static_cast<std::uint32_t>(*options.position_bits));
     request.set_max_level(static_cast<std::uint32_t>(options.max_level));
     conversion::add_known_codecs(*request.mutable_codecs());

@@ -4,6 +4,7 @@
 
 #include "call_end.hpp"
 #include "connection/deadline.hpp"
+#include "conversion/attribute_conversion.hpp"
 #include "conversion/codec_conversion.hpp"
 #include "error_mapping.hpp"
 #include "meniscus/error.hpp"
@@ -60,6 +61,7 @@ v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& 
     open.set_policy(to_wire(options.policy));
     open.set_nth(options.nth);
     open.set_with_spray(options.spray);
+    *open.mutable_attributes() = conversion::to_wire(std::span(options.attributes));
     open.set_reconnect_seconds(std::chrono::duration<double>(options.reconnect).count());
     open.set_run_id(random_run_id());
     conversion::add_known_codecs(*open.mutable_codecs());
@@ -91,22 +93,25 @@ v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContex
 }  // namespace
 
 Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options,
-                   std::shared_ptr<MadeSessions> made)
+                   std::shared_ptr<MadeSessions> made, NamedArrays named)
     : connection_(std::move(connection)),
       options_(with_bounded_waits(options)),
       made_(std::move(made)),
-      open_(open_message(session_id, options_)) {
+      open_(open_message(session_id, options_)),
+      named_(std::move(named)) {
     if (resumes()) {
         grpc::ClientContext context;
         session_ = as_it_is_now(*connection_, context, session_id);
         created_by_ = ended_by(context);
+        named_ = NamedArrays(session_.settings());
     }
     call_ = open_call();
 }
 
 std::shared_ptr<Stream::Impl> Stream::Impl::open(std::shared_ptr<Connection> connection, const std::string& session_id,
-                                                 const StreamOptions& options, std::shared_ptr<MadeSessions> made) {
-    auto impl = std::make_shared<Impl>(std::move(connection), session_id, options, std::move(made));
+                                                 const StreamOptions& options, std::shared_ptr<MadeSessions> made,
+                                                 NamedArrays named) {
+    auto impl = std::make_shared<Impl>(std::move(connection), session_id, options, std::move(made), std::move(named));
     try {
         impl->start(impl);
     } catch (...) {
@@ -158,6 +163,7 @@ void Stream::Impl::cancel() {
         left_ = true;
         if (call_) call_->cancel();
         if (creating_) creating_->TryCancel();
+        if (looking_) looking_->TryCancel();
         for (const auto& context : route_calls_)
             if (context) context->TryCancel();
     }
@@ -187,6 +193,18 @@ bool Stream::Impl::wait_for_room(std::uint64_t index, WhenFull when_full) {
     if (error_) std::rethrow_exception(error_);
     if (ended_) throw ServerError("the server at " + connection_->address + " ended the stream before its last frame");
     return true;
+}
+
+void Stream::Impl::look_for_names() {
+    const auto looking = std::make_shared<grpc::ClientContext>();
+    looking->set_deadline(deadline_after<std::chrono::system_clock>(connection_->timeout));
+    {
+        const std::lock_guard lock(mutex_);
+        if (left_) return;
+        looking_ = looking;
+    }
+    v1::Session session;
+    if (get_session(*connection_, *looking, open_.session_id(), session).ok()) named_ = NamedArrays(session.settings());
 }
 
 void Stream::Impl::enqueue(std::shared_ptr<PushedFrame> frame) {
@@ -379,38 +397,45 @@ void Stream::leave() noexcept {
 }
 
 void Stream::push(const ParticleFrame& frame, std::uint64_t index, double simulation_time) {
-    impl_->push(index, Impl::WhenFull::wait,
-                [&](BytePool& pool) { return copy_frame(frame, index, simulation_time, pool); });
+    impl_->push(index, Impl::WhenFull::wait, !frame.arrays.empty(), [&](BytePool& pool, const NamedArrays& named) {
+        return copy_frame(frame, named, index, simulation_time, pool);
+    });
 }
 
 void Stream::push(const StridedPositions& positions, std::uint64_t index, double simulation_time,
-                  std::span<const std::uint8_t> levels) {
-    impl_->push(index, Impl::WhenFull::wait,
-                [&](BytePool& pool) { return copy_frame(positions, levels, index, simulation_time, pool); });
+                  std::span<const std::uint8_t> levels, std::span<const ParticleArray> arrays) {
+    impl_->push(index, Impl::WhenFull::wait, !arrays.empty(), [&](BytePool& pool, const NamedArrays& named) {
+        return copy_frame(positions, levels, arrays, named, index, simulation_time, pool);
+    });
 }
 
 void Stream::push(ParticleBuffer&& buffer, std::uint64_t index, double simulation_time) {
-    impl_->push(index, Impl::WhenFull::wait, [&](BytePool&) { return take_frame(buffer, index, simulation_time); });
+    impl_->push(index, Impl::WhenFull::wait, ParticleBufferMemory::has_arrays(buffer),
+                [&](BytePool&, const NamedArrays& named) { return take_frame(buffer, named, index, simulation_time); });
 }
 
 bool Stream::try_push(const ParticleFrame& frame, std::uint64_t index, double simulation_time) {
-    return impl_->push(index, Impl::WhenFull::give_up,
-                       [&](BytePool& pool) { return copy_frame(frame, index, simulation_time, pool); });
+    return impl_->push(index, Impl::WhenFull::give_up, !frame.arrays.empty(),
+                       [&](BytePool& pool, const NamedArrays& named) {
+                           return copy_frame(frame, named, index, simulation_time, pool);
+                       });
 }
 
 bool Stream::try_push(const StridedPositions& positions, std::uint64_t index, double simulation_time,
-                      std::span<const std::uint8_t> levels) {
-    return impl_->push(index, Impl::WhenFull::give_up,
-                       [&](BytePool& pool) { return copy_frame(positions, levels, index, simulation_time, pool); });
+                      std::span<const std::uint8_t> levels, std::span<const ParticleArray> arrays) {
+    return impl_->push(index, Impl::WhenFull::give_up, !arrays.empty(), [&](BytePool& pool, const NamedArrays& named) {
+        return copy_frame(positions, levels, arrays, named, index, simulation_time, pool);
+    });
 }
 
 bool Stream::try_push(ParticleBuffer&& buffer, std::uint64_t index, double simulation_time) {
-    return impl_->push(index, Impl::WhenFull::give_up,
-                       [&](BytePool&) { return take_frame(buffer, index, simulation_time); });
+    return impl_->push(
+        index, Impl::WhenFull::give_up, ParticleBufferMemory::has_arrays(buffer),
+        [&](BytePool&, const NamedArrays& named) { return take_frame(buffer, named, index, simulation_time); });
 }
 
-ParticleBuffer Stream::next_buffer(std::size_t particles, bool with_levels) {
-    return impl_->next_buffer(particles, with_levels);
+ParticleBuffer Stream::next_buffer(std::size_t particles, bool with_levels, const std::vector<ArrayForm>& arrays) {
+    return impl_->next_buffer(particles, with_levels, arrays);
 }
 
 void Stream::finish() {

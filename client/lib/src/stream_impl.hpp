@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -21,6 +22,7 @@
 #include "connection/connection.hpp"
 #include "made_sessions.hpp"
 #include "meniscus/client/client.hpp"
+#include "named_arrays.hpp"
 #include "particle_buffer_memory.hpp"
 #include "pushed_frame.hpp"
 #include "upload_call.hpp"
@@ -33,25 +35,29 @@ namespace meniscus::client {
 class Stream::Impl {
 public:
     /// made: is told of each session that this creates again; may be none.
+    /// named: by the session's settings, where they are known.
     static std::shared_ptr<Impl> open(std::shared_ptr<Connection> connection, const std::string& session_id,
-                                      const StreamOptions& options, std::shared_ptr<MadeSessions> made = nullptr);
+                                      const StreamOptions& options, std::shared_ptr<MadeSessions> made = nullptr,
+                                      NamedArrays named = {});
     Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options,
-         std::shared_ptr<MadeSessions> made);
+         std::shared_ptr<MadeSessions> made, NamedArrays named);
     ~Impl() = default;
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
     enum class WhenFull { wait, give_up };
 
-    /// make: the frame, from the pool; called when there is room for it. Returns whether there was.
+    /// make: the frame, from the pool, with those of its arrays that are named; called when there is room for it.
+    /// Returns whether there was.
     template <class Make>
-    bool push(std::uint64_t index, WhenFull when_full, Make make) {
+    bool push(std::uint64_t index, WhenFull when_full, bool has_arrays, Make make) {
         if (!wait_for_room(index, when_full)) return false;
-        enqueue(std::make_shared<PushedFrame>(make(*pool_)));
+        if (has_arrays && when_full == WhenFull::wait && !named_.are_known()) look_for_names();
+        enqueue(std::make_shared<PushedFrame>(make(*pool_, named_)));
         return true;
     }
-    ParticleBuffer next_buffer(std::size_t particles, bool with_levels) {
-        return ParticleBufferMemory::pooled(*pool_, particles, with_levels ? particles : 0);
+    ParticleBuffer next_buffer(std::size_t particles, bool with_levels, std::span<const ArrayForm> arrays) {
+        return ParticleBufferMemory::pooled(*pool_, particles, with_levels ? particles : 0, arrays);
     }
     void finish();
     /// until: none to wait as long as it takes.
@@ -67,6 +73,8 @@ private:
     using Clock = std::chrono::steady_clock;
 
     bool wait_for_room(std::uint64_t index, WhenFull when_full);
+    /// Asks the server for the session's settings. Where it does not answer, they stay unknown.
+    void look_for_names();
     void enqueue(std::shared_ptr<PushedFrame> frame);
     void start(const std::shared_ptr<Impl>& self);
     /// A thread that runs this object's work.
@@ -111,6 +119,7 @@ private:
     const std::shared_ptr<BytePool> pool_ = std::make_shared<BytePool>();
     v1::StreamOpen open_;
     v1::CreateSessionRequest session_;  ///< for a server that has lost it
+    NamedArrays named_;                 ///< of the thread that pushes
 
     // Of the receiving thread.
     Backoff backoff_;
@@ -126,6 +135,7 @@ private:
     std::shared_ptr<UploadCall> call_;                                 ///< none while it is broken
     std::string instance_;                                             ///< of the server that has accepted it; or empty
     std::shared_ptr<grpc::ClientContext> creating_;                    ///< of the call that creates the session again
+    std::shared_ptr<grpc::ClientContext> looking_;                     ///< of that which asks for its settings
     std::array<std::shared_ptr<grpc::ClientContext>, 2> route_calls_;  ///< of the look under way
     std::deque<std::shared_ptr<PushedFrame>> unanswered_;
     std::size_t sent_ = 0;                        ///< of those, on this call

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "brick_changes.hpp"
+#include "conversion/attribute_conversion.hpp"
 #include "conversion/codec_conversion.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "watcher_impl.hpp"
@@ -13,6 +14,7 @@ v1::WatchRequest request_of(const std::string& session_id, const WatchOptions& o
     v1::WatchRequest request;
     request.set_session_id(session_id);
     request.set_normal_bits(static_cast<std::uint32_t>(options.normal_bits));
+    *request.mutable_attributes() = conversion::to_wire(std::span(options.attributes));
     if (options.position_bits) request.set_position_bits(static_cast<std::uint32_t>(*options.position_bits));
     request.set_max_level(static_cast<std::uint32_t>(options.max_level));
     if (options.region) *request.mutable_region() = conversion::to_wire(*options.region);

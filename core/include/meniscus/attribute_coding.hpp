@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -17,10 +18,11 @@ inline constexpr std::size_t max_attribute_components = 4;
 
 /// What a receiver asks for.
 struct AttributeWish {
-    std::string name;
+    std::string name;  ///< empty: every attribute that no other wish names
     int bits =
         default_attribute_bits;  ///< of float32, per component, 1 to max_attribute_bits; 0: exact. Integers are exact
-    bool operator==(const AttributeWish&) const = default;
+    auto operator<=>(const AttributeWish&) const =
+        default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
 };
 
 /// Smallest and largest value of each component over all vertices.

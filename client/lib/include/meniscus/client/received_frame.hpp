@@ -2,10 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "meniscus/attribute_coding.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/client/frame_statistics.hpp"
 #include "meniscus/mesh.hpp"
@@ -23,6 +27,15 @@ struct DroppedFrame {
     DropReason reason = DropReason::replaced;
 };
 
+/// What a received mesh's vertices have, whether it was asked for or not.
+struct FrameAttribute {
+    std::string name;
+    ElementType type = ElementType::float32;
+    std::size_t components = 1;  ///< numbers per vertex
+    /// Over the vertices of the whole surface, whatever a watcher has of it; none where it has no vertices.
+    std::optional<AttributeRange> range{};
+};
+
 /// One received frame. Bricks stay encoded until they are asked for.
 struct ReceivedFrame {
     std::uint64_t index = 0;
@@ -35,6 +48,9 @@ struct ReceivedFrame {
     std::vector<std::shared_ptr<const EncodedBrick>> bricks;
     /// Places of the particles left out of the surface (Spray::points), world units; empty when not asked for.
     std::vector<Point> spray;
+    std::vector<FrameAttribute> attributes;  ///< in the order of the session's settings
+    /// Those of them that were asked for, as the bricks carry them; empty when no meshes were asked for.
+    std::vector<CodedAttribute> coded_attributes;
     /// To a watcher: the bricks that are new or were received anew since the frame that next() returned before, and
     /// those of that frame which are there no longer. x y z in bricks.
     std::vector<std::array<std::int32_t, 3>> changed;
@@ -42,7 +58,8 @@ struct ReceivedFrame {
     FrameStatistics statistics;         ///< of the frame as reconstructed, whatever a watcher wishes to have of it
     std::vector<DroppedFrame> dropped;  ///< from a Stream: between the frame received before and this one, in order
 
-    /// Decodes and welds the bricks; has the spray, too. Throws InvalidInput if they are not a mesh.
+    /// Decodes and welds the bricks; has the spray and the attributes that were asked for, too. Throws InvalidInput if
+    /// they are not a mesh.
     Mesh mesh() const;
 };
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "meniscus/attribute_coding.hpp"
 #include "meniscus/client/next.hpp"
 #include "meniscus/client/particle_buffer.hpp"
 #include "meniscus/client/received_frame.hpp"
@@ -44,6 +45,8 @@ struct StreamOptions {
     bool receive_meshes = true;
     int normal_bits = 8;  ///< 2 to 16, 0 for none
     bool spray = false;   ///< whether the particles left out of the surface come beside the meshes
+    /// Of the session's attributes, those that the meshes carry, as in WatchOptions. None: their ranges alone are told.
+    std::vector<AttributeWish> attributes{};
     /// Received frames that wait for next() at most; push() waits beyond that many frames in flight or waiting.
     /// 0: no limit, for a caller that pushes everything first; frames then wait encoded, in memory.
     std::size_t waiting_limit = 0;
@@ -70,6 +73,10 @@ struct StreamOptions {
 /// try_next() to one (other) thread; cancel() and dropped() may be called from any.
 ///
 /// push() and next() throw InvalidInput and LimitExceeded, as the server answered, or ServerError.
+///
+/// Of the further arrays that a frame brings, those are sent that the session's settings name. For them a stream that
+/// was opened by the session's id alone, without `reconnect`, asks the server once, in the first push() that brings
+/// some; a try_push() before that, which does not wait, sends all.
 class Stream {
 public:
     Stream(Stream&&) noexcept;
@@ -78,13 +85,14 @@ public:
 
     /// Sends one frame; blocks while the server does not take more, or is out of reach. `index` is greater than the one
     /// before. The particles are copied. Throws InvalidInput, too, for arrays whose lengths do not fit each other, and
-    /// ServerError (canceled) after cancel(); the frame is then not pushed.
+    /// for one that the settings name which is missing, comes twice, or is neither float32 or uint8 of 1, 3 or 4
+    /// components nor int32 or uint32 of 1; ServerError (canceled) after cancel(). The frame is then not pushed.
     void push(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
     /// Likewise, of positions as a solver has them, float64 or within larger records: each number is rounded to the
     /// nearest float32, and the mesh is that of the rounded frame. levels: empty, or one per particle. Throws
     /// InvalidInput, too, for a number that is not finite or too large.
     void push(const StridedPositions& positions, std::uint64_t index, double simulation_time,
-              std::span<const std::uint8_t> levels = {});
+              std::span<const std::uint8_t> levels = {}, std::span<const ParticleArray> arrays = {});
     /// Likewise, but copies nothing: the stream takes the buffer's memory over. A frame that is not pushed stays in the
     /// buffer.
     void push(ParticleBuffer&& buffer, std::uint64_t index, double simulation_time);
@@ -100,13 +108,14 @@ public:
     /// index.
     bool try_push(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
     bool try_push(const StridedPositions& positions, std::uint64_t index, double simulation_time,
-                  std::span<const std::uint8_t> levels = {});
+                  std::span<const std::uint8_t> levels = {}, std::span<const ParticleArray> arrays = {});
     bool try_push(ParticleBuffer&& buffer, std::uint64_t index, double simulation_time);
 
     /// Memory to write a frame into; what it holds is undefined. It comes back here when the server has the frame, so
     /// that a stream takes new memory for its first frames alone. Throws LimitExceeded for more particles than can be
-    /// numbered.
-    ParticleBuffer next_buffer(std::size_t particles, bool with_levels = false);
+    /// numbered, InvalidInput for an array of no components.
+    ParticleBuffer next_buffer(std::size_t particles, bool with_levels = false,
+                               const std::vector<ArrayForm>& arrays = {});
 
     /// No more frames will come; next() then ends after the last one.
     void finish();

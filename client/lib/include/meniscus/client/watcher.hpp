@@ -7,7 +7,9 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
+#include "meniscus/attribute_coding.hpp"
 #include "meniscus/client/next.hpp"
 #include "meniscus/client/received_frame.hpp"
 #include "meniscus/client/reconnect_event.hpp"
@@ -15,14 +17,17 @@
 
 namespace meniscus::client {
 
-/// What a watcher wishes to be sent. Watchers with equal max_level, position_bits and normal_bits cost the server one
-/// encode.
+/// What a watcher wishes to be sent. Watchers with equal max_level, position_bits, normal_bits and attributes cost the
+/// server one encode.
 struct WatchOptions {
     int normal_bits = 8;                 ///< 2 to 16, 0 for none
     std::optional<int> position_bits{};  ///< vertices lie on multiples of c / 2^position_bits, 2 to the mesh's
                                          ///< offset_bits; none: as reconstructed
     int max_level = 3;            ///< finest level of grid, 1 to 3: below 3 the surface is coarser, and closed as ever
     std::optional<Box> region{};  ///< world units: only bricks that touch it; the mesh ends where they do
+    /// Of the session's attributes, those that the meshes carry; an empty name stands for all others. A float32 of 8
+    /// bits is rounded to one of 256 values.
+    std::vector<AttributeWish> attributes{};
     bool spray = false;  ///< whether the particles left out of the surface come beside it: all, whatever the region
     std::uint64_t bytes_per_second = 0;                ///< in the mean: frames are skipped to keep it; 0: no limit
     std::optional<std::array<double, 3>> viewpoint{};  ///< world units: nearest bricks are sent first
@@ -43,6 +48,7 @@ struct SnapshotOptions {
     int normal_bits = 8;
     std::optional<int> position_bits{};
     int max_level = 3;
+    std::vector<AttributeWish> attributes{};
 };
 
 /// Receives a session's meshes, always the newest; frames that came while the caller was busy are skipped by the
