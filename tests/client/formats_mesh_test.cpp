@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 #include "formats/brick_file.hpp"
 #include "formats/byte_cursor.hpp"
 #include "formats/mesh_file.hpp"
+#include "meniscus/canonical_order.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {
@@ -115,6 +117,29 @@ TEST(BrickFile, IsReadBackInParts) {
     EXPECT_EQ(back.statistics.triangles, 7U);
     EXPECT_EQ(back.statistics.stage_seconds[7], 0.5);
     EXPECT_EQ(back.statistics.backend, "cpu");
+    EXPECT_TRUE(back.attributes.empty());
+}
+
+TEST(BrickFile, HasTheAttributesOfItsMesh) {
+    const TemporaryDirectory directory;
+    Mesh mesh = tetrahedron();
+    mesh.bricks.push_back({{0, 0, 0}, mesh.levels});
+    const std::vector<float> speeds{0.25F, 0.5F, 1.0F, 8.25F};
+    MeshAttribute& speed = mesh.attributes.emplace_back();
+    speed.name = "speed";
+    speed.data.assign(std::as_bytes(std::span(speeds)).begin(), std::as_bytes(std::span(speeds)).end());
+    const AttributeWish exactly{"speed", 0};
+    CodingOptions options;
+    options.attributes = coded_attributes(mesh, attribute_ranges(mesh), {&exactly, 1});
+    formats::write_bricks(directory / "f.bricks", formats::encode_frame(mesh, {}, 1, 0.0, options));
+    const auto back = formats::read_bricks("f", formats::read_file(directory / "f.bricks"));
+    ASSERT_EQ(back.attributes.size(), 1U);
+    EXPECT_EQ(back.attributes[0].range->maximum[0], 8.25);
+    EXPECT_EQ(back.coded_attributes, options.attributes);
+    const Mesh read = in_canonical_order(back.mesh());
+    const Mesh expected = in_canonical_order(mesh);
+    ASSERT_EQ(read.attributes.size(), 1U);
+    EXPECT_TRUE(read.attributes[0].data == expected.attributes[0].data);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "conversion/attribute_conversion.hpp"
 #include "conversion/particle_arrays.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "receiving/frame_receiver.hpp"
@@ -32,7 +33,11 @@ void receive(Bytes bytes, bool differences) {
 /// One frame with all of its bricks, the first in two parts, and its spray in two messages.
 template <class Response>
 std::vector<Response> whole_frame() {
-    const Mesh mesh = sample_mesh();
+    const Mesh mesh = sample_mesh(true);
+    const std::vector<AttributeRange> ranges = attribute_ranges(mesh);
+    const std::vector<AttributeWish> wishes{{"velocity", 8}, {"id", 8}};
+    CodingOptions options;
+    options.attributes = coded_attributes(mesh, ranges, wishes);
     std::vector<Response> responses;
     v1::MeshBegin& begin = *responses.emplace_back().mutable_mesh_begin();
     begin.set_frame_index(3);
@@ -42,8 +47,9 @@ std::vector<Response> whole_frame() {
     begin.set_brick_count(static_cast<std::uint32_t>(mesh.bricks.size()));
     begin.set_triangle_count(mesh.triangles.size());
     begin.set_spray_count(2);
+    conversion::to_wire(mesh, ranges, options.attributes, begin);
     for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
-        const EncodedBrick encoded = encode_brick(mesh, i);
+        const EncodedBrick encoded = encode_brick(mesh, i, options);
         const std::string data(reinterpret_cast<const char*>(encoded.data.data()), encoded.data.size());
         const std::size_t parts = i == 0 ? 2 : 1;
         for (std::size_t part = 0; part < parts; ++part) {

@@ -76,7 +76,8 @@ std::string join(const std::vector<Message>& messages) {
     return out;
 }
 
-/// A small mesh with all that bricks can have: normals, three levels, crack filling, two bricks.
-Mesh sample_mesh();
+/// A small mesh with all that bricks can have: normals, three levels, crack filling, two bricks. attributes: also a
+/// `velocity` (float32 x 3), a `color` (uint8 x 4) and an `id` (uint32).
+Mesh sample_mesh(bool attributes = false);
 
 }  // namespace meniscus::fuzz

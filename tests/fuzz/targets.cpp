@@ -12,6 +12,7 @@ const std::vector<Target>& targets() {
         {"particle_responses", particle_responses, particle_response_seeds},
         {"settings", settings, settings_seeds},
         {"brick", brick, brick_seeds},
+        {"brick_with_attributes", brick_with_attributes, brick_with_attributes_seeds},
         {"http", http, http_seeds},
         {"grpc_web", grpc_web, grpc_web_seeds},
         {"vtk", vtk, vtk_seeds},

@@ -43,6 +43,11 @@ Seeds settings_seeds();
 void brick(Bytes bytes);
 Seeds brick_seeds();
 
+/// Attributes as they were announced: their number (1 byte); type, components and bits of each (1 byte each). Then one
+/// brick, as above.
+void brick_with_attributes(Bytes bytes);
+Seeds brick_with_attributes_seeds();
+
 /// What a client sends to the HTTP port, on one connection.
 void http(Bytes bytes);
 Seeds http_seeds();

@@ -36,6 +36,20 @@ meniscus_result give_array(meniscus_mesh* mesh, const Number** array, const char
     });
 }
 
+meniscus_type type_of(meniscus::ElementType type) {
+    switch (type) {
+        case meniscus::ElementType::float32:
+            return MENISCUS_FLOAT32;
+        case meniscus::ElementType::uint8:
+            return MENISCUS_UINT8;
+        case meniscus::ElementType::int32:
+            return MENISCUS_INT32;
+        case meniscus::ElementType::uint32:
+            return MENISCUS_UINT32;
+    }
+    return MENISCUS_FLOAT32;
+}
+
 template <class Number>
 struct Given {
     const Number* first;
@@ -104,6 +118,17 @@ meniscus_result meniscus_mesh_triangle_levels(meniscus_mesh* mesh, const uint8_t
 meniscus_result meniscus_mesh_spray(meniscus_mesh* mesh, const float** places, size_t* count) {
     return give_array(mesh, places, "places", count,
                       [](const meniscus_mesh& m) { return numbers_of<float>(m.content.spray); });
+}
+
+meniscus_result meniscus_mesh_attributes(meniscus_mesh* mesh, const meniscus_array** attributes, size_t* count) {
+    return give_array(mesh, attributes, "attributes", count, [](meniscus_mesh& m) {
+        if (m.attributes.empty())
+            for (const meniscus::MeshAttribute& attribute : m.content.attributes)
+                m.attributes.push_back({attribute.name.c_str(), type_of(attribute.type),
+                                        static_cast<std::uint32_t>(attribute.components),
+                                        attribute.data.empty() ? nullptr : attribute.data.data()});
+        return Given<meniscus_array>{m.attributes.data(), m.attributes.size()};
+    });
 }
 
 meniscus_result meniscus_mesh_sha256(const meniscus_mesh* mesh, char digits[MENISCUS_SHA256_SIZE]) {

@@ -13,11 +13,13 @@ struct meniscus_mesh {
     std::vector<double> vertices;
     std::vector<float> vertices_float;
     std::vector<std::uint8_t> triangle_levels;
+    std::vector<meniscus_array> attributes;
 
     /// Before `content` is filled anew: their memory stays.
     void forget_arrays() noexcept {
         vertices.clear();
         vertices_float.clear();
         triangle_levels.clear();
+        attributes.clear();
     }
 };

@@ -1,7 +1,9 @@
 #include "particles.hpp"
 
 #include <cstddef>
+#include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "meniscus/error.hpp"
@@ -37,24 +39,78 @@ std::span<const std::uint8_t> levels_of(const meniscus_particles& given) {
     return {given.levels, given.count};
 }
 
+std::optional<ElementType> type_of(std::uint32_t type) {
+    switch (type) {
+        case MENISCUS_FLOAT32:
+            return ElementType::float32;
+        case MENISCUS_UINT8:
+            return ElementType::uint8;
+        case MENISCUS_INT32:
+            return ElementType::int32;
+        case MENISCUS_UINT32:
+            return ElementType::uint32;
+        default:
+            return std::nullopt;
+    }
+}
+
+ParticleArray array_of(const meniscus_array& array, std::size_t place, std::size_t particles) {
+    const std::string what = "particles->arrays[" + std::to_string(place) + "]";
+    if (array.name == nullptr) throw InvalidInput(what + ".name is NULL, must be the array's name");
+    constexpr std::size_t longest = 64;
+    const std::string_view name(array.name, strnlen(array.name, longest + 1));
+    if (name.empty() || name.size() > longest)
+        throw InvalidInput(what + ".name has " + (name.empty() ? "no" : "more than " + std::to_string(longest)) +
+                           " characters, must have 1 to " + std::to_string(longest));
+    const std::optional<ElementType> type = type_of(array.type);
+    if (!type)
+        throw InvalidInput(what + ".type is " + std::to_string(array.type) +
+                           ", must be MENISCUS_FLOAT32, MENISCUS_UINT8, MENISCUS_INT32 or MENISCUS_UINT32");
+    constexpr std::uint32_t most_components = 16;
+    if (array.components < 1 || array.components > most_components)
+        throw InvalidInput(what + ".components are " + std::to_string(array.components) + ", must be 1 to " +
+                           std::to_string(most_components));
+    if (array.data == nullptr && particles != 0)
+        throw InvalidInput(what + ".data is NULL, must point to the numbers of " + std::to_string(particles) +
+                           " particles");
+    return {.name = name,
+            .data = {static_cast<const std::byte*>(array.data), size_of(*type) * array.components * particles},
+            .type = *type,
+            .components = array.components};
+}
+
+void read_arrays(const meniscus_particles& given, std::vector<ParticleArray>& arrays) {
+    arrays.clear();
+    if (given.array_count > max_particle_arrays)
+        throw LimitExceeded("particles->array_count is " + std::to_string(given.array_count) + ", must be at most " +
+                            std::to_string(max_particle_arrays));
+    if (given.array_count != 0 && given.arrays == nullptr)
+        throw InvalidInput("particles->arrays is NULL, must point to " + std::to_string(given.array_count) + " arrays");
+    for (std::size_t i = 0; i < given.array_count; ++i) arrays.push_back(array_of(given.arrays[i], i, given.count));
+}
+
 }  // namespace
 
 GivenParticles read_particles(const meniscus_particles* particles) {
     const meniscus_particles given = checked(particles);
-    return {positions_of(given), levels_of(given)};
+    GivenParticles read{positions_of(given), levels_of(given), {}};
+    read_arrays(given, read.arrays);
+    return read;
 }
 
-ParticleFrame read_frame(const meniscus_particles* particles, std::vector<float>& buffer) {
+ParticleFrame read_frame(const meniscus_particles* particles, FrameBuffers& buffers) {
     const meniscus_particles given = checked(particles);
     ParticleFrame frame;
     frame.levels = levels_of(given);
     if (given.positions != nullptr && (given.stride == 0 || given.stride == 3 * sizeof(float))) {
         frame.positions = {given.positions, 3 * given.count};
     } else {
-        buffer.resize(3 * given.count);
-        positions_of(given).copy_to(buffer);
-        frame.positions = buffer;
+        buffers.positions.resize(3 * given.count);
+        positions_of(given).copy_to(buffers.positions);
+        frame.positions = buffers.positions;
     }
+    read_arrays(given, buffers.arrays);
+    frame.arrays = buffers.arrays;
     return frame;
 }
 

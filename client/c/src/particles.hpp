@@ -15,12 +15,19 @@ namespace meniscus::c {
 struct GivenParticles {
     StridedPositions positions;
     std::span<const std::uint8_t> levels;
+    std::vector<ParticleArray> arrays;
 };
 
 /// Throws InvalidInput; what the particles are is for their receiver to check.
 GivenParticles read_particles(const meniscus_particles* particles);
 
-/// As a frame, which borrows from the caller, or from `buffer` where positions must be converted.
-ParticleFrame read_frame(const meniscus_particles* particles, std::vector<float>& buffer);
+/// What a frame borrows that does not lie with the caller as it must; keeps its memory.
+struct FrameBuffers {
+    std::vector<float> positions;  ///< where they must be converted
+    std::vector<ParticleArray> arrays;
+};
+
+/// As a frame, which borrows from the caller, and from the buffers.
+ParticleFrame read_frame(const meniscus_particles* particles, FrameBuffers& buffers);
 
 }  // namespace meniscus::c

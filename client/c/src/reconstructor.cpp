@@ -1,7 +1,5 @@
 #include "meniscus/reconstructor.hpp"
 
-#include <vector>
-
 #include "mesh.hpp"
 #include "options.hpp"
 #include "particles.hpp"
@@ -14,7 +12,7 @@ using namespace meniscus::c;
 
 struct meniscus_reconstructor {
     meniscus::Reconstructor content;
-    std::vector<float> positions;  ///< where the caller's must be converted
+    FrameBuffers buffers;
 };
 
 meniscus_result meniscus_reconstructor_create(const meniscus_options* options, meniscus_reconstructor** reconstructor) {
@@ -43,7 +41,7 @@ meniscus_result meniscus_reconstruct(meniscus_reconstructor* reconstructor, cons
     return guarded([&] {
         meniscus_reconstructor& used = required(reconstructor, "reconstructor");
         meniscus_mesh& filled = required(mesh, "mesh");
-        const meniscus::ParticleFrame frame = read_frame(particles, used.positions);
+        const meniscus::ParticleFrame frame = read_frame(particles, used.buffers);
         filled.forget_arrays();
         used.content.reconstruct(frame, filled.content);
         return MENISCUS_OK;

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "attribute_options.hpp"
 #include "client.hpp"
 #include "next_frame.hpp"
 #include "options.hpp"
@@ -49,6 +50,7 @@ meniscus_result meniscus_session_open(meniscus_client* client, const meniscus_op
         const auto open = read_open_options(reader);
         auto streaming = read_stream_options(reader);
         streaming.spray = settings.spray == meniscus::Spray::points;
+        streaming.attributes = read_every_attribute(reader);
         reader.finish();
         auto opened = connected.open_session(settings, open);
         auto stream = opened.stream(streaming);
@@ -76,7 +78,7 @@ meniscus_result meniscus_session_push(meniscus_session* session, const meniscus_
                                       double simulation_time) {
     return guarded([&] {
         const GivenParticles given = read_particles(particles);
-        required(session, "session").stream.push(given.positions, index, simulation_time, given.levels);
+        required(session, "session").stream.push(given.positions, index, simulation_time, given.levels, given.arrays);
         return MENISCUS_OK;
     });
 }
@@ -86,8 +88,9 @@ meniscus_result meniscus_session_try_push(meniscus_session* session, const menis
     return guarded([&] {
         const GivenParticles given = read_particles(particles);
         meniscus::client::Stream& stream = required(session, "session").stream;
-        return stream.try_push(given.positions, index, simulation_time, given.levels) ? MENISCUS_OK
-                                                                                      : MENISCUS_WOULD_WAIT;
+        return stream.try_push(given.positions, index, simulation_time, given.levels, given.arrays)
+                   ? MENISCUS_OK
+                   : MENISCUS_WOULD_WAIT;
     });
 }
 

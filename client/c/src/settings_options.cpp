@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "attribute_options.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::c {
@@ -53,6 +54,7 @@ Settings read_settings(OptionReader& options) {
     read_parameter(options, "bisection-steps", "edge-points", settings.edge_points, &Bisection::steps);
     options.read("normals", settings.normals);
     options.read("domain", settings.domain);
+    read_attributes(options, settings);
     validate(settings);
     return settings;
 }

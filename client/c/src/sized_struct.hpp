@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "meniscus/error.hpp"
+#include "meniscus/meniscus.h"
 #include "result.hpp"
 
 namespace meniscus::c {
@@ -15,6 +16,11 @@ namespace meniscus::c {
 /// Of the first version; a struct that grows gets a specialization with the size that it had.
 template <class Struct>
 inline constexpr std::size_t least_size = sizeof(Struct);
+template <>
+inline constexpr std::size_t least_size<meniscus_particles> = offsetof(meniscus_particles, array_count);
+template <>
+inline constexpr std::size_t least_size<meniscus_statistics> = offsetof(meniscus_statistics,
+                                                                        vertices_without_particles);
 /// More than any version has: it was not set.
 inline constexpr std::size_t most_size = 4096;
 

@@ -21,6 +21,7 @@ meniscus_statistics to_c(const Statistics& statistics) {
     std::copy(statistics.stage_seconds.begin(), statistics.stage_seconds.end(), out.stage_seconds);
     out.peak_bytes = statistics.peak_bytes;
     out.device_bytes = statistics.device_bytes;
+    out.vertices_without_particles = statistics.vertices_without_particles;
     return out;
 }
 

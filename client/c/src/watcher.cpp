@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "attribute_options.hpp"
 #include "client.hpp"
 #include "next_frame.hpp"
 #include "options.hpp"
@@ -25,6 +26,7 @@ meniscus_result meniscus_watcher_open(meniscus_client* client, const char* sessi
         reader.read("bytes-per-second", wishes.bytes_per_second);
         reader.read("viewpoint", wishes.viewpoint);
         reader.read("reconnect", wishes.reconnect);
+        wishes.attributes = read_attribute_wishes(reader);
         reader.finish();
         *watcher =
             new meniscus_watcher{required(client, "client").content.watch(&required(session_id, "session_id"), wishes)};

@@ -27,7 +27,7 @@ constexpr std::size_t aligned(std::size_t bytes) {
     return (bytes + number - 1) / number * number;
 }
 
-std::size_t bytes_of(const ArrayForm& form, std::size_t particles) {
+std::size_t array_size(const ArrayForm& form, std::size_t particles) {
     if (form.components < 1 || form.components > most_components)
         throw InvalidInput("a buffer with an array \"" + form.name + "\" of " + std::to_string(form.components) +
                            " components was asked for; it must have 1 to " + std::to_string(most_components));
@@ -59,7 +59,7 @@ ParticleBuffer ParticleBufferMemory::pooled(BytePool& pool, std::size_t particle
                             std::to_string(most_particles) + " can be numbered: split the frame");
     const std::size_t position_bytes = 3 * sizeof(float) * particles;
     std::size_t size = position_bytes;
-    for (const ArrayForm& form : arrays) size += aligned(bytes_of(form, particles));
+    for (const ArrayForm& form : arrays) size += aligned(array_size(form, particles));
     auto bytes = pool.take(size + levels);
     // The pool's memory is aligned for any number.
     std::byte* place = bytes->data();
@@ -67,7 +67,7 @@ ParticleBuffer ParticleBufferMemory::pooled(BytePool& pool, std::size_t particle
     place += position_bytes;
     std::vector<ParticleBuffer::FurtherArray> further;
     for (const ArrayForm& form : arrays) {
-        const std::size_t array_bytes = bytes_of(form, particles);
+        const std::size_t array_bytes = array_size(form, particles);
         further.push_back({form, {place, array_bytes}});
         place += aligned(array_bytes);
     }

@@ -142,6 +142,50 @@ TEST_F(CServer, AnAttemptToPushTakesAFrameWholeOrNotAtAll) {
     EXPECT_EQ(meniscus_session_next(session.get(), patience, frame.out()), MENISCUS_ENDED);
 }
 
+TEST_F(CServer, GivesVerticesWhatParticlesCarry) {
+    const CSession session = open({{"attribute", "age"}, {"attribute-bits", "0"}});
+    const COptions wishes = options_of({{"attribute", "all"}});
+    CWatcher watcher;
+    ASSERT_EQ(meniscus_watcher_open(client_.get(), meniscus_session_id(session.get()), wishes.get(), watcher.out()),
+              MENISCUS_OK)
+        << meniscus_error_message();
+    const Particles particles = splash(1, 5);
+    const std::vector<float> ages(particles.count(), 0.7F);
+    const meniscus_array array{"age", MENISCUS_FLOAT32, 1, ages.data()};
+    meniscus_particles input = MENISCUS_PARTICLES_INIT;
+    input.count = particles.count();
+    input.positions = particles.positions.data();
+    EXPECT_TRUE(refused(meniscus_session_push(session.get(), &input, 0, 0.0), MENISCUS_INVALID_INPUT,
+                        "no array \"age\", which the session's settings name"));
+    input.array_count = 1;
+    input.arrays = &array;
+    ASSERT_EQ(meniscus_session_push(session.get(), &input, 0, 0.0), MENISCUS_OK) << meniscus_error_message();
+    CFrame answered;
+    CFrame watched;
+    ASSERT_EQ(meniscus_session_next(session.get(), patience, answered.out()), MENISCUS_OK) << meniscus_error_message();
+    ASSERT_EQ(meniscus_watcher_next(watcher.get(), patience, watched.out()), MENISCUS_OK) << meniscus_error_message();
+    for (const meniscus_frame* frame : {answered.get(), watched.get()}) {
+        const CMesh mesh = empty_mesh();
+        ASSERT_EQ(meniscus_frame_mesh(frame, mesh.get()), MENISCUS_OK) << meniscus_error_message();
+        const meniscus_array* attributes = nullptr;
+        const double* vertices = nullptr;
+        std::size_t count = 0;
+        std::size_t vertex_count = 0;
+        ASSERT_EQ(meniscus_mesh_attributes(mesh.get(), &attributes, &count), MENISCUS_OK);
+        ASSERT_EQ(meniscus_mesh_vertices(mesh.get(), &vertices, &vertex_count), MENISCUS_OK);
+        ASSERT_EQ(count, 1U);
+        EXPECT_STREQ(attributes[0].name, "age");
+        ASSERT_GT(vertex_count, 0U);
+        for (std::size_t i = 0; i < vertex_count; ++i)
+            ASSERT_EQ(static_cast<const float*>(attributes[0].data)[i], 0.7F);
+    }
+    const COptions wrong = options_of({{"attribute-bits", "17"}});
+    CWatcher none;
+    EXPECT_TRUE(
+        refused(meniscus_watcher_open(client_.get(), meniscus_session_id(session.get()), wrong.get(), none.out()),
+                MENISCUS_INVALID_INPUT, "option 'attribute-bits' is '17', must be 1 to 16, or 0"));
+}
+
 TEST_F(CServer, ASessionEndsWithItsHandleUnlessItIsLeftOrJoined) {
     CSession session = open({{"name", "dam"}, {"up-axis", "z"}, {"length-unit", "m"}});
     const std::string ended = meniscus_session_id(session.get());

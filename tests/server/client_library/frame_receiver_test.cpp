@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "conversion/attribute_conversion.hpp"
 #include "conversion/spray_conversion.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 
@@ -292,6 +293,82 @@ TEST(FrameReceiver, ReservesNothingForCountsItIsOnlyTold) {
     receiver.take(begin(std::numeric_limits<std::uint32_t>::max()));
     receiver.take(brick(0, 0, std::numeric_limits<std::uint32_t>::max()));
     EXPECT_THROW(receiver.take(statistics(2)), ServerError);
+}
+
+void announce(v1::StreamResponse& response, float coded_maximum, const char* name = "speed") {
+    const AttributeRange range{{0.25, 0, 0, 0}, {0.5, 0, 0, 0}};
+    CodedAttribute coded;
+    coded.name = name;
+    coded.bits = 8;
+    coded.maximum[0] = coded_maximum;
+    v1::MeshBegin& message = *response.mutable_mesh_begin();
+    conversion::announce({name, ElementType::float32, 1, {}}, &range, &coded, message);
+    conversion::announce({"id", ElementType::uint32, 1, {}}, nullptr, nullptr, message);
+}
+
+/// Has received bricks 0 and 1 of frame 3, with speeds over a range from 0 to 1.
+FrameReceiver watching_speed() {
+    FrameReceiver receiver(true, true);
+    v1::StreamResponse response = begin(2, 4);
+    announce(response, 1.0F);
+    receiver.take(response);
+    receiver.take(brick(0));
+    receiver.take(brick(1));
+    EXPECT_TRUE(receiver.take(statistics(4)));
+    return receiver;
+}
+
+TEST(FrameReceiver, TellsOfEveryAttributeAndHowTheBricksCarryTheirs) {
+    FrameReceiver receiver(true);
+    v1::StreamResponse response = begin(0);
+    announce(response, 1.0F);
+    receiver.take(response);
+    const auto frame = receiver.take(statistics(0));
+    ASSERT_TRUE(frame);
+    ASSERT_EQ(frame->attributes.size(), 2U);
+    EXPECT_EQ(frame->attributes[0].name, "speed");
+    EXPECT_EQ(frame->attributes[0].range->minimum[0], 0.25);
+    EXPECT_EQ(frame->attributes[0].range->maximum[0], 0.5);
+    EXPECT_EQ(frame->attributes[1].type, ElementType::uint32);
+    EXPECT_FALSE(frame->attributes[1].range);
+    ASSERT_EQ(frame->coded_attributes.size(), 1U);
+    EXPECT_EQ(frame->coded_attributes[0].maximum[0], 1.0F);
+    // A mesh without bricks has them, too.
+    const Mesh mesh = frame->mesh();
+    ASSERT_EQ(mesh.attributes.size(), 1U);
+    EXPECT_EQ(mesh.attributes[0].name, "speed");
+}
+
+TEST(FrameReceiver, RefusesAttributesThatAreNone) {
+    FrameReceiver receiver(true);
+    v1::StreamResponse response = begin(0);
+    announce(response, -1.0F);
+    EXPECT_THROW(receiver.take(response), ServerError);
+}
+
+TEST(FrameReceiver, KeepsABrickOnlyWhileItsAttributesAreCodedAsBefore) {
+    const auto refuses = [](float coded_maximum, const char* name, bool both) {
+        FrameReceiver receiver = watching_speed();
+        v1::StreamResponse response = difference(both ? 2 : 1, 4, {});
+        announce(response, coded_maximum, name);
+        receiver.take(response);
+        receiver.take(brick(1));
+        if (both) receiver.take(brick(0));
+        try {
+            receiver.take(statistics(4, 4));
+        } catch (const ServerError&) {
+            return true;
+        }
+        return false;
+    };
+    EXPECT_FALSE(refuses(1.0F, "speed", false));
+    EXPECT_TRUE(refuses(2.0F, "speed", false)) << "another range";
+    EXPECT_TRUE(refuses(1.0F, "age", false)) << "another attribute";
+    EXPECT_FALSE(refuses(2.0F, "speed", true)) << "no brick stays";
+    FrameReceiver none = watching_speed();
+    none.take(difference(1, 4, {}));
+    none.take(brick(1));
+    EXPECT_THROW(none.take(statistics(4, 4)), ServerError);
 }
 
 }  // namespace

@@ -80,6 +80,23 @@ MENISCUS_API meniscus_result meniscus_options_set(meniscus_options* options, con
 /* The same for a number. */
 MENISCUS_API meniscus_result meniscus_options_set_number(meniscus_options* options, const char* name, double value);
 
+/* ---- Arrays ----------------------------------------------------------------------------------------------------- */
+
+typedef enum meniscus_type {
+    MENISCUS_FLOAT32 = 1,
+    MENISCUS_UINT8 = 2,
+    MENISCUS_INT32 = 4, /* an id, as are those of the next one: never averaged */
+    MENISCUS_UINT32 = 5
+} meniscus_type;
+
+/* A value that each particle carries, such as a velocity, or that each vertex has of it. This struct does not grow. */
+typedef struct meniscus_array {
+    const char* name;    /* 1 to 64 of a-z, 0-9 and _ */
+    uint32_t type;       /* a meniscus_type */
+    uint32_t components; /* numbers of each: 1, 3 or 4 of float32 and uint8, 1 of int32 and uint32 */
+    const void* data;    /* those of one after those of the other */
+} meniscus_array;
+
 /* ---- Particles -------------------------------------------------------------------------------------------------- */
 
 /* One frame, borrowed for the time of the call. */
@@ -90,10 +107,13 @@ typedef struct meniscus_particles {
     const double* positions_double; /* each number is rounded to the nearest float32 */
     size_t stride;                  /* bytes from one particle's x to the next one's; 0: three numbers */
     const uint8_t* levels;          /* NULL, or one of each: 0 to 3. Level k has 2^k times the radius of level 0 */
+    size_t array_count;             /* at most 16, here and below since 0.2 */
+    const meniscus_array* arrays;   /* further values of each, whose numbers are finite: those that the option
+                                       "attribute" names become attributes of the vertices, others are passed over */
 } meniscus_particles;
 
 #define MENISCUS_PARTICLES_INIT \
-    { sizeof(meniscus_particles), 0, NULL, NULL, 0, NULL }
+    { sizeof(meniscus_particles), 0, NULL, NULL, 0, NULL, 0, NULL }
 
 /* ---- Meshes ----------------------------------------------------------------------------------------------------- */
 
@@ -117,6 +137,10 @@ MENISCUS_API meniscus_result meniscus_mesh_triangles(meniscus_mesh* mesh, const 
 MENISCUS_API meniscus_result meniscus_mesh_triangle_levels(meniscus_mesh* mesh, const uint8_t** levels, size_t* count);
 /* x y z of each particle that the surface leaves out, with the option "spray" set to "points"; world units. */
 MENISCUS_API meniscus_result meniscus_mesh_spray(meniscus_mesh* mesh, const float** places, size_t* count);
+/* What the vertices have of the particles' arrays: `count` arrays, in the order of the option "attribute", each with
+ * values of every vertex; their data are NULL in a mesh without vertices. Since 0.2. */
+MENISCUS_API meniscus_result meniscus_mesh_attributes(meniscus_mesh* mesh, const meniscus_array** attributes,
+                                                      size_t* count);
 /* Bytes for meniscus_mesh_sha256(). */
 #define MENISCUS_SHA256_SIZE 65
 /* The identity of the geometry as the command line's mesh_sha256: 64 hexadecimal digits and a 0. */
@@ -143,12 +167,13 @@ typedef struct meniscus_statistics {
     double encode_seconds; /* of a frame from a server, here and below; else 0 */
     double latency_seconds;
     uint64_t encoded_bytes;
+    uint64_t vertices_without_particles; /* at which attributes are 0, since no particle is near; since 0.2 */
 } meniscus_statistics;
 
 #define MENISCUS_STATISTICS_INIT                                                 \
     {                                                                            \
         sizeof(meniscus_statistics), 0, 0, 0, {0, 0, 0, 0}, 0, 0.0, 0.0, 0, 0.0, \
-            {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, 0, 0, 0.0, 0.0, 0          \
+            {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, 0, 0, 0.0, 0.0, 0, 0       \
     }
 
 /* ---- In process ------------------------------------------------------------------------------------------------- */
@@ -157,8 +182,9 @@ typedef struct meniscus_statistics {
 typedef struct meniscus_reconstructor meniscus_reconstructor;
 
 /* options: the settings, particle-radius (required), preset, cell-size, iso, field, smoothness, spray,
- * smoothing-length, mode, criterion, tolerance, count-threshold, edge-points, bisection-steps, normals (true or false)
- * and domain, as client/README.md has them; and backend (auto, cpu or cuda), threads (0: one for each processor),
+ * smoothing-length, mode, criterion, tolerance, count-threshold, edge-points, bisection-steps, normals (true or false),
+ * domain and attribute (names of the particles' arrays with spaces between them, or all), as client/README.md has them;
+ * and backend (auto, cpu or cuda), threads (0: one for each processor),
  * memory-limit (bytes, 0: none), device (which GPU), device-memory-limit. */
 MENISCUS_API meniscus_result meniscus_reconstructor_create(const meniscus_options* options,
                                                            meniscus_reconstructor** reconstructor);
@@ -193,7 +219,8 @@ MENISCUS_API meniscus_result meniscus_client_delete_session(meniscus_client* cli
 /* options: the settings, as for meniscus_reconstructor_create(); of the session: session (id: joins it if it is there
  * with equal settings; default: a new one), name, up-axis (x, y or z), length-unit (such as m), ephemeral (true, the
  * default: the server ends it soon after this process has vanished; false); of the stream: meshes (true or false:
- * whether they come back at all), normal-bits (2 to 16, 0 for none), waiting-limit (received frames that wait at most;
+ * whether they come back at all), normal-bits (2 to 16, 0 for none), attribute-bits (1 to 16, default 8: each float32 of
+ * the attributes comes back rounded to one of 2^bits values; 0: exactly), waiting-limit (received frames that wait at most;
  * 0, the default: no limit), policy (every-frame, latest or every-nth), nth, reconnect (seconds, 0: not at all). */
 MENISCUS_API meniscus_result meniscus_session_open(meniscus_client* client, const meniscus_options* options,
                                                    meniscus_session** session);
@@ -228,7 +255,8 @@ MENISCUS_API meniscus_result meniscus_session_dropped(const meniscus_session* se
 
 /* options: max-level (1 to 3), normal-bits (2 to 16, 0 for none), position-bits, region ("X0 Y0 Z0 X1 Y1 Z1", world
  * units), spray (true or false: whether the particles that the surface leaves out come beside it), bytes-per-second,
- * viewpoint ("X Y Z"), reconnect (seconds). */
+ * viewpoint ("X Y Z"), reconnect (seconds), attribute (those of the session's attributes that the meshes have: names with
+ * spaces between them, or all; default: none), attribute-bits (as above). */
 MENISCUS_API meniscus_result meniscus_watcher_open(meniscus_client* client, const char* session_id,
                                                    const meniscus_options* options, meniscus_watcher** watcher);
 MENISCUS_API void meniscus_watcher_destroy(meniscus_watcher* watcher);
