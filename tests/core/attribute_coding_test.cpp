@@ -154,7 +154,7 @@ TEST(CodedRange, StaysTheSameWhenValuesChangeALittle) {
     EXPECT_EQ(form.minimum[0], -1.25F);
     EXPECT_EQ(form.maximum[0], 3.0F);
     EXPECT_EQ(coded(points_with({-1.1F, 0.5F, 2.8F}), 8), form);
-    EXPECT_EQ(coded(points_with({-1.24F, 2.99F}), 8).minimum, form.minimum);
+    EXPECT_EQ(coded(points_with({-1.2F, 2.76F}), 8).minimum, form.minimum);
     // As the largest speed of water, which is another one in each frame.
     int changes = 0;
     CodedAttribute before = form;
