@@ -1,12 +1,14 @@
 // A simulator: pushes frames through a session of its own, and takes their meshes as they come.
 //
 //   simulator HOST:PORT [FRAMES]
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <meniscus/client/client.hpp>
 #include <meniscus/mesh_hash.hpp>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -34,6 +36,7 @@ int main(int argc, char** argv) try {
     meniscus::Settings settings;
     settings.particle_radius = WAVE_PARTICLE_RADIUS;
     settings.cell_size = 1.0;
+    settings.attributes = {"velocity"};  // the viewer colors the surface by it
     meniscus::client::Client client(argv[1]);
     // Ends when this object goes, or soon after this process has died.
     meniscus::client::Session session = client.open_session(
@@ -46,9 +49,14 @@ int main(int argc, char** argv) try {
     for (unsigned long index = 0; index < frames; ++index) {
         const double seconds = 0.1 * static_cast<double>(index);
         std::vector<float> positions(3 * WAVE_PARTICLES);
+        std::vector<float> velocities(3 * WAVE_PARTICLES);
         wave_at(seconds, positions.data());
+        wave_velocity_at(seconds, velocities.data());
+        const std::array arrays{meniscus::ParticleArray{"velocity", std::as_bytes(std::span(velocities)),
+                                                        meniscus::ElementType::float32, 3}};
         meniscus::ParticleFrame frame;
-        frame.positions = positions;  // borrowed for the call
+        frame.positions = positions;  // borrowed for the call, as the arrays are
+        frame.arrays = arrays;
         stream.push(frame, index, seconds);
         // What has come already: the solver does not wait for meshes.
         while (const auto received = stream.next(0s)) show(*received);

@@ -23,4 +23,17 @@ static inline void wave_at(double seconds, float* positions) {
     }
 }
 
+/* Likewise, how fast each particle moves, world units per second. */
+static inline void wave_velocity_at(double seconds, float* velocities) {
+    const double spacing = 2.0 * WAVE_PARTICLE_RADIUS;
+    for (int i = 0; i < WAVE_PARTICLES; ++i) {
+        const double x = i % WAVE_LENGTH;
+        const double z = i / (WAVE_LENGTH * WAVE_WIDTH);
+        velocities[3 * i] = 0.0F;
+        velocities[3 * i + 1] = 0.0F;
+        velocities[3 * i + 2] =
+            (float)(spacing * z * -0.9 * sin(3.0 * seconds) * cos(6.2831853 * x / (double)WAVE_LENGTH));
+    }
+}
+
 #endif
