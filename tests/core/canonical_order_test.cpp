@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "meniscus/meniscus.hpp"
-#include "support/attributes.hpp"
+#include "support/mesh_attributes.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus {

@@ -1,4 +1,4 @@
-#include "support/attributes.hpp"
+#include "support/mesh_attributes.hpp"
 
 #include <cstdint>
 
