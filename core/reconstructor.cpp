@@ -7,7 +7,9 @@
 #include <limits>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "attribute_choice.hpp"
 #include "engine/cuda/device.hpp"
 #include "instruction_set.hpp"
 #include "meniscus/error.hpp"
@@ -16,6 +18,7 @@
 #include "pipeline/backend.hpp"
 #include "processor.hpp"
 #include "steps/register_particles/crowd.hpp"
+#include "validation.hpp"
 #include "warnings.hpp"
 
 namespace meniscus {
@@ -40,6 +43,7 @@ ParticleFrame frame_on_device(const DeviceParticleFrame& particles) {
     ParticleFrame frame;
     frame.positions = {particles.positions, 3 * particles.count};
     if (particles.levels != nullptr) frame.levels = {particles.levels, particles.count};
+    frame.arrays = particles.arrays;
     return frame;
 }
 
@@ -51,6 +55,7 @@ void Mesh::clear() {
     normals.clear();
     triangles.clear();
     bricks.clear();
+    for (MeshAttribute& attribute : attributes) attribute.data.clear();
     levels = {};
 }
 
@@ -74,6 +79,7 @@ class Reconstructor::Impl {
 public:
     Impl(const Settings& settings, const BackendOptions& options)
         : settings_(checked(settings)),
+          attributes_(settings),
           options_(options),
           account_(std::make_shared<MemoryAccount>(options.memory_limit, "in memory", options.shared_memory)),
           device_account_(std::make_shared<MemoryAccount>(options.device_memory_limit, "on the GPU",
@@ -125,6 +131,7 @@ public:
         const ValidFrame valid = begin(frame);
         measure(valid, [&] {
             mesh = backend_->reconstruct_on_device(valid.particles, statistics_);
+            attributes_.describe(mesh.attributes);
             count(mesh.vertex_count, mesh.triangle_count, mesh.levels);
             warn(valid);
         });
@@ -152,24 +159,29 @@ private:
     }
 
     struct ValidFrame {
+        std::vector<ParticleArray> attributes;  ///< those of the frame
         PlacedFrame particles;
-        ParticlesByLevel by_level;
+        ParticlesByLevel by_level{};
     };
 
     // Validation comes before the last surface is forgotten: a frame that is refused changes nothing.
     ValidFrame begin(const ParticleFrame& frame) {
-        validate(frame, settings_);
+        ValidFrame valid = with_attributes(frame, false);
+        validate_places(frame, settings_);
+        valid.particles.attributes = numbers_in_host_memory(valid.attributes);
+        valid.by_level = count_levels(frame);
+        attributes_.keep(valid.attributes);
         forget_last_frame();
         if (!backend_) make_backend();
-        return {frame, count_levels(frame)};
+        return valid;
     }
     ValidFrame begin(const DeviceParticleFrame& particles) {
-        const ParticleFrame frame = frame_on_device(particles);
-        validate_lengths(frame);
+        ValidFrame valid = with_attributes(frame_on_device(particles), true);
+        const ParticleFrame& frame = valid.particles.frame;
         if (!backend_) make_backend();
-        ParticlesByLevel by_level{};
         try {
-            by_level = backend_->validate_on_device(frame, particles.stream, settings_);
+            valid.by_level = backend_->validate_on_device(frame, particles.stream, settings_);
+            valid.particles.attributes = backend_->numbers_on_device(frame);
         } catch (const InvalidInput&) {
             throw;
         } catch (...) {
@@ -177,8 +189,16 @@ private:
             backend_.reset();
             throw;
         }
+        attributes_.keep(valid.attributes);
         forget_last_frame();
-        return {{frame, true}, by_level};
+        return valid;
+    }
+    /// Arrays that do not become attributes are passed over from here on.
+    ValidFrame with_attributes(const ParticleFrame& frame, bool on_device) const {
+        validate_lengths(frame);
+        ValidFrame valid{attributes_.of(frame), {frame, on_device}};
+        valid.particles.frame.arrays = valid.attributes;
+        return valid;
     }
     void forget_last_frame() {
         statistics_ = {};
@@ -254,11 +274,13 @@ private:
             mesh.bricks = Array<MeshBrick>(AccountAllocator<MeshBrick>(account_));
             mesh.spray = Array<Point>(AccountAllocator<Point>(account_));
         }
+        attributes_.shape(mesh, account_);
         mesh.cell_size = world_cell_size(settings_);
         mesh.offset_bits = offset_bits(settings_);
     }
 
     Settings settings_;
+    AttributeChoice attributes_;
     BackendOptions options_;
     std::shared_ptr<MemoryAccount> account_;
     std::shared_ptr<MemoryAccount> device_account_;

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <vector>
 
+#include "attribute_choice.hpp"
 #include "lattice/coordinates.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/particle_frame.hpp"
@@ -127,6 +129,7 @@ void validate(const Settings& s) {
     std::visit([](const auto& criterion) { require(criterion); }, s.criterion);
     std::visit([](const auto& edge_points) { require(edge_points); }, s.edge_points);
     if (s.domain) require_box("domain", *s.domain, false);
+    validate_attribute_names(s);
 }
 
 void validate_lengths(const ParticleFrame& frame) {
@@ -177,6 +180,12 @@ void refuse_coordinate(const Settings& settings, std::uint64_t coordinate, float
 
 void validate(const ParticleFrame& frame, const Settings& settings) {
     validate_lengths(frame);
+    const std::vector<ParticleArray> attributes = AttributeChoice(settings).of(frame);
+    validate_places(frame, settings);
+    numbers_in_host_memory(attributes);
+}
+
+void validate_places(const ParticleFrame& frame, const Settings& settings) {
     if (!frame.levels.empty()) {
         const auto coarsest = std::max_element(frame.levels.begin(), frame.levels.end());
         require_level(settings, static_cast<std::uint64_t>(coarsest - frame.levels.begin()), *coarsest);

@@ -3,9 +3,13 @@
 
 #include <cstdint>
 
+#include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 
 namespace meniscus {
+
+/// What validate() says of positions and levels alone. The frame's lengths are valid.
+void validate_places(const ParticleFrame& frame, const Settings& settings);
 
 /// How far from the origin a coordinate may be, world units.
 double farthest_coordinate(const Settings& settings);

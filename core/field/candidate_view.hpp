@@ -13,8 +13,9 @@ struct CandidateView {
     const float* weight;
     const float* fall;  ///< Poly6 only
     std::size_t count;
-    float support;          ///< of the level: none reaches farther; units
-    float inverse_support;  ///< see inverse_support()
+    float support;                 ///< of the level: none reaches farther; units
+    float inverse_support;         ///< see inverse_support()
+    const float* ranks = nullptr;  ///< see ParticleSetView; may be none
 };
 
 }  // namespace meniscus

@@ -59,6 +59,11 @@ struct CubicSpline {
         return {c.weight[j], c.inverse_support};
     }
 
+    template <class F>
+    MENISCUS_HD F share(F dx, F dy, F dz) const {
+        return F(weight) * cubic_spline(length(dx, dy, dz) * F(inverse_support));
+    }
+
     /// Adds the share to the value.
     template <class F>
     MENISCUS_HD F add_value(F sum, F dx, F dy, F dz) const {
@@ -74,14 +79,16 @@ struct CubicSpline {
     }
 
     /// Adds the share to the gradient (the paper's Equation 2), up to a positive factor common to all particles.
+    /// Returns share().
     template <class F>
-    MENISCUS_HD void add_gradient(F& x, F& y, F& z, F dx, F dy, F dz) const {
+    MENISCUS_HD F add_gradient(F& x, F& y, F& z, F dx, F dy, F dz) const {
         const F distance = length(dx, dy, dz);
-        const F slope = F(weight * inverse_support) * cubic_spline_derivative(distance * F(inverse_support)) /
-                        max(distance, F(1.0F / 64.0F));
+        const F q = distance * F(inverse_support);
+        const F slope = F(weight * inverse_support) * cubic_spline_derivative(q) / max(distance, F(1.0F / 64.0F));
         x = fma(slope, dx, x);
         y = fma(slope, dy, y);
         z = fma(slope, dz, z);
+        return F(weight) * cubic_spline(q);
     }
 
     /// Adds the share to a jet, FieldSlope or FieldJet.

@@ -94,6 +94,7 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     std::visit([this](const auto& edge_points) { use(*this, edge_points); }, s.edge_points);
     offset_bits = meniscus::offset_bits(s);
     has_normals = s.normals;
+    may_have_attributes = s.all_attributes || !s.attributes.empty();
     if (s.domain) {
         has_domain = true;
         const auto& [low, high] = *s.domain;

@@ -52,6 +52,7 @@ struct LatticeSettings {
     std::uint32_t bisection_steps = 0;  ///< on a finest edge
     std::uint32_t offset_bits = 6;
     bool has_normals = true;
+    bool may_have_attributes = false;  ///< which frames bring, see AttributeNumbers
 
     bool has_domain = false;
     Int3 domain_low, domain_high;  ///< in cells, rounded outward

@@ -50,6 +50,12 @@ struct Poly6 {
     }
 
     template <class F>
+    MENISCUS_HD F share(F dx, F dy, F dz) const {
+        const F a = root_of_share(squared_distance(dx, dy, dz));
+        return (a * a) * a;
+    }
+
+    template <class F>
     MENISCUS_HD F root_of_share(F d2) const {
         return max(fnma(F(fall), d2, F(weight)), F(0.0F));
     }
@@ -71,14 +77,17 @@ struct Poly6 {
         if (is_narrow && weight > 0.0F) closest = max(closest, a / F(weight));
     }
 
-    /// Adds the share to the gradient (the paper's Equation 2), up to the factor 6 that all particles share.
+    /// Adds the share to the gradient (the paper's Equation 2), up to the factor 6 that all particles share. Returns
+    /// share().
     template <class F>
-    MENISCUS_HD void add_gradient(F& x, F& y, F& z, F dx, F dy, F dz) const {
+    MENISCUS_HD F add_gradient(F& x, F& y, F& z, F dx, F dy, F dz) const {
         const F a = root_of_share(squared_distance(dx, dy, dz));
-        const F slope = (a * a) * F(-fall);
+        const F a2 = a * a;
+        const F slope = a2 * F(-fall);
         x = fma(slope, dx, x);
         y = fma(slope, dy, y);
         z = fma(slope, dz, z);
+        return a2 * a;
     }
 
     /// Adds the share to a jet, FieldSlope or FieldJet.

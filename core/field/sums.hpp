@@ -54,6 +54,24 @@ MENISCUS_HD inline void sum_gradients(const CandidateView& c, F x, F y, F z, F& 
         Kernel::of(c, j).add_gradient(gx, gy, gz, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]));
 }
 
+/// Adds to the sum of the particles' shares, and to the sums of the first K of their numbers, each times the share;
+/// with has_gradient also to the gradient, as sum_gradients() does. numbers: four for each particle.
+template <class Kernel, unsigned K, bool has_gradient, class F>
+MENISCUS_HD inline void sum_numbers(const CandidateView& c, const float* numbers, F x, F y, F z, F& gx, F& gy, F& gz,
+                                    F& weight, F (&sum)[K]) {
+    for (std::size_t j = 0; j < c.count; ++j) {
+        const auto kernel = Kernel::of(c, j);
+        const F dx = x - F(c.x[j]), dy = y - F(c.y[j]), dz = z - F(c.z[j]);
+        F share(0.0F);
+        if constexpr (has_gradient)
+            share = kernel.add_gradient(gx, gy, gz, dx, dy, dz);
+        else
+            share = kernel.share(dx, dy, dz);
+        weight = weight + share;
+        for (unsigned k = 0; k < K; ++k) sum[k] = fma(share, F(numbers[4 * j + k]), sum[k]);
+    }
+}
+
 /// A gradient becomes the unit vector against it; not-a-numbers where it vanishes.
 template <class F>
 MENISCUS_HD inline void turn_outward(F& x, F& y, F& z) {

@@ -28,6 +28,8 @@ struct ParticleSetView {
     const float* fall = nullptr;    ///< of Poly6, else none
     std::int64_t cell_units = 0;    ///< edge of a support cell
     float support = 0.0F;           ///< h, or the widest of the particles; units
+    /// Each particle's place in the set, as the bits of a float; none where nobody asks which particle it is.
+    const float* ranks = nullptr;
 
     MENISCUS_HD Int3 cell_of(std::int64_t px, std::int64_t py, std::int64_t pz) const {
         return {static_cast<std::int32_t>(floor_div(px, cell_units)),

@@ -8,6 +8,8 @@ ParticleSet::ParticleSet(const std::shared_ptr<MemoryAccount>& account)
       keys(make_array<ParticleKey>(account)),
       identified(make_array<IdentifiedKey>(account)),
       sources(make_array<std::uint32_t>(account)),
+      ranks(make_array<float>(account)),
+      values(make_array<float>(account)),
       first(make_array<std::uint32_t>(account)),
       cell_keys(make_array<std::uint64_t>(account)),
       x(make_array<float>(account)),

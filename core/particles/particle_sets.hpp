@@ -10,6 +10,7 @@
 #include "engine/cpu/workers.hpp"
 #include "field/lattice_settings.hpp"
 #include "meniscus/mesh.hpp"
+#include "particles/attributes.hpp"
 #include "particles/particle_key.hpp"
 #include "particles/particle_set.hpp"
 
@@ -29,6 +30,9 @@ struct ParticleSet {
     Array<ParticleKey> keys;
     Array<IdentifiedKey> identified;  ///< while they are sorted
     Array<std::uint32_t> sources;     ///< each particle's index in the frame; empty for a frame without arrays
+    // Where vertices have attributes:
+    Array<float> ranks;   ///< see ParticleSetView, with room for whole lanes
+    Array<float> values;  ///< of every group of numbers, and in it of every particle, four (AttributeNumbers)
     Array<std::uint32_t> first;
     Array<std::uint64_t> cell_keys;
     // Of every particle, and room for whole lanes beyond the last; ParticleSetView explains them.
@@ -44,6 +48,13 @@ struct ParticleSet {
         return {cells.view(),  first.data(),   x.data(),   y.data(), z.data(),
                 weight.data(), own_supports(), cell_units, support};
     }
+    /// The same, with ranks.
+    ParticleSetView ranked_view() const {
+        ParticleSetView ranked = view();
+        ranked.ranks = ranks.data();
+        return ranked;
+    }
+    const float* values_of(unsigned group) const { return values.data() + group * group_size_of_numbers * count(); }
     /// For counts of particles around a place.
     ParticleSetView company_view() const {
         ParticleSetView company = view();

@@ -1,4 +1,4 @@
-// A frame, and the memory in which its arrays lie.
+// A frame, the memory in which its arrays lie, and what the vertices get of them.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "meniscus/particle_frame.hpp"
+#include "particles/attributes.hpp"
 
 namespace meniscus {
 
@@ -13,7 +14,8 @@ struct PlacedFrame {
     PlacedFrame(const ParticleFrame& in_host_memory) : frame(in_host_memory) {}
     PlacedFrame(const ParticleFrame& f, bool is_on_device) : frame(f), on_device(is_on_device) {}
 
-    ParticleFrame frame;
+    ParticleFrame frame;  ///< with no other arrays than those that become attributes
+    AttributeNumbers attributes;
     bool on_device = false;  ///< whether its spans are of device pointers, which the host must not follow
 };
 

@@ -22,12 +22,13 @@ public:
     /// The frame is valid. Throws Stopped where BackendOptions::stop is raised; after that, and after a refusal for its
     /// work, the next frame may follow. Fills every figure of the statistics but memory and times of the whole. The
     /// mesh has its final sizes, bricks aside; its content is there once it has been downloaded.
+    /// It comes with the attributes of the frame, without values.
     virtual MeshDownload reconstruct(const PlacedFrame& particles, Mesh& mesh, Statistics& statistics) = 0;
     /// The surface of the last frame once more, with no cell finer than max_level (1 to 3).
     virtual void emit_capped(int max_level, Mesh& mesh) = 0;
     /// The greatest value of the field at the points that the last frame had sampled, inside the domain; 0 without any.
     virtual float greatest_sample() = 0;
-    /// As reconstruct(), but the mesh stays where it is until the next call.
+    /// As reconstruct(), but the mesh stays where it is until the next call. Of its attributes only the data are told.
     virtual DeviceMesh reconstruct_on_device(const PlacedFrame&, Statistics&) {
         throw InvalidInput("the CPU backend has no mesh on a GPU: use reconstruct(), or Backend::cuda");
     }
@@ -38,6 +39,9 @@ public:
             "the CPU backend takes no particles from a GPU: copy them to a ParticleFrame, or use "
             "Backend::cuda");
     }
+    /// After that: the numbers of the frame's arrays, which can be attributes. Throws InvalidInput, with the words of
+    /// numbers_in_host_memory(), for a value that is not finite.
+    virtual AttributeNumbers numbers_on_device(const ParticleFrame& frame) { return attribute_numbers(frame.arrays); }
 };
 
 namespace cpu {

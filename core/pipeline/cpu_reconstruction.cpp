@@ -32,6 +32,7 @@ public:
 
     MeshDownload reconstruct(const PlacedFrame& particles, Mesh& mesh, Statistics& statistics) override {
         StageClock clock(statistics);
+        state_.attributes = particles.attributes;
         ParticleSteps steps(state_, *field_, mesh, particles_, near_, particles.frame);
         run_pipeline(steps, clock);
         is_capped_ = false;
@@ -40,6 +41,7 @@ public:
         statistics.spray_particles = particles_.spray_particles;
         statistics.volume = world_volume(state_.sixfold_volume, settings_.cell_size, settings_.offset_bits);
         statistics.field_evaluations = state_.field_evaluations;
+        statistics.vertices_without_particles = state_.vertices_without_particles;
         statistics.base_cells_by_level = count_band_cells(state_);
         statistics.backend = "cpu";
         statistics.threads = workers_.count();

@@ -3,6 +3,7 @@
 //   Upload       pinned memory, or the caller's on the device -> upload, FrameInput    (outside of the graph: its size
 //                is the frame's)
 //   register     make_keys, sort, mark_starts, scan, store_particles, count_support_cells, measure_crowd;
+//                order_by_payload, store_numbers;
 //                list_reached_bricks, sort, mark_first_keys, scan, store_bricks, mark_reached_cells;
 //                scan, number_members, find_neighbors, make_blocks; measure_densities, divide_weights or
 //                count_particles
@@ -11,7 +12,7 @@
 //   adjust       balance_and_promote                                        (cooperative)
 //   sample       list_corner_points, sample_list, settle_band               (cooperative); list_edge_middles, ...
 //   count        list_band, count_cells, count_cracks, scan, order_by_level_and_brick
-//   place        count_vertices, scan, require_room, place_listed
+//   place        count_vertices, scan, require_room, place_listed; place_group for each group of attributes' numbers
 //   emit, fill   emit_cells, fill_listed, add_volumes
 //   Counts       -> pinned memory; the host waits
 //   PendingMesh  the mesh -> pinned memory -> the caller's arrays           (when they ask for it, on a stream of its
@@ -69,7 +70,9 @@ void FrameRun::run(const PlacedFrame& placed) {
     }
     parts_ = parts;
     particles_ = particles.count();
-    bool grown = make_room({}, payload_bytes);
+    // A frame without particles may lack the arrays that the next one brings again.
+    const AttributeShape shape = particles_ == 0 ? state_.attributes : placed.attributes.shape;
+    bool grown = make_room({}, payload_bytes, shape);
     sets_.take(state_);
     for (;;) {
         if (stop_.is_raised()) throw Stopped();
@@ -147,6 +150,10 @@ void FrameRun::copy_spray(Array<Point>& spray) {
     stream_.synchronize();
 }
 
+AttributeNumbers FrameRun::find_numbers(const ParticleFrame& on_device) {
+    return particle_check_->find_numbers(on_device);
+}
+
 float FrameRun::greatest_sample() {
     find_greatest_sample(state_, launcher_);
     fetch_counts();
@@ -185,13 +192,15 @@ void FrameRun::drop_graphs() {
     for (CapturedRun& run : graphs_) run.graph.drop();
 }
 
-bool FrameRun::make_room(const Needed& needed, std::uint64_t payload_bytes) {
+bool FrameRun::make_room(const Needed& needed, std::uint64_t payload_bytes, const AttributeShape& attributes) {
     const Capacities before = state_.capacity;
     const bool more_payload = payload_bytes > state_.payload_bytes;
-    if (!state_.capacity.grow_to(particles_, needed) && !more_payload) return false;
+    const bool other_attributes = attributes != state_.attributes;
+    if (!state_.capacity.grow_to(particles_, needed) && !more_payload && !other_attributes) return false;
+    state_.attributes = attributes;
     sets_.forget_refusal();
     drop_graphs();
-    if (state_.capacity.same_but_for_mesh(before) && !more_payload) return true;
+    if (state_.capacity.same_but_for_mesh(before) && !more_payload && !other_attributes) return true;
     if (more_payload) state_.payload_bytes = with_room_to_grow(payload_bytes);
     const Capacities& room = state_.capacity;
     const std::uint64_t sums =
@@ -206,7 +215,7 @@ bool FrameRun::make_room(const Needed& needed, std::uint64_t payload_bytes) {
 
 void FrameRun::make_more_room() {
     require_indexable_counts();
-    if (!make_room(counts().needed, 0))
+    if (!make_room(counts().needed, 0, state_.attributes))
         throw DeviceError("reconstruction", "the counts contradict each other", device_);
     sets_.with_room([&] { sets_.fit(state_); });
 }

@@ -42,6 +42,8 @@ public:
     void run(const PlacedFrame& particles);
     /// See BackendReconstruction::validate_on_device().
     ParticlesByLevel validate(const ParticleFrame& on_device, cudaStream_t made_on, const Settings& settings);
+    /// See BackendReconstruction::numbers_on_device(), after validate().
+    AttributeNumbers find_numbers(const ParticleFrame& on_device);
     /// The mesh of the last frame once more, with no cell finer than max_level. first: whether the levels on the device
     /// are still those that the frame found.
     void emit_capped(int max_level, bool first);
@@ -75,7 +77,7 @@ private:
     void drop_graphs();
     using Needed = decltype(Counts::needed);
     /// In the mesh's arrays by number only, see MeshSets::fit(). Returns whether there was too little.
-    bool make_room(const Needed& needed, std::uint64_t payload_bytes);
+    bool make_room(const Needed& needed, std::uint64_t payload_bytes, const AttributeShape& attributes);
     /// After a run that has found too little. Where that was room for the mesh alone, all that the mesh is made of
     /// stays.
     void make_more_room();

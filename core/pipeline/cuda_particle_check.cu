@@ -1,10 +1,12 @@
 // The rules are those of validation.cpp; the kernel finds the first particle that breaks one.
 #include "pipeline/cuda_particle_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
+#include "attribute_choice.hpp"
 #include "engine/cuda/warp.hpp"
 #include "meniscus/error.hpp"
 #include "validation.hpp"
@@ -55,6 +57,30 @@ __global__ void __launch_bounds__(block_threads)
     for (unsigned k = 0; k <= max_particle_level; ++k) add_of_lanes(&findings->by_level[k], by_level[k]);
 }
 
+__global__ void __launch_bounds__(block_threads)
+    check_values(const std::uint32_t* bits, std::uint32_t particles, unsigned components, ValueFindings* findings) {
+    Counter first_bad = 0;
+    std::uint32_t greatest[max_attribute_components] = {};
+    std::uint32_t least[max_attribute_components] = {};
+    GridLoop{}.each(particles, [&](std::uint32_t i) {
+        for (unsigned c = 0; c < max_attribute_components; ++c) {
+            if (c >= components) return;
+            const std::uint64_t at = std::uint64_t{components} * i + c;
+            constexpr std::uint32_t infinity = 0x7F80'0000;
+            const Counter found = ~Counter{at};
+            if ((bits[at] & infinity) == infinity && found > first_bad) first_bad = found;
+            const std::uint32_t ordered = ordered_bits(bits[at]);
+            if (ordered > greatest[c]) greatest[c] = ordered;
+            if (~ordered > least[c]) least[c] = ~ordered;
+        }
+    });
+    keep_greatest(&findings->first_bad, first_bad);
+    for (unsigned c = 0; c < max_attribute_components; ++c) {
+        keep_greatest(&findings->greatest[c], greatest[c]);
+        keep_greatest(&findings->least[c], least[c]);
+    }
+}
+
 /// The float32 numbers up to it are those up to the limit.
 float rounded_down(double limit) {
     if (limit >= static_cast<double>(std::numeric_limits<float>::max())) return std::numeric_limits<float>::max();
@@ -67,15 +93,16 @@ float rounded_down(double limit) {
 ParticleCheck::ParticleCheck(int device, const Launcher& launch, const std::shared_ptr<MemoryAccount>& account,
                              const std::shared_ptr<MemoryAccount>& device_account)
     : device_(device), launch_(launch), on_host_(account), on_device_(device, launch.stream, device_account) {
-    on_host_.reserve(sizeof(ParticleFindings));
-    on_device_.assign(sizeof(ParticleFindings));
+    constexpr std::size_t room = std::max(sizeof(ParticleFindings), sizeof(ValueFindings));
+    on_host_.reserve(room);
+    on_device_.assign(room);
 }
 
-void ParticleCheck::require_on_device(const void* array, const char* name) const {
+void ParticleCheck::require_on_device(const void* array, const std::string& name) const {
     cudaPointerAttributes attributes{};
     check(cudaPointerGetAttributes(&attributes, array), "cudaPointerGetAttributes");
     if (attributes.type == cudaMemoryTypeManaged) return;
-    const std::string where = std::string("the frame's ") + name + " lie ";
+    const std::string where = "the frame's " + name + " lie ";
     const std::string advice = ", must be in memory of CUDA device " + std::to_string(device_);
     if (attributes.type != cudaMemoryTypeDevice)
         throw InvalidInput(where + "in memory of the host" + advice + ": copy them there, or give a ParticleFrame");
@@ -121,6 +148,42 @@ ParticlesByLevel ParticleCheck::require_valid(const ParticleFrame& frame, cudaSt
         refuse_coordinate(settings, coordinate, value_at(frame.positions.data() + coordinate));
     }
     return particles;
+}
+
+ValueFindings ParticleCheck::look_at(const ParticleArray& array, std::uint32_t particles) {
+    auto* const on_device = reinterpret_cast<ValueFindings*>(on_device_.get());
+    check(cudaMemsetAsync(on_device, 0, sizeof(ValueFindings), launch_.stream), "cudaMemsetAsync");
+    launch_(particles, block_threads, check_values, reinterpret_cast<const std::uint32_t*>(array.data.data()),
+            particles, static_cast<unsigned>(array.components), on_device);
+    check(cudaMemcpyAsync(on_host_.get(), on_device, sizeof(ValueFindings), cudaMemcpyDeviceToHost, launch_.stream),
+          "cudaMemcpyAsync");
+    check(cudaStreamSynchronize(launch_.stream), "cudaStreamSynchronize");
+    return *reinterpret_cast<const ValueFindings*>(on_host_.get());
+}
+
+AttributeNumbers ParticleCheck::find_numbers(const ParticleFrame& frame) {
+    AttributeNumbers numbers = attribute_numbers(frame.arrays);
+    if (frame.count() == 0) return numbers;
+    for (const ParticleArray& array : frame.arrays)
+        require_on_device(array.data.data(), "values of '" + std::string(array.name) + "'");
+    for (std::size_t a = 0; a < frame.arrays.size(); ++a) {
+        const ParticleArray& array = frame.arrays[a];
+        ValueFindings found{};
+        if (array.type == ElementType::float32) {
+            found = look_at(array, static_cast<std::uint32_t>(frame.count()));
+            if (found.first_bad != 0) refuse_value(array, ~found.first_bad);
+        }
+        for (unsigned i = 0; i < numbers.shape.amounts; ++i) {
+            AttributeNumber& number = numbers.of[i];
+            if (number.array != a) continue;
+            if (number.type == ElementType::uint8)
+                set_range_of_bytes(number);
+            else
+                set_range(number, from_ordered_bits(~static_cast<std::uint32_t>(found.least[number.component])),
+                          from_ordered_bits(static_cast<std::uint32_t>(found.greatest[number.component])));
+        }
+    }
+    return numbers;
 }
 
 }  // namespace meniscus::cuda

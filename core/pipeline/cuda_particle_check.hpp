@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "engine/cuda/device_memory.hpp"
 #include "engine/cuda/launch.hpp"
 #include "engine/cuda/pinned_memory.hpp"
 #include "engine/cuda/state.hpp"
 #include "engine/cuda/stream.hpp"
+#include "meniscus/attribute_coding.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 #include "particles/placed_frame.hpp"
@@ -22,6 +24,13 @@ struct ParticleFindings {
     Counter by_level[max_particle_level + 1];
 };
 
+/// The same for the values of an array; see ordered_bits().
+struct ValueFindings {
+    Counter first_bad;  ///< of the first value that is not finite: its index, bits inverted
+    Counter greatest[max_attribute_components];
+    Counter least[max_attribute_components];  ///< bits inverted
+};
+
 class ParticleCheck {
 public:
     /// Runs on the launcher's stream.
@@ -31,9 +40,12 @@ public:
     /// frame: of device pointers, its lengths are valid. Waits for what is on `made_on`, and holds up its own stream
     /// for it, too. Throws InvalidInput with the messages of validate(), and for pointers to other memory.
     ParticlesByLevel require_valid(const ParticleFrame& frame, cudaStream_t made_on, const Settings& settings);
+    /// After that: see BackendReconstruction::numbers_on_device().
+    AttributeNumbers find_numbers(const ParticleFrame& frame);
 
 private:
-    void require_on_device(const void* array, const char* name) const;
+    ValueFindings look_at(const ParticleArray& array, std::uint32_t particles);
+    void require_on_device(const void* array, const std::string& name) const;
     float value_at(const float* on_device);
 
     int device_;

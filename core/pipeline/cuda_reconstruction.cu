@@ -54,11 +54,17 @@ public:
         const LatticeSettings& settings = run_.state().settings;
         statistics.volume = world_volume(run_.counts().sixfold_volume, settings.cell_size, settings.offset_bits);
         statistics.field_evaluations = run_.counts().field_evaluations;
+        statistics.vertices_without_particles = run_.counts().vertices_without_particles;
         for (std::size_t level = 0; level < 3; ++level)
             statistics.base_cells_by_level[level] = run_.counts().band_cells[level];
         run_.clock().add_to(statistics);
         statistics.backend = "cuda";
         return mesh_on_device();
+    }
+
+    AttributeNumbers numbers_on_device(const ParticleFrame& frame) override {
+        const CurrentDevice current(device_);
+        return run_.find_numbers(frame);
     }
 
     float greatest_sample() override {
@@ -74,6 +80,8 @@ private:
         mesh.vertices = state.vertices;
         mesh.normals = state.settings.has_normals ? state.normals : nullptr;
         mesh.triangles = state.triangles;
+        for (std::uint32_t a = 0; a < state.attributes.arrays; ++a)
+            mesh.attributes.emplace_back().data = state.vertex_attributes[a];
         mesh.vertex_count = static_cast<std::uint32_t>(run_.needed(Resource::vertices));
         mesh.triangle_count = static_cast<std::uint32_t>(run_.needed(Resource::triangles));
         for (std::size_t level = 0; level < triangle_level_count; ++level)

@@ -53,6 +53,9 @@ void count_triangles(const State& state, const Launcher& launch);
 /// Step 6. Also decides whether there is room for the mesh.
 template <class Field>
 void place_vertices(const State& state, const Field& field, const Launcher& launch);
+/// Its last part, for vertices that have their places.
+template <class Field>
+void place_attributes(const State& state, const Field& field, const Launcher& launch);
 /// Step 7.
 void emit_triangles(const State& state, const Launcher& launch);
 /// Algorithm 3.

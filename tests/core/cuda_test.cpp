@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "meniscus/meniscus.hpp"
+#include "support/attributes.hpp"
 #include "support/particles.hpp"
 #include "support/same_bytes.hpp"
 
@@ -85,6 +86,27 @@ TEST_F(CudaSmall, GivesTheCpusMeshForAdversarialParticles) {
     std::vector<ParticleFrame> frames;
     for (const test::NamedParticles& named : all) frames.push_back(named.particles.frame());
     expect_the_cpus_mesh(test::default_settings(), frames);
+}
+
+TEST_F(CudaSmall, GivesTheCpusAttributes) {
+    test::ParticlesWithArrays particles = test::with_noise(test::splash(3, 8), 1);
+    for (const Field field : choices<Field>) {
+        SCOPED_TRACE(name_of(field));
+        Settings settings = test::default_settings();
+        settings.field = field;
+        settings.all_attributes = true;
+        Reconstructor gpu(settings, {Backend::cuda, 0, 0});
+        Reconstructor cpu(settings, {Backend::cpu, 0, 0});
+        Mesh mesh, expected;
+        for (int round = 0; round < 4; ++round) {  // grown, run launch by launch, captured, replayed
+            gpu.reconstruct(particles.frame(), mesh);
+            cpu.reconstruct(particles.frame(), expected);
+            EXPECT_TRUE(test::same_attributes(mesh, expected));
+        }
+        gpu.emit_capped(2, mesh);
+        cpu.emit_capped(2, expected);
+        EXPECT_TRUE(test::same_attributes(mesh, expected));
+    }
 }
 
 TEST_F(Cuda, GivesTheCpusMeshForLargerSplashesAndOtherCells) {

@@ -35,6 +35,8 @@ struct NoiseField {
         return {none, none, none};
     }
 };
+/// Which has none.
+void place_attributes(const cuda::State&, const NoiseField&, const cuda::Launcher&) {}
 
 /// The device's memory is the host's: what asks for particles is done by the host between waits for the stream.
 template <Slivers slivers>

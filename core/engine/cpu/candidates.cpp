@@ -2,9 +2,11 @@
 #include "engine/cpu/candidates.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "field/cubic_spline.hpp"
 #include "field/lanes.hpp"
+#include "particles/attributes.hpp"
 
 namespace meniscus::cpu {
 
@@ -30,21 +32,26 @@ private:
     WideLanes low_[3], high_[3];
 };
 
-Candidates::Candidates(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports)
+Candidates::Candidates(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports, Told told)
     : x_(make_array<float>(account)),
       y_(make_array<float>(account)),
       z_(make_array<float>(account)),
       weight_(make_array<float>(account)),
       fall_(make_array<float>(account)),
-      may_have_own_supports_(has_own_supports) {}
+      ranks_(make_array<float>(account)),
+      values_(make_array<float>(account)),
+      may_have_own_supports_(has_own_supports),
+      told_(told) {}
 
 void Candidates::reserve(std::size_t n) {
     if (n <= x_.size()) return;
     for (Array<float>* a : {&x_, &y_, &z_, &weight_}) a->resize(n);
     if (may_have_own_supports_) fall_.resize(n);
+    if (told_ != Told::nothing) ranks_.resize(n);
+    if (told_ == Told::ranks_and_values) values_.resize(group_size_of_numbers * n);
 }
 
-template <bool has_own_supports, class IsNear>
+template <bool has_own_supports, bool has_ranks, class IsNear>
 void Candidates::append(const CandidateView& from, const std::array<float, 3>& shift, const UnitBoxLanes& box,
                         const IsNear& is_near) {
     float* const to_x = x_.data();
@@ -52,6 +59,7 @@ void Candidates::append(const CandidateView& from, const std::array<float, 3>& s
     float* const to_z = z_.data();
     float* const to_weight = weight_.data();
     float* const to_fall = fall_.data();
+    float* const to_ranks = ranks_.data();
     std::size_t count = count_;
     const WideLanes shift_x(shift[0]), shift_y(shift[1]), shift_z(shift[2]);
     const auto append_lanes = [&, own = from](std::size_t i, unsigned of) {
@@ -64,6 +72,7 @@ void Candidates::append(const CandidateView& from, const std::array<float, 3>& s
         compress_store(to_z + count, z, near);
         compress_store(to_weight + count, WideLanes::load(own.weight + i), near);
         if constexpr (has_own_supports) compress_store(to_fall + count, WideLanes::load(own.fall + i), near);
+        if constexpr (has_ranks) compress_store(to_ranks + count, WideLanes::load(own.ranks + i), near);
         count += static_cast<std::size_t>(popcount(near));
     };
     const std::size_t rest = from.count % WideLanes::count;
@@ -73,18 +82,19 @@ void Candidates::append(const CandidateView& from, const std::array<float, 3>& s
     count_ = count;
 }
 
+template <bool has_ranks>
 void Candidates::append_near(const CandidateView& from, const std::array<float, 3>& shift, const UnitBoxLanes& box) {
     if (count_ + from.count + WideLanes::count > x_.size())
         reserve(std::max(count_ + from.count + WideLanes::count, 2 * x_.size()));
     if (has_own_supports_) {
         // A little farther than the support, since distances are rounded.
-        append<true>(from, shift, box, [&](std::size_t i, WideLanes d2) {
+        append<true, has_ranks>(from, shift, box, [&](std::size_t i, WideLanes d2) {
             return less_equal(WideLanes::load(from.fall + i) * d2,
                               WideLanes::load(from.weight + i) * WideLanes(1.0001F));
         });
     } else {
         const WideLanes reach2(reach_ * reach_);
-        append<false>(from, shift, box, [&](std::size_t, WideLanes d2) { return less_equal(d2, reach2); });
+        append<false, has_ranks>(from, shift, box, [&](std::size_t, WideLanes d2) { return less_equal(d2, reach2); });
     }
 }
 
@@ -92,39 +102,67 @@ void Candidates::gather(const ParticleSetView& set, const Units3& origin, const 
     count_ = 0;
     if (set.cells.brick_count == 0) return;
     has_own_supports_ = set.fall != nullptr;
+    has_ranks_ = set.ranks != nullptr;
     reach_ = set.reach();
     support_ = set.support;
     inverse_support_ = inverse_support(set.support);
     const UnitBoxLanes lanes(box);
-    set.for_each_run_near(origin, box, hints_, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
-        append_near({set.x + begin, set.y + begin, set.z + begin, set.weight + begin,
-                     has_own_supports_ ? set.fall + begin : nullptr, end - begin, support_, inverse_support_},
-                    {shift[0], shift[1], shift[2]}, lanes);
-    });
+    const auto append_run = [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+        const std::array<float, 3> by{shift[0], shift[1], shift[2]};
+        CandidateView run{set.x + begin,
+                          set.y + begin,
+                          set.z + begin,
+                          set.weight + begin,
+                          has_own_supports_ ? set.fall + begin : nullptr,
+                          end - begin,
+                          support_,
+                          inverse_support_};
+        if (!has_ranks_) {
+            append_near<false>(run, by, lanes);
+            return;
+        }
+        run.ranks = set.ranks + begin;
+        append_near<true>(run, by, lanes);
+    };
+    set.for_each_run_near(origin, box, hints_, append_run);
 }
 
 void Candidates::cull(const Candidates& from, const std::array<float, 3>& shift, const UnitBox& box) {
     count_ = 0;
     if (from.count_ == 0) return;
     has_own_supports_ = from.has_own_supports_;
+    has_ranks_ = from.has_ranks_;
     reach_ = from.reach_;
     support_ = from.support_;
     inverse_support_ = from.inverse_support_;
-    append_near(from.view(), shift, UnitBoxLanes(box));
+    const UnitBoxLanes lanes(box);
+    has_ranks_ ? append_near<true>(from.view(), shift, lanes) : append_near<false>(from.view(), shift, lanes);
+}
+
+void Candidates::fetch_values(const float* of_set) {
+    for (std::size_t j = 0; j < count_; ++j) {
+        constexpr std::size_t size = group_size_of_numbers;
+        std::memcpy(values_.data() + size * j, of_set + size * AttributeNumber::as_bits(ranks_[j]),
+                    size * sizeof(float));
+    }
 }
 
 namespace {
 
-CandidateLists::Levels lists_of_levels(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports) {
-    return {Candidates(account, has_own_supports), Candidates(account, has_own_supports),
-            Candidates(account, has_own_supports), Candidates(account, has_own_supports)};
+CandidateLists::Levels lists_of_levels(const std::shared_ptr<MemoryAccount>& account, const LatticeSettings& settings,
+                                       Candidates::Told told) {
+    const auto list = [&] {
+        return Candidates(account, settings.has_own_supports,
+                          settings.may_have_attributes ? told : Candidates::Told::nothing);
+    };
+    return {list(), list(), list(), list()};
 }
 
 }  // namespace
 
-CandidateLists::CandidateLists(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports)
-    : group(lists_of_levels(account, has_own_supports)),
-      cluster(lists_of_levels(account, has_own_supports)),
-      near(lists_of_levels(account, has_own_supports)) {}
+CandidateLists::CandidateLists(const std::shared_ptr<MemoryAccount>& account, const LatticeSettings& settings)
+    : group(lists_of_levels(account, settings, Candidates::Told::ranks)),
+      cluster(lists_of_levels(account, settings, Candidates::Told::ranks)),
+      near(lists_of_levels(account, settings, Candidates::Told::ranks_and_values)) {}
 
 }  // namespace meniscus::cpu

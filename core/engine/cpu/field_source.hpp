@@ -8,6 +8,7 @@
 #include "engine/cpu/clusters.hpp"
 #include "lattice/block_mask.hpp"
 #include "lattice/coordinates.hpp"
+#include "particles/attributes.hpp"
 
 namespace meniscus::cpu {
 
@@ -29,6 +30,17 @@ struct PointList {
     }
 };
 
+/// Room for max_points unit vectors.
+struct NormalRows {
+    float *x, *y, *z;
+};
+
+/// Four numbers at each of some points; and the sum of the particles' shares there, or of ids the largest.
+struct GroupValues {
+    alignas(64) float of[group_size_of_numbers][max_points];
+    alignas(64) float weight[max_points];
+};
+
 using ClusterPoints = std::array<BlockMask, cluster_blocks>;
 using ClusterValues = std::array<std::array<float, 64>, cluster_blocks>;
 
@@ -43,7 +55,11 @@ public:
     virtual void cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values,
                                 unsigned worker) = 0;
     /// Unit vectors against the gradient; not-a-numbers where it vanishes.
-    virtual void normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) = 0;
+    virtual void normals(const Int3& base_cell, PointList& points, const NormalRows& normals, unsigned worker) = 0;
+    /// The numbers that a group of the particles' attributes has at the points. normals: unless none, what normals()
+    /// gives. Returns at how many of the points no particle is near.
+    virtual std::size_t attributes(const Int3& base_cell, PointList& points, const AttributeNumbers& numbers,
+                                   unsigned group, const NormalRows* normals, GroupValues& values, unsigned worker) = 0;
 };
 
 }  // namespace meniscus::cpu

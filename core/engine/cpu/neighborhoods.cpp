@@ -25,38 +25,57 @@ std::array<float, 3> shift_between(const Int3& from, const Int3& to) {
 
 Neighborhoods::Neighborhoods(const std::shared_ptr<MemoryAccount>& account, unsigned workers, ParticleSets& sets)
     : sets_(sets) {
-    for (unsigned i = 0; i < workers; ++i) lists_.emplace_back(account, sets.settings.has_own_supports);
+    for (unsigned i = 0; i < workers; ++i) lists_.emplace_back(account, sets.settings);
 }
 
 void Neighborhoods::forget() {
     for (CandidateLists& lists : lists_) lists.has_cluster = false;
 }
 
-const CandidateLists::Levels& Neighborhoods::near_cluster(const Int3& base_cell, unsigned worker) {
+void Neighborhoods::find_cluster(const Int3& base_cell, bool with_ranks, unsigned worker) {
     sets_.workers.go_on();
     CandidateLists& lists = lists_[worker];
     const Int3 corner = cluster_corner(base_cell);
-    if (lists.has_cluster && lists.cluster_corner == corner) return lists.cluster;
+    const bool tells_enough = lists.has_ranks || !with_ranks;
+    if (lists.has_cluster && tells_enough && lists.cluster_corner == corner) return;
     const Int3 group = group_corner(base_cell);
-    if (!lists.has_cluster || !(lists.group_corner == group)) {
+    if (!lists.has_cluster || !tells_enough || !(lists.group_corner == group)) {
         const UnitBox box = box_of_cells({group_size, group_size, group_size});
         for (std::size_t k = 0; k < particle_level_count; ++k)
-            lists.group[k].gather(sets_[k].view(), base_cell_origin(group), box);
+            lists.group[k].gather(with_ranks ? sets_[k].ranked_view() : sets_[k].view(), base_cell_origin(group), box);
         lists.group_corner = group;
+        lists.has_ranks = with_ranks;
     }
     const std::array<float, 3> shift = shift_between(group, corner);
     for (std::size_t k = 0; k < particle_level_count; ++k)
         lists.cluster[k].cull(lists.group[k], shift, box_of_cells(cluster_size));
     lists.cluster_corner = corner;
     lists.has_cluster = true;
-    return lists.cluster;
+}
+
+const CandidateLists::Levels& Neighborhoods::near_cluster(const Int3& base_cell, unsigned worker) {
+    find_cluster(base_cell, false, worker);
+    return lists_[worker].cluster;
+}
+
+const CandidateLists::Levels& Neighborhoods::cull_cluster(const Int3& base_cell, const UnitBox& box, unsigned worker) {
+    CandidateLists& lists = lists_[worker];
+    const std::array<float, 3> shift = shift_between(lists.cluster_corner, base_cell);
+    for (std::size_t k = 0; k < particle_level_count; ++k) lists.near[k].cull(lists.cluster[k], shift, box);
+    return lists.near;
 }
 
 const CandidateLists::Levels& Neighborhoods::near_box(const Int3& base_cell, const UnitBox& box, unsigned worker) {
-    const CandidateLists::Levels& cluster = near_cluster(base_cell, worker);
+    find_cluster(base_cell, false, worker);
+    return cull_cluster(base_cell, box, worker);
+}
+
+const CandidateLists::Levels& Neighborhoods::near_box_with_values(const Int3& base_cell, const UnitBox& box,
+                                                                  unsigned group, unsigned worker) {
+    find_cluster(base_cell, true, worker);
+    cull_cluster(base_cell, box, worker);
     CandidateLists& lists = lists_[worker];
-    const std::array<float, 3> shift = shift_between(lists.cluster_corner, base_cell);
-    for (std::size_t k = 0; k < particle_level_count; ++k) lists.near[k].cull(cluster[k], shift, box);
+    for (std::size_t k = 0; k < particle_level_count; ++k) lists.near[k].fetch_values(sets_[k].values_of(group));
     return lists.near;
 }
 

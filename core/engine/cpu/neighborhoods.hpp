@@ -22,6 +22,9 @@ public:
     const CandidateLists::Levels& near_cluster(const Int3& base_cell, unsigned worker);
     /// Those near a box, both relative to a base cell's corner.
     const CandidateLists::Levels& near_box(const Int3& base_cell, const UnitBox& box, unsigned worker);
+    /// The same, each with its numbers of a group (Candidates::values).
+    const CandidateLists::Levels& near_box_with_values(const Int3& base_cell, const UnitBox& box, unsigned group,
+                                                       unsigned worker);
     /// Those near a box, both relative to an origin that may lie anywhere.
     const CandidateLists::Levels& near_box(const Units3& origin, const UnitBox& box, unsigned worker);
     /// Those within the company's support of it.
@@ -30,7 +33,12 @@ public:
     /// Gives every worker room for the longest lists that any has met, so that a warm frame allocates nothing.
     void even_out();
 
+    const ParticleSets& sets() const { return sets_; }
+
 private:
+    void find_cluster(const Int3& base_cell, bool with_ranks, unsigned worker);
+    const CandidateLists::Levels& cull_cluster(const Int3& base_cell, const UnitBox& box, unsigned worker);
+
     ParticleSets& sets_;
     std::vector<CandidateLists> lists_;  ///< one of each worker
 };

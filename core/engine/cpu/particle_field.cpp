@@ -1,6 +1,9 @@
 // A block's points are summed by the way that fits their number: whole, alone, or pooled with other blocks'.
 #include "engine/cpu/particle_field.hpp"
 
+#include <cmath>
+
+#include "engine/cpu/attribute_sums.hpp"
 #include "engine/cpu/block_points.hpp"
 #include "engine/cpu/clusters.hpp"
 #include "engine/cpu/point_sums.hpp"
@@ -109,7 +112,7 @@ void ParticleField<Kernel>::whole_block_values(const Int3& base_cell, float* val
 }
 
 template <class Kernel>
-void ParticleField<Kernel>::normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z,
+void ParticleField<Kernel>::normals(const Int3& base_cell, PointList& points, const NormalRows& normals,
                                     unsigned worker) {
     pad(points);
     const CandidateLists::Levels& near = near_.near_box(base_cell, box_of(points), worker);
@@ -119,10 +122,83 @@ void ParticleField<Kernel>::normals(const Int3& base_cell, PointList& points, fl
         WideLanes gx(0.0F), gy(0.0F), gz(0.0F);
         for (const Candidates& c : near) sum_gradients<Kernel>(c.view(), px, py, pz, gx, gy, gz);
         turn_outward(gx, gy, gz);
-        gx.store(x + i);
-        gy.store(y + i);
-        gz.store(z + i);
+        gx.store(normals.x + i);
+        gy.store(normals.y + i);
+        gz.store(normals.z + i);
     }
+}
+
+template <class Kernel>
+std::size_t ParticleField<Kernel>::attributes(const Int3& base_cell, PointList& points, const AttributeNumbers& numbers,
+                                              unsigned group, const NormalRows* normals, GroupValues& values,
+                                              unsigned worker) {
+    pad(points);
+    const CandidateLists::Levels& near = near_.near_box_with_values(base_cell, box_of(points), group, worker);
+    if (numbers.shape.are_ids(group)) {
+        find_ids<Kernel>(near, points, values);
+        return fill_gaps(base_cell, points, numbers, group, values);
+    }
+    const auto find = [&]<unsigned K>() {
+        if (normals != nullptr)
+            find_means<Kernel, K, true>(near, points, numbers.group(group), *normals, values);
+        else
+            find_means<Kernel, K, false>(near, points, numbers.group(group), {}, values);
+    };
+    switch (numbers.shape.count(group)) {
+        case 1:
+            find.template operator()<1>();
+            break;
+        case 2:
+            find.template operator()<2>();
+            break;
+        case 3:
+            find.template operator()<3>();
+            break;
+        default:
+            find.template operator()<4>();
+    }
+    return fill_gaps(base_cell, points, numbers, group, values);
+}
+
+template <class Kernel>
+std::size_t ParticleField<Kernel>::fill_gaps(const Int3& base_cell, const PointList& points,
+                                             const AttributeNumbers& numbers, unsigned group,
+                                             GroupValues& values) const {
+    std::size_t lonely = 0;
+    for (std::size_t i = 0; i < points.count; ++i) {
+        if (values.weight[i] > 0.0F) continue;
+        // The base cell of the point: a vertex lies nowhere on the upper faces of its own.
+        const auto steps = [](float v) { return static_cast<int>(std::floor(v / base_edge)); };
+        const Int3 step{steps(points.x[i]), steps(points.y[i]), steps(points.z[i])};
+        const NearestParticle nearest = nearest_particle(
+            base_cell + step, points.x[i] - static_cast<float>(step.x) * base_edge,
+            points.y[i] - static_cast<float>(step.y) * base_edge, points.z[i] - static_cast<float>(step.z) * base_edge);
+        if (!nearest.exists()) ++lonely;
+        for (unsigned k = 0; k < numbers.shape.count(group); ++k) {
+            const ParticleSet& set = near_.sets()[nearest.level];
+            values.of[k][i] =
+                nearest.exists()
+                    ? numbers.group(group)[k].alone(set.values_of(group)[group_size_of_numbers * nearest.rank + k])
+                    : numbers.group(group)[k].nothing();
+        }
+    }
+    return lonely;
+}
+
+template <class Kernel>
+NearestParticle ParticleField<Kernel>::nearest_particle(const Int3& base_cell, float x, float y, float z) const {
+    NearestParticle nearest{x, y, z};
+    for (unsigned k = 0; k < particle_level_count; ++k) {
+        if (near_.sets()[k].count() == 0) continue;
+        const ParticleSetView set = near_.sets()[k].view();
+        const CandidateView all{set.x,    set.y, set.z,       set.weight,
+                                set.fall, 0,     set.support, inverse_support(set.support)};
+        set.for_each_near(base_cell_origin(base_cell), {{0.0F, 0.0F, 0.0F}, {base_edge, base_edge, base_edge}},
+                          [&](float px, float py, float pz, std::uint32_t i) {
+                              nearest.consider(Kernel::of(all, i), px, py, pz, k, i);
+                          });
+    }
+    return nearest;
 }
 
 template class ParticleField<CubicSpline>;

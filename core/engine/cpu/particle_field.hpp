@@ -17,11 +17,18 @@ public:
     void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) override;
     void cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values,
                         unsigned worker) override;
-    void normals(const Int3& base_cell, PointList& points, float* x, float* y, float* z, unsigned worker) override;
+    void normals(const Int3& base_cell, PointList& points, const NormalRows& normals, unsigned worker) override;
+    std::size_t attributes(const Int3& base_cell, PointList& points, const AttributeNumbers& numbers, unsigned group,
+                           const NormalRows* normals, GroupValues& values, unsigned worker) override;
 
 private:
     void whole_block_values(const Int3& base_cell, float* values, unsigned worker);
     void block_values(const Int3& base_cell, BlockMask points, float* values, unsigned worker);
+
+    /// Values where no particle has a share: those of the nearest, or 0. Returns at how many points there is none.
+    std::size_t fill_gaps(const Int3& base_cell, const PointList& points, const AttributeNumbers& numbers,
+                          unsigned group, GroupValues& values) const;
+    NearestParticle nearest_particle(const Int3& base_cell, float x, float y, float z) const;
 
     Neighborhoods& near_;
 };

@@ -12,6 +12,7 @@
 #include "lattice/level_sets.hpp"
 #include "lattice/sign_sets.hpp"
 #include "meniscus/mesh.hpp"
+#include "particles/attributes.hpp"
 
 namespace meniscus::cpu {
 
@@ -42,6 +43,8 @@ struct State : BlockState<Array> {
     Array<std::uint64_t> any_inside, all_inside;               ///< see SignSets
     Array<std::uint64_t> chosen;                               ///< by a pass, for the next one
     std::array<Array<std::uint64_t>, all_rules.size()> stale;  ///< by rule
+    AttributeNumbers attributes;  ///< of the frame, set before its particles are registered
+    std::uint64_t vertices_without_particles = 0;
     std::uint64_t field_evaluations = 0;
     std::uint64_t sixfold_volume = 0;  ///< see mesh/volume.hpp
 

@@ -17,6 +17,7 @@ struct OneCandidate {
     float fall;  ///< Poly6 only
     float support;
     float inverse_support;
+    std::uint32_t rank;  ///< in the frame's sorted particles
     __device__ CandidateView view() const {
         return {&particle.x, &particle.y, &particle.z, &particle.w, &fall, 1, support, inverse_support};
     }
@@ -40,7 +41,7 @@ struct LevelParticles {
     __device__ OneCandidate candidate(std::uint32_t i, const float* shift) const {
         const float4 p = particles[i];
         const float fall = std::is_same_v<Kernel, Poly6> ? falls[i] : 0.0F;
-        return {{p.x + shift[0], p.y + shift[1], p.z + shift[2], p.w}, fall, set.support, inverse_support};
+        return {{p.x + shift[0], p.y + shift[1], p.z + shift[2], p.w}, fall, set.support, inverse_support, i};
     }
 };
 
@@ -60,19 +61,21 @@ __device__ inline void for_each_candidate(const State& f, const Units3& origin, 
     }
 }
 
-/// Shared memory of one warp, for particles on their way to all of its lanes.
-template <class Kernel>
+/// Shared memory of one warp, for particles on their way to all of its lanes. has_ranks: whether OneCandidate::rank is
+/// told.
+template <class Kernel, bool has_ranks = false>
 struct ParticleStaging {
     static constexpr unsigned size = 2 * warp_threads;
     float4 particles[size];
     float falls[Kernel::has_own_support ? size : 1];
+    std::uint32_t ranks[has_ranks ? size : 1];
 };
 
 /// The same, by all lanes of a warp for points that lie together: they fetch particles side by side, keep those within
 /// reach of the box, and each of them visits all.
-template <class Kernel, class Visit>
+template <class Kernel, bool has_ranks, class Visit>
 __device__ inline void for_each_staged_candidate(const State& f, const Units3& origin, const UnitBox& box,
-                                                 ParticleStaging<Kernel>& staging, const Visit& visit) {
+                                                 ParticleStaging<Kernel, has_ranks>& staging, const Visit& visit) {
     const unsigned lane = lane_index();
     for (unsigned k = 0; k < particle_level_count; ++k) {
         const LevelParticles<Kernel> level(f, k);
@@ -83,7 +86,7 @@ __device__ inline void for_each_staged_candidate(const State& f, const Units3& o
             __syncwarp();
             for (unsigned j = 0; j < staged; ++j)
                 visit(OneCandidate{staging.particles[j], Kernel::has_own_support ? staging.falls[j] : 0.0F,
-                                   level.set.support, level.inverse_support});
+                                   level.set.support, level.inverse_support, has_ranks ? staging.ranks[j] : 0});
             __syncwarp();
             staged = 0;
         };
@@ -108,6 +111,7 @@ __device__ inline void for_each_staged_candidate(const State& f, const Units3& o
                         const unsigned at = staged + static_cast<unsigned>(__popc(all_near & ((1U << lane) - 1)));
                         staging.particles[at] = c.particle;
                         if constexpr (Kernel::has_own_support) staging.falls[at] = c.fall;
+                        if constexpr (has_ranks) staging.ranks[at] = c.rank;
                     }
                     staged += static_cast<unsigned>(__popc(all_near));
                     if (staged > ParticleStaging<Kernel>::size - warp_threads) visit_staged();

@@ -76,6 +76,8 @@ public:
         resize_for_overwrite(mesh.vertices, on_device.vertex_count);
         resize_for_overwrite(mesh.normals, on_device.normals != nullptr ? on_device.vertex_count : 0);
         resize_for_overwrite(mesh.triangles, on_device.triangle_count);
+        for (MeshAttribute& attribute : mesh.attributes)
+            resize_for_overwrite(attribute.data, on_device.vertex_count * attribute.element_bytes());
         resize_for_overwrite(mesh.bricks, bricks);
         mesh.levels = on_device.levels;
         auto pending = std::make_shared<PendingMesh>(storage_, on_device, mesh_bricks, mesh);

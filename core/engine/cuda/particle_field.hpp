@@ -11,6 +11,7 @@ namespace meniscus::cuda {
 /// lanes. A value is a pure function of the point's place in the world. Staging: shared memory of a warp.
 template <class Kernel>
 struct ParticleField {
+    using FieldKernel = Kernel;
     using Staging = ParticleStaging<Kernel>;
     static constexpr bool has_own_supports = Kernel::has_own_support;  ///< which takes more registers
 

@@ -90,6 +90,9 @@ private:
         fetch(bricks_, to_.bricks.size(), to_.bricks.data());
         fetch(from_.vertices, to_.vertices.size(), to_.vertices.data());
         fetch(from_.normals, to_.normals.size(), to_.normals.data());
+        for (std::size_t a = 0; a < to_.attributes.size() && !to_.vertices.empty(); ++a)
+            fetch(static_cast<const std::byte*>(from_.attributes[a].data), to_.attributes[a].data.size(),
+                  to_.attributes[a].data.data());
         storage_->download.finish();
         std::erase_if(to_.bricks, [](const MeshBrick& brick) { return brick.triangle_count() == 0; });
     }

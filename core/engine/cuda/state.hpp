@@ -15,6 +15,7 @@
 #include "lattice/blocks.hpp"
 #include "lattice/level_sets.hpp"
 #include "meniscus/mesh.hpp"
+#include "particles/attributes.hpp"
 #include "particles/particle_set.hpp"
 #include "particles/payload.hpp"
 #include "particles/positions.hpp"
@@ -30,6 +31,7 @@ struct FrameInput {
     PositionsView positions;               ///< device pointers
     const std::uint8_t* levels = nullptr;  ///< device pointer, or none
     PayloadView payload;                   ///< device pointers
+    AttributeNumbers attributes;
 };
 
 /// Lists of blocks, filled in any order.
@@ -69,6 +71,7 @@ struct Counts {
     Counter neighbors;            ///< of all probed particles
     Counter pairs;                ///< of base cells and particles near them
     Counter spray_particles;
+    Counter vertices_without_particles;
     std::uint32_t greatest_sample;  ///< bits of a float; where it is asked for
     std::uint32_t particle_cells;
     std::uint32_t first_particle_brick[particle_level_count + 1];
@@ -102,6 +105,7 @@ struct State : BlockState<Pointer> {
     LatticeSettings settings;
     Capacities capacity;
     std::uint64_t payload_bytes = 0;  ///< room in the upload for all arrays of a frame's payload
+    AttributeShape attributes;
     FrameInput* input = nullptr;
     Counts* counts = nullptr;
     const volatile std::uint32_t* stop_word = nullptr;  ///< see LongLoop; none: nobody stops the frame
@@ -118,6 +122,7 @@ struct State : BlockState<Pointer> {
     std::uint32_t* sources =
         nullptr;  ///< each sorted particle's index in the frame; stale after a frame without payload
     std::uint32_t* sources_room = nullptr;
+    float4* numbers = nullptr;  ///< of every group of attributes' numbers, see AttributeNumber
 
     std::uint64_t* starts = nullptr;  ///< support cells that begin before it, and in the upper half bricks of them
     float4* particles = nullptr;      ///< position and weight
@@ -157,6 +162,7 @@ struct State : BlockState<Pointer> {
     LatticePosition* vertices = nullptr;
     Normal* normals = nullptr;
     Triangle* triangles = nullptr;
+    std::byte* vertex_attributes[max_particle_arrays] = {};
 
     explicit State(const LatticeSettings& lattice_settings) : BlockState{}, settings(lattice_settings) {}
 
@@ -176,6 +182,7 @@ struct State : BlockState<Pointer> {
         take(unsorted_keys, n);
         take(sources, payload_bytes != 0 ? n : 0);
         take(sources_room, payload_bytes != 0 ? n : 0);
+        take(numbers, attributes.groups() * n);
         take(starts, n);
         take(particles, n);
         take(sums, n);
@@ -211,6 +218,8 @@ struct State : BlockState<Pointer> {
         take(vertices, capacity[Resource::vertices]);
         take(normals, settings.has_normals ? capacity[Resource::vertices] : 0);
         take(triangles, capacity[Resource::triangles]);
+        for (std::uint32_t a = 0; a < attributes.arrays; ++a)
+            take(vertex_attributes[a], attributes.vertex_bytes[a] * capacity[Resource::vertices]);
     }
 
     /// Gives every array its place from `memory` on (none: only counts); returns the bytes that all of them take.

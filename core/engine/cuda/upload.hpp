@@ -48,6 +48,7 @@ public:
         else
             input.positions.positions = reinterpret_cast<const float*>(state.upload);
         if (!particles.levels.empty()) input.levels = reinterpret_cast<const std::uint8_t*>(state.upload_levels());
+        input.attributes = placed.attributes;
         input.payload = payload_view(particles);
         std::byte* to = state.upload_payload();
         for (std::size_t i = 0; i < particles.arrays.size(); ++i) {

@@ -2,11 +2,23 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
+#include "meniscus/element_type.hpp"
 #include "meniscus/mesh.hpp"
 
 namespace meniscus {
+
+/// As MeshAttribute.
+struct DeviceMeshAttribute {
+    std::string name;
+    ElementType type = ElementType::float32;
+    std::size_t components = 1;  ///< numbers per vertex
+    const void* data = nullptr;  ///< device pointer, to the numbers of each vertex, one vertex after the other
+};
 
 /// The members are those of Mesh, in device memory that the reconstructor owns. The mesh is complete on every stream
 /// when the caller gets it, and valid until the reconstructor's next call or end. A caller that still reads it on
@@ -15,6 +27,7 @@ struct DeviceMesh {
     const LatticePosition* vertices = nullptr;  ///< device pointer
     const Normal* normals = nullptr;            ///< device pointer, one per vertex; null if Settings::normals is false
     const Triangle* triangles = nullptr;        ///< device pointer
+    std::vector<DeviceMeshAttribute> attributes;  ///< as the settings name them, in that order
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
     std::array<TriangleRange, triangle_level_count> levels{};  ///< into `triangles`

@@ -103,6 +103,7 @@ struct Mesh {
             if (triangle < std::size_t{levels[l].first} + levels[l].count) return static_cast<TriangleLevel>(l);
         return TriangleLevel::crack;
     }
+    /// Leaves every array empty, with its memory, and the attributes their names and forms.
     void clear();
 };
 

@@ -43,8 +43,8 @@ public:
     MeshDownload(const MeshDownload&) = delete;
     MeshDownload& operator=(const MeshDownload&) = delete;
 
-    /// After start(), the mesh has its vertices, normals, bricks and spray. Its array of triangles has the final size,
-    /// but no content yet.
+    /// After start(), the mesh has its vertices, normals, attributes, bricks and spray. Its array of triangles has the
+    /// final size, but no content yet.
     void start() const {
         if (source_) source_->start();
     }

@@ -10,7 +10,7 @@ namespace meniscus {
 /// SHA-256, as 64 hexadecimal digits, over (little-endian) cell_size as float64, offset_bits and the triangle count as
 /// uint32 and uint64, then every triangle as its level byte (1, 2, 3; crack 0) and 3 x 3 int32 lattice coordinates,
 /// rotated so that its smallest vertex (x, then y, then z) comes first, sorted: the order of in_canonical_order(),
-/// crack filling first. Normals do not enter.
+/// crack filling first. Normals and attributes do not enter.
 std::string mesh_sha256(const Mesh& mesh);
 
 }  // namespace meniscus

@@ -28,10 +28,10 @@ public:
     Reconstructor& operator=(Reconstructor&&) noexcept;
 
     /// Replaces `mesh`, reusing its memory. Its memory is charged to this reconstructor's account from the first call
-    /// on. Throws InvalidInput (non-finite or too distant positions, lengths that do not match, levels above 3) or
-    /// LimitExceeded (memory, work), or Stopped (BackendOptions::stop); the mesh is then empty and the reconstructor
-    /// remains usable. On a GPU also DeviceError. After InvalidInput the surface and the statistics of the frame before
-    /// are there still.
+    /// on. Throws InvalidInput (non-finite or too distant positions, lengths that do not match, levels above 3;
+    /// attributes that are missing, not finite, or of another form than in the frames before) or LimitExceeded (memory,
+    /// work), or Stopped (BackendOptions::stop); the mesh is then empty and the reconstructor remains usable. On a GPU
+    /// also DeviceError. After InvalidInput the surface and the statistics of the frame before are there still.
     void reconstruct(const ParticleFrame& frame, Mesh& mesh);
 
     /// As reconstruct(), but returns once the mesh is finished in the memory in which it was made. From a GPU the
@@ -71,7 +71,9 @@ private:
 };
 
 /// Throws InvalidInput if the frame's arrays do not fit each other, a position is not finite or lies beyond what
-/// the lattice can address, or a level is above 3; names the particle, the value and the limit.
+/// the lattice can address, or a level is above 3; names the particle, the value and the limit. So it does, with the
+/// array's name, if one that the settings name among the attributes is missing, comes twice, cannot be an attribute or
+/// has a value that is not finite. A frame without particles may lack it.
 void validate(const ParticleFrame& frame, const Settings& settings);
 /// The first of these alone, which looks at no particle. Throws InvalidInput, and LimitExceeded for too many arrays or
 /// particles.

@@ -122,19 +122,20 @@ void bisect(FieldSource& field, const Int3& at, const BlocksView& blocks, std::u
     }
 }
 
-/// Normals of a cluster's vertices: most blocks have too few of them to fill registers, and neighbors share the
-/// particles near them.
-class ClusterNormals {
+/// Normals and attributes of a cluster's vertices: most blocks have too few of them to fill registers, and neighbors
+/// share the particles near them.
+class ClusterSums {
 public:
-    ClusterNormals(const BlocksView& blocks, const LatticeSettings& settings, FieldSource& field, Mesh& mesh,
-                   unsigned worker)
-        : blocks_(blocks), settings_(settings), field_(field), mesh_(mesh), worker_(worker) {}
+    ClusterSums(const BlocksView& blocks, const LatticeSettings& settings, const AttributeNumbers& numbers,
+                FieldSource& field, Mesh& mesh, unsigned worker)
+        : blocks_(blocks), settings_(settings), numbers_(numbers), field_(field), mesh_(mesh), worker_(worker) {}
 
     /// lowest: base cell of the cluster.
     void begin(const Int3& lowest) { lowest_ = lowest; }
 
     /// points: those of a block's vertices, relative to the block's corner.
     void add(std::uint32_t block, const PointList& points) {
+        if (!settings_.has_normals && numbers_.shape.groups() == 0) return;
         if (points_.count + points.count > max_points) finish();
         const Int3 step = blocks_.coordinate(block) - lowest_;
         const float x = static_cast<float>(step.x) * base_edge, y = static_cast<float>(step.y) * base_edge,
@@ -151,11 +152,25 @@ public:
     /// Writes those of all blocks added.
     void finish() {
         if (member_count_ == 0) return;
-        field_.normals(lowest_, points_, x_, y_, z_, worker_);
-        for (std::size_t m = 0; m < member_count_; ++m) write(members_[m]);
+        const NormalRows normals{x_, y_, z_};
+        const NormalRows* to_find = settings_.has_normals ? &normals : nullptr;
+        for (unsigned group = 0; group < numbers_.shape.groups(); ++group) {
+            // Means are found on the way to normals: both look at all particles near, and share their distances.
+            const NormalRows* const on_the_way = numbers_.shape.are_ids(group) ? nullptr : to_find;
+            const std::size_t lonely =
+                field_.attributes(lowest_, points_, numbers_, group, on_the_way, values_, worker_);
+            if (group == 0) without_particles_ += lonely;
+            if (on_the_way != nullptr) to_find = nullptr;
+            for (std::size_t m = 0; m < member_count_; ++m) write_values(members_[m], group);
+        }
+        if (to_find != nullptr) field_.normals(lowest_, points_, normals, worker_);
+        for (std::size_t m = 0; settings_.has_normals && m < member_count_; ++m) write_normals(members_[m]);
         member_count_ = 0;
         points_.count = 0;
     }
+
+    /// Vertices that no particle is near.
+    std::uint64_t without_particles() const { return without_particles_; }
 
 private:
     struct Member {
@@ -163,8 +178,16 @@ private:
         std::size_t first, count;  ///< of its points
     };
 
+    void write_values(const Member& member, unsigned group) {
+        for (unsigned k = 0; k < numbers_.shape.count(group); ++k) {
+            const AttributeNumber& number = numbers_.group(group)[k];
+            number.write(mesh_.attributes[number.array].data.data(), blocks_.first_vertex[member.block],
+                         values_.of[k] + member.first, static_cast<std::uint32_t>(member.count));
+        }
+    }
+
     /// The field's normals, or along the edge where the domain's border or a vanishing gradient leaves none.
-    void write(const Member& member) {
+    void write_normals(const Member& member) {
         Normal* const out = mesh_.normals.data() + blocks_.first_vertex[member.block];
         float sum = 0.0F;
         for (std::size_t i = 0; i < member.count; ++i) {
@@ -186,9 +209,11 @@ private:
 
     const BlocksView& blocks_;
     const LatticeSettings& settings_;
+    const AttributeNumbers& numbers_;
     FieldSource& field_;
     Mesh& mesh_;
     std::size_t member_count_ = 0;
+    std::uint64_t without_particles_ = 0;
     Int3 lowest_{};
     unsigned worker_;
     Member members_[cluster_blocks];
@@ -196,6 +221,7 @@ private:
     alignas(64) float x_[max_points];
     alignas(64) float y_[max_points];
     alignas(64) float z_[max_points];
+    GroupValues values_;
 };
 
 void write_positions(const Int3& at, int bits, const PointList& points, LatticePosition* out) {
@@ -244,6 +270,8 @@ void number_vertices(State& s, Mesh& mesh) {
     require_indexable(count, "the surface has", "vertices");
     resize_for_overwrite(mesh.vertices, count);
     resize_for_overwrite(mesh.normals, s.settings.has_normals ? count : 0);
+    for (MeshAttribute& attribute : mesh.attributes)
+        resize_for_overwrite(attribute.data, count * attribute.element_bytes());
 }
 
 }  // namespace
@@ -251,11 +279,11 @@ void number_vertices(State& s, Mesh& mesh) {
 void place_vertices(State& s, FieldSource& field, Mesh& mesh) {
     number_vertices(s, mesh);
     const BlocksView blocks = s.blocks();
-    std::atomic<std::uint64_t> evaluations{0};
+    std::atomic<std::uint64_t> evaluations{0}, without_particles{0};
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         BlockVertices vertices;
         PointList points;
-        ClusterNormals normals(blocks, s.settings, field, mesh, worker);
+        ClusterSums sums(blocks, s.settings, s.attributes, field, mesh, worker);
         const auto place_block = [&](std::uint32_t block) {
             find_vertices(blocks, block, vertices);
             const Int3 at = blocks.coordinate(block);
@@ -268,18 +296,20 @@ void place_vertices(State& s, FieldSource& field, Mesh& mesh) {
             list_points(vertices, s.settings.offset_bits, points);
             write_positions(at, static_cast<int>(s.settings.offset_bits), points,
                             mesh.vertices.data() + s.first_vertex[block]);
-            if (s.settings.has_normals) normals.add(block, points);
+            sums.add(block, points);
         };
         for (std::size_t b = begin; b < end; ++b) {
             const Brick& brick = s.grid.bricks[b];
             const std::uint64_t* const chosen = &s.chosen_cells().word(static_cast<std::uint32_t>(b), 0);
             for_each_cluster(chosen, [&](const Int3& corner) {
-                normals.begin(brick.corner() + corner);
+                sums.begin(brick.corner() + corner);
                 for_each_member(brick, chosen, corner, place_block);
-                normals.finish();
+                sums.finish();
             });
         }
+        without_particles.fetch_add(sums.without_particles(), std::memory_order_relaxed);
     });
+    s.vertices_without_particles = without_particles.load(std::memory_order_relaxed);
     s.field_evaluations += evaluations.load(std::memory_order_relaxed);
 }
 

@@ -132,6 +132,7 @@ void place_vertices(const State& state, const Field& field, const Launcher& laun
     launch(1, block_threads, require_room, state);
     launch(blocks, block_warps, state.settings.bisects ? place_listed<true, Field> : place_listed<false, Field>, state,
            field);
+    if (state.attributes.groups() != 0) place_attributes(state, field, launch);
 }
 
 template void place_vertices(const State&, const ParticleField<CubicSpline>&, const Launcher&);

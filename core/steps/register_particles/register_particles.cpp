@@ -91,6 +91,28 @@ void sort_particles(ParticleSets& sets, const ParticleFrame& frame, unsigned lev
     });
 }
 
+/// What vertices ask of the sorted particles of a level.
+void store_values(ParticleSets& sets, ParticleSet& set, const ParticleFrame& frame, const AttributeNumbers& numbers) {
+    const PayloadView payload = payload_view(frame);
+    const std::size_t n = set.count();
+    resize_for_overwrite(set.ranks, n + WideLanes::count);
+    std::fill(set.ranks.end() - WideLanes::count, set.ranks.end(), 0.0F);
+    resize_for_overwrite(set.values, n * numbers.shape.groups() * group_size_of_numbers);
+    sets.workers.for_ranges(n, 8192, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i)
+            set.ranks[i] = AttributeNumber::as_float(static_cast<std::uint32_t>(i));
+        for (unsigned g = 0; g < numbers.shape.groups(); ++g)
+            for (unsigned k = 0; k < group_size_of_numbers; ++k) {
+                float* const out = set.values.data() + g * group_size_of_numbers * n + k;
+                const AttributeNumber number = numbers.group(g)[k];
+                const bool exists = k < numbers.shape.count(g);
+                for (std::size_t i = begin; i < end; ++i)
+                    out[group_size_of_numbers * i] =
+                        exists ? number.of_particle(payload.data[number.array], set.sources[i]) : 0.0F;
+            }
+    });
+}
+
 /// The support cells of a sorted set.
 void store_support_cells(ParticleSets& sets, ParticleSet& set) {
     const auto& keys = set.keys;
@@ -402,6 +424,7 @@ void store_blocks(State& s) {
 void register_particles(State& s, ParticleSets& sets, Neighborhoods& near, const ParticleFrame& frame) {
     for (unsigned k = 0; k < particle_level_count; ++k) {
         sort_particles(sets, frame, k);
+        if (s.attributes.shape.groups() != 0) store_values(sets, sets[k], frame, s.attributes);
         store_support_cells(sets, sets[k]);
     }
     const bool has_work_limit = s.settings.work_limit != 0.0;

@@ -42,6 +42,18 @@ __global__ void __launch_bounds__(block_threads, 4) order_by_payload(const __gri
     });
 }
 
+/// What vertices ask of the sorted particles.
+__global__ void __launch_bounds__(block_threads) store_numbers(const __grid_constant__ State f, unsigned group) {
+    const AttributeNumber* const numbers = f.input->attributes.group(group);
+    GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
+        float of_particle[group_size_of_numbers] = {};
+        for (unsigned k = 0; k < group_size_of_numbers; ++k)
+            if (k < f.attributes.count(group))
+                of_particle[k] = numbers[k].of_particle(f.input->payload.data[numbers[k].array], f.sources[i]);
+        f.numbers[group * f.capacity.particles + i] = {of_particle[0], of_particle[1], of_particle[2], of_particle[3]};
+    });
+}
+
 /// Whether a support cell, and whether a brick of them, begins with this particle.
 struct Begins {
     bool cell, brick;
@@ -415,7 +427,9 @@ void sort_particles(State& f, bool has_payload, const Launcher& launch) {
     }
     launch(n, block_threads, measure_crowd, f);
     launch(1, block_threads, stop_if_crowded, f);
-    if (has_payload) launch(n, block_threads, order_by_payload, f);
+    if (!has_payload) return;
+    launch(n, block_threads, order_by_payload, f);
+    for (unsigned group = 0; group < f.attributes.groups(); ++group) launch(n, block_threads, store_numbers, f, group);
 }
 
 void store_reached_bricks(State& f, const Launcher& launch) {

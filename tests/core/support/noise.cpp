@@ -36,8 +36,12 @@ public:
                                 coordinate(1), coordinate(2));
             }
     }
-    void normals(const Int3&, cpu::PointList& points, float* x, float* y, float* z, unsigned) override {
-        for (std::size_t i = 0; i < points.count; ++i) x[i] = y[i] = z[i] = std::nanf("");
+    void normals(const Int3&, cpu::PointList& points, const cpu::NormalRows& normals, unsigned) override {
+        for (std::size_t i = 0; i < points.count; ++i) normals.x[i] = normals.y[i] = normals.z[i] = std::nanf("");
+    }
+    std::size_t attributes(const Int3&, cpu::PointList&, const AttributeNumbers&, unsigned, const cpu::NormalRows*,
+                           cpu::GroupValues&, unsigned) override {
+        return 0;
     }
 
 private:

@@ -1,0 +1,137 @@
+// Attributes of the vertices, once those have their places: a warp for every block with vertices. A kernel of its own,
+// so that those of frames without attributes keep their registers.
+#include "engine/cuda/candidates.hpp"
+#include "engine/cuda/long_loop.hpp"
+#include "engine/cuda/particle_field.hpp"
+#include "engine/cuda/warp.hpp"
+#include "field/cubic_spline.hpp"
+#include "field/poly6.hpp"
+#include "steps/cuda_steps.hpp"
+
+namespace meniscus::cuda {
+namespace {
+
+/// The numbers of a group at a vertex. weight: the sum of the particles' shares there, or of ids the largest.
+struct VertexValues {
+    float of[group_size_of_numbers];
+    float weight;
+};
+
+/// Means of the first K numbers of a group at one point of every lane; not-a-numbers where the weight is 0.
+template <class Kernel, unsigned K>
+__device__ void find_means(const State& f, const Int3& base_cell, const UnitBox& box,
+                           ParticleStaging<Kernel, true>& staging, const float4* numbers,
+                           const AttributeNumber* of_group, float x, float y, float z, VertexValues& values) {
+    float sum[K] = {};
+    values.weight = 0.0F;
+    for_each_staged_candidate<Kernel>(f, base_cell_origin(base_cell), box, staging, [&](const OneCandidate& c) {
+        const float4 own = numbers[c.rank];
+        const float of_particle[group_size_of_numbers] = {own.x, own.y, own.z, own.w};
+        float none = 0.0F;
+        sum_numbers<Kernel, K, false>(c.view(), of_particle, x, y, z, none, none, none, values.weight, sum);
+    });
+    for (unsigned k = 0; k < K; ++k) values.of[k] = of_group[k].mean(sum[k], values.weight);
+}
+
+/// Ids of the particle with the largest share at one point of every lane.
+template <class Kernel>
+__device__ void find_ids(const State& f, const Int3& base_cell, const UnitBox& box,
+                         ParticleStaging<Kernel, true>& staging, const float4* numbers, float x, float y, float z,
+                         VertexValues& values) {
+    LargestShare largest;
+    for_each_staged_candidate<Kernel>(f, base_cell_origin(base_cell), box, staging, [&](const OneCandidate& c) {
+        const float4 own = numbers[c.rank];
+        const float of_particle[group_size_of_numbers] = {own.x, own.y, own.z, own.w};
+        largest.add(Kernel::of(c.view(), 0).share(x - c.particle.x, y - c.particle.y, z - c.particle.z), of_particle);
+    });
+    values.weight = largest.share;
+    for (unsigned k = 0; k < group_size_of_numbers; ++k) values.of[k] = AttributeNumber::as_float(largest.ids[k]);
+}
+
+/// K: amounts in the group, or 0 for a group of ids.
+template <class Kernel, unsigned K>
+__global__ void __launch_bounds__(block_threads) place_group(const __grid_constant__ State f, unsigned group) {
+    __shared__ ParticleStaging<Kernel, true> staging[block_warps];
+    const BlocksView blocks = f.blocks();
+    const float units_per_step = static_cast<float>(units_per_cell >> f.settings.offset_bits);
+    const int steps_per_base_cell = base_cell_size << f.settings.offset_bits;
+    const AttributeNumber* const group_numbers = f.input->attributes.group(group);
+    const unsigned count_of_numbers = f.attributes.count(group);
+    const float4* const numbers = f.numbers + group * f.capacity.particles;
+    Counter lonely = 0;
+    LongLoop loop(f);
+    each_by_warp(f.listed(List::vertices), [&](std::uint32_t entry) {
+        if (!loop.goes_on_together()) return;
+        const std::uint32_t block = f.chosen[entry];
+        const Int3 at = blocks.coordinate(block);
+        const int count = f.edges[block].count();
+        for (int first = 0; first < count; first += static_cast<int>(warp_threads)) {
+            const int i = first + static_cast<int>(lane_index());
+            // Lanes without a vertex repeat the last one.
+            const std::uint32_t vertex =
+                blocks.first_vertex[block] + static_cast<std::uint32_t>(i < count ? i : count - 1);
+            const LatticePosition p = f.vertices[vertex];
+            const float x = static_cast<float>(p[0] - at.x * steps_per_base_cell) * units_per_step;
+            const float y = static_cast<float>(p[1] - at.y * steps_per_base_cell) * units_per_step;
+            const float z = static_cast<float>(p[2] - at.z * steps_per_base_cell) * units_per_step;
+            const UnitBox box{{reduce_min(x), reduce_min(y), reduce_min(z)},
+                              {reduce_max(x), reduce_max(y), reduce_max(z)}};
+            VertexValues values{};
+            if constexpr (K == 0)
+                find_ids<Kernel>(f, at, box, staging[warp_in_block()], numbers, x, y, z, values);
+            else
+                find_means<Kernel, K>(f, at, box, staging[warp_in_block()], numbers, group_numbers, x, y, z, values);
+            if (i >= count) continue;
+            if (!(values.weight > 0.0F)) {
+                NearestParticle nearest{x, y, z};
+                for_each_candidate<Kernel>(
+                    f, base_cell_origin(at), {{0.0F, 0.0F, 0.0F}, {base_edge, base_edge, base_edge}},
+                    [&](const OneCandidate& c) {
+                        nearest.consider(Kernel::of(c.view(), 0), c.particle.x, c.particle.y, c.particle.z, 0, c.rank);
+                    });
+                if (!nearest.exists()) ++lonely;
+                const float4 own = nearest.exists() ? numbers[nearest.rank] : float4{0.0F, 0.0F, 0.0F, 0.0F};
+                const float of_particle[group_size_of_numbers] = {own.x, own.y, own.z, own.w};
+                for (unsigned k = 0; k < count_of_numbers; ++k)
+                    values.of[k] =
+                        nearest.exists() ? group_numbers[k].alone(of_particle[k]) : group_numbers[k].nothing();
+            }
+            for (unsigned k = 0; k < count_of_numbers; ++k)
+                group_numbers[k].write(f.vertex_attributes[group_numbers[k].array], vertex, values.of + k, 1);
+        }
+    });
+    if (group == 0) add_of_lanes(&f.counts->vertices_without_particles, lonely);
+}
+
+}  // namespace
+
+template <class Field>
+void place_attributes(const State& state, const Field&, const Launcher& launch) {
+    using Kernel = typename Field::FieldKernel;
+    const std::uint64_t blocks = state.capacity[Resource::blocks];
+    for (unsigned group = 0; group < state.attributes.groups(); ++group) {
+        const auto place = [&](auto* kernel) { launch(blocks, block_warps, kernel, state, group); };
+        if (state.attributes.are_ids(group)) {
+            place(place_group<Kernel, 0>);
+            continue;
+        }
+        switch (state.attributes.count(group)) {
+            case 1:
+                place(place_group<Kernel, 1>);
+                break;
+            case 2:
+                place(place_group<Kernel, 2>);
+                break;
+            case 3:
+                place(place_group<Kernel, 3>);
+                break;
+            default:
+                place(place_group<Kernel, 4>);
+        }
+    }
+}
+
+template void place_attributes(const State&, const ParticleField<CubicSpline>&, const Launcher&);
+template void place_attributes(const State&, const ParticleField<Poly6>&, const Launcher&);
+
+}  // namespace meniscus::cuda
