@@ -318,6 +318,9 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, C
         ->transform(CLI::AsSizeValue(false))
         ->transform(whole_number())
         ->type_name("BYTES");
+    app.add_option("--record-attribute-bits", server.recording.attribute_bits,
+                   "Bits per component of the float32 attributes in recorded meshes, 1 to 16; 0: exact")
+        ->check(CLI::Range(0, max_attribute_bits));
     app.add_option("--record-min-frames", server.recording.retention.min_frames,
                    "A recording with fewer frames is deleted when it is closed; 0: none is")
         ->check(whole_number());

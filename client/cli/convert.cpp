@@ -35,7 +35,9 @@ struct ConvertOptions {
 
 void write_particles(const std::filesystem::path& path, const formats::RecordedParticles& particles) {
     const std::vector<float> positions = particles.world_positions();
+    const std::vector<ParticleArray> arrays = formats::views(particles.arrays);
     ParticleFrame frame;
+    frame.arrays = arrays;
     frame.positions = positions;
     frame.levels = particles.levels;
     formats::write_vtk(path, frame);

@@ -1,16 +1,20 @@
 // Surfaces reconstructed in this process.
 #pragma once
 
+#include <vector>
+
 #include "cli/surfaces.hpp"
+#include "meniscus/attribute_coding.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::cli {
 
 class LocalSurfaces : public Surfaces {
 public:
-    /// normal_bits: the normals are rounded as those that come from a server; none: they are not.
+    /// normal_bits, attribute_bits: the normals and the float32 attributes are rounded as those that come from a
+    /// server; none, or 0 for attributes: they are not.
     LocalSurfaces(const Settings& settings, const BackendOptions& options, std::optional<int> normal_bits,
-                  Handler handler);
+                  int attribute_bits, Handler handler);
     void submit(const ParticleFrame& frame, double simulation_time) override;
     void finish() override {}
 
@@ -18,6 +22,7 @@ private:
     Reconstructor reconstructor_;
     Mesh mesh_;
     std::optional<int> normal_bits_;
+    std::vector<AttributeWish> attributes_;
     Handler handler_;
     std::uint64_t frames_ = 0;
 };

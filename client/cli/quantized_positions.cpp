@@ -5,7 +5,7 @@
 
 namespace meniscus::cli {
 
-QuantizedPositions::QuantizedPositions(const ParticleFrame& frame) : levels_(frame.levels) {
+QuantizedPositions::QuantizedPositions(const ParticleFrame& frame) : levels_(frame.levels), arrays_(frame.arrays) {
     const std::span<const float> x = frame.positions;
     if (x.empty()) return;
     for (std::size_t a = 0; a < 3; ++a) box_.min[a] = box_.max[a] = static_cast<double>(x[a]);
@@ -26,6 +26,7 @@ ParticleFrame QuantizedPositions::frame() const {
     view.quantized = values_;
     view.quantization_box = box_;
     view.levels = levels_;
+    view.arrays = arrays_;
     return view;
 }
 

@@ -25,13 +25,14 @@ class QuantizedPositions {
 public:
     /// frame: finite float positions.
     explicit QuantizedPositions(const ParticleFrame& frame);
-    /// The same particles, quantized; borrows this object and the levels of the original.
+    /// The same particles, quantized; borrows this object, and the levels and arrays of the original.
     ParticleFrame frame() const;
 
 private:
     std::vector<std::uint16_t> values_;
     Box box_;
     std::span<const std::uint8_t> levels_;
+    std::span<const ParticleArray> arrays_;
 };
 
 }  // namespace meniscus::cli

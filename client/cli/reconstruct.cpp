@@ -159,6 +159,7 @@ void reconstruct(const ReconstructOptions& options) {
             nlohmann::ordered_json figures;
             if (plan.sequence) figures["frame"] = frame.number;
             figures.update(to_json(runs, mesh_sha256(surface.mesh())));
+            figures["attributes"] = attributes_json(surface.mesh());
             if (file.faces != 0) figures["warnings"].push_back(to_json(file));
             frames.push_back(std::move(figures));
         }
@@ -181,11 +182,14 @@ void reconstruct(const ReconstructOptions& options) {
         } catch (const InvalidInput& e) {
             throw InvalidInput(formats::input_name(frame.in) + ": " + e.what());
         }
+        const std::vector<ParticleArray> arrays = formats::views(particles.arrays);
+        ParticleFrame upload = particles.frame();
+        upload.arrays = arrays;
         std::optional<QuantizedPositions> quantized;
-        if (options.positions == PositionEncoding::uint16) quantized.emplace(particles.frame());
+        if (options.positions == PositionEncoding::uint16) quantized.emplace(upload);
         // Files do not tell their simulation time.
         for (unsigned run = 0; run < options.repeat; ++run) try {
-                surfaces->submit(quantized ? quantized->frame() : particles.frame(), 0.0);
+                surfaces->submit(quantized ? quantized->frame() : upload, 0.0);
             } catch (const LimitExceeded& e) {
                 // A server's refusal may be that of an earlier frame.
                 if (!options.surfaces.server.address.empty()) throw;
@@ -229,6 +233,7 @@ void add_reconstruct(CLI::App& app) {
         command.add_option("-r,--particle-radius", options->particle_radius, "World units")->required();
     }
     options->settings.add_to(command);
+    options->settings.add_attribute_to(command);
     options->selection.add_to(command);
     {
         const OptionGroup group(command, place_heading);

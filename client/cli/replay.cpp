@@ -91,7 +91,7 @@ void upload(const formats::Recording& recording, const ReplayOptions& options, c
             const formats::RecordedParticles particles = recording.particles(frame);
             pace.wait((frame.arrived_at - first.arrived_at) + static_cast<double>(round) * (seconds + interval));
             ParticleFrame view = particles.view();
-            const std::vector<ParticleArray> arrays = formats::views_of(particles.arrays);
+            const std::vector<ParticleArray> arrays = formats::views(particles.arrays);
             view.arrays = arrays;
             stream.push(view, frame.index + round * (last.index - first.index + 1), frame.simulation_time);
         }

@@ -10,7 +10,7 @@
 namespace meniscus::cli {
 namespace {
 
-constexpr std::size_t column_count = 15;
+constexpr std::size_t column_count = 16;
 using Line = std::array<std::string, column_count>;
 
 std::string fixed(double value, int digits) {
@@ -19,11 +19,12 @@ std::string fixed(double value, int digits) {
     return text.data();
 }
 
-const Line header{"SESSION",    "NAME",      "OWNER",     "STATE",    "WAITS FOR", "AGE",     "FRAMES",   "FRAMES/S",
-                  "LATENCY MS", "PARTICLES", "TRIANGLES", "WATCHERS", "DROPPED",   "SKIPPED", "GPU BYTES"};
+const Line header{"SESSION",  "NAME",    "OWNER",    "STATE",      "WAITS FOR", "ATTRIBUTES",
+                  "AGE",      "FRAMES",  "FRAMES/S", "LATENCY MS", "PARTICLES", "TRIANGLES",
+                  "WATCHERS", "DROPPED", "SKIPPED",  "GPU BYTES"};
 
 /// Columns of words; the others are numbers, and end where their column ends.
-constexpr std::size_t words = 5;
+constexpr std::size_t words = 6;
 
 std::string wait_of(const client::SessionInfo& session) {
     switch (session.waits_for) {
@@ -39,6 +40,13 @@ std::string wait_of(const client::SessionInfo& session) {
     return "?";
 }
 
+std::string attributes_of(const Settings& settings) {
+    if (settings.all_attributes) return "all";
+    std::string names;
+    for (const std::string& name : settings.attributes) names += (names.empty() ? "" : ",") + name;
+    return names.empty() ? "-" : description::escaped(names);
+}
+
 Line line_of(const SessionRow& row, std::chrono::system_clock::time_point now) {
     const client::SessionInfo& session = row.session;
     const std::string& name = session.description.name;
@@ -48,17 +56,18 @@ Line line_of(const SessionRow& row, std::chrono::system_clock::time_point now) {
               session.owner.empty() ? "-" : session.owner,
               session.uploading ? "uploading" : "idle",
               wait_of(session),
+              attributes_of(session.settings),
               has_age ? short_time(now - session.created_at) : "-",
               short_count(session.frames)};
-    line[7] = row.frames_per_second ? fixed(*row.frames_per_second, 1) : "-";
+    line[8] = row.frames_per_second ? fixed(*row.frames_per_second, 1) : "-";
     const auto& last = session.last_frame;
-    line[8] = last ? fixed(last->latency_seconds * 1e3, 1) : "-";
-    line[9] = last ? short_count(last->particles) : "-";
-    line[10] = last ? short_count(last->triangles) : "-";
-    line[11] = short_count(session.watchers);
-    line[12] = short_count(session.frames_dropped);
-    line[13] = short_count(session.frames_skipped);
-    line[14] = last ? short_count(last->device_bytes) : "-";
+    line[9] = last ? fixed(last->latency_seconds * 1e3, 1) : "-";
+    line[10] = last ? short_count(last->particles) : "-";
+    line[11] = last ? short_count(last->triangles) : "-";
+    line[12] = short_count(session.watchers);
+    line[13] = short_count(session.frames_dropped);
+    line[14] = short_count(session.frames_skipped);
+    line[15] = last ? short_count(last->device_bytes) : "-";
     return line;
 }
 

@@ -11,6 +11,7 @@
 #include "cli/options/server_flags.hpp"
 #include "cli/session_lookup.hpp"
 #include "cli/session_table.hpp"
+#include "cli/settings_json.hpp"
 #include "cli/times.hpp"
 #include "meniscus/error.hpp"
 
@@ -30,6 +31,7 @@ nlohmann::ordered_json session_json(const client::SessionInfo& session) {
     out["up_axis"] = name_of(session.description.up_axis);
     out["length_unit"] = session.description.length_unit;
     out["created_at"] = utc(session.created_at);
+    out["settings"] = to_json(session.settings);
     out["ephemeral"] = session.ephemeral;
     out["owner"] = session.owner;
     out["uploading"] = session.uploading;

@@ -23,6 +23,10 @@ nlohmann::ordered_json to_json(const Settings& settings) {
     out["bisection_steps"] = value_or_default<Bisection>(settings.edge_points).steps;
     out["normals"] = settings.normals;
     if (settings.domain) out["domain"] = {{"min", settings.domain->min}, {"max", settings.domain->max}};
+    if (settings.all_attributes)
+        out["attributes"] = "all";
+    else
+        out["attributes"] = settings.attributes;
     return out;
 }
 

@@ -1,9 +1,12 @@
 // meniscus simulate: the example simulator, streaming its frames.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
+#include <string_view>
 
 #include "cli/commands.hpp"
 #include "cli/examples.hpp"
@@ -20,6 +23,7 @@
 #include "cli/warnings.hpp"
 #include "formats/atomic_file.hpp"
 #include "formats/vtk_writer.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/mesh_hash.hpp"
 #include "simulator/adaptive_levels.hpp"
 #include "simulator/simulation.hpp"
@@ -44,16 +48,54 @@ struct SimulateOptions {
     Verbosity verbosity;
 };
 
-/// One frame as it is uploaded.
-simulator::LeveledParticles snapshot(const simulator::Simulation& simulation, bool adaptive) {
-    std::vector<float> positions = simulation.positions();
-    if (!adaptive) return {std::move(positions), {}};
-    return simulator::merge_deep_particles(positions, simulation.scene().particle_radius, simulation.scene().tank);
+/// What its particles carry.
+constexpr std::string_view velocity_name = "velocity";  ///< x y z, m/s
+constexpr std::string_view age_name = "age";            ///< seconds since the particle came in
+
+bool wants(const Settings& settings, std::string_view name) {
+    return settings.all_attributes || std::ranges::find(settings.attributes, name) != settings.attributes.end();
 }
+
+void require_known(const Settings& settings) {
+    for (const std::string& name : settings.attributes)
+        if (name != velocity_name && name != age_name)
+            throw InvalidInput("--attribute " + name + ": the simulator's particles have velocity and age");
+}
+
+/// One frame as it is uploaded.
+struct Upload {
+    simulator::LeveledParticles particles;
+    std::vector<float> velocities;  ///< empty where no attribute is made of it
+    std::vector<float> ages;        ///< likewise
+    std::vector<ParticleArray> arrays;
+
+    Upload(const simulator::Simulation& simulation, bool adaptive, const Settings& settings)
+        : particles(adaptive ? simulator::merge_deep_particles(
+                                   simulation.positions(), simulation.scene().particle_radius, simulation.scene().tank)
+                             : simulator::LeveledParticles{.positions = simulation.positions()}) {
+        if (wants(settings, velocity_name)) {
+            velocities = particles.merged(simulation.velocities(), 3);
+            arrays.push_back({velocity_name, std::as_bytes(std::span(velocities)), ElementType::float32, 3});
+        }
+        if (wants(settings, age_name)) {
+            ages = particles.merged(simulation.ages(), 1);
+            arrays.push_back({age_name, std::as_bytes(std::span(ages)), ElementType::float32, 1});
+        }
+    }
+
+    ParticleFrame frame() const {
+        ParticleFrame view;
+        view.positions = particles.positions;
+        view.levels = particles.levels;
+        view.arrays = arrays;
+        return view;
+    }
+};
 
 void simulate(const SimulateOptions& options) {
     simulator::Simulation simulation(simulator::make_scene(options.scene, options.particles));
     const Settings settings = options.settings.build(static_cast<double>(simulation.scene().particle_radius));
+    require_known(settings);
     if (!options.verbosity.quiet) std::cerr << "particle radius " << settings.particle_radius << '\n';
     for (const std::string& folder : {options.out, options.particles_out})
         if (!folder.empty()) formats::make_directory(folder);
@@ -68,6 +110,7 @@ void simulate(const SimulateOptions& options) {
         if (!options.stats.empty()) {
             nlohmann::ordered_json figures{{"frame", surface.index()}};
             figures.update(to_json({s}, mesh_sha256(surface.mesh())));
+            figures["attributes"] = attributes_json(surface.mesh());
             frames.push_back(std::move(figures));
         }
         if (!options.verbosity.quiet) std::cerr << "frame " << surface.index() << ": " << summary(s) << '\n';
@@ -80,10 +123,8 @@ void simulate(const SimulateOptions& options) {
         std::cerr << "session " << session << '\n';
     for (std::uint64_t frame = 0; frame < options.frames; ++frame) {
         simulation.advance(options.frame_seconds);
-        const simulator::LeveledParticles particles = snapshot(simulation, options.adaptive);
-        ParticleFrame upload;
-        upload.positions = particles.positions;
-        upload.levels = particles.levels;
+        const Upload made(simulation, options.adaptive, settings);
+        const ParticleFrame upload = made.frame();
         if (!options.particles_out.empty()) formats::write_vtk(frame_path(options.particles_out, frame, "vtk"), upload);
         std::optional<QuantizedPositions> quantized;
         if (options.positions == PositionEncoding::uint16) quantized.emplace(upload);
@@ -127,6 +168,7 @@ void add_simulate(CLI::App& app) {
     add_scene(command, *options);
     add_files(command, *options);
     options->settings.add_to(command);
+    options->settings.add_attribute_to(command);
     {
         const OptionGroup group(command, other_heading);
         add_strict_option(command, options->strict);
@@ -138,8 +180,9 @@ void add_simulate(CLI::App& app) {
     }
     options->surfaces.add_to(command);
     options->verbosity.add_to(command);
-    add_examples(command, {"meniscus simulate --particles 16000 --frames 100 --out meshes",
-                           "meniscus simulate --scene double-dam-break --frames 2000 --server localhost"});
+    add_examples(command,
+                 {"meniscus simulate --particles 16000 --frames 100 --out meshes",
+                  "meniscus simulate --scene double-dam-break --frames 2000 --server localhost --attribute velocity"});
     command.callback([options] { simulate(*options); });
 }
 

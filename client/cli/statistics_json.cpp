@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "meniscus/attribute_coding.hpp"
+
 namespace meniscus::cli {
 
 const Statistics& median_run(const std::vector<Statistics>& runs) {
@@ -25,6 +27,7 @@ nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::s
         out["triangles_by_level"][std::string(name_of(level))] = s.triangles_by_level[static_cast<std::size_t>(level)];
     for (std::size_t i = 0; i < s.base_cells_by_level.size(); ++i)
         out["base_cells_by_level"][std::string(names<TriangleLevel>[i])] = s.base_cells_by_level[i];
+    out["vertices_without_particles"] = s.vertices_without_particles;
     out["volume"] = s.volume;
     out["particle_volume"] = s.particle_volume;
     out["field_evaluations"] = s.field_evaluations;
@@ -43,6 +46,22 @@ nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::s
     for (const Warning& w : s.warnings)
         out["warnings"].push_back(
             {{"code", name_of(w.code)}, {"value", w.value}, {"limit", w.limit}, {"text", w.text}});
+    return out;
+}
+
+nlohmann::ordered_json attributes_json(const Mesh& mesh) {
+    const std::vector<AttributeRange> ranges = attribute_ranges(mesh);
+    auto out = nlohmann::ordered_json::object();
+    for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
+        const MeshAttribute& attribute = mesh.attributes[a];
+        nlohmann::ordered_json& figures = out[attribute.name];
+        figures = {{"type", name_of(attribute.type)}, {"components", attribute.components}};
+        if (ranges.empty()) continue;
+        for (std::size_t c = 0; c < attribute.components; ++c) {
+            figures["minimum"].push_back(ranges[a].minimum[c]);
+            figures["maximum"].push_back(ranges[a].maximum[c]);
+        }
+    }
     return out;
 }
 

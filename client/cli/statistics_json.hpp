@@ -20,4 +20,7 @@ nlohmann::ordered_json to_json(const FileWarning& warning);
 /// For tests and tables: that warm run.
 const Statistics& median_run(const std::vector<Statistics>& runs);
 
+/// Of the mesh's attributes, by name: type, components, and the range of each component over the vertices.
+nlohmann::ordered_json attributes_json(const Mesh& mesh);
+
 }  // namespace meniscus::cli

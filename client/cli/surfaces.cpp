@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/local_surfaces.hpp"
+#include "cli/options/attribute_bits.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/normal_bits.hpp"
 #include "cli/options/option_group.hpp"
@@ -82,6 +83,7 @@ void SurfacesOptions::add_to(CLI::App& command) {
     {
         const OptionGroup surface(command, surface_heading);
         add_normal_bits(command, normal_bits, " (default: 8 from a server, unrounded in this process)");
+        add_attribute_bits(command, attribute_bits);
     }
     auto* there = server.add_to(command, "Reconstruct on this meniscusd")->excludes(here);
     for (CLI::Option* option : {backend_option, threads}) option->excludes(there);
@@ -94,9 +96,10 @@ std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfac
         throw InvalidInput("--normal-bits " + std::to_string(*normal_bits) +
                            " is of normals, and --no-normals leaves them out: give one of the two");
     if (server.address.empty())
-        return std::make_unique<LocalSurfaces>(settings, backend, normal_bits, std::move(handler));
+        return std::make_unique<LocalSurfaces>(settings, backend, normal_bits, attribute_bits, std::move(handler));
     client::StreamOptions options = stream;
     if (normal_bits) options.normal_bits = *normal_bits;
+    options.attributes = {{.name = {}, .bits = attribute_bits}};
     return std::make_unique<ServerSurfaces>(server, session, settings, options, std::move(handler));
 }
 

@@ -68,13 +68,14 @@ public:
 /// The flag --backend: the backend of this process.
 CLI::Option* add_backend_option(CLI::App& command, Backend& backend);
 
-/// The flags --local, --backend, --threads and --normal-bits, and those of a server, a session and a stream
-/// to it.
+/// The flags --local, --backend, --threads, --normal-bits and --attribute-bits, and those of a server, a session and a
+/// stream to it.
 struct SurfacesOptions {
     bool local = false;
     ServerFlags server;              ///< no address: this process
     BackendOptions backend;          ///< of this process
     std::optional<int> normal_bits;  ///< none: unrounded here, the stream's default from a server
+    int attribute_bits = 0;          ///< of float32 attributes; 0: exact
     SessionFlags session;            ///< on the server
     client::StreamOptions stream;    ///< to it
 

@@ -60,7 +60,7 @@ void watch(const WatchOptions& options) {
         throw InvalidInput("no session '" + options.session + "' at '" + options.server.address + "': " + e.what());
     }
     formats::make_directory(options.directory);
-    client::WatchOptions wishes = options.wishes.build();
+    client::WatchOptions wishes = options.wishes.build(session.settings);
     wishes.spray = !options.spray_directory.empty() || options.format == MeshFormat::bricks;
     if (!options.spray_directory.empty()) {
         check_spray(session.settings);

@@ -1,8 +1,10 @@
 // The flags that become a watcher's wishes.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "meniscus/attribute_coding.hpp"
 #include "meniscus/client/client.hpp"
 
 namespace CLI {
@@ -12,13 +14,16 @@ class App;
 namespace meniscus::cli {
 
 struct WatchWishes {
-    client::WatchOptions options;   ///< numbers are parsed into it; complete only after build()
-    std::vector<double> region;     ///< empty, or x0 y0 z0 x1 y1 z1
-    std::vector<double> viewpoint;  ///< empty, or x y z
-    double reconnect = 0.0;         ///< seconds
+    client::WatchOptions options;                ///< numbers are parsed into it; complete only after build()
+    std::vector<double> region;                  ///< empty, or x0 y0 z0 x1 y1 z1
+    std::vector<double> viewpoint;               ///< empty, or x y z
+    double reconnect = 0.0;                      ///< seconds
+    std::vector<std::string> attributes{"all"};  ///< names, or "all", or "none"
+    int attribute_bits = default_attribute_bits;
 
     void add_to(CLI::App& command);
-    client::WatchOptions build() const;
+    /// settings: of the session. Throws InvalidInput for an attribute that it does not have.
+    client::WatchOptions build(const Settings& settings) const;
 };
 
 }  // namespace meniscus::cli

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -22,10 +21,12 @@ struct NamedValues {
     ParticleArray view() const { return {name, data, type, components}; }
 };
 
-inline std::vector<ParticleArray> views_of(std::span<const NamedValues> arrays) {
-    std::vector<ParticleArray> views;
-    for (const NamedValues& values : arrays) views.push_back(values.view());
-    return views;
+/// As a ParticleFrame has them; borrowed.
+inline std::vector<ParticleArray> views(const std::vector<NamedValues>& arrays) {
+    std::vector<ParticleArray> out;
+    out.reserve(arrays.size());
+    for (const NamedValues& array : arrays) out.push_back(array.view());
+    return out;
 }
 
 }  // namespace meniscus::formats

@@ -9,7 +9,7 @@ namespace {
 
 /// A full cell holds eight particles at rest; moving water is a little looser in places.
 constexpr std::size_t filled = 6;
-constexpr std::size_t merged = 8;
+constexpr std::size_t eight = 8;
 
 class MergeGrid {
 public:
@@ -33,7 +33,7 @@ public:
             for (int y = 0; y < count_[1]; ++y)
                 for (int x = 0; x < count_[0]; ++x) {
                     std::vector<std::uint32_t>& members = members_[index(x, y, z)];
-                    if (members.size() < merged || !is_deep(x, y, z)) continue;
+                    if (members.size() < eight || !is_deep(x, y, z)) continue;
                     visit(members, Vector3{center(x), center(y), center(z)});
                 }
     }
@@ -63,10 +63,29 @@ private:
 
 }  // namespace
 
+std::vector<float> LeveledParticles::merged(const std::vector<float>& values, std::size_t components) const {
+    if (sources.empty()) return values;
+    std::vector<float> out;
+    out.reserve(components * levels.size());
+    auto source = sources.begin();
+    for (const std::uint8_t level : levels) {
+        const std::size_t count = level == 0 ? 1 : eight;
+        for (std::size_t c = 0; c < components; ++c) {
+            float sum = 0.0F;
+            for (std::size_t m = 0; m < count; ++m)
+                sum += values[components * source[static_cast<std::ptrdiff_t>(m)] + c];
+            out.push_back(sum / static_cast<float>(count));
+        }
+        source += static_cast<std::ptrdiff_t>(count);
+    }
+    return out;
+}
+
 LeveledParticles merge_deep_particles(std::span<const float> positions, float particle_radius, const Tank& tank) {
     MergeGrid grid(positions, particle_radius, tank);
     std::vector<bool> gone(positions.size() / 3, false);
     std::vector<float> coarse;
+    std::vector<std::uint32_t> merged_sources;
     grid.visit_deep([&](std::vector<std::uint32_t>& members, const Vector3& center) {
         const auto distance = [&](std::size_t i) {
             const Vector3 d{positions[3 * i] - center[0], positions[3 * i + 1] - center[1],
@@ -76,20 +95,24 @@ LeveledParticles merge_deep_particles(std::span<const float> positions, float pa
         std::stable_sort(members.begin(), members.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return distance(a) < distance(b); });
         Vector3 sum{};
-        for (std::size_t m = 0; m < merged; ++m) {
+        for (std::size_t m = 0; m < eight; ++m) {
             gone[members[m]] = true;
+            merged_sources.push_back(members[m]);
             for (std::size_t a = 0; a < 3; ++a) sum[a] += positions[3 * std::size_t{members[m]} + a];
         }
-        for (const float s : sum) coarse.push_back(s / static_cast<float>(merged));
+        for (const float s : sum) coarse.push_back(s / static_cast<float>(eight));
     });
     LeveledParticles out;
     for (std::size_t i = 0; i < gone.size(); ++i)
-        if (!gone[i])
+        if (!gone[i]) {
             out.positions.insert(out.positions.end(), positions.begin() + static_cast<std::ptrdiff_t>(3 * i),
                                  positions.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+            out.sources.push_back(static_cast<std::uint32_t>(i));
+        }
     out.levels.assign(out.positions.size() / 3, 0);
     out.positions.insert(out.positions.end(), coarse.begin(), coarse.end());
     out.levels.resize(out.positions.size() / 3, 1);
+    out.sources.insert(out.sources.end(), merged_sources.begin(), merged_sources.end());
     return out;
 }
 

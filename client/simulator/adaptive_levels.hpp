@@ -1,6 +1,7 @@
 // Particles of two sizes for adaptive SPH, from a simulation with one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,8 +11,14 @@
 namespace meniscus::simulator {
 
 struct LeveledParticles {
-    std::vector<float> positions;      ///< x y z per particle, meters
-    std::vector<std::uint8_t> levels;  ///< 0, or 1 for a particle of twice the radius and eight times the mass
+    std::vector<float> positions;        ///< x y z per particle, meters
+    std::vector<std::uint8_t> levels{};  ///< 0, or 1 for a particle of twice the radius and eight times the mass
+    /// Of a particle of level 0 the one that it was; of one of level 1 the eight that it was made of, which come
+    /// behind. Empty: all are as they were.
+    std::vector<std::uint32_t> sources{};
+
+    /// What these particles have of values that those before had, so many numbers each: those of level 1 the mean.
+    std::vector<float> merged(const std::vector<float>& values, std::size_t components) const;
 };
 
 /// The simulation itself is uniform; this merges what it computed, for the upload: in every cell of 2 x 2 x 2 rest

@@ -27,12 +27,20 @@ std::vector<Vector3> disc(const Nozzle& nozzle, float particle_radius) {
     return out;
 }
 
+std::vector<float> flat(const std::vector<Vector3>& vectors) {
+    std::vector<float> out;
+    out.reserve(3 * vectors.size());
+    for (const Vector3& v : vectors) out.insert(out.end(), v.begin(), v.end());
+    return out;
+}
+
 }  // namespace
 
 Simulation::Simulation(const Scene& scene)
     : scene_(scene),
       solver_(solver_settings(scene), Boundary(scene.tank, scene.obstacle, 4.0F * scene.particle_radius)) {
     solver_.add(scene_.particles, {});
+    came_in_.resize(solver_.count(), time_);
     if (scene_.nozzle) layer_ = disc(*scene_.nozzle, scene_.particle_radius);
 }
 
@@ -55,6 +63,7 @@ void Simulation::pour() {
     for (Vector3& p : layer)
         for (const std::size_t axis : {0U, 2U}) p[axis] += 0.2F * scene_.particle_radius * noise();
     solver_.add(layer, {0.0F, -scene_.nozzle->speed, 0.0F});
+    came_in_.resize(solver_.count(), time_);
     next_layer_ += 2.0 * static_cast<double>(scene_.particle_radius) / static_cast<double>(scene_.nozzle->speed);
 }
 
@@ -64,9 +73,17 @@ float Simulation::noise() {
 }
 
 std::vector<float> Simulation::positions() const {
+    return flat(solver_.positions());
+}
+
+std::vector<float> Simulation::velocities() const {
+    return flat(solver_.velocities());
+}
+
+std::vector<float> Simulation::ages() const {
     std::vector<float> out;
-    out.reserve(3 * solver_.count());
-    for (const Vector3& p : solver_.positions()) out.insert(out.end(), p.begin(), p.end());
+    out.reserve(came_in_.size());
+    for (const double time : came_in_) out.push_back(static_cast<float>(time_ - time));
     return out;
 }
 

@@ -21,6 +21,10 @@ public:
     const Solver& solver() const { return solver_; }
     /// x y z per particle, meters, in the order in which they came in.
     std::vector<float> positions() const;
+    /// x y z per particle, m/s, in the same order.
+    std::vector<float> velocities() const;
+    /// Seconds since each particle came in, in the same order.
+    std::vector<float> ages() const;
 
 private:
     void pour();
@@ -32,7 +36,8 @@ private:
     std::vector<Vector3> layer_;  ///< what the nozzle adds at a time
     std::mt19937 random_{1};
     double time_ = 0.0;
-    double next_layer_ = 0.0;  ///< time at which it does
+    double next_layer_ = 0.0;      ///< time at which it does
+    std::vector<double> came_in_;  ///< time at which each particle did
 };
 
 }  // namespace meniscus::simulator

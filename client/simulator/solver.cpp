@@ -209,9 +209,9 @@ void Solver::solve_density(float dt, float correction) {
     solve(density_pressure_, dt, [&](std::size_t i) { return correction * (density_[i] - 1.0F) + dt * rate_[i]; });
 }
 
-std::vector<Vector3> Solver::positions() const {
-    std::vector<Vector3> out(positions_.size());
-    for (std::size_t i = 0; i < positions_.size(); ++i) out[ids_[i]] = positions_[i];
+std::vector<Vector3> Solver::as_added(const std::vector<Vector3>& values) const {
+    std::vector<Vector3> out(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) out[ids_[i]] = values[i];
     return out;
 }
 

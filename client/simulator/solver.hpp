@@ -36,7 +36,9 @@ public:
 
     std::size_t count() const { return positions_.size(); }
     /// In the order in which they were added.
-    std::vector<Vector3> positions() const;
+    std::vector<Vector3> positions() const { return as_added(positions_); }
+    /// m/s, likewise.
+    std::vector<Vector3> velocities() const { return as_added(velocities_); }
     /// Kinetic and potential energy over mass, (m/s)^2 summed over particles.
     double energy() const;
     std::uint64_t steps() const { return steps_; }
@@ -58,6 +60,7 @@ private:
     /// rate_ from predicted_.
     void compute_rates();
     float time_step() const;
+    std::vector<Vector3> as_added(const std::vector<Vector3>& values) const;
 
     SolverSettings settings_;
     Boundary boundary_;

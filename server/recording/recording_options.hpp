@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "meniscus/attribute_coding.hpp"
+
 namespace meniscus::server {
 
 /// Which recordings go by themselves, none that is being written or read.
@@ -21,6 +23,8 @@ struct RecordingOptions {
     std::uint64_t limit = 0;          ///< bytes of all recordings in it, earlier ones included; 0: no limit
     /// Frames that wait for the disk, bytes over all sessions. Further ones are left out of their recordings.
     std::size_t waiting_limit = std::size_t{256} << 20;
+    /// Of float32 attributes in the meshes, per component; 0: exact.
+    int attribute_bits = default_attribute_bits;
     RecordingRetention retention{};
 };
 

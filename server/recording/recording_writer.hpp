@@ -71,6 +71,7 @@ public:
     /// The end's latest time; without it the end takes as long as the disk.
     void finish_by(std::chrono::steady_clock::time_point time) { finish_by_ = time; }
 
+    int attribute_bits() const noexcept { return options_.attribute_bits; }
     std::size_t waiting_limit() const noexcept { return queue_.limit(); }
     RecordingCounters counters() const noexcept;
     /// Wall clock, microseconds since 1970-01-01 UTC, which a correction of the system's clock does not set back.

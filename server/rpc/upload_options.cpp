@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "conversion/attribute_conversion.hpp"
 #include "conversion/codec_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "rpc/normal_bits.hpp"
@@ -48,6 +49,7 @@ UploadOptions upload_options(const v1::StreamOpen& message) {
             .normal_bits = normal_bits_of(message),
             .codec = conversion::chosen_codec(message.codecs()),
             .spray = message.with_spray(),
+            .attributes = conversion::attribute_wishes(message.attributes()),
             .policy = policy_of(message),
             .nth = message.nth(),
             .run_id = message.run_id(),

@@ -4,11 +4,13 @@
 
 #include <cmath>
 
+#include "conversion/attribute_conversion.hpp"
 #include "conversion/codec_conversion.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
 #include "rpc/normal_bits.hpp"
+#include "sessions/canonical_wishes.hpp"
 
 namespace meniscus::server {
 
@@ -40,7 +42,8 @@ MeshFormat format_of(const Request& request, const Settings& settings) {
     return {.max_level = max_level_of(request),
             .position_bits = position_bits_of(request, settings),
             .normal_bits = settings.normals ? normal_bits : 0,
-            .codec = conversion::chosen_codec(request.codecs())};
+            .codec = conversion::chosen_codec(request.codecs()),
+            .attributes = canonical_wishes(conversion::attribute_wishes(request.attributes()), settings)};
 }
 
 Box region_of(const v1::Box& wire) {

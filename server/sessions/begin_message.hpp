@@ -18,6 +18,7 @@ inline v1::StreamResponse begin_response(const EncodedFrame& frame) {
     begin.set_offset_bits(frame.offset_bits);
     begin.set_brick_cells(static_cast<std::uint32_t>(brick_cells));
     begin.set_spray_count(frame.spray_count);
+    *begin.mutable_attributes() = frame.attributes;
     return response;
 }
 

@@ -10,8 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "meniscus/attribute_coding.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/codec.hpp"
+#include "meniscus/v1/mesh.pb.h"
 #include "sessions/frame_statistics.hpp"
 
 namespace meniscus::server {
@@ -25,6 +27,7 @@ struct MeshFormat {
     int position_bits = 0;  ///< vertices lie on multiples of c / 2^position_bits; 0: as reconstructed
     int normal_bits = 0;    ///< per octahedral component; 0: no normals
     Codec codec = Codec::draco;
+    std::vector<AttributeWish> attributes{};  ///< of canonical_wishes()
     auto operator<=>(const MeshFormat&) const =
         default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
 };
@@ -48,6 +51,8 @@ struct EncodedFrame {
     std::chrono::steady_clock::time_point received_at;  ///< the last byte of its particles
     double cell_size = 0.0;
     std::uint32_t offset_bits = 0;
+    /// Announced, whether or not the bricks carry them.
+    google::protobuf::RepeatedPtrField<v1::MeshAttribute> attributes;
     SharedMessage begin;               ///< announces the whole mesh
     std::vector<SharedBrick> bricks;   ///< ordered by place (z, y, x)
     std::uint64_t spray_count = 0;     ///< points in all of the next

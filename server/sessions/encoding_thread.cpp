@@ -4,9 +4,11 @@
 
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "log.hpp"
 #include "meniscus/error.hpp"
+#include "sessions/canonical_wishes.hpp"
 #include "sessions/handover/start_thread.hpp"
 #include "sessions/stream_notices.hpp"
 
@@ -15,11 +17,17 @@ namespace meniscus::server {
 namespace {
 
 /// A watcher that wishes for the same shares the stream's encode.
-MeshFormat stream_format(int normal_bits, Codec codec, const Settings& settings) {
+MeshFormat stream_format(int normal_bits, Codec codec, const std::vector<AttributeWish>& attributes,
+                         const Settings& settings) {
     return {.max_level = 3,
             .position_bits = static_cast<int>(offset_bits(settings)),
             .normal_bits = settings.normals ? normal_bits : 0,
-            .codec = codec};
+            .codec = codec,
+            .attributes = canonical_wishes(attributes, settings)};
+}
+
+MeshFormat stream_format(const UploadOptions& options, const Settings& settings) {
+    return stream_format(options.normal_bits, options.codec, options.attributes, settings);
 }
 
 }  // namespace
@@ -97,8 +105,7 @@ void EncodingThread::perform(Encode& task) {
     before_ = std::move(before);
     try {
         if (upload.options.receive_meshes) {
-            const MeshFormat format =
-                stream_format(upload.options.normal_bits, upload.options.codec, context_.settings);
+            const MeshFormat format = stream_format(upload.options, context_.settings);
             const auto encoded = encode_newest(
                 format, [&](const SharedMessage& message) { upload.output.push(message); }, upload.options.spray);
             count_answer(encoded->statistics);
@@ -125,9 +132,8 @@ void EncodingThread::answer_again(Encode& task) {
     try {
         if (upload.options.receive_meshes)
             encode_frame(
-                *task.frame, stream_format(upload.options.normal_bits, upload.options.codec, context_.settings),
-                nullptr, *context_.shared.workers, scratch_,
-                [&](const SharedMessage& message) { upload.output.push(message); }, upload.options.spray);
+                *task.frame, stream_format(upload.options, context_.settings), nullptr, *context_.shared.workers,
+                scratch_, [&](const SharedMessage& message) { upload.output.push(message); }, upload.options.spray);
         else
             upload.output.push(serialize(statistics_of(*task.frame)));
     } catch (const DeviceError&) {
@@ -247,7 +253,8 @@ bool EncodingThread::encode_in_one_format() {
 }
 
 void EncodingThread::encode_for_observer() {
-    const MeshFormat format = stream_format(SessionObserver::normal_bits, Codec::draco, context_.settings);
+    const std::vector<AttributeWish> all{{.name = {}, .bits = context_.observer->attribute_bits()}};
+    const MeshFormat format = stream_format(SessionObserver::normal_bits, Codec::draco, all, context_.settings);
     std::shared_ptr<const EncodedFrame> frame = watchers_.published(format);
     try {
         if (!frame)

@@ -53,7 +53,7 @@ private:
 }  // namespace
 
 FramePlan FrameAssembler::plan(const v1::FrameBegin& message, const conversion::ParticleLayout& layout) const {
-    const std::vector<conversion::FurtherArray> kept = arrays_to_keep(layout, settings_);
+    const std::vector<conversion::FurtherArray> kept = arrays_to_keep(layout, message.particle_count(), settings_);
     const std::uint64_t count = message.particle_count();
     if (limits_.particles_per_frame != 0 && count > limits_.particles_per_frame)
         throw LimitExceeded(fmt::format("frame {}: {} particles; the server takes at most {} per frame",

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <mutex>
+#include <span>
 #include <utility>
 
+#include "conversion/attribute_conversion.hpp"
 #include "conversion/codec_conversion.hpp"
+#include "meniscus/attribute_coding.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/begin_message.hpp"
@@ -71,6 +74,14 @@ SharedBrick find_brick(const EncodedFrame* frame, const std::array<std::int32_t,
     return found != frame->bricks.end() && (*found)->place == place ? *found : nullptr;
 }
 
+google::protobuf::RepeatedPtrField<v1::MeshAttribute> announced(const Mesh& mesh,
+                                                                std::span<const AttributeRange> ranges,
+                                                                std::span<const CodedAttribute> coded) {
+    v1::MeshBegin begin;
+    conversion::to_wire(mesh, ranges, coded, begin);
+    return std::move(*begin.mutable_attributes());
+}
+
 FrameStatistics statistics_of(const ReconstructedFrame& frame, const MeshDownload& download) {
     FrameStatistics statistics{frame.statistics};
     statistics.frame_index = frame.index;
@@ -92,8 +103,12 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
     if (!spray.empty()) frame.download.start();
     const auto start = Clock::now();
     const Mesh& mesh = *frame.mesh_at(format.max_level);
-    const CodingOptions coding{
-        .normal_bits = format.normal_bits, .position_bits = format.position_bits, .codec = format.codec};
+    // Of the whole mesh, and announced before its first brick.
+    const std::vector<AttributeRange> ranges = attribute_ranges(mesh);
+    const CodingOptions coding{.normal_bits = format.normal_bits,
+                               .position_bits = format.position_bits,
+                               .codec = format.codec,
+                               .attributes = coded_attributes(mesh, ranges, format.attributes)};
     auto encoded = std::make_shared<EncodedFrame>();
     encoded->index = frame.index;
     encoded->run_id = frame.run_id;
@@ -103,6 +118,7 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
     encoded->offset_bits = encoded_offset_bits(mesh, coding);
     encoded->spray_count = spray.size();
     encoded->spray = spray_messages(spray);
+    encoded->attributes = announced(mesh, ranges, coding.attributes);
     const auto emit = [&](const SharedMessage& message) {
         if (sink) sink(message);
     };

@@ -28,12 +28,14 @@ std::size_t rounded_up(std::size_t offset, std::size_t multiple) {
 
 }  // namespace
 
-std::vector<FurtherArray> arrays_to_keep(const conversion::ParticleLayout& layout, const Settings& settings) {
+std::vector<FurtherArray> arrays_to_keep(const conversion::ParticleLayout& layout, std::uint64_t particle_count,
+                                         const Settings& settings) {
     std::vector<FurtherArray> arrays;
     if (settings.all_attributes)
         std::ranges::copy_if(layout.further, std::back_inserter(arrays), &FurtherArray::can_be_attribute);
     for (const std::string& name : settings.attributes) {
         const auto found = std::ranges::find(layout.further, name, &FurtherArray::name);
+        if (found == layout.further.end() && particle_count == 0) continue;
         if (found == layout.further.end())
             throw InvalidInput(fmt::format(
                 "no array \"{}\", which the session's settings name as an attribute; the frame's further arrays are {}",

@@ -25,9 +25,10 @@ struct FramePlan {
 };
 
 /// The arrays of which a session with these settings makes attributes, in the order in which they arrive. Throws
-/// InvalidInput, with its name, for one that the frame lacks or that no attribute can be made of.
+/// InvalidInput, with its name, for one that no attribute can be made of, and for one that a frame with particles
+/// lacks.
 std::vector<conversion::FurtherArray> arrays_to_keep(const conversion::ParticleLayout& layout,
-                                                     const Settings& settings);
+                                                     std::uint64_t particle_count, const Settings& settings);
 
 /// The most bytes per particle that such a frame takes here.
 std::uint64_t kept_bytes_per_particle(const conversion::ParticleLayout& layout,

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <set>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "call_log.hpp"
 #include "log.hpp"
@@ -19,11 +21,23 @@ namespace meniscus::server {
 
 namespace {
 
+/// Not all of many: the list goes into a status message, which gRPC limits to some kilobytes.
+std::string described(const std::vector<AttributeWish>& wishes) {
+    constexpr std::size_t most = 4;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(most, wishes.size()); ++i)
+        list += fmt::format("{} {} of {} bits", i == 0 ? ", attributes" : " and",
+                            wishes[i].name.empty() ? "all others" : wishes[i].name, wishes[i].bits);
+    if (wishes.size() > most) list += fmt::format(" and {} more", wishes.size() - most);
+    return list;
+}
+
 std::string described(const std::set<WatchForm>& forms) {
     struct Description {
         std::string operator()(const MeshFormat& format) const {
-            return fmt::format("(max_level {}, position_bits {}, normal_bits {}, codec {})", format.max_level,
-                               format.position_bits, format.normal_bits, name_of(format.codec));
+            return fmt::format("(max_level {}, position_bits {}, normal_bits {}, codec {}{})", format.max_level,
+                               format.position_bits, format.normal_bits, name_of(format.codec),
+                               described(format.attributes));
         }
         std::string operator()(std::uint64_t max_particles) const {
             return fmt::format("(max_particles {})", max_particles);

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "meniscus/attribute_coding.hpp"
 #include "sessions/encoded_frame.hpp"
 #include "sessions/input_frame.hpp"
 
@@ -15,6 +16,8 @@ public:
     static constexpr int normal_bits = 8;
 
     virtual ~SessionObserver() = default;
+    /// Likewise of all attributes; see AttributeWish.
+    virtual int attribute_bits() const noexcept { return default_attribute_bits; }
     /// A frame that was reconstructed, in the order of arrival. Borrowed.
     virtual void reconstructed(const InputFrame& frame) noexcept = 0;
     /// Its mesh, in the same order. Meanwhile the next frame may have been reconstructed, by another thread.

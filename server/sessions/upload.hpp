@@ -9,7 +9,10 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "meniscus/attribute_coding.hpp"
+#include "meniscus/codec.hpp"
 #include "sessions/limits/unreported_drops.hpp"
 #include "sessions/limits/upload_pace.hpp"
 #include "sessions/output_queue.hpp"
@@ -34,7 +37,8 @@ struct UploadOptions {
     bool receive_meshes = false;
     int normal_bits = 0;
     Codec codec = Codec::draco;
-    bool spray = false;  ///< whether it comes beside the meshes
+    bool spray = false;                       ///< whether it comes beside the meshes
+    std::vector<AttributeWish> attributes{};  ///< that the meshes carry
     UploadPolicy policy = UploadPolicy::every_frame;
     std::uint32_t nth = 1;                   ///< at least 1; for UploadPolicy::every_nth
     std::uint64_t run_id = 0;                ///< 0: a run of its own

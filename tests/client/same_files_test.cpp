@@ -1,9 +1,11 @@
 // A mesh that came through a server is, to the byte, the file that a local run writes.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/atomic_file.hpp"
@@ -81,6 +83,38 @@ TEST_F(SameFiles, ComeFromAServerAndFromALocalRun) {
     expect_same_file(".ply", {"--normal-bits", "5", "--field", "density", "--criterion", "count"});
     expect_same_file(".ply", {"--normal-bits", "12", "--field", "color", "--domain", "1", "1", "1", "6", "7", "8"});
     expect_same_file(".ply", {"--normal-bits", "9", "--positions", "uint16"});
+}
+
+/// Particles with a velocity and a number each, as PLY.
+std::string ply_with_arrays(const std::vector<float>& positions) {
+    std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(positions.size() / 3) +
+                       "\nproperty float x\nproperty float y\nproperty float z\nproperty float speed\nproperty int "
+                       "number\nend_header\n";
+    for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
+        for (std::size_t c = 0; c < 3; ++c) text += std::to_string(positions[i + c]) + ' ';
+        text += std::to_string(std::sin(positions[i])) + ' ' + std::to_string(i) + '\n';
+    }
+    return text;
+}
+
+TEST_F(SameFiles, HaveTheSameAttributesForTheSameBits) {
+    formats::write_file(path("particles.ply"), ply_with_arrays(positions));
+    const auto write = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(),
+                         {"reconstruct", path("particles.ply"), "--particle-radius", "0.5", "--quiet", "--attribute",
+                          "speed", "--attribute", "number", "--normal-bits", "8"});
+        const ProcessResult result = run_process(MENISCUS_CLI, arguments);
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+    };
+    write({"-o", path("default.ply")});
+    for (const char* bits : {"0", "3", "8", "16"}) {
+        SCOPED_TRACE(bits);
+        write({"-o", path("here.ply"), "--attribute-bits", bits});
+        write({"-o", path("there.ply"), "--attribute-bits", bits, "--server", server.address()});
+        EXPECT_TRUE(bytes_of("here.ply") == bytes_of("there.ply"));
+        EXPECT_EQ(bytes_of("here.ply") == bytes_of("default.ply"), bits == std::string_view("0"));
+        EXPECT_NE(bytes_of("here.ply").find("speed"), std::string::npos);
+    }
 }
 
 TEST_F(SameFiles, ComeWithTheSameSpray) {

@@ -29,6 +29,7 @@ TEST(SessionTable, HasColumnsThatAlign) {
     busy.description.name = "w\u00e4ter \u6c34";
     busy.created_at = now - std::chrono::minutes(12);
     busy.uploading = true;
+    busy.settings.attributes = {"velocity", "age"};
     busy.watchers = 3;
     busy.frames_dropped = 17;
     busy.frames_skipped = 4;
@@ -41,6 +42,7 @@ TEST(SessionTable, HasColumnsThatAlign) {
     of_an_admin.waits_for_session = busy.id;
     client::SessionInfo full = waiting;
     full.waits_for = client::SessionWait::bytes_in_flight;
+    full.settings.all_attributes = true;
     const std::string table = cli::session_table(
         {{busy, 59.94}, {waiting, std::nullopt}, {of_an_admin, std::nullopt}, {full, std::nullopt}}, now);
     std::istringstream lines(table);
@@ -48,9 +50,9 @@ TEST(SessionTable, HasColumnsThatAlign) {
     std::getline(lines, header);
     for (std::string line; std::getline(lines, line);)
         EXPECT_EQ(description::count_characters(line), header.size()) << line;
-    for (const char* word :
-         {"w\u00e4ter \u6c34", "12 min", "simulation-cluster", "uploading", "123k", "59.9", "12.3", "1.00M", "17",
-          "idle", "device: another session", "device: 6a1f0a3c-5a37-4a39-b6ae-2f7f6b1f6d51", "bytes in flight"})
+    for (const char* word : {"w\u00e4ter \u6c34", "12 min", "simulation-cluster", "uploading", "velocity,age",
+                             "  all  ", "123k", "59.9", "12.3", "1.00M", "17", "idle", "device: another session",
+                             "device: 6a1f0a3c-5a37-4a39-b6ae-2f7f6b1f6d51", "bytes in flight"})
         EXPECT_NE(table.find(word), std::string::npos) << word << '\n' << table;
 }
 

@@ -18,6 +18,7 @@ Settings parsed(const std::string& flags) {
     CLI::App app;
     SettingsOptions options;
     options.add_to(app);
+    options.add_attribute_to(app);
     app.parse(flags);
     return options.build(radius);
 }
@@ -62,6 +63,18 @@ TEST(SettingsOptions, OverrideThePresetOneByOneInAnyOrder) {
     expected.iso = 0.5;
     expected.criterion = CurvatureCriterion{0.3};
     EXPECT_EQ(parsed("--field smooth --smoothness 7 --spray discard --iso 0.5 --tolerance 0.3"), expected);
+}
+
+TEST(SettingsOptions, NameAttributesOneByOneOrAllOfThem) {
+    Settings expected;
+    expected.particle_radius = radius;
+    expected.attributes = {"velocity", "age"};
+    EXPECT_EQ(parsed("--attribute velocity --attribute age"), expected);
+    expected.attributes.clear();
+    expected.all_attributes = true;
+    EXPECT_EQ(parsed("--attribute all"), expected);
+    EXPECT_EQ(refusal("--attribute all --attribute age"),
+              "--attribute all takes every array: leave the other names out");
 }
 
 TEST(SettingsOptions, KeepThePresetsParametersOfAChoiceThatIsMadeOnceMore) {

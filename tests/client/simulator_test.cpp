@@ -47,6 +47,36 @@ TEST(CubicSpline, IntegratesToItsMassAndSlopesAsItFalls) {
     EXPECT_EQ(kernel.value(2.5F), 0.0F);
 }
 
+TEST(Simulation, KnowsHowFastItsParticlesMoveAndHowOldTheyAre) {
+    Simulation simulation(make_scene(SceneKind::pour_on_obstacle, 2000));
+    simulation.advance(frame_seconds);
+    const std::vector<float> before = simulation.positions();
+    EXPECT_EQ(simulation.ages().size(), before.size() / 3);
+    EXPECT_EQ(simulation.velocities().size(), before.size());
+    constexpr double moment = 1e-4;
+    simulation.advance(moment);
+    const std::vector<float> after = simulation.positions();
+    const std::vector<float> velocities = simulation.velocities();
+    const std::vector<float> ages = simulation.ages();
+    for (std::size_t i = 0; i < before.size(); ++i)
+        EXPECT_NEAR(static_cast<double>(after[i] - before[i]) / moment, static_cast<double>(velocities[i]), 0.05);
+    EXPECT_NEAR(ages.front(), frame_seconds + moment, 1e-6);
+    EXPECT_TRUE(std::is_sorted(ages.rbegin(), ages.rend())) << "particles are in the order in which they came in";
+    EXPECT_LT(ages.back(), ages.front());
+    EXPECT_GE(ages.back(), 0.0F);
+}
+
+TEST(MergeDeepParticles, GivesMergedParticlesTheMeanOfWhatTheyCarried) {
+    const Simulation simulation(make_scene(SceneKind::dam_break, 4000));
+    const std::vector<float> positions = simulation.positions();
+    const LeveledParticles leveled =
+        merge_deep_particles(positions, simulation.scene().particle_radius, simulation.scene().tank);
+    ASSERT_NE(std::count(leveled.levels.begin(), leveled.levels.end(), 1), 0);
+    EXPECT_EQ(leveled.merged(positions, 3), leveled.positions) << "a mean of places is where the particle is";
+    const LeveledParticles uniform{.positions = positions};
+    EXPECT_EQ(uniform.merged(positions, 3), positions);
+}
+
 TEST(Boundary, ActsLikeFluidBehindTheWall) {
     const Boundary boundary({{10.0F, 10.0F, 10.0F}}, std::nullopt, 1.0F);
     EXPECT_EQ(boundary.density({5.0F, 5.0F, 5.0F}).value, 0.0F);

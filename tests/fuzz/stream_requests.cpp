@@ -1,4 +1,6 @@
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "conversion/particle_arrays.hpp"
 #include "meniscus/v1/surface_service.pb.h"
@@ -24,9 +26,17 @@ void receive(const v1::StreamRequest& request, server::FrameAssembler& assembler
             assembler.end(input);
             const ParticleFrame view = input.view();
             require(view.count() == input.particle_count, "a frame that has ended holds the particles announced");
-            require(view.positions.size_bytes() + view.quantized.size_bytes() + view.levels.size_bytes() ==
-                        input.bytes.size(),
-                    "positions and levels are all of a frame's bytes");
+            std::size_t bytes = view.positions.size_bytes() + view.quantized.size_bytes() + view.levels.size_bytes();
+            for (const ParticleArray& array : view.arrays) {
+                require(array.data.data() + array.data.size() <= input.bytes.data() + input.bytes.size() &&
+                            array.data.size() == array.element_bytes() * view.count(),
+                        "an array lies within the frame's bytes");
+                bytes += array.data.size();
+            }
+            const std::size_t gaps = input.bytes.size() - bytes;
+            require(bytes <= input.bytes.size() && gaps < 4 * (1 + view.arrays.size()),
+                    "positions, levels and arrays are all of a frame's bytes, but for what aligns them");
+            require(assembler.arrived() == input.bytes.size(), "a frame that has ended has arrived");
             break;
         }
         default:
@@ -34,13 +44,13 @@ void receive(const v1::StreamRequest& request, server::FrameAssembler& assembler
     }
 }
 
-v1::StreamRequest begin(std::uint64_t index, bool quantized, bool levels) {
+v1::StreamRequest begin(std::uint64_t index, bool quantized, bool levels, std::span<const ParticleArray> arrays = {}) {
     v1::StreamRequest request;
     v1::FrameBegin& message = *request.mutable_frame_begin();
     message.set_frame_index(index);
     message.set_simulation_time(0.5);
     message.set_particle_count(2);
-    *message.mutable_arrays() = conversion::particle_arrays(quantized, levels);
+    *message.mutable_arrays() = conversion::particle_arrays(quantized, levels, arrays);
     if (quantized) {
         message.mutable_quantization_box()->mutable_min()->set_x(-1.0);
         message.mutable_quantization_box()->mutable_max()->set_x(1.0);
@@ -60,9 +70,14 @@ void stream_requests(Bytes bytes) {
     server::Limits limits;
     limits.particles_per_frame = 100'000;
     limits.bytes_per_session = std::size_t{1} << 20;
-    server::FrameAssembler assembler(limits);
-    server::InputFrame input(std::make_shared<MemoryAccount>(limits.bytes_per_session));
+    // Of the sessions, one in three makes no attributes.
+    Settings settings;
     Front front(bytes);
+    const std::uint64_t kind = front.number(1) % 3;
+    settings.all_attributes = kind == 1;
+    if (kind == 2) settings.attributes = {"velocity", "id"};
+    server::FrameAssembler assembler(limits, settings);
+    server::InputFrame input(std::make_shared<MemoryAccount>(limits.bytes_per_session));
     may_refuse([&] {
         while (!front.empty()) {
             const Bytes message = front.piece(front.number(2));
@@ -77,9 +92,16 @@ void stream_requests(Bytes bytes) {
 Seeds stream_request_seeds() {
     v1::StreamRequest end;
     end.mutable_frame_end();
-    return {join<v1::StreamRequest>(
-                {begin(1, false, false), chunk(24), end, begin(2, true, true), chunk(5), chunk(9), end}),
-            join<v1::StreamRequest>({begin(std::numeric_limits<std::uint64_t>::max(), false, true), chunk(26), end})};
+    const std::vector<ParticleArray> arrays{{"id", {}, ElementType::uint32, 1},
+                                            {"velocity", {}, ElementType::float32, 3}};
+    const auto of_session = [](unsigned kind, const std::vector<v1::StreamRequest>& messages) {
+        return number_bytes(kind, 1) + join(messages);
+    };
+    return {of_session(0, {begin(1, false, false), chunk(24), end, begin(2, true, true), chunk(5), chunk(9), end}),
+            of_session(0, {begin(std::numeric_limits<std::uint64_t>::max(), false, true), chunk(26), end}),
+            of_session(0, {begin(1, false, true, arrays), chunk(50), chunk(8), end}),
+            of_session(1, {begin(1, true, true, arrays), chunk(46), end}),
+            of_session(2, {begin(1, false, true, arrays), chunk(57), chunk(1), end})};
 }
 
 }  // namespace meniscus::fuzz

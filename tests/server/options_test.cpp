@@ -177,6 +177,7 @@ TEST(Options, ThatAreNumbersAreRefusedWhereTheyAreNone) {
                                          "--device-memory-limit",
                                          "--shutdown-grace",
                                          "--record-limit",
+                                         "--record-attribute-bits",
                                          "--record-min-frames",
                                          "--record-max-age",
                                          "--threads",
@@ -184,6 +185,13 @@ TEST(Options, ThatAreNumbersAreRefusedWhereTheyAreNone) {
     for (const std::string& name : names)
         for (const char* const value : {"nan", "inf", "-inf", "-1", "1x", "1e999", " "})
             EXPECT_NE(refusal({name + "=" + value}), "") << name << " " << value;
+}
+
+TEST(Options, OfRecordedAttributesAreBits) {
+    EXPECT_EQ(parse({}).recording.attribute_bits, 8);
+    EXPECT_EQ(parse({"--record-attribute-bits", "0"}).recording.attribute_bits, 0);
+    EXPECT_EQ(parse({"--record-attribute-bits", "16"}).recording.attribute_bits, 16);
+    EXPECT_NE(refusal({"--record-attribute-bits", "17"}), "");
 }
 
 TEST(Options, ThatAreTimesAreZeroOrAtLeastAMillisecond) {

@@ -3,7 +3,9 @@
 #include "cli/options/settings_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <sstream>
+#include <string_view>
 
 #include "cli/options/named_option.hpp"
 #include "cli/options/option_group.hpp"
@@ -11,6 +13,8 @@
 
 namespace meniscus::cli {
 namespace {
+
+constexpr std::string_view every_attribute = "all";
 
 template <class Setting, class Value>
 void set_if_given(Setting& setting, const std::optional<Value>& given) {
@@ -74,6 +78,16 @@ void SettingsOptions::add_surface(CLI::App& command, const Settings& defaults) {
     command.add_option("--domain", domain_, "X0 Y0 Z0 X1 Y1 Z1: crops the surface, world units")->expected(6);
 }
 
+void SettingsOptions::add_attribute_to(CLI::App& command) {
+    const OptionGroup group(command, surface_heading);
+    command
+        .add_option("--attribute", attributes_,
+                    "Array of the particles whose values the vertices get, such as velocity; once for each; all: every "
+                    "array that the first frame brings")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+}
+
 void SettingsOptions::add_grid(CLI::App& command, const Settings& defaults) {
     const OptionGroup group(command, grid_heading);
     add_named_option(command, "--mode", mode_, defaults.mode, "Three levels of grid, or the finest cell everywhere");
@@ -108,6 +122,10 @@ Settings SettingsOptions::build(double particle_radius) const {
     fill_in(out.edge_points, "--edge-points", &Bisection::steps, bisection_steps_, "--bisection-steps");
     out.normals = normals_;
     if (!domain_.empty()) out.domain = Box{{domain_[0], domain_[1], domain_[2]}, {domain_[3], domain_[4], domain_[5]}};
+    out.all_attributes = std::ranges::find(attributes_, every_attribute) != attributes_.end();
+    if (out.all_attributes && attributes_.size() > 1)
+        throw InvalidInput("--attribute all takes every array: leave the other names out");
+    if (!out.all_attributes) out.attributes = attributes_;
     validate(out);
     return out;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "meniscus/settings.hpp"
@@ -16,8 +17,9 @@ namespace meniscus::cli {
 /// A preset, and the flags that were given over it.
 class SettingsOptions {
 public:
-    /// All flags but --particle-radius.
+    /// All flags but --particle-radius and --attribute.
     void add_to(CLI::App& command);
+    void add_attribute_to(CLI::App& command);
     /// Throws InvalidInput for values out of range, for what belongs to another field, and for a parameter of a
     /// criterion, or of a way of finding edge points, that is not the one chosen.
     Settings build(double particle_radius) const;
@@ -40,7 +42,8 @@ private:
     std::optional<EdgePoints> edge_points_;
     std::optional<std::uint32_t> bisection_steps_;
     bool normals_ = true;
-    std::vector<double> domain_;  ///< empty, or x0 y0 z0 x1 y1 z1
+    std::vector<double> domain_;           ///< empty, or x0 y0 z0 x1 y1 z1
+    std::vector<std::string> attributes_;  ///< names, or "all"
 };
 
 }  // namespace meniscus::cli

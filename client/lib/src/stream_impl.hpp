@@ -15,6 +15,7 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "backoff.hpp"
@@ -52,7 +53,8 @@ public:
     template <class Make>
     bool push(std::uint64_t index, WhenFull when_full, bool has_arrays, Make make) {
         if (!wait_for_room(index, when_full)) return false;
-        if (has_arrays && when_full == WhenFull::wait && !named_.are_known()) look_for_names();
+        if (has_arrays && when_full == WhenFull::wait && !named_.are_known() && !std::exchange(looked_for_names_, true))
+            look_for_names();
         enqueue(std::make_shared<PushedFrame>(make(*pool_, named_)));
         return true;
     }
@@ -119,7 +121,10 @@ private:
     const std::shared_ptr<BytePool> pool_ = std::make_shared<BytePool>();
     v1::StreamOpen open_;
     v1::CreateSessionRequest session_;  ///< for a server that has lost it
-    NamedArrays named_;                 ///< of the thread that pushes
+
+    // Of the thread that pushes.
+    NamedArrays named_;
+    bool looked_for_names_ = false;
 
     // Of the receiving thread.
     Backoff backoff_;

@@ -21,6 +21,7 @@ del sys.argv[1:]
 
 # Fields of the contract whose names are not those of their flags.
 FIELDS = {
+    "attribute": "Settings.attributes",
     "tolerance": "CurvatureCriterion.tolerance",
     "count-threshold": "CountCriterion.threshold",
     "bisection-steps": "Bisection.steps",
@@ -74,7 +75,7 @@ def contract():
     fields = {}
     text = Path(PROTO).read_text()
     for message, body in re.findall(r"^message (\w+) \{\n(.*?)^\}", text, re.MULTILINE | re.DOTALL):
-        declarations = r"((?:^ *//.*\n)+) *(?:oneof (\w+) \{|(?:optional )?[\w.]+ (\w+) = \d+;)"
+        declarations = r"((?:^ *//.*\n)+) *(?:oneof (\w+) \{|(?:optional |repeated )?[\w.]+ (\w+) = \d+;)"
         for comment, choice, field in re.findall(declarations, body, re.MULTILINE):
             default = re.search(r"Default (\S+)\.$", comment, re.MULTILINE)
             # FIELD_COLOR is color.

@@ -182,7 +182,7 @@ TEST_F(PushedArrays, AreSentAgainAfterAConnectionBroke) {
     client::Client client(options.listen);
     const std::string id = client::new_session_id();
     client.create_session(id, of);
-    auto resuming = client.stream(id, {.reconnect = std::chrono::seconds(60), .attributes = exactly});
+    auto resuming = client.stream(id, {.attributes = exactly, .reconnect = std::chrono::seconds(60)});
     first.reset();
     ParticleBuffer buffer(std::vector<float>(carrying.particles.positions));
     buffer.add("id", std::vector<std::uint32_t>(carrying.ids));

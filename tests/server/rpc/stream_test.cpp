@@ -48,24 +48,6 @@ TEST(Stream, ReturnsTheMeshesOfParticleLevels) {
     EXPECT_EQ(mesh_sha256(stream.next()->mesh()), local_sha256(particles));
 }
 
-TEST(Stream, RefusesAFrameWithAnArrayThatServersDoNotTakeByItsName) {
-    RunningServer running;
-    auto stream = running.client.stream(running.session());
-    const Particles particles = wave(2, 0.0);
-    const std::vector<std::byte> numbers(4 * particles.view().count());
-    const ParticleArray array{.name = "id", .data = numbers, .type = ElementType::uint32};
-    ParticleFrame frame = particles.view();
-    frame.arrays = {&array, 1};
-    try {
-        stream.push(frame, 3, 0.0);
-        FAIL();
-    } catch (const InvalidInput& error) {
-        EXPECT_STREQ(error.what(), "frame 3 brings the array \"id\"; servers take positions and levels alone");
-    }
-    stream.push(particles.view(), 3, 0.0);
-    EXPECT_EQ(stream.next()->index, 3U);
-}
-
 TEST(Stream, CutsFramesThatAreLargerThanAChunk) {
     RunningServer running;
     auto stream = running.client.stream(running.session(), {.receive_meshes = false});

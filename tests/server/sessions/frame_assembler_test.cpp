@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "conversion/particle_arrays.hpp"
 #include "meniscus/error.hpp"
@@ -140,11 +145,190 @@ TEST_F(FrameAssembly, RefusesATimeThatIsNotFinite) {
     EXPECT_THROW(assembler.begin(message, frame), InvalidInput);
 }
 
-TEST_F(FrameAssembly, RefusesAnArrayThatItDoesNotKnow) {
-    v1::FrameBegin message = begin(0, 1);
-    *message.add_arrays() = message.arrays(0);
-    message.mutable_arrays(1)->set_name("velocity");
-    EXPECT_THROW(assembler.begin(message, frame), InvalidInput);
+/// An array of three particles, the values of which count up from 0 in its own bytes.
+struct SentArray {
+    std::string name;
+    v1::ElementType type;
+    std::uint32_t components;
+    std::size_t particle_bytes;
+};
+
+const SentArray sent_positions{"position", v1::ELEMENT_TYPE_FLOAT32, 3, 12};
+const SentArray sent_levels{"level", v1::ELEMENT_TYPE_UINT8, 1, 1};
+const SentArray sent_velocity{"velocity", v1::ELEMENT_TYPE_FLOAT32, 3, 12};
+const SentArray sent_color{"color", v1::ELEMENT_TYPE_UINT8, 3, 3};
+const SentArray sent_id{"id", v1::ELEMENT_TYPE_UINT32, 1, 4};
+const SentArray sent_half{"half", v1::ELEMENT_TYPE_UINT16, 1, 2};
+
+struct ArraysOfAFrame : FrameAssembly {
+    static Settings naming(std::vector<std::string> names) {
+        Settings settings;
+        settings.attributes = std::move(names);
+        return settings;
+    }
+    static v1::FrameBegin begin_of(const std::vector<SentArray>& arrays, std::uint64_t index = 0) {
+        v1::FrameBegin message;
+        message.set_frame_index(index);
+        message.set_particle_count(3);
+        for (const SentArray& array : arrays) {
+            v1::ParticleArray& wire = *message.add_arrays();
+            wire.set_name(array.name);
+            wire.set_type(array.type);
+            wire.set_components(array.components);
+        }
+        return message;
+    }
+    static std::string bytes_of(const SentArray& array) {
+        std::string bytes(3 * array.particle_bytes, '\0');
+        for (std::size_t i = 0; i < bytes.size(); ++i)
+            bytes[i] = static_cast<char>(array.name[0] + static_cast<int>(i));
+        return bytes;
+    }
+    /// In chunks of this size.
+    void receive(FrameAssembler& receiver, const std::vector<SentArray>& arrays, std::size_t size = 7) {
+        receiver.begin(begin_of(arrays, next_index++), frame);
+        std::string all;
+        for (const SentArray& array : arrays) all += bytes_of(array);
+        for (std::size_t at = 0; at < all.size(); at += size) {
+            v1::FrameChunk message;
+            message.set_data(all.substr(at, size));
+            receiver.append(message, frame);
+        }
+        receiver.end(frame);
+        EXPECT_EQ(receiver.arrived(), frame.bytes.size());
+    }
+    std::string refusal(FrameAssembler& receiver, const std::vector<SentArray>& arrays) {
+        try {
+            receiver.begin(begin_of(arrays, next_index), frame);
+        } catch (const InvalidInput& error) {
+            return error.what();
+        }
+        return {};
+    }
+    static std::string text(std::span<const std::byte> bytes) {
+        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    }
+
+    std::uint64_t next_index = 0;
+};
+
+TEST_F(ArraysOfAFrame, AreKeptWhereTheSettingsNameThemWhateverTheirOrderAndTheCuts) {
+    FrameAssembler receiver(limits, naming({"velocity", "color", "id"}));
+    const std::vector<std::vector<SentArray>> orders{
+        {sent_positions, sent_levels, sent_velocity, sent_half, sent_color, sent_id},
+        {sent_positions, sent_half, sent_color, sent_id, sent_velocity, sent_levels},
+        {sent_positions, sent_id, sent_velocity, sent_color}};
+    for (const auto& arrays : orders)
+        for (const std::size_t size : {std::size_t{1}, std::size_t{5}, std::size_t{1000}}) {
+            receive(receiver, arrays, size);
+            const ParticleFrame view = frame.view();
+            EXPECT_EQ(text(std::as_bytes(view.positions)), bytes_of(sent_positions));
+            EXPECT_EQ(view.levels.empty(), &arrays == &orders[2]);
+            if (!view.levels.empty()) {
+                EXPECT_EQ(text(std::as_bytes(view.levels)), bytes_of(sent_levels));
+            }
+            ASSERT_EQ(view.arrays.size(), 3U);
+            for (const ParticleArray& array : view.arrays) {
+                const auto sent = std::ranges::find(arrays, std::string(array.name), &SentArray::name);
+                ASSERT_NE(sent, arrays.end());
+                EXPECT_EQ(text(array.data), bytes_of(*sent)) << array.name;
+                EXPECT_EQ(array.components, sent->components);
+                EXPECT_EQ(reinterpret_cast<std::uintptr_t>(array.data.data()) % size_of(array.type), 0U) << array.name;
+            }
+        }
+}
+
+TEST_F(ArraysOfAFrame, ThatAreNotNamedArePassedOverAndTakeNoMemory) {
+    receive(assembler, {sent_positions, sent_velocity, sent_half, sent_id});
+    EXPECT_EQ(frame.bytes.size(), 36U);
+    EXPECT_TRUE(frame.view().arrays.empty());
+    EXPECT_EQ(text(std::as_bytes(frame.view().positions)), bytes_of(sent_positions));
+}
+
+TEST_F(ArraysOfAFrame, AreAllKeptThatCanBeAttributesWhereTheSettingsSayAll) {
+    Settings all;
+    all.all_attributes = true;
+    FrameAssembler receiver(limits, all);
+    receive(receiver, {sent_positions, sent_id, sent_half, sent_velocity});
+    ASSERT_EQ(frame.view().arrays.size(), 2U);
+    EXPECT_EQ(frame.view().arrays[0].name, "id");
+    EXPECT_EQ(frame.view().arrays[1].name, "velocity");
+}
+
+TEST_F(ArraysOfAFrame, AreForgottenWithTheFrame) {
+    FrameAssembler receiver(limits, naming({"id"}));
+    receive(receiver, {sent_positions, sent_id});
+    InputFrame other{nullptr};
+    other.take_from(frame);
+    EXPECT_TRUE(frame.view().arrays.empty());
+    ASSERT_EQ(other.view().arrays.size(), 1U);
+    EXPECT_EQ(text(other.view().arrays[0].data), bytes_of(sent_id));
+    EXPECT_EQ(other.view().arrays[0].name, "id");
+    other.free_memory();
+    EXPECT_TRUE(other.view().arrays.empty());
+}
+
+TEST_F(ArraysOfAFrame, AreRefusedByNameWhereOneIsMissingOrCannotBeAnAttribute) {
+    FrameAssembler receiver(limits, naming({"id", "velocity"}));
+    EXPECT_EQ(refusal(receiver, {sent_positions, sent_id, sent_color}),
+              "frame 0: no array \"velocity\", which the session's settings name as an attribute; the frame's further "
+              "arrays are \"id\", \"color\"");
+    EXPECT_EQ(refusal(receiver, {sent_positions}),
+              "frame 0: no array \"id\", which the session's settings name as an attribute; the frame's further arrays "
+              "are none beside positions and levels");
+    SentArray pair = sent_velocity;
+    pair.components = 2;
+    EXPECT_EQ(refusal(receiver, {sent_positions, sent_id, pair}),
+              "frame 0: array \"velocity\" is float32 x 2, and the session's settings name it as an attribute; that is "
+              "float32 or uint8 x 1, 3 or 4, or int32 or uint32 x 1");
+    SentArray half = sent_half;
+    half.name = "velocity";
+    EXPECT_NE(refusal(receiver, {sent_positions, sent_id, half}).find("array \"velocity\" is uint16 x 1, and"),
+              std::string::npos);
+    EXPECT_EQ(refusal(receiver, {sent_positions, sent_id, sent_velocity, sent_id}),
+              "frame 0: array \"id\" comes twice; each comes once");
+    receive(receiver, {sent_positions, sent_velocity, sent_id});
+    EXPECT_EQ(frame.view().arrays.size(), 2U) << "a refusal leaves nothing behind";
+    v1::FrameBegin empty = begin_of({sent_positions}, next_index);
+    empty.set_particle_count(0);
+    EXPECT_NO_THROW(receiver.begin(empty, frame)) << "no particle lacks a value";
+}
+
+TEST_F(ArraysOfAFrame, CountToTheLimitOfBytesWhereTheyAreKept) {
+    limits.bytes_per_session = 3 * (12 + 12) - 1;
+    FrameAssembler keeps(limits, naming({"velocity"}));
+    EXPECT_THROW(keeps.begin(begin_of({sent_positions, sent_velocity}), frame), LimitExceeded);
+    FrameAssembler passes(limits);
+    EXPECT_NO_THROW(passes.begin(begin_of({sent_positions, sent_velocity}), frame));
+    EXPECT_EQ(passes.expected(), 72U);
+}
+
+TEST_F(ArraysOfAFrame, AreSixteenOfAMillionParticlesExactlyWithinTheLimit) {
+    constexpr std::uint64_t count = 1'000'000;
+    std::vector<SentArray> arrays{sent_positions};
+    std::vector<std::string> names;
+    for (int i = 0; i < 16; ++i) {
+        names.push_back("a" + std::to_string(i));
+        arrays.push_back({names.back(), v1::ELEMENT_TYPE_FLOAT32, 4, 16});
+    }
+    v1::FrameBegin message = begin_of(arrays);
+    message.set_particle_count(count);
+    Limits exact{.bytes_per_session = count * (12 + 16 * 16)};
+    InputFrame large{nullptr};
+    FrameAssembler receiver(exact, naming(names));
+    receiver.begin(message, large);
+    EXPECT_EQ(large.bytes.size(), exact.bytes_per_session);
+    EXPECT_EQ(large.view().arrays.size(), 16U);
+    --exact.bytes_per_session;
+    FrameAssembler limited(exact, naming(names));
+    EXPECT_THROW(limited.begin(message, large), LimitExceeded);
+}
+
+TEST_F(ArraysOfAFrame, CannotOverflowByArraysThatArePassedOver) {
+    FrameAssembler unlimited{Limits{}};
+    v1::FrameBegin message = begin_of({sent_positions, {"wide", v1::ELEMENT_TYPE_FLOAT32, 16, 64}});
+    message.set_particle_count(std::numeric_limits<std::int64_t>::max() / 70);
+    EXPECT_THROW(unlimited.begin(message, frame), LimitExceeded);
 }
 
 TEST_F(FrameAssembly, RefusesAQuantizationBoxThatIsMissingNotFiniteOrInverted) {

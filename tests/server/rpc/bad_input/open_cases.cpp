@@ -91,6 +91,13 @@ std::vector<BadInputCase> open_cases() {
         {"ATryToComeBackForATimeThatIsNoNumber", invalid, "reconnect_seconds is nan; it must be finite",
          reconnect(std::numeric_limits<double>::quiet_NaN())},
         {"NoNormals", ok, "", normal_bits(0)},
+        {"SeventeenAttributeBits", invalid,
+         "wished attribute \"a\" has 17 bits, must have 1 to 16, or 0 for exact values",
+         open_with([](v1::StreamOpen& open) {
+             open.add_attributes()->set_name("a");
+             open.mutable_attributes(0)->set_bits(17);
+         })},
+        {"AllAttributesExactly", ok, "", open_with([](v1::StreamOpen& open) { open.add_attributes()->set_bits(0); })},
         {"OneNormalBit", invalid, "normal_bits is 1; it must be 0 (no normals) or 2 to 16", normal_bits(1)},
         {"TwoNormalBits", ok, "", normal_bits(2)},
         {"SixteenNormalBits", ok, "", normal_bits(16)},

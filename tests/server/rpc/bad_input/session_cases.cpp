@@ -115,6 +115,11 @@ grpc::Status exists_with_other_settings(RunningServer& running) {
 }  // namespace
 
 std::vector<BadInputCase> session_cases() {
+    const auto attributes = [](int count) {
+        return settings_with([=](v1::Settings& s) {
+            for (int i = 0; i < count; ++i) s.add_attributes("a" + std::to_string(i));
+        });
+    };
     const auto radius_of = [](double value) {
         return settings_with([=](v1::Settings& s) { s.set_particle_radius(value); });
     };
@@ -246,6 +251,36 @@ std::vector<BadInputCase> session_cases() {
         {"AsManySessionsAsTheLimit", ok, "", beside(2)},
         {"ASessionPastTheLimit", grpc::StatusCode::RESOURCE_EXHAUSTED,
          "3 sessions are open; the server holds at most 3", beside(3)},
+        {"AsManyAttributesAsTheLimit", ok, "", attributes(16)},
+        {"OneAttributePastTheLimit", invalid, "17 attributes, at most 16 are possible", attributes(17)},
+        {"AnAttributeTwice", invalid, "the settings name the attribute 'a' twice, must name it once",
+         settings_with([](v1::Settings& s) {
+             s.add_attributes("a");
+             s.add_attributes("a");
+         })},
+        {"AnAttributeWithoutAName", invalid, "has a name that no array can have",
+         settings_with([](v1::Settings& s) { s.add_attributes(""); })},
+        {"AnAttributeWhoseNameIsHuge", invalid, "has a name that no array can have",
+         settings_with([](v1::Settings& s) { s.add_attributes(std::string(60'000, 'a')); })},
+        {"AnAttributeWhoseNameBreaksTheLine", invalid, "has a name that no array can have",
+         settings_with([](v1::Settings& s) { s.add_attributes("a\nb"); })},
+        {"ThePositionsAsAnAttribute", invalid, "'position' is what the surface is made from",
+         settings_with([](v1::Settings& s) { s.add_attributes("position"); })},
+        {"AllAttributes", ok, "", settings_with([](v1::Settings& s) { s.set_all_attributes(true); })},
+        {"AllAttributesAndOne", invalid, "the settings name 'a' among the attributes and ask for all",
+         settings_with([](v1::Settings& s) {
+             s.set_all_attributes(true);
+             s.add_attributes("a");
+         })},
+        {"ASessionThatExistsWithOtherAttributes", grpc::StatusCode::ALREADY_EXISTS, "exists with other settings",
+         [](RunningServer& running) {
+             const CaseSession session(running);
+             v1::CreateSessionRequest request;
+             request.set_id(session.id);
+             *request.mutable_settings() = conversion::to_wire(settings());
+             request.mutable_settings()->add_attributes("a");
+             return create(running, session.id, request);
+         }},
         {"ASessionThatExistsWithOtherSettings", grpc::StatusCode::ALREADY_EXISTS, "exists with other settings",
          exists_with_other_settings},
         {"AnUnknownSessionToDescribe", grpc::StatusCode::NOT_FOUND, "no session " + no_session,

@@ -88,6 +88,15 @@ std::vector<BadInputCase> watch_cases() {
     const auto normal_bits = [](std::uint32_t bits) {
         return wish([=](v1::WatchRequest& request) { request.set_normal_bits(bits); });
     };
+    const auto attributes = [](int count, std::uint32_t bits) {
+        return wish([=](v1::WatchRequest& request) {
+            for (int i = 0; i < count; ++i) {
+                v1::AttributeWish& attribute = *request.add_attributes();
+                attribute.set_name("a" + std::to_string(i));
+                attribute.set_bits(bits);
+            }
+        });
+    };
     const auto position_bits = [](std::uint32_t bits) {
         return wish([=](v1::WatchRequest& request) { request.set_position_bits(bits); });
     };
@@ -133,6 +142,32 @@ std::vector<BadInputCase> watch_cases() {
         {"AWatcherWithSeventeenNormalBits", invalid, "normal_bits is 17; it must be 0 (no normals) or 2 to 16",
          normal_bits(17)},
         {"AWatcherWithOneNormalBit", invalid, "normal_bits is 1; it must be 0 (no normals) or 2 to 16", normal_bits(1)},
+        {"AWatcherOfSixteenAttributesThatThereAreNot", ok, "", attributes(16, 8)},
+        {"AWatcherOfSeventeenAttributes", invalid, "17 wished attributes; at most 16 are possible", attributes(17, 8)},
+        {"AWatcherOfExactAttributes", ok, "", attributes(1, 0)},
+        {"AWatcherOfSixteenAttributeBits", ok, "", attributes(1, 16)},
+        {"AWatcherOfSeventeenAttributeBits", invalid,
+         "wished attribute \"a0\" has 17 bits, must have 1 to 16, or 0 for exact values", attributes(1, 17)},
+        {"AWatcherOfAnAttributeTwice", invalid, "wished attribute \"a\" comes twice; each comes once",
+         wish([](v1::WatchRequest& request) {
+             request.add_attributes()->set_name("a");
+             request.add_attributes()->set_name("a");
+         })},
+        {"AWatcherOfAllAttributes", ok, "", wish([](v1::WatchRequest& request) { request.add_attributes(); })},
+        {"AWatcherOfAllAttributesTwice", invalid, "wished attribute \"\" comes twice; each comes once",
+         wish([](v1::WatchRequest& request) {
+             request.add_attributes();
+             request.add_attributes();
+         })},
+        {"AWatcherOfAnAttributeWhoseNameNoneHas", invalid,
+         "the name of wished attribute 0 must be 1 to 64 of a-z, 0-9 and _",
+         wish([](v1::WatchRequest& request) { request.add_attributes()->set_name("A\n"); })},
+        {"ASnapshotOfSeventeenAttributeBits", invalid,
+         "wished attribute \"a\" has 17 bits, must have 1 to 16, or 0 for exact values",
+         wish_for_snapshot([](v1::SnapshotRequest& request) {
+             request.add_attributes()->set_name("a");
+             request.mutable_attributes(0)->set_bits(17);
+         })},
         {"AWatcherOfTheCodecDraco", ok, "",
          wish([](v1::WatchRequest& request) { request.add_codecs(v1::CODEC_DRACO); })},
         {"AWatcherOfACodecOfTheFuture", invalid,
