@@ -98,10 +98,12 @@ void add_convert(CLI::App& app) {
             .add_option("-o,--output", options->directory, "Folder for the files; - for one frame to standard output")
             ->required();
         std::vector<std::string> formats(names<MeshFormat>.begin(), names<MeshFormat>.end());
-        formats.emplace_back(particles_name);
         command
             .add_option_function<std::string>(
-                "--format", [options](const std::string& name) { options->format = find_by_name<MeshFormat>(name); },
+                "--format",
+                [options](const std::string& name) {
+                    options->format = name == particles_name ? std::nullopt : find_by_name<MeshFormat>(name);
+                },
                 "Of the meshes; vtk: the particles")
             ->check(CLI::IsMember(formats))
             ->default_str(std::string(name_of(MeshFormat::ply)));

@@ -53,6 +53,12 @@ void write_surface(const std::filesystem::path& path, const Surface& surface, Me
             return formats::write_obj(path, in_canonical_order(surface.mesh()));
         case MeshFormat::bricks:
             return formats::write_bricks(path, surface.encoded());
+        case MeshFormat::vtk:
+        case MeshFormat::vtp:
+        case MeshFormat::npz:
+        case MeshFormat::glb:
+        case MeshFormat::usda:
+            return formats::write_mesh(path, formats::to_triangles(in_canonical_order(surface.mesh())), format);
     }
 }
 

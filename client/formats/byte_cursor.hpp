@@ -17,6 +17,7 @@ public:
     /// name: the file, for messages. bytes: borrowed.
     ByteCursor(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
 
+    const std::string& name() const { return name_; }
     std::size_t position() const { return position_; }
     std::size_t remaining() const { return bytes_.size() - position_; }
     std::string_view rest() const { return bytes_.substr(position_); }

@@ -1,4 +1,4 @@
-// Mesh files: PLY, OBJ and bricks.
+// Mesh files.
 #pragma once
 
 #include <array>
@@ -9,15 +9,11 @@
 
 #include "formats/mesh_format.hpp"
 #include "formats/named_values.hpp"
+#include "formats/read_limits.hpp"
+#include "formats/vtp_writer.hpp"
 #include "meniscus/mesh.hpp"
 
 namespace meniscus::formats {
-
-/// Writes binary PLY: positions, normals if the mesh has them, triangles, and per triangle a uchar `level` (1, 2, 3;
-/// crack 0). Atomic. Throws InvalidInput if the path cannot be written.
-void write_ply(const std::filesystem::path& path, const Mesh& mesh);
-/// Writes Wavefront OBJ with normals, the triangles in groups level1, level2, level3 and crack.
-void write_obj(const std::filesystem::path& path, const Mesh& mesh);
 
 /// Whether float32 may round two neighboring lattice points of this mesh to one value, so that files need float64.
 /// That begins at 2^23 lattice units: float32 has 24 significant bits, and just above a power of two its steps are
@@ -31,17 +27,46 @@ struct TriangleMesh {
     std::vector<Triangle> triangles;      ///< indices into `positions`, checked
     std::vector<std::uint8_t> levels;     ///< empty, or per triangle 1, 2, 3, crack 0
     std::vector<NamedValues> attributes;  ///< of the positions
-    bool wide = false;                    ///< float32 would merge positions: files need float64
+    bool wide = false;                    ///< float32 would merge positions, or round them: files need float64
 };
 
 TriangleMesh to_triangles(const Mesh& mesh);
 
 /// Reads a file, or standard input for "-"; polygons are cut into fans. format: without it, the extension's. Throws
 /// InvalidInput in one line that names the file.
-TriangleMesh read_mesh(const std::filesystem::path& path, std::optional<MeshFormat> format = std::nullopt);
+TriangleMesh read_mesh(const std::filesystem::path& path, std::optional<MeshFormat> format = std::nullopt,
+                       const ReadLimits& limits = {});
 
 /// The readers behind read_mesh(). name: the file, for messages.
 TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes);
 TriangleMesh read_obj(const std::string& name, std::string_view bytes);
+TriangleMesh read_mesh_vtk(const std::string& name, std::string_view bytes);
+TriangleMesh read_mesh_vtp(const std::string& name, std::string_view bytes, const ReadLimits& limits);
+TriangleMesh read_mesh_npz(const std::string& name, std::string_view bytes, const ReadLimits& limits);
+
+/// Writes atomically. Positions are float32, or float64 where `wide`. Throws InvalidInput if the path cannot be
+/// written, and for bricks, which encode_frame() makes of a Mesh alone.
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, MeshFormat format);
+
+/// The writers behind it, all of them atomic; those of a Mesh write the same bytes.
+///
+/// Binary PLY: normals, attributes, and per triangle a uchar `level` (1, 2, 3; crack 0). An attribute is a property of
+/// its name, or with several components properties NAME_x, NAME_y, NAME_z, NAME_w; uint8 of 3 or 4 under the name
+/// `color` are red, green, blue, alpha.
+void write_ply(const std::filesystem::path& path, const Mesh& mesh);
+void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh);
+/// Wavefront OBJ with normals, the triangles in groups level1, level2, level3 and crack. It has no place for
+/// attributes.
+void write_obj(const std::filesystem::path& path, const Mesh& mesh);
+void write_obj(const std::filesystem::path& path, const TriangleMesh& mesh);
+/// Legacy VTK, binary POLYDATA: normals and attributes as point data, `level` as cell data.
+void write_mesh_vtk(const std::filesystem::path& path, const TriangleMesh& mesh);
+/// VTK's XML: the same, appended raw. compression: zlib's, which halves the file and takes longer.
+void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh,
+                    VtpCompression compression = VtpCompression::none);
+/// Arrays positions (N, 3), triangles (M, 3), normals, levels, and the attributes by their names.
+void write_mesh_npz(const std::filesystem::path& path, const TriangleMesh& mesh);
+void write_glb(const std::filesystem::path& path, const TriangleMesh& mesh);
+void write_usda(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 }  // namespace meniscus::formats

@@ -2,14 +2,18 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <utility>
 
+#include "formats/array_collector.hpp"
 #include "formats/brick_file.hpp"
 #include "formats/byte_cursor.hpp"
+#include "formats/face_index.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/ply.hpp"
 #include "formats/standard_streams.hpp"
+#include "formats/vtk_dataset.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/names.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -19,20 +23,12 @@ void append_polygon(TriangleMesh& mesh, const std::vector<std::uint32_t>& corner
     for (std::size_t i = 2; i < corners.size(); ++i) mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
 }
 
-/// A polygon's corner as an index. Throws InvalidInput unless it is one of `count` positions.
-std::uint32_t to_index(double value, std::size_t count, const ByteCursor& at) {
-    if (!(value >= 0.0 && value < static_cast<double>(count)) || value != std::floor(value)) {
-        std::ostringstream message;
-        message << "a face uses vertex " << value << " of " << count;
-        at.fail(message.str());
-    }
-    return static_cast<std::uint32_t>(value);
-}
-
-void expect_addressable(std::size_t vertices, const ByteCursor& at) {
-    constexpr std::size_t limit = std::numeric_limits<std::uint32_t>::max();
-    if (vertices > limit)
-        at.fail(std::to_string(vertices) + " vertices; at most " + std::to_string(limit) + " are read");
+/// The digits that a number is written with, without zeros before the first.
+int significant_digits(std::string_view number) {
+    int count = 0;
+    for (const char c : number.substr(0, number.find_first_of("eE")))
+        if (c >= '0' && c <= '9' && (count > 0 || c != '0')) ++count;
+    return count;
 }
 
 /// Keywords of OBJ that say nothing about triangles: comments, textures, names, materials, lines and points.
@@ -43,7 +39,7 @@ bool is_ignored(std::string_view keyword) {
 
 }  // namespace
 
-TriangleMesh read_mesh(const std::filesystem::path& path, std::optional<MeshFormat> format) {
+TriangleMesh read_mesh(const std::filesystem::path& path, std::optional<MeshFormat> format, const ReadLimits& limits) {
     if (!format) format = mesh_format_of(path);
     const std::string bytes = read_input(path);
     const std::string name = input_name(path);
@@ -58,6 +54,19 @@ TriangleMesh read_mesh(const std::filesystem::path& path, std::optional<MeshForm
         case MeshFormat::bricks:
             mesh = to_triangles(read_bricks(name, bytes).mesh());
             break;
+        case MeshFormat::vtk:
+            mesh = read_mesh_vtk(name, bytes);
+            break;
+        case MeshFormat::vtp:
+            mesh = read_mesh_vtp(name, bytes, limits);
+            break;
+        case MeshFormat::npz:
+            mesh = read_mesh_npz(name, bytes, limits);
+            break;
+        case MeshFormat::glb:
+        case MeshFormat::usda:
+            throw InvalidInput(name + ": " + std::string(name_of(*format)) + " is written, and not read; read are " +
+                               listed(read_mesh_formats()));
     }
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         for (const double x : mesh.positions[i])
@@ -75,6 +84,9 @@ TriangleMesh to_triangles(const Mesh& mesh) {
     out.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
     out.levels.resize(mesh.triangles.size());
     for (std::size_t i = 0; i < out.levels.size(); ++i) out.levels[i] = level_byte(mesh.level_of(i));
+    for (const MeshAttribute& a : mesh.attributes)
+        out.attributes.push_back({a.name, a.type, a.components, {a.data.begin(), a.data.end()}});
+    out.wide = needs_double(mesh);
     return out;
 }
 
@@ -89,8 +101,20 @@ TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes) {
             const std::array normal{element.scalar("nx"), element.scalar("ny"), element.scalar("nz")};
             if (!axes[0] || !axes[1] || !axes[2]) ply.in().fail("its vertices have no scalar properties x, y and z");
             const bool normals = normal[0] && normal[1] && normal[2];
+            mesh.wide = std::any_of(axes.begin(), axes.end(), [&](const auto& axis) {
+                return element.properties[*axis].type == ScalarType::float64;
+            });
             expect_addressable(element.count, ply.in());
             ply.expect_rows(element);
+            ArrayCollector collector;
+            std::vector<std::pair<std::size_t, ArrayBuilder>> arrays;  // by property
+            for (std::size_t p = 0; p < element.properties.size(); ++p) {
+                const PlyProperty& property = element.properties[p];
+                const bool known = std::find(axes.begin(), axes.end(), p) != axes.end() ||
+                                   (normals && std::find(normal.begin(), normal.end(), p) != normal.end());
+                if (!known && !property.list_count_type)
+                    arrays.emplace_back(p, ArrayBuilder(property.name, property.type, 1, element.count));
+            }
             mesh.positions.reserve(element.count);
             if (normals) mesh.normals.reserve(element.count);
             ply.read_rows(element, [&](std::size_t, const PlyRow& row) {
@@ -99,7 +123,11 @@ TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes) {
                     mesh.normals.push_back({static_cast<float>(row.scalars[*normal[0]]),
                                             static_cast<float>(row.scalars[*normal[1]]),
                                             static_cast<float>(row.scalars[*normal[2]])});
+                for (auto& [p, array] : arrays) array.add(row.scalars[p]);
             });
+            for (auto& [p, array] : arrays) collector.add(std::move(array));
+            std::vector<std::string> left_out;
+            collector.finish(mesh.attributes, left_out);
         } else if (element.name == "face") {
             const auto list =
                 element.list("vertex_indices") ? element.list("vertex_indices") : element.list("vertex_index");
@@ -142,7 +170,12 @@ TriangleMesh read_obj(const std::string& name, std::string_view bytes) {
         if (!words.skip_space()) continue;
         const std::string_view keyword = words.word();
         if (keyword == "v") {
-            mesh.positions.push_back({words.number("x"), words.number("y"), words.number("z")});
+            auto& position = mesh.positions.emplace_back();
+            for (double& x : position) {
+                const std::string_view text = words.word();
+                x = to_number(text, words, "coordinate");
+                mesh.wide = mesh.wide || significant_digits(text) > std::numeric_limits<float>::max_digits10;
+            }
         } else if (keyword == "vn") {
             normals.push_back({static_cast<float>(words.number("nx")), static_cast<float>(words.number("ny")),
                                static_cast<float>(words.number("nz"))});
@@ -169,6 +202,14 @@ TriangleMesh read_obj(const std::string& name, std::string_view bytes) {
     if (normals.size() == mesh.positions.size()) mesh.normals = std::move(normals);
     if (mesh.levels.size() != mesh.triangles.size()) mesh.levels.clear();
     return mesh;
+}
+
+TriangleMesh read_mesh_vtk(const std::string& name, std::string_view bytes) {
+    return to_triangle_mesh(read_legacy_vtk(name, bytes, VtkUse::mesh));
+}
+
+TriangleMesh read_mesh_vtp(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
+    return to_triangle_mesh(read_xml_vtk(name, bytes, limits, VtkUse::mesh));
 }
 
 }  // namespace meniscus::formats

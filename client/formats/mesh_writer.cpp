@@ -2,10 +2,15 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "formats/atomic_file.hpp"
 #include "formats/mesh_file.hpp"
+#include "formats/ply_properties.hpp"
+#include "formats/standard_streams.hpp"
+#include "meniscus/error.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -33,6 +38,151 @@ void flush(AtomicFile& file, std::string& buffer, std::size_t above) {
     buffer.clear();
 }
 
+/// Triangles that lie together and are of one level.
+struct Run {
+    std::size_t first = 0;
+    std::size_t end = 0;
+    std::uint8_t level = 0;
+};
+
+/// A mesh as the writers see it.
+struct MeshView {
+    bool wide = false;
+    std::span<const Normal> normals;  ///< empty, or one per vertex
+    std::span<const Triangle> triangles;
+    bool levels = false;  ///< runs tell levels
+    std::vector<Run> runs;
+    std::vector<ParticleArray> attributes;
+};
+
+MeshView view_of(const Mesh& mesh) {
+    MeshView out;
+    out.wide = needs_double(mesh);
+    if (mesh.normals.size() == mesh.vertices.size()) out.normals = mesh.normals;
+    out.triangles = mesh.triangles;
+    out.levels = true;
+    for (const TriangleLevel level : choices<TriangleLevel>) {
+        const TriangleRange range = mesh.levels[static_cast<std::size_t>(level)];
+        if (range.count > 0)
+            out.runs.push_back({range.first, std::size_t{range.first} + range.count, level_byte(level)});
+    }
+    for (const MeshAttribute& a : mesh.attributes) out.attributes.push_back({a.name, a.data, a.type, a.components});
+    return out;
+}
+
+MeshView view_of(const TriangleMesh& mesh) {
+    MeshView out;
+    out.wide = mesh.wide;
+    if (mesh.normals.size() == mesh.positions.size()) out.normals = mesh.normals;
+    out.triangles = mesh.triangles;
+    out.levels = !mesh.levels.empty();
+    if (!out.levels && !mesh.triangles.empty()) out.runs.push_back({0, mesh.triangles.size(), 0});
+    for (std::size_t i = 0; i < mesh.levels.size(); ++i) {
+        if (out.runs.empty() || out.runs.back().level != mesh.levels[i]) out.runs.push_back({i, i, mesh.levels[i]});
+        ++out.runs.back().end;
+    }
+    out.attributes = views(mesh.attributes);
+    return out;
+}
+
+std::size_t vertex_count(const Mesh& mesh) {
+    return mesh.vertices.size();
+}
+std::size_t vertex_count(const TriangleMesh& mesh) {
+    return mesh.positions.size();
+}
+std::array<double, 3> place_of(const Mesh& mesh, std::size_t vertex) {
+    return mesh.world(mesh.vertices[vertex]);
+}
+const std::array<double, 3>& place_of(const TriangleMesh& mesh, std::size_t vertex) {
+    return mesh.positions[vertex];
+}
+
+template <class AnyMesh>
+void write_ply_of(const std::filesystem::path& path, const AnyMesh& mesh) {
+    const MeshView view = view_of(mesh);
+    const std::size_t vertices = vertex_count(mesh);
+    const std::string type = view.wide ? "double " : "float ";
+    std::string out = "ply\nformat binary_little_endian 1.0\n";
+    if (view.levels) out += "comment Meniscus: face level 1, 2, 3; crack filling 0\n";
+    out += "element vertex " + std::to_string(vertices) + "\n";
+    for (const char* axis : {"x", "y", "z"}) out += "property " + type + axis + "\n";
+    if (!view.normals.empty()) out += "property float nx\nproperty float ny\nproperty float nz\n";
+    out += ply_properties(view.attributes);
+    out += "element face " + std::to_string(view.triangles.size()) + "\n";
+    out += "property list uchar uint vertex_indices\n";
+    if (view.levels) out += "property uchar level\n";
+    out += "end_header\n";
+    AtomicFile file(path);
+    for (std::size_t i = 0; i < vertices; ++i) {
+        const std::array<double, 3>& place = place_of(mesh, i);
+        if (view.wide)
+            append_bytes(out, place);
+        else
+            append_bytes(out, std::array{static_cast<float>(place[0]), static_cast<float>(place[1]),
+                                         static_cast<float>(place[2])});
+        if (!view.normals.empty()) append_bytes(out, view.normals[i]);
+        for (const ParticleArray& array : view.attributes) append_element(out, array, i);
+        flush(file, out, flush_bytes);
+    }
+    for (const Run& run : view.runs)
+        for (std::size_t i = run.first; i < run.end; ++i) {
+            out += char{3};
+            append_bytes(out, view.triangles[i]);
+            if (view.levels) out += static_cast<char>(run.level);
+            flush(file, out, flush_bytes);
+        }
+    flush(file, out, 0);
+    file.commit();
+}
+
+/// The group of OBJ for a level's byte.
+std::string_view group_name(std::uint8_t level) {
+    for (const TriangleLevel choice : choices<TriangleLevel>)
+        if (level_byte(choice) == level) return name_of(choice);
+    return name_of(TriangleLevel::crack);
+}
+
+template <class AnyMesh>
+void write_obj_of(const std::filesystem::path& path, const AnyMesh& mesh) {
+    const MeshView view = view_of(mesh);
+    const std::size_t vertices = vertex_count(mesh);
+    std::string out = "# Meniscus\n";
+    AtomicFile file(path);
+    for (std::size_t i = 0; i < vertices; ++i) {
+        out += 'v';
+        for (const double x : place_of(mesh, i)) {
+            out += ' ';
+            if (view.wide)
+                append(out, x);
+            else
+                append(out, static_cast<float>(x));
+        }
+        out += '\n';
+        flush(file, out, flush_bytes);
+    }
+    for (const Normal& normal : view.normals) {
+        out += "vn";
+        for (const float x : normal) append(out += ' ', x);
+        out += '\n';
+        flush(file, out, flush_bytes);
+    }
+    for (const Run& run : view.runs) {
+        if (view.levels) out.append("g ").append(group_name(run.level)).append("\n");
+        for (std::size_t i = run.first; i < run.end; ++i) {
+            out += 'f';
+            for (const std::uint32_t v : view.triangles[i]) {
+                append(out += ' ', std::uint64_t{v} + 1);
+                if (!view.normals.empty()) append(out += "//", std::uint64_t{v} + 1);
+            }
+            out += '\n';
+            flush(file, out, flush_bytes);
+        }
+    }
+    flush(file, out, 0);
+    file.commit();
+}
+
 }  // namespace
 
 bool needs_double(const Mesh& mesh) {
@@ -43,78 +193,39 @@ bool needs_double(const Mesh& mesh) {
 }
 
 void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
-    const bool wide = needs_double(mesh);
-    const bool normals = mesh.normals.size() == mesh.vertices.size();
-    const std::string type = wide ? "double " : "float ";
-    std::string out = "ply\nformat binary_little_endian 1.0\ncomment Meniscus: face level 1, 2, 3; crack filling 0\n";
-    out += "element vertex " + std::to_string(mesh.vertices.size()) + "\n";
-    for (const char* axis : {"x", "y", "z"}) out += "property " + type + axis + "\n";
-    if (normals) out += "property float nx\nproperty float ny\nproperty float nz\n";
-    out += "element face " + std::to_string(mesh.triangles.size()) + "\n";
-    out += "property list uchar uint vertex_indices\nproperty uchar level\nend_header\n";
-    AtomicFile file(path);
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-        const std::array<double, 3> place = mesh.world(mesh.vertices[i]);
-        if (wide)
-            append_bytes(out, place);
-        else
-            append_bytes(out, std::array{static_cast<float>(place[0]), static_cast<float>(place[1]),
-                                         static_cast<float>(place[2])});
-        if (normals) append_bytes(out, mesh.normals[i]);
-        flush(file, out, flush_bytes);
-    }
-    for (const TriangleLevel level : choices<TriangleLevel>) {
-        const TriangleRange range = mesh.levels[static_cast<std::size_t>(level)];
-        for (std::size_t i = range.first; i < std::size_t{range.first} + range.count; ++i) {
-            out += char{3};
-            append_bytes(out, mesh.triangles[i]);
-            out += static_cast<char>(level_byte(level));
-            flush(file, out, flush_bytes);
-        }
-    }
-    flush(file, out, 0);
-    file.commit();
+    write_ply_of(path, mesh);
+}
+void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {
+    write_ply_of(path, mesh);
 }
 
 void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
-    const bool wide = needs_double(mesh);
-    const bool normals = mesh.normals.size() == mesh.vertices.size();
-    std::string out = "# Meniscus\n";
-    AtomicFile file(path);
-    for (const LatticePosition& vertex : mesh.vertices) {
-        out += 'v';
-        for (const double x : mesh.world(vertex)) {
-            out += ' ';
-            if (wide)
-                append(out, x);
-            else
-                append(out, static_cast<float>(x));
-        }
-        out += '\n';
-        flush(file, out, flush_bytes);
+    write_obj_of(path, mesh);
+}
+void write_obj(const std::filesystem::path& path, const TriangleMesh& mesh) {
+    write_obj_of(path, mesh);
+}
+
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, MeshFormat format) {
+    switch (format) {
+        case MeshFormat::ply:
+            return write_ply(path, mesh);
+        case MeshFormat::obj:
+            return write_obj(path, mesh);
+        case MeshFormat::bricks:
+            throw InvalidInput(output_name(path) +
+                               ": triangles are not written as bricks, which have the lattice of a reconstruction");
+        case MeshFormat::vtk:
+            return write_mesh_vtk(path, mesh);
+        case MeshFormat::vtp:
+            return write_mesh_vtp(path, mesh);
+        case MeshFormat::npz:
+            return write_mesh_npz(path, mesh);
+        case MeshFormat::glb:
+            return write_glb(path, mesh);
+        case MeshFormat::usda:
+            return write_usda(path, mesh);
     }
-    for (std::size_t i = 0; normals && i < mesh.normals.size(); ++i) {
-        out += "vn";
-        for (const float x : mesh.normals[i]) append(out += ' ', x);
-        out += '\n';
-        flush(file, out, flush_bytes);
-    }
-    for (const TriangleLevel level : choices<TriangleLevel>) {
-        const TriangleRange range = mesh.levels[static_cast<std::size_t>(level)];
-        if (range.count == 0) continue;
-        out += "g " + std::string(name_of(level)) + "\n";
-        for (std::size_t i = range.first; i < std::size_t{range.first} + range.count; ++i) {
-            out += 'f';
-            for (const std::uint32_t v : mesh.triangles[i]) {
-                append(out += ' ', std::uint64_t{v} + 1);
-                if (normals) append(out += "//", std::uint64_t{v} + 1);
-            }
-            out += '\n';
-            flush(file, out, flush_bytes);
-        }
-    }
-    flush(file, out, 0);
-    file.commit();
 }
 
 }  // namespace meniscus::formats

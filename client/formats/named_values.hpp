@@ -1,8 +1,11 @@
 // Values that the particles or the vertices of a file carry.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "meniscus/particle_frame.hpp"
@@ -27,6 +30,12 @@ inline std::vector<ParticleArray> views(const std::vector<NamedValues>& arrays) 
     out.reserve(arrays.size());
     for (const NamedValues& array : arrays) out.push_back(array.view());
     return out;
+}
+
+/// The name of an array in a file where some names mean something else: those get a _.
+inline std::string name_beside(std::initializer_list<std::string_view> taken, std::string_view name) {
+    const bool clashes = std::find(taken.begin(), taken.end(), name) != taken.end();
+    return std::string(name) + (clashes ? "_" : "");
 }
 
 }  // namespace meniscus::formats

@@ -1,14 +1,95 @@
+#include <array>
+#include <utility>
+
 #include "formats/byte_cursor.hpp"
+#include "formats/npy.hpp"
+#include "formats/npz.hpp"
 #include "formats/particles.hpp"
 
 namespace meniscus::formats {
+namespace {
 
-Particles read_npy(const std::string& name, std::string_view bytes) {
-    ByteCursor(name, bytes).fail("npy is not read yet");
+void fill_positions(Particles& particles, const NpyArray& array, const ByteCursor& at) {
+    if (!array.unread.empty()) at.fail("holds " + array.unread + "; positions are numbers");
+    if (array.shape.size() != 2 || array.shape[1] != 3)
+        at.fail("has the shape " + shape_text(array.shape) + "; positions have (N, 3)");
+    const std::size_t count = array.shape[0];
+    particles.positions.reserve(3 * count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            particles.positions.push_back(to_coordinate(array.at(i, axis), i, at));
 }
 
-Particles read_npz(const std::string& name, std::string_view bytes, const ReadLimits&) {
-    ByteCursor(name, bytes).fail("npz is not read yet");
+/// One coordinate of each particle.
+void fill_axis(Particles& particles, std::size_t axis, const NpyArray& array, const ByteCursor& at) {
+    if (!array.unread.empty()) at.fail("holds " + array.unread + "; coordinates are numbers");
+    if (array.shape.size() != 1) at.fail("has the shape " + shape_text(array.shape) + "; coordinates have (N,)");
+    const std::size_t count = array.shape[0];
+    if (axis == 0) particles.positions.resize(3 * count);
+    if (count != particles.count())
+        at.fail("has " + std::to_string(count) + " coordinates, x has " + std::to_string(particles.count()));
+    for (std::size_t i = 0; i < count; ++i) particles.positions[3 * i + axis] = to_coordinate(array.at(i, 0), i, at);
+}
+
+void fill_levels(Particles& particles, const NpyArray& array, const ByteCursor& at) {
+    if (!array.has_rows(particles.count()) || array.columns() != 1 || !is_integer(array.type)) return;
+    particles.levels.reserve(particles.count());
+    for (std::size_t i = 0; i < particles.count(); ++i) particles.levels.push_back(to_level(array.at(i, 0), i, at));
+}
+
+[[noreturn]] void refuse_without_positions(NpzReader& file) {
+    for (const std::string& name : file.names())
+        file.with(name, [&](const NpyArray& array, const ByteCursor& place) {
+            if (!array.unread.empty())
+                place.fail(
+                    "holds " + array.unread +
+                    ", which are not read: save plain arrays, as numpy.savez(FILE, positions=..., velocity=...)");
+        });
+    file.at().fail("neither an array positions nor arrays x, y and z");
+}
+
+}  // namespace
+
+Particles read_npy(const std::string& name, std::string_view bytes) {
+    const ByteCursor at(name, bytes);
+    Particles particles;
+    fill_positions(particles, read_npy_array(at, bytes), at);
+    return particles;
+}
+
+Particles read_npz(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
+    static constexpr std::array axes{"x", "y", "z"};
+    NpzReader file(name, bytes, limits);
+    Particles particles;
+    const auto pay = [&](std::size_t numbers, const ByteCursor& place) {
+        file.budget().take(sizeof(float) * numbers, place, "what it holds");
+    };
+    if (file.has("positions")) {
+        file.with("positions", [&](const NpyArray& array, const ByteCursor& place) {
+            pay(array.data.size() / size_of(array.type), place);
+            fill_positions(particles, array, place);
+        });
+    } else if (file.has("x") && file.has("y") && file.has("z")) {
+        for (std::size_t axis = 0; axis < axes.size(); ++axis)
+            file.with(axes[axis], [&](const NpyArray& array, const ByteCursor& place) {
+                pay(array.data.size() / size_of(array.type), place);
+                fill_axis(particles, axis, array, place);
+            });
+    } else {
+        refuse_without_positions(file);
+    }
+    for (const char* levels : {"levels", "level"})
+        if (file.has(levels) && particles.levels.empty())
+            file.with(levels,
+                      [&](const NpyArray& array, const ByteCursor& place) { fill_levels(particles, array, place); });
+    if (file.has("triangles"))
+        file.with("triangles", [&](const NpyArray& array, const ByteCursor&) {
+            if (array.shape.size() == 2) particles.faces = array.shape[0];
+        });
+    ArrayCollector collector;
+    file.collect(collector, particles.count(), {"positions", "x", "y", "z", "level", "levels", "triangles"});
+    collector.finish(particles.arrays, particles.left_out);
+    return particles;
 }
 
 }  // namespace meniscus::formats

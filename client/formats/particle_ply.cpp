@@ -1,5 +1,9 @@
+#include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
+#include "formats/array_collector.hpp"
 #include "formats/particles.hpp"
 #include "formats/ply.hpp"
 
@@ -8,6 +12,7 @@ namespace meniscus::formats {
 Particles read_particle_ply(const std::string& name, std::string_view bytes) {
     PlyReader ply(name, bytes);
     Particles particles;
+    ArrayCollector collector;
     bool found = false;
     for (const PlyElement& element : ply.elements()) {
         if (element.name == "face" || element.name == "tristrips") particles.faces += element.count;
@@ -22,16 +27,28 @@ Particles read_particle_ply(const std::string& name, std::string_view bytes) {
         auto level = element.scalar("level");
         if (level && !is_integer(element.properties[*level].type)) level.reset();
         ply.expect_rows(element);
+        std::vector<std::pair<std::size_t, ArrayBuilder>> arrays;  // by property
+        for (std::size_t p = 0; p < element.properties.size(); ++p) {
+            const PlyProperty& property = element.properties[p];
+            if (p == level || std::find(axes.begin(), axes.end(), p) != axes.end()) continue;
+            if (property.list_count_type)
+                collector.leave_out(property.name, "a list");
+            else
+                arrays.emplace_back(p, ArrayBuilder(property.name, property.type, 1, element.count));
+        }
         particles.positions.reserve(3 * element.count);
         if (level) particles.levels.reserve(element.count);
         ply.read_rows(element, [&](std::size_t index, const PlyRow& row) {
             for (const auto& axis : axes)
                 particles.positions.push_back(to_coordinate(row.scalars[*axis], index, ply.in()));
             if (level) particles.levels.push_back(to_level(row.scalars[*level], index, ply.in()));
+            for (auto& [p, array] : arrays) array.add(row.scalars[p]);
         });
+        for (auto& [p, array] : arrays) collector.add(std::move(array));
     }
     if (!found) ply.in().fail("a PLY file without vertices");
     ply.expect_end();
+    collector.finish(particles.arrays, particles.left_out);
     return particles;
 }
 

@@ -1,36 +1,66 @@
 #include "formats/particles.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
+#include "formats/array_collector.hpp"
 #include "formats/byte_cursor.hpp"
 #include "formats/extension.hpp"
 #include "formats/scalar.hpp"
 #include "formats/standard_streams.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/names.hpp"
 
 namespace meniscus::formats {
 
+namespace {
+
+struct Extension {
+    std::string_view ending;
+    ParticleFormat format;
+};
+
+constexpr std::array extensions{
+    Extension{".vtk", ParticleFormat::vtk},     Extension{".vtu", ParticleFormat::vtu},
+    Extension{".vtp", ParticleFormat::vtp},     Extension{".ply", ParticleFormat::ply},
+    Extension{".bgeo", ParticleFormat::bgeo},   Extension{".bgeo.gz", ParticleFormat::bgeo},
+    Extension{".npy", ParticleFormat::npy},     Extension{".npz", ParticleFormat::npz},
+    Extension{".h5", ParticleFormat::hdf5},     Extension{".hdf5", ParticleFormat::hdf5},
+    Extension{".h5part", ParticleFormat::hdf5}, Extension{".json", ParticleFormat::json},
+    Extension{".bi4", ParticleFormat::bi4},     Extension{".xyz", ParticleFormat::xyz},
+    Extension{".bin", ParticleFormat::xyz},     Extension{".raw", ParticleFormat::xyz},
+};
+
+constexpr auto endings = [] {
+    std::array<std::string_view, extensions.size()> all;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = extensions[i].ending;
+    return all;
+}();
+
+}  // namespace
+
+std::span<const std::string_view> particle_extensions() {
+    return endings;
+}
+
 ParticleFormat particle_format_of(const std::filesystem::path& path) {
     const std::string extension = lower_extension(path);
-    if (extension == ".vtk") return ParticleFormat::vtk;
-    if (extension == ".ply") return ParticleFormat::ply;
-    if (extension == ".xyz" || extension == ".bin" || extension == ".raw") return ParticleFormat::xyz;
-    if (extension == ".vtu") return ParticleFormat::vtu;
-    if (extension == ".vtp") return ParticleFormat::vtp;
-    if (extension == ".bgeo" || path.string().ends_with(".bgeo.gz")) return ParticleFormat::bgeo;
-    if (extension == ".npy") return ParticleFormat::npy;
-    if (extension == ".npz") return ParticleFormat::npz;
-    if (extension == ".h5" || extension == ".hdf5" || extension == ".h5part") return ParticleFormat::hdf5;
-    if (extension == ".json") return ParticleFormat::json;
-    if (extension == ".bi4") return ParticleFormat::bi4;
-    throw InvalidInput(
-        path.string() +
-        ": particle files end in .vtk, .vtu, .vtp, .ply, .bgeo, .npy, .npz, .h5, .hdf5, .h5part, .json, .bi4, "
-        ".xyz, .bin or .raw, not in '" +
-        extension + "'");
+    const std::string zipped = extension == ".gz" ? lower_extension(path.stem()) + extension : extension;
+    for (const Extension& known : extensions)
+        if (known.ending == zipped) return known.format;
+    throw InvalidInput(path.string() + ": particle files end in " + listed(endings) + ", not in '" + extension + "'");
+}
+
+void require_arrays(const std::string& file, const Particles& particles, std::span<const std::string> names) {
+    for (const std::string& name : names)
+        if (std::none_of(particles.arrays.begin(), particles.arrays.end(),
+                         [&](const NamedValues& array) { return array.name == name; }))
+            throw InvalidInput(file + ": no array " + quote(name) + "; the file " +
+                               described(particles.arrays, particles.left_out));
 }
 
 Particles read_particles(const std::filesystem::path& path, std::optional<ParticleFormat> format,

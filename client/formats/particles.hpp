@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,12 +24,14 @@ struct Particles {
     std::vector<std::uint8_t> levels;  ///< empty, or one per particle, 0 (finest) to max_particle_level
     /// What else the file tells of each particle, in its order, under array_name(): at most max_particle_arrays.
     std::vector<NamedValues> arrays{};
+    /// A line for each array that the file has beside them, with the reason: "tensor (9 components)".
+    std::vector<std::string> left_out{};
 
     /// Faces that the file has beside its points: it is a mesh, whose corners are taken as particles. 0 of particles.
     std::size_t faces = 0;
 
     std::size_t count() const { return positions.size() / 3; }
-    /// Without arrays.
+    /// Without arrays: their views have to lie somewhere, see views().
     ParticleFrame frame() const {
         ParticleFrame view;
         view.positions = positions;
@@ -78,6 +82,8 @@ constexpr std::string_view name_of(ParticleFormat format) {
     return {};
 }
 
+/// The extensions of particle files that are read, with their dots; a name in lower case ends in one of them.
+std::span<const std::string_view> particle_extensions();
 /// The format that the extension names. Throws InvalidInput for any other extension.
 ParticleFormat particle_format_of(const std::filesystem::path& path);
 
@@ -85,6 +91,9 @@ ParticleFormat particle_format_of(const std::filesystem::path& path);
 /// names the file, for any other extension and for a file that is not of the format.
 Particles read_particles(const std::filesystem::path& path, std::optional<ParticleFormat> format = std::nullopt,
                          const ReadLimits& limits = {});
+
+/// Throws InvalidInput, telling which arrays the file has, unless these are among them. file: for messages.
+void require_arrays(const std::string& file, const Particles& particles, std::span<const std::string> names);
 
 /// The readers behind it. name: the file, for messages.
 Particles read_vtk(const std::string& name, std::string_view bytes);

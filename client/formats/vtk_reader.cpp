@@ -1,15 +1,18 @@
-// Legacy VTK (vtk.org, "VTK File Formats", the simple legacy formats), versions up to 5.1: the points and the `level`
-// array of a point set. Everything else in the file is walked over with its size checked, so that a truncated file
-// never passes.
+// Legacy VTK (vtk.org, "VTK File Formats", the simple legacy formats), versions up to 5.1: points, their arrays, and
+// the faces of a mesh. Everything else in the file is walked over with its size checked, so that a truncated file never
+// passes.
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "formats/byte_cursor.hpp"
+#include "formats/face_index.hpp"
 #include "formats/particles.hpp"
 #include "formats/scalar.hpp"
+#include "formats/vtk_dataset.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -49,16 +52,14 @@ std::optional<ScalarType> type_by_name(std::string_view name) {
 
 class VtkReader {
 public:
-    VtkReader(const std::string& name, std::string_view bytes) : in_(name, bytes) {}
+    VtkReader(const std::string& name, std::string_view bytes, VtkUse use) : in_(name, bytes), use_(use) {}
 
-    Particles read() {
+    VtkDataset read() {
         header();
         while (in_.skip_space()) section(upper(in_.word()));
         if (!has_points_) in_.fail("a VTK file without POINTS");
-        if (!particles_.levels.empty() && particles_.levels.size() != particles_.count())
-            in_.fail("POINT_DATA holds " + std::to_string(particles_.levels.size()) + " levels for " +
-                     std::to_string(particles_.count()) + " points");
-        return std::move(particles_);
+        if (!cell_ends_.empty()) in_.fail("CELLS without CELL_TYPES");
+        return std::move(out_);
     }
 
 private:
@@ -84,18 +85,24 @@ private:
                 in_.fail("DATASET " + quote(kind) + " holds no particles; UNSTRUCTURED_GRID and POLYDATA are read");
         } else if (keyword == "POINTS") {
             points();
-        } else if (keyword == "CELLS" || keyword == "VERTICES" || keyword == "LINES" || keyword == "POLYGONS" ||
-                   keyword == "TRIANGLE_STRIPS") {
+        } else if (keyword == "CELLS") {
+            cells();
+        } else if (keyword == "VERTICES" || keyword == "LINES") {
+            cells_ += cells();
+            cell_ends_.clear();
+        } else if (keyword == "POLYGONS" || keyword == "TRIANGLE_STRIPS") {
             const std::size_t count = cells();
-            if (keyword == "POLYGONS" || keyword == "TRIANGLE_STRIPS") particles_.faces += count;
+            out_.faces += count;
+            append_faces([kind = keyword == "POLYGONS" ? VtkCell::polygon : VtkCell::strip] { return kind; });
+            cells_ += count;
         } else if (keyword == "CELL_TYPES") {
             cell_types();
         } else if (keyword == "POINT_DATA") {
             attribute_count_ = in_.count("number of points");
             point_data_ = true;
-            if (attribute_count_ != particles_.count())
+            if (attribute_count_ != out_.points.size())
                 in_.fail("POINT_DATA for " + std::to_string(attribute_count_) + " points, but the file has " +
-                         std::to_string(particles_.count()));
+                         std::to_string(out_.points.size()));
         } else if (keyword == "CELL_DATA") {
             attribute_count_ = in_.count("number of cells");
             point_data_ = false;
@@ -117,40 +124,105 @@ private:
         if (has_points_) in_.fail("POINTS occurs twice");
         has_points_ = true;
         const std::size_t count = in_.count("number of points");
+        expect_addressable(count, in_);
         const ScalarType type = data_type();
-        const std::size_t values = product(count, 3);
-        begin_data(values, type, "coordinates");
-        particles_.positions.resize(values);
-        for (std::size_t i = 0; i < values; ++i) particles_.positions[i] = to_coordinate(value(type), i / 3, in_);
+        begin_data(product(count, 3), type, "coordinates");
+        out_.wide = type == ScalarType::float64;
+        out_.points.resize(count);
+        for (auto& point : out_.points)
+            for (double& x : point) x = value(type);
     }
 
-    /// Returns how many there are.
+    /// Returns how many there are; of a mesh they wait in corners_ and cell_ends_.
     std::size_t cells() {
         const std::size_t first = in_.count("number of cells");
         const std::size_t second = in_.count("size of the cell list");
         if (offsets_) in_.skip_space();
         if (!offsets_ || !upper(in_.rest().substr(0, 7)).starts_with("OFFSETS")) {
-            skip(second, ScalarType::int32);
+            listed_cells(first, second);
             return first;
         }
-        for (const auto& [name, size] : {std::pair{"OFFSETS", first}, std::pair{"CONNECTIVITY", second}}) {
-            const std::string word = upper(in_.word());
-            if (word != name) in_.fail("expected " + std::string(name) + ", found " + quote(word));
-            const ScalarType type = data_type();
-            skip(size, type);
+        expect_word("OFFSETS");
+        const ScalarType end_type = data_type();
+        begin_data(first, end_type, "offsets");
+        if (use_ == VtkUse::particles) {
+            walk_over(first, end_type);
+        } else {
+            for (std::size_t i = 0; i < first; ++i) {
+                const std::size_t end = to_end(value(end_type), second);
+                if (i == 0 && end != 0) in_.fail("the first cell begins at " + std::to_string(end) + ", not at 0");
+                if (i > 0) cell_ends_.push_back(end);
+            }
+        }
+        expect_word("CONNECTIVITY");
+        const ScalarType corner_type = data_type();
+        if (use_ == VtkUse::particles) {
+            skip(second, corner_type);
+        } else {
+            begin_data(second, corner_type, "corners of cells");
+            for (std::size_t i = 0; i < second; ++i)
+                corners_.push_back(to_index(value(corner_type), out_.points.size(), in_));
         }
         return first == 0 ? 0 : first - 1;  // an offset each, and the end
     }
 
-    /// Counts the faces: polygons and strips of triangles. Points and lines are none, and volumes have other uses.
+    /// Before version 5: of each cell the number of its corners, then these.
+    void listed_cells(std::size_t count, std::size_t numbers) {
+        constexpr ScalarType type = ScalarType::int32;
+        if (use_ == VtkUse::particles) return skip(numbers, type);
+        begin_data(numbers, type, "numbers of cells");
+        std::size_t left = numbers;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (left == 0) in_.fail("its list of cells ends before cell " + std::to_string(i));
+            const double corners = value(type);
+            --left;
+            if (!(corners >= 0.0 && corners <= static_cast<double>(left)))
+                in_.fail("cell " + std::to_string(i) + " of " + std::to_string(corners) + " corners, but " +
+                         std::to_string(left) + " numbers follow");
+            for (double c = 0.0; c < corners; c += 1.0) {
+                corners_.push_back(to_index(value(type), out_.points.size(), in_));
+                --left;
+            }
+            cell_ends_.push_back(corners_.size());
+        }
+        if (left > 0) in_.fail(std::to_string(left) + " numbers follow the last cell");
+    }
+
+    std::size_t to_end(double end, std::size_t corners) const {
+        const std::size_t least = cell_ends_.empty() ? 0 : cell_ends_.back();
+        if (!(end >= static_cast<double>(least) && end <= static_cast<double>(corners)))
+            in_.fail("a cell ends at corner " + std::to_string(end) + " of " + std::to_string(corners));
+        return static_cast<std::size_t>(end);
+    }
+
+    /// Of the cells that wait. kind: called once for each; none: it is no face.
+    template <class Kind>
+    void append_faces(const Kind& kind) {
+        std::vector<std::uint32_t> face;
+        std::size_t begin = 0;
+        for (std::size_t i = 0; i < cell_ends_.size(); ++i) {
+            const std::optional<VtkCell> type = kind();
+            face.assign(corners_.begin() + static_cast<std::ptrdiff_t>(begin),
+                        corners_.begin() + static_cast<std::ptrdiff_t>(cell_ends_[i]));
+            begin = cell_ends_[i];
+            if (type) append_face(out_, *type, face, cells_ + i);
+        }
+        cell_ends_.clear();
+        corners_.clear();
+    }
+
     void cell_types() {
-        constexpr double triangle = 5, quadrilateral = 9;
         const std::size_t count = in_.count("number of cell types");
         begin_data(count, ScalarType::int32, "values");
-        for (std::size_t i = 0; i < count; ++i) {
-            const double cell = value(ScalarType::int32);
-            if (cell >= triangle && cell <= quadrilateral) ++particles_.faces;
-        }
+        if (use_ == VtkUse::mesh && count != cell_ends_.size())
+            in_.fail(std::to_string(count) + " types for " + std::to_string(cell_ends_.size()) + " cells");
+        const auto next = [&] {
+            const auto kind = face_of(value(ScalarType::int32));
+            if (kind) ++out_.faces;
+            return kind;
+        };
+        if (use_ == VtkUse::mesh) return append_faces(next);
+        for (std::size_t i = 0; i < count; ++i) next();
     }
 
     void attribute(const std::string& keyword) {
@@ -161,11 +233,7 @@ private:
             return skip(product(in_.count("size of the lookup table"), 4),
                         binary_ ? ScalarType::uint8 : ScalarType::float32);
         }
-        if (keyword == "COLOR_SCALARS") {
-            in_.word();
-            const std::size_t components = in_.count("number of color components");
-            return skip(product(attribute_count_, components), binary_ ? ScalarType::uint8 : ScalarType::float32);
-        }
+        if (keyword == "COLOR_SCALARS") return color_scalars();
         std::size_t components = 0;
         if (keyword == "VECTORS" || keyword == "NORMALS") components = 3;
         if (keyword == "TENSORS") components = 9;
@@ -174,10 +242,17 @@ private:
         if (components == 0 && keyword != "TEXTURE_COORDINATES")
             in_.fail(quote(keyword) + " at byte " + std::to_string(in_.position() - keyword.size()) +
                      " is no keyword of a VTK file");
-        in_.word();  // name
+        const std::string_view name = in_.word();
         if (components == 0) components = in_.count("number of texture coordinates");
         const ScalarType type = data_type();
-        skip(product(attribute_count_, components), type);
+        data_array(name, components, attribute_count_, type);
+    }
+
+    /// Bytes in a binary file, numbers from 0 to 1 in an ASCII file.
+    void color_scalars() {
+        const std::string_view name = in_.word();
+        const std::size_t components = in_.count("number of color components");
+        data_array(name, components, attribute_count_, ScalarType::uint8, binary_ ? 1.0 : 255.0);
     }
 
     void scalars() {
@@ -210,12 +285,26 @@ private:
         }
     }
 
-    void data_array(std::string_view name, std::size_t components, std::size_t tuples, ScalarType type) {
-        if (!point_data_ || name != "level" || components != 1 || !is_integer(type))
-            return skip(product(components, tuples), type);
-        begin_data(tuples, type, "levels");
-        particles_.levels.resize(tuples);
-        for (std::size_t i = 0; i < tuples; ++i) particles_.levels[i] = to_level(value(type), i, in_);
+    /// scale: 255 for bytes that are written as numbers from 0 to 1.
+    void data_array(std::string_view name, std::size_t components, std::size_t tuples, ScalarType type,
+                    double scale = 1.0) {
+        const std::size_t values = product(components, tuples);
+        if (point_data_ && tuples != out_.points.size())
+            in_.fail("point data " + quote(name) + " has " + std::to_string(tuples) + " values for " +
+                     std::to_string(out_.points.size()) + " points");
+        begin_data(values, type, "values");
+        if (point_data_ && components > 0) {
+            VtkPointArray array(out_, use_, name, type, components, in_);
+            if (array.wanted())
+                for (std::size_t i = 0; i < values; ++i)
+                    array.add(scale == 1.0 ? value(type) : std::round(scale * value(type)));
+            else
+                walk_over(values, type);
+            return array.finish();
+        }
+        if (point_data_ || !is_cell_levels(use_, name, type, components)) return walk_over(values, type);
+        out_.cell_levels.resize(values);
+        for (std::uint8_t& level : out_.cell_levels) level = to_cell_level(value(type));
     }
 
     ScalarType data_type() {
@@ -242,11 +331,21 @@ private:
 
     void skip(std::size_t values, ScalarType type) {
         begin_data(values, type, "values");
+        walk_over(values, type);
+    }
+
+    /// Behind begin_data().
+    void walk_over(std::size_t values, ScalarType type) {
         if (binary_) {
             in_.take(values * size_of(type));
         } else {
             for (std::size_t i = 0; i < values; ++i) in_.number("value");
         }
+    }
+
+    void expect_word(std::string_view expected) {
+        const std::string word = upper(in_.word());
+        if (word != expected) in_.fail("expected " + std::string(expected) + ", found " + quote(word));
     }
 
     std::size_t product(std::size_t a, std::size_t b) const {
@@ -259,7 +358,11 @@ private:
     static bool blank(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos; }
 
     ByteCursor in_;
-    Particles particles_;
+    VtkUse use_;
+    VtkDataset out_;
+    std::vector<std::uint32_t> corners_;  ///< of a mesh's cells whose types are not known yet
+    std::vector<std::size_t> cell_ends_;  ///< behind the corners of each
+    std::size_t cells_ = 0;               ///< of a POLYDATA, so far
     bool binary_ = false;
     bool offsets_ = false;  ///< version 5 writes cells as offsets and connectivity
     bool has_points_ = false;
@@ -269,8 +372,12 @@ private:
 
 }  // namespace
 
+VtkDataset read_legacy_vtk(const std::string& name, std::string_view bytes, VtkUse use) {
+    return VtkReader(name, bytes, use).read();
+}
+
 Particles read_vtk(const std::string& name, std::string_view bytes) {
-    return VtkReader(name, bytes).read();
+    return to_particles(read_legacy_vtk(name, bytes, VtkUse::particles), ByteCursor(name, bytes));
 }
 
 }  // namespace meniscus::formats

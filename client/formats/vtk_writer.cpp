@@ -2,8 +2,10 @@
 
 #include <bit>
 #include <string>
+#include <vector>
 
 #include "formats/atomic_file.hpp"
+#include "formats/legacy_vtk_arrays.hpp"
 #include "formats/scalar.hpp"
 
 namespace meniscus::formats {
@@ -22,11 +24,10 @@ void write_vtk(const std::filesystem::path& path, const ParticleFrame& frame) {
     out += "\nCELL_TYPES " + n + "\n";
     for (std::size_t i = 0; i < count; ++i) store(out, std::int32_t{1}, std::endian::big);
     out += "\nPOINT_DATA " + n + "\n";
-    if (!frame.levels.empty()) {
-        out += "FIELD FieldData 1\nlevel 1 " + n + " unsigned_char\n";
-        for (const std::uint8_t level : frame.levels) out += static_cast<char>(level);
-        out += '\n';
-    }
+    std::vector<ParticleArray> arrays;
+    if (!frame.levels.empty()) arrays.push_back({"level", std::as_bytes(frame.levels), ElementType::uint8, 1});
+    arrays.insert(arrays.end(), frame.arrays.begin(), frame.arrays.end());
+    out += vtk_field(arrays, count);
     write_file(path, out);
 }
 

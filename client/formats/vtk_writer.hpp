@@ -9,8 +9,8 @@
 
 namespace meniscus::formats {
 
-/// Writes float positions and, if the frame has levels, an integer array `level`: version 4.1, binary, atomically.
-/// Throws InvalidInput if the path cannot be written.
+/// Writes float positions, an integer array `level` if the frame has levels, and its arrays: version 4.1, binary,
+/// atomically. Throws InvalidInput if the path cannot be written.
 void write_vtk(const std::filesystem::path& path, const ParticleFrame& frame);
 
 }  // namespace meniscus::formats

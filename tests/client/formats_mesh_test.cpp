@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <set>
 #include <span>
 
@@ -8,6 +10,7 @@
 #include "formats/byte_cursor.hpp"
 #include "formats/mesh_file.hpp"
 #include "meniscus/canonical_order.hpp"
+#include "formats/pvd_writer.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {
@@ -35,12 +38,9 @@ TEST(MeshWriters, AreReadBackWithNormalsAndLevels) {
 
 TEST(MeshWriters, WriteAnEmptyMesh) {
     const TemporaryDirectory directory;
-    for (const char* name : {"m.ply", "m.obj"}) {
+    for (const char* name : {"m.ply", "m.obj", "m.vtk", "m.vtp", "m.npz"}) {
         const auto path = directory / name;
-        if (path.extension() == ".ply")
-            formats::write_ply(path, Mesh{});
-        else
-            formats::write_obj(path, Mesh{});
+        formats::write_mesh(path, formats::to_triangles(Mesh{}), formats::mesh_format_of(path));
         EXPECT_TRUE(formats::read_mesh(path).triangles.empty());
     }
 }
@@ -61,6 +61,162 @@ TEST(MeshWriters, KeepNeighboringLatticePointsApartFarFromTheOrigin) {
             EXPECT_EQ(distinct.size(), 19U) << name << " at " << origin;
         }
     }
+}
+
+/// The tetrahedron with an attribute of every form.
+formats::TriangleMesh with_attributes() {
+    formats::TriangleMesh mesh = formats::to_triangles(tetrahedron());
+    const auto add = [&](const std::string& name, ElementType type, std::size_t components) {
+        formats::NamedValues values{name, type, components, {}};
+        values.data.resize(4 * values.element_bytes());
+        for (std::size_t i = 0; i < values.data.size(); ++i) values.data[i] = static_cast<std::byte>(i * 7 % 60);
+        mesh.attributes.push_back(values);
+    };
+    add("age", ElementType::float32, 1);
+    add("velocity", ElementType::float32, 3);
+    add("spin", ElementType::float32, 4);
+    add("phase", ElementType::uint8, 1);
+    add("color", ElementType::uint8, 3);
+    add("paint", ElementType::uint8, 4);
+    add("shift", ElementType::int32, 1);
+    add("id", ElementType::uint32, 1);
+    return mesh;
+}
+
+void expect_equal(const formats::TriangleMesh& a, const formats::TriangleMesh& b) {
+    EXPECT_EQ(a.positions, b.positions);
+    EXPECT_EQ(a.normals, b.normals);
+    EXPECT_EQ(a.triangles, b.triangles);
+    EXPECT_EQ(a.levels, b.levels);
+    EXPECT_EQ(a.wide, b.wide);
+    ASSERT_EQ(a.attributes.size(), b.attributes.size());
+    for (std::size_t i = 0; i < a.attributes.size(); ++i) {
+        EXPECT_EQ(a.attributes[i].name, b.attributes[i].name);
+        EXPECT_EQ(a.attributes[i].type, b.attributes[i].type);
+        EXPECT_EQ(a.attributes[i].components, b.attributes[i].components);
+        EXPECT_EQ(a.attributes[i].data, b.attributes[i].data) << a.attributes[i].name;
+    }
+}
+
+constexpr std::array formats_with_attributes{formats::MeshFormat::ply, formats::MeshFormat::vtk,
+                                             formats::MeshFormat::vtp, formats::MeshFormat::npz};
+
+TEST(MeshWriters, AttributesAreReadBack) {
+    const TemporaryDirectory directory;
+    const formats::TriangleMesh mesh = with_attributes();
+    for (const formats::MeshFormat format : formats_with_attributes) {
+        SCOPED_TRACE(name_of(format));
+        const auto path = directory / ("m." + std::string(name_of(format)));
+        formats::write_mesh(path, mesh, format);
+        expect_equal(formats::read_mesh(path), mesh);
+    }
+    formats::write_mesh_vtp(directory / "z.vtp", mesh, formats::VtpCompression::zlib);
+    expect_equal(formats::read_mesh(directory / "z.vtp"), mesh);
+}
+
+TEST(MeshWriters, Float64PositionsAreReadBack) {
+    const TemporaryDirectory directory;
+    formats::TriangleMesh mesh = formats::to_triangles(tetrahedron(1 << 24));
+    ASSERT_TRUE(mesh.wide);
+    mesh.positions[0][0] = 1.0 / 3.0;
+    for (const formats::MeshFormat format :
+         {formats::MeshFormat::ply, formats::MeshFormat::obj, formats::MeshFormat::vtk, formats::MeshFormat::vtp,
+          formats::MeshFormat::npz}) {
+        SCOPED_TRACE(name_of(format));
+        const auto path = directory / ("m." + std::string(name_of(format)));
+        formats::write_mesh(path, mesh, format);
+        expect_equal(formats::read_mesh(path), mesh);
+    }
+}
+
+TEST(MeshWriters, OfAMeshAndOfItsTrianglesWriteTheSameBytes) {
+    const TemporaryDirectory directory;
+    Mesh mesh = tetrahedron();
+    MeshAttribute age;
+    age.name = "age";
+    age.data.resize(4 * sizeof(float));
+    mesh.attributes.push_back(age);
+    formats::write_ply(directory / "a.ply", mesh);
+    formats::write_ply(directory / "b.ply", formats::to_triangles(mesh));
+    EXPECT_EQ(formats::read_file(directory / "a.ply"), formats::read_file(directory / "b.ply"));
+    EXPECT_EQ(formats::read_mesh(directory / "a.ply").attributes.size(), 1U);
+    formats::write_obj(directory / "a.obj", mesh);
+    formats::write_obj(directory / "b.obj", formats::to_triangles(mesh));
+    EXPECT_EQ(formats::read_file(directory / "a.obj"), formats::read_file(directory / "b.obj"));
+}
+
+TEST(MeshWriters, AttributesKeepOutOfTheWayOfNamesThatMeanSomethingElse) {
+    const TemporaryDirectory directory;
+    for (const auto& [name, format] : {std::pair{"x", formats::MeshFormat::ply},
+                                       {"positions", formats::MeshFormat::npz},
+                                       {"levels", formats::MeshFormat::npz}}) {
+        formats::TriangleMesh mesh = formats::to_triangles(tetrahedron());
+        mesh.attributes.push_back({name, ElementType::uint8, 1, std::vector<std::byte>(4, std::byte{9})});
+        const auto path = directory / ("m." + std::string(name_of(format)));
+        formats::write_mesh(path, mesh, format);
+        const formats::TriangleMesh back = formats::read_mesh(path);
+        EXPECT_EQ(back.positions, mesh.positions);
+        EXPECT_EQ(back.levels, mesh.levels);
+        ASSERT_EQ(back.attributes.size(), 1U);
+        EXPECT_EQ(back.attributes[0].name, std::string(name) + "_");
+    }
+}
+
+TEST(MeshWriters, TrianglesAreNoBricks) {
+    EXPECT_NE(refusal([] { formats::write_mesh("m.bricks", {}, formats::MeshFormat::bricks); }).find("m.bricks"),
+              std::string::npos);
+}
+
+TEST(MeshReaders, FormatsThatAreOnlyWrittenAreRefused) {
+    const TemporaryDirectory directory;
+    for (const char* name : {"m.glb", "m.usda"}) {
+        std::ofstream(directory / name) << "x";
+        EXPECT_NE(refusal([&] { formats::read_mesh(directory / name); }).find("is written, and not read"),
+                  std::string::npos);
+    }
+}
+
+TEST(VtkMeshReader, FacesOfEveryKindBecomeTriangles) {
+    const std::string points = "POINTS 4 float\n0 0 0 1 0 0 0 1 0 1 1 0\n";
+    const std::string head = "# vtk DataFile Version 4.1\nt\nASCII\nDATASET ";
+    const auto of = [](const std::string& text) { return formats::read_mesh_vtk("f", text).triangles; };
+    const std::vector<Triangle> both{{0, 1, 3}, {0, 3, 2}};
+    EXPECT_EQ(of(head + "POLYDATA\n" + points + "POLYGONS 1 5\n4 0 1 3 2\n"), both);
+    EXPECT_EQ(of(head + "POLYDATA\n" + points + "TRIANGLE_STRIPS 1 5\n4 0 1 2 3\n"),
+              (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}}));
+    // A vertex, a line, a pixel and a quadrilateral.
+    EXPECT_EQ(of(head + "UNSTRUCTURED_GRID\n" + points +
+                 "CELLS 4 15\n1 0\n2 0 1\n4 0 1 2 3\n4 0 1 3 2\nCELL_TYPES 4\n1 3 8 9\n"),
+              (std::vector<Triangle>{{0, 1, 3}, {0, 3, 2}, {0, 1, 3}, {0, 3, 2}}));
+    std::string newer = head + "POLYDATA\n" + points;
+    newer.replace(newer.find("4.1"), 3, "5.1");
+    EXPECT_EQ(of(newer + "POLYGONS 3 6\nOFFSETS vtktypeint64\n0 3 6\nCONNECTIVITY vtktypeint64\n0 1 3 0 3 2\n"), both);
+}
+
+TEST(VtkMeshReader, LevelsOfCellsAreThoseOfTheirTriangles) {
+    const auto mesh = formats::read_mesh_vtk(
+        "f",
+        "# vtk DataFile Version 4.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\n"
+        "VERTICES 1 2\n1 0\nPOLYGONS 2 9\n4 0 1 2 3\n3 0 1 2\nCELL_DATA 3\nSCALARS level int\n9 2 1\n");
+    EXPECT_EQ(mesh.levels, (std::vector<std::uint8_t>{2, 2, 1}));
+}
+
+TEST(VtkMeshReader, CornersBeyondThePointsAreRefused) {
+    const std::string head =
+        "# vtk DataFile Version 4.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 1 float\n0 0 0\nPOLYGONS 1 4\n";
+    EXPECT_EQ(refusal([&] { formats::read_mesh_vtk("f", head + "3 0 0 1\n"); }), "f: a face uses vertex 1 of 1");
+    EXPECT_NE(refusal([&] { formats::read_mesh_vtk("f", head + "9 0 0 0\n"); }).find("9.0"), std::string::npos);
+    EXPECT_NE(refusal([&] { formats::read_mesh_vtk("f", head + "2 0 0 0\n"); }).find("follow the last cell"),
+              std::string::npos);
+}
+
+TEST(Pvd, NamesFilesRelativeToItsFolderWithTheirTimes) {
+    const TemporaryDirectory directory;
+    formats::write_pvd(directory / "s.pvd",
+                       std::vector<formats::PvdEntry>{{0.0, directory / "a.vtp"}, {0.1, directory / "b & c/d.vtp"}});
+    const std::string text = formats::read_file(directory / "s.pvd");
+    EXPECT_NE(text.find("<DataSet timestep=\"0\" group=\"\" part=\"0\" file=\"a.vtp\" />"), std::string::npos) << text;
+    EXPECT_NE(text.find("timestep=\"0.1\" group=\"\" part=\"0\" file=\"b &amp; c/d.vtp\""), std::string::npos) << text;
 }
 
 TEST(MeshWriters, UseFloat32WhereItSuffices) {

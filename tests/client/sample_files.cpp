@@ -10,6 +10,7 @@
 #include "formats/brick_file.hpp"
 #include "formats/byte_cursor.hpp"
 #include "formats/mesh_file.hpp"
+#include "formats/particle_writer.hpp"
 #include "formats/particles.hpp"
 #include "formats/scalar.hpp"
 #include "meniscus/error.hpp"
@@ -84,6 +85,69 @@ std::string refusal(const std::function<void()>& call) {
     return {};
 }
 
+namespace {
+
+/// Enough for the samples, and soon used up by what they claim once they are damaged.
+constexpr formats::ReadLimits small_limits{.most_bytes = std::uint64_t{1} << 20};
+
+/// VTK's XML as text, with two pieces.
+std::string vtu_ascii() {
+    const std::string piece =
+        "<Piece NumberOfPoints=\"2\" NumberOfCells=\"2\"><Points><DataArray type=\"Float64\" Name=\"Points\" "
+        "NumberOfComponents=\"3\" format=\"ascii\">1 2 3 4 5 6</DataArray></Points><Cells><DataArray type=\"Int64\" "
+        "Name=\"connectivity\">0 1</DataArray><DataArray type=\"Int64\" Name=\"offsets\">1 2</DataArray><DataArray "
+        "type=\"UInt8\" Name=\"types\">1 1</DataArray></Cells><PointData><DataArray type=\"Int32\" Name=\"level\">0 "
+        "3</DataArray><DataArray type=\"UInt32\" Name=\"id\">7 8</DataArray></PointData></Piece>";
+    return "<?xml version=\"1.0\"?><VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">"
+           "<UnstructuredGrid>" +
+           piece + piece + "</UnstructuredGrid></VTKFile>";
+}
+
+/// One array inline, in base64, compressed by zlib.
+std::string vtp_inline() {
+    return "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\" header_type=\"UInt32\" "
+           "compressor=\"vtkZLibDataCompressor\"><PolyData><Piece NumberOfPoints=\"2\"><Points><DataArray "
+           "type=\"Float32\" NumberOfComponents=\"3\" format=\"binary\">"
+           "AQAAABgAAAAAAAAAGgAAAA==eJxjYGiwZ2BgcAAiIG4A4gVAfMABAClDBCA="
+           "</DataArray></Points></Piece></PolyData></VTKFile>";
+}
+
+/// The formats that are read as they are written: particles and meshes with arrays.
+void add_written_files(std::vector<Sample>& out, const TemporaryDirectory& directory) {
+    const auto bytes_of = [&](const std::string& name) { return formats::read_file(directory / name); };
+    const auto limited = [](auto reader) {
+        return [reader](const std::string& bytes) { (void)reader("sample", bytes, small_limits); };
+    };
+    formats::Particles particles;
+    particles.positions = {1, 2, 3, 4, 5, 6};
+    particles.levels = {0, 3};
+    particles.arrays = {{"velocity", ElementType::float32, 3, std::vector<std::byte>(24)},
+                        {"id", ElementType::uint32, 1, std::vector<std::byte>(8)}};
+    for (const formats::ParticleFormat format : formats::written_particle_formats)
+        formats::write_particles(directory / ("p." + std::string(name_of(format))), particles, format);
+    formats::TriangleMesh mesh = formats::to_triangles(tetrahedron());
+    mesh.attributes = {{"velocity", ElementType::float32, 3, std::vector<std::byte>(48)}};
+    for (const char* name : {"m.ply", "m.vtk", "m.vtp", "m.npz"})
+        formats::write_mesh(directory / name, mesh, formats::mesh_format_of(name));
+    formats::write_mesh_vtp(directory / "z.vtp", mesh, formats::VtpCompression::zlib);
+
+    out.push_back({"xml ascii", vtu_ascii(), limited(formats::read_vtk_xml)});
+    out.push_back({"xml inline", vtp_inline(), limited(formats::read_vtk_xml)});
+    out.push_back({"xml raw", bytes_of("p.vtp"), limited(formats::read_vtk_xml)});
+    out.push_back({"npz particles", bytes_of("p.npz"), limited(formats::read_npz)});
+    const std::string npz = bytes_of("p.npz");
+    const std::size_t array = npz.find("\x93NUMPY");
+    const auto read_npy = [](const std::string& bytes) { (void)formats::read_npy("sample", bytes); };
+    out.push_back({"npy", npz.substr(array, npz.find("PK\3\4", array) - array), read_npy});
+    const auto read_vtk = [](const std::string& bytes) { (void)formats::read_mesh_vtk("sample", bytes); };
+    out.push_back({"mesh vtk", bytes_of("m.vtk"), read_vtk});
+    out.push_back({"mesh vtp raw", bytes_of("m.vtp"), limited(formats::read_mesh_vtp)});
+    out.push_back({"mesh vtp zlib", bytes_of("z.vtp"), limited(formats::read_mesh_vtp)});
+    out.push_back({"mesh npz", bytes_of("m.npz"), limited(formats::read_mesh_npz)});
+}
+
+}  // namespace
+
 std::vector<Sample> samples() {
     std::vector<Sample> out;
     const auto particles = [](auto reader) {
@@ -115,6 +179,7 @@ std::vector<Sample> samples() {
     formats::write_obj(directory / "mesh.obj", tetrahedron());
     out.push_back({"mesh ply", formats::read_file(directory / "mesh.ply"), particles(formats::read_mesh_ply)});
     out.push_back({"mesh obj", formats::read_file(directory / "mesh.obj"), particles(formats::read_obj)});
+    add_written_files(out, directory);
     client::ReceivedFrame frame = formats::encode_frame(tetrahedron(), {}, 4, 0.5);
     frame.bricks = {std::make_shared<const EncodedBrick>(
         EncodedBrick{{1, -2, 3}, 4, 4, {std::byte{1}}, std::vector<std::byte>(30, std::byte{9})})};

@@ -18,23 +18,45 @@ Seeds files_of(const std::string& format) {
     return seeds;
 }
 
-void read_particles(formats::Particles (*read)(const std::string&, Bytes), Bytes bytes) {
+void require_values(const std::vector<formats::NamedValues>& arrays, std::size_t count) {
+    require(arrays.size() <= max_particle_arrays, "no more arrays than a frame has");
+    for (const formats::NamedValues& array : arrays) {
+        require(can_be_attribute(array.type, array.components), "forms of attributes");
+        require(array.data.size() == count * array.element_bytes(), "a value for each");
+    }
+}
+
+/// read: a reader of (name, bytes).
+template <class Read>
+void read_particles(const Read& read, Bytes bytes) {
     may_refuse([&] {
         const formats::Particles particles = read(name, bytes);
         require(particles.positions.size() % 3 == 0, "three coordinates per particle");
         require(particles.levels.empty() || particles.levels.size() == particles.positions.size() / 3,
                 "a level per particle or none");
+        require_values(particles.arrays, particles.count());
     });
 }
 
-void read_mesh(formats::TriangleMesh (*read)(const std::string&, Bytes), Bytes bytes) {
+template <class Read>
+void read_mesh(const Read& read, Bytes bytes) {
     may_refuse([&] {
         const formats::TriangleMesh mesh = read(name, bytes);
         require(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size(), "a normal per vertex or none");
         for (const Triangle& triangle : mesh.triangles)
             for (const std::uint32_t vertex : triangle)
                 require(vertex < mesh.positions.size(), "faces name vertices that are there");
+        require(mesh.levels.empty() || mesh.levels.size() == mesh.triangles.size(), "a level per triangle or none");
+        require_values(mesh.attributes, mesh.positions.size());
     });
+}
+
+/// A reader with limits as one without: 64 MiB, a thousand times the longest input.
+template <class Read>
+auto limited(const Read& read) {
+    return [&read](const std::string& file, Bytes bytes) {
+        return read(file, bytes, formats::ReadLimits{.most_bytes = std::uint64_t{64} << 20});
+    };
 }
 
 }  // namespace
@@ -72,6 +94,48 @@ void mesh_obj(Bytes bytes) {
 }
 Seeds mesh_obj_seeds() {
     return files_of("mesh obj");
+}
+
+void vtk_xml(Bytes bytes) {
+    read_particles(limited(formats::read_vtk_xml), bytes);
+}
+Seeds vtk_xml_seeds() {
+    return files_of("xml");
+}
+
+void npy(Bytes bytes) {
+    read_particles(formats::read_npy, bytes);
+}
+Seeds npy_seeds() {
+    return files_of("npy");
+}
+
+void npz(Bytes bytes) {
+    read_particles(limited(formats::read_npz), bytes);
+}
+Seeds npz_seeds() {
+    return files_of("npz");
+}
+
+void mesh_vtk(Bytes bytes) {
+    read_mesh(formats::read_mesh_vtk, bytes);
+}
+Seeds mesh_vtk_seeds() {
+    return files_of("mesh vtk");
+}
+
+void mesh_vtp(Bytes bytes) {
+    read_mesh(limited(formats::read_mesh_vtp), bytes);
+}
+Seeds mesh_vtp_seeds() {
+    return files_of("mesh vtp");
+}
+
+void mesh_npz(Bytes bytes) {
+    read_mesh(limited(formats::read_mesh_npz), bytes);
+}
+Seeds mesh_npz_seeds() {
+    return files_of("mesh npz");
 }
 
 void brick_file(Bytes bytes) {

@@ -4,6 +4,7 @@
 #include <ostream>
 #include <random>
 
+#include "mutation.hpp"
 #include "targets.hpp"
 
 namespace meniscus::fuzz {
@@ -23,13 +24,7 @@ TEST_P(FuzzTarget, TakesItsSeedsAndDamageToThem) {
     ASSERT_FALSE(seeds.empty());
     for (const std::string& seed : seeds) {
         GetParam().run(seed);
-        for (int round = 0; round < 300; ++round) {
-            std::string bytes = seed;
-            if (round % 4 == 0) bytes.resize(random() % bytes.size());
-            for (std::uint32_t flips = random() % 4; flips > 0 && !bytes.empty(); --flips)
-                bytes[random() % bytes.size()] = static_cast<char>(random() % 256);
-            GetParam().run(bytes);
-        }
+        for (int round = 0; round < 300; ++round) GetParam().run(mutated(seed, random));
     }
 }
 

@@ -20,6 +20,12 @@ const std::vector<Target>& targets() {
         {"xyz", xyz, xyz_seeds},
         {"mesh_ply", mesh_ply, mesh_ply_seeds},
         {"mesh_obj", mesh_obj, mesh_obj_seeds},
+        {"vtk_xml", vtk_xml, vtk_xml_seeds},
+        {"npy", npy, npy_seeds},
+        {"npz", npz, npz_seeds},
+        {"mesh_vtk", mesh_vtk, mesh_vtk_seeds},
+        {"mesh_vtp", mesh_vtp, mesh_vtp_seeds},
+        {"mesh_npz", mesh_npz, mesh_npz_seeds},
         {"brick_file", brick_file, brick_file_seeds},
         {"recording", recording, recording_seeds},
     };

@@ -1,0 +1,32 @@
+// Base64 text as bytes, read piece by piece.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "formats/byte_cursor.hpp"
+
+namespace meniscus::formats {
+
+/// White space is passed over. Padding ends a stream, and another may begin behind it, as VTK writes a header and its
+/// data.
+class Base64Reader {
+public:
+    explicit Base64Reader(std::string_view text) : text_(text) {}
+
+    /// The next `size` bytes. Throws by `at`, naming `what`, if fewer are there or a character is none of base64's.
+    /// Memory grows with what is found.
+    std::string take(std::size_t size, const ByteCursor& at, std::string_view what);
+    /// At most so many bytes can still follow.
+    std::size_t most() const { return ready_.size() + text_.size() / 4 * 3 + 3; }
+
+private:
+    /// Decodes the next four characters to ready_.
+    void decode(const ByteCursor& at, std::string_view what);
+
+    std::string_view text_;
+    std::string ready_;  ///< decoded and not taken, at most 3 bytes
+};
+
+}  // namespace meniscus::formats

@@ -1,0 +1,47 @@
+#include <array>
+#include <bit>
+#include <limits>
+#include <string>
+
+#include "formats/atomic_file.hpp"
+#include "formats/file_numbers.hpp"
+#include "formats/legacy_vtk_arrays.hpp"
+#include "formats/mesh_file.hpp"
+#include "formats/standard_streams.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::formats {
+
+void write_mesh_vtk(const std::filesystem::path& path, const TriangleMesh& mesh) {
+    constexpr std::size_t most = std::size_t{std::numeric_limits<std::int32_t>::max()} / 4;
+    if (mesh.triangles.size() > most || mesh.positions.size() > most)
+        throw InvalidInput(output_name(path) + ": legacy VTK holds at most " + std::to_string(most) +
+                           " triangles and vertices: write .vtp");
+    const std::string points = std::to_string(mesh.positions.size());
+    const std::string triangles = std::to_string(mesh.triangles.size());
+    AtomicFile file(path);
+    file.write("# vtk DataFile Version 4.1\nMeniscus surface\nBINARY\nDATASET POLYDATA\nPOINTS " + points +
+               (mesh.wide ? " double\n" : " float\n"));
+    file.write(coordinate_bytes(mesh.positions, mesh.wide, std::endian::big));
+    std::string out = "\nPOLYGONS " + triangles + " " + std::to_string(4 * mesh.triangles.size()) + "\n";
+    for (const Triangle& triangle : mesh.triangles) {
+        store(out, std::uint32_t{3}, std::endian::big);
+        for (const std::uint32_t corner : triangle) store(out, corner, std::endian::big);
+    }
+    if (!mesh.levels.empty()) {
+        out += "\nCELL_DATA " + triangles + "\nFIELD FieldData 1\nlevel 1 " + triangles + " unsigned_char\n";
+        out.append(mesh.levels.begin(), mesh.levels.end());
+    }
+    if (!mesh.normals.empty() || !mesh.attributes.empty()) out += "\nPOINT_DATA " + points + "\n";
+    if (!mesh.normals.empty()) {
+        out += "NORMALS normals float\n";
+        for (const Normal& normal : mesh.normals)
+            for (const float x : normal) store(out, x, std::endian::big);
+        out += '\n';
+    }
+    file.write(out);
+    file.write(vtk_field(views(mesh.attributes), mesh.positions.size()));
+    file.commit();
+}
+
+}  // namespace meniscus::formats

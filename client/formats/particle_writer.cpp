@@ -1,0 +1,98 @@
+#include "formats/particle_writer.hpp"
+
+#include <bit>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "formats/atomic_file.hpp"
+#include "formats/npz_writer.hpp"
+#include "formats/ply_properties.hpp"
+#include "formats/scalar.hpp"
+#include "formats/standard_streams.hpp"
+#include "formats/vtk_writer.hpp"
+#include "formats/vtp_writer.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/names.hpp"
+
+namespace meniscus::formats {
+namespace {
+
+/// The arrays, and the levels as one more before them.
+std::vector<ParticleArray> with_levels(const ParticleFrame& frame, std::string_view levels) {
+    std::vector<ParticleArray> out;
+    if (!frame.levels.empty()) out.push_back({levels, std::as_bytes(frame.levels), ElementType::uint8, 1});
+    out.insert(out.end(), frame.arrays.begin(), frame.arrays.end());
+    return out;
+}
+
+}  // namespace
+
+void write_particles(const std::filesystem::path& path, const Particles& particles, ParticleFormat format) {
+    const std::vector<ParticleArray> arrays = views(particles.arrays);
+    ParticleFrame frame = particles.frame();
+    frame.arrays = arrays;
+    write_particles(path, frame, format);
+}
+
+void write_particles(const std::filesystem::path& path, const ParticleFrame& frame, ParticleFormat format) {
+    if (format == ParticleFormat::ply) return write_particle_ply(path, frame);
+    if (format == ParticleFormat::vtk) return write_vtk(path, frame);
+    if (format == ParticleFormat::vtp) return write_particle_vtp(path, frame);
+    if (format == ParticleFormat::npz) return write_particle_npz(path, frame);
+    std::vector<std::string_view> written;
+    for (const ParticleFormat known : written_particle_formats) written.push_back(name_of(known));
+    throw InvalidInput(output_name(path) + ": particles are written as " + listed(written) + ", not as " +
+                       std::string(name_of(format)));
+}
+
+void write_particle_ply(const std::filesystem::path& path, const ParticleFrame& frame) {
+    const std::size_t count = frame.count();
+    std::string out = "ply\nformat binary_little_endian 1.0\ncomment Meniscus: particles\nelement vertex " +
+                      std::to_string(count) + "\n";
+    for (const char* axis : {"x", "y", "z"}) out += std::string("property float ") + axis + "\n";
+    if (!frame.levels.empty()) out += "property uchar level\n";
+    out += ply_properties(frame.arrays) + "end_header\n";
+    AtomicFile file(path);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) store(out, frame.positions[3 * i + axis]);
+        if (!frame.levels.empty()) out += static_cast<char>(frame.levels[i]);
+        for (const ParticleArray& array : frame.arrays) append_element(out, array, i);
+        file.write(out);
+        out.clear();
+    }
+    file.write(out);
+    file.commit();
+}
+
+void write_particle_vtp(const std::filesystem::path& path, const ParticleFrame& frame) {
+    const std::size_t count = frame.count();
+    VtpWriter out(VtpCompression::none);
+    out.begin("PointData");
+    for (const ParticleArray& array : with_levels(frame, "level")) out.add(array);
+    out.end("PointData");
+    out.begin("Points");
+    out.add("Points", "Float32", 3, bytes_of(frame.positions.data(), frame.positions.size()));
+    out.end("Points");
+    std::vector<std::int64_t> numbers(count);
+    out.begin("Verts");
+    std::iota(numbers.begin(), numbers.end(), 0);
+    out.add("connectivity", "Int64", 1, bytes_of(numbers.data(), count));
+    std::iota(numbers.begin(), numbers.end(), 1);
+    out.add("offsets", "Int64", 1, bytes_of(numbers.data(), count));
+    out.end("Verts");
+    out.write(path, count, count, 0);
+}
+
+void write_particle_npz(const std::filesystem::path& path, const ParticleFrame& frame) {
+    NpzWriter out(path);
+    out.add("positions", "<f4", {frame.count(), 3}, bytes_of(frame.positions.data(), frame.positions.size()));
+    if (!frame.levels.empty()) out.add({"levels", std::as_bytes(frame.levels), ElementType::uint8, 1});
+    for (const ParticleArray& array : frame.arrays) {
+        const std::string name = name_beside({"positions", "levels", "level", "x", "y", "z", "triangles"}, array.name);
+        out.add({name, array.data, array.type, array.components});
+    }
+    out.commit();
+}
+
+}  // namespace meniscus::formats
