@@ -116,7 +116,7 @@ void check_files(const CompareOptions& options) {
         throw InvalidInput("A and B are both '-': standard input holds one mesh");
     DistinctFiles distinct;
     for (const std::string& path : {options.a, options.b}) {
-        check_named(path, options.input_format.has_value(), "--input-format", names<MeshFormat>);
+        check_named(path, options.input_format.has_value(), "--input-format", formats::read_mesh_formats());
         distinct.add_input(path);
     }
     if (options.json.empty()) return;

@@ -29,7 +29,7 @@ void picture(PictureCommand command) {
         command.options.azimuth = command.view[0];
         command.options.elevation = command.view[1];
     }
-    check_named(command.mesh, command.input_format.has_value(), "--input-format", names<MeshFormat>);
+    check_named(command.mesh, command.input_format.has_value(), "--input-format", formats::read_mesh_formats());
     check_folder(command.out);
     DistinctFiles distinct;
     distinct.add_input(command.mesh);

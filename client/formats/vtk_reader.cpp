@@ -27,7 +27,7 @@ std::string upper(std::string_view text) {
 /// A VTK type by its name in upper case; none for `bit`, `string` and unknown ones. vtkIdType is written as int32.
 std::optional<ScalarType> type_by_name(std::string_view name) {
     using enum ScalarType;
-    static constexpr std::array<std::pair<std::string_view, ScalarType>, 16> types{{
+    static constexpr std::array<std::pair<std::string_view, ScalarType>, 22> types{{
         {"FLOAT", float32},
         {"DOUBLE", float64},
         {"INT", int32},
@@ -44,6 +44,12 @@ std::optional<ScalarType> type_by_name(std::string_view name) {
         {"VTKTYPEUINT64", uint64},
         {"VTKTYPEINT32", int32},
         {"VTKTYPEUINT32", uint32},
+        {"VTKTYPEINT8", int8},
+        {"VTKTYPEUINT8", uint8},
+        {"VTKTYPEINT16", int16},
+        {"VTKTYPEUINT16", uint16},
+        {"VTKTYPEFLOAT32", float32},
+        {"VTKTYPEFLOAT64", float64},
     }};
     for (const auto& [key, type] : types)
         if (key == name) return type;
@@ -124,9 +130,9 @@ private:
         if (has_points_) in_.fail("POINTS occurs twice");
         has_points_ = true;
         const std::size_t count = in_.count("number of points");
-        expect_addressable(count, in_);
         const ScalarType type = data_type();
         begin_data(product(count, 3), type, "coordinates");
+        expect_addressable(count, in_);
         out_.wide = type == ScalarType::float64;
         out_.points.resize(count);
         for (auto& point : out_.points)

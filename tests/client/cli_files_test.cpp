@@ -185,9 +185,9 @@ TEST_F(CliFiles, ANamedPipeIsRefusedInALineThatSaysHowToReadIt) {
 }
 
 TEST_F(CliFiles, FormatsAreNamedWhereThereIsNoExtensionAndOverrideOne) {
-    expect_refused({"reconstruct", "-", "-o", out_, "-r", "0.5"}, {"--input-format", "vtk, ply or xyz"});
-    expect_refused({"reconstruct", in_, "-o", "-", "-r", "0.5"}, {"--format", "ply, obj or bricks"});
-    expect_refused({"picture", "-", "-o", path("p.png")}, {"--input-format", "ply, obj or bricks"});
+    expect_refused({"reconstruct", "-", "-o", out_, "-r", "0.5"}, {"--input-format", "vtk, ply, xyz, vtu"});
+    expect_refused({"reconstruct", in_, "-o", "-", "-r", "0.5"}, {"--format", "ply, obj, bricks, vtk"});
+    expect_refused({"picture", "-", "-o", path("p.png")}, {"--input-format", "ply, obj, bricks, vtk"});
     expect_refused({"reconstruct", in_, "--format", "ply", "--stats", path("s.json"), "-r", "0.5"},
                    {"--format", "OUT"});
     const std::string in = write("particles.dat", formats::read_file(in_));

@@ -16,7 +16,7 @@ namespace {
 using formats::Particles;
 using formats::store;
 
-const std::vector<float> two_points{1, 2, 3, 4, 5, 6};
+const std::vector<float> numpy_points{1, 2, 3, 4, 5, 6};
 
 template <class T>
 std::string npy(const std::string& descr, const std::vector<T>& numbers, const std::vector<std::size_t>& shape,
@@ -52,10 +52,10 @@ std::string said_of_npz(const std::string& bytes) {
 }
 
 TEST(Npy, PositionsAreReadInBothOrdersAndWidths) {
-    EXPECT_EQ(formats::read_npy("f", npy<float>("<f4", {1, 2, 3, 4, 5, 6}, {2, 3})).positions, two_points);
-    EXPECT_EQ(formats::read_npy("f", npy<float>(">f4", {1, 2, 3, 4, 5, 6}, {2, 3})).positions, two_points);
-    EXPECT_EQ(formats::read_npy("f", npy<double>("<f8", {1, 2, 3, 4, 5, 6}, {2, 3})).positions, two_points);
-    EXPECT_EQ(formats::read_npy("f", npy<double>(">f8", {1, 4, 2, 5, 3, 6}, {2, 3}, true)).positions, two_points);
+    EXPECT_EQ(formats::read_npy("f", npy<float>("<f4", {1, 2, 3, 4, 5, 6}, {2, 3})).positions, numpy_points);
+    EXPECT_EQ(formats::read_npy("f", npy<float>(">f4", {1, 2, 3, 4, 5, 6}, {2, 3})).positions, numpy_points);
+    EXPECT_EQ(formats::read_npy("f", npy<double>("<f8", {1, 2, 3, 4, 5, 6}, {2, 3})).positions, numpy_points);
+    EXPECT_EQ(formats::read_npy("f", npy<double>(">f8", {1, 4, 2, 5, 3, 6}, {2, 3}, true)).positions, numpy_points);
     EXPECT_EQ(formats::read_npy("f", npy<float>("<f4", {}, {0, 3})).count(), 0U);
 }
 
@@ -80,13 +80,13 @@ TEST(Npz, PositionsComeWithWhatElseHasARowForEach) {
     const auto bytes = npz([](formats::NpzWriter& out) {
         out.add("time", "<f4", {}, bytes_of({0.5F}));
         out.add("Speed", "<f4", {2}, bytes_of({7, 8}));
-        out.add("positions", "<f4", {2, 3}, bytes_of(two_points));
-        out.add("box", "<f4", {3, 2}, bytes_of(two_points));
-        out.add("velocity", "<f4", {2, 3}, bytes_of(two_points));
+        out.add("positions", "<f4", {2, 3}, bytes_of(numpy_points));
+        out.add("box", "<f4", {3, 2}, bytes_of(numpy_points));
+        out.add("velocity", "<f4", {2, 3}, bytes_of(numpy_points));
         out.add("levels", "|u1", {2}, std::string("\3\1", 2));
     });
     const Particles particles = formats::read_npz("f", bytes, {});
-    EXPECT_EQ(particles.positions, two_points);
+    EXPECT_EQ(particles.positions, numpy_points);
     EXPECT_EQ(particles.levels, (std::vector<std::uint8_t>{3, 1}));
     ASSERT_EQ(particles.arrays.size(), 2U);
     EXPECT_EQ(particles.arrays[0].name, "speed");
@@ -102,7 +102,7 @@ TEST(Npz, CoordinatesInArraysOfTheirOwnAreReadAsPySphNamesThem) {
         out.add("rho", "<f4", {2}, bytes_of({1000, 1001}));
     });
     const Particles particles = formats::read_npz("f", bytes, {});
-    EXPECT_EQ(particles.positions, two_points);
+    EXPECT_EQ(particles.positions, numpy_points);
     ASSERT_EQ(particles.arrays.size(), 2U);
     EXPECT_EQ(particles.arrays[0].name, "velocity");
     std::array<float, 6> velocity{};
@@ -121,7 +121,9 @@ TEST(Npz, FilesWithoutPositionsAreRefusedWithTheReason) {
 }
 
 TEST(Npz, DamageIsNoticed) {
-    std::string bytes = npz([](formats::NpzWriter& out) { out.add("positions", "<f4", {2, 3}, bytes_of(two_points)); });
+    std::string bytes = npz([](formats::NpzWriter& out) {
+        out.add("positions", "<f4", {2, 3}, bytes_of(numpy_points));
+    });
     bytes[bytes.find("PK\1\2") - 3] ^= 1;
     EXPECT_EQ(said_of_npz(bytes),
               "f: array 'positions': member 'positions.npy' is damaged: its bytes do not have their checksum");
@@ -129,7 +131,7 @@ TEST(Npz, DamageIsNoticed) {
 
 TEST(Npz, WhatItHoldsIsHeldAgainstTheLimit) {
     const std::string bytes = npz([](formats::NpzWriter& out) {
-        out.add("positions", "<f4", {2, 3}, bytes_of(two_points));
+        out.add("positions", "<f4", {2, 3}, bytes_of(numpy_points));
     });
     EXPECT_EQ(formats::read_npz("f", bytes, {.most_bytes = bytes.size() + 24}).count(), 2U);
     const std::string message = refusal([&] { formats::read_npz("f", bytes, {.most_bytes = bytes.size() + 23}); });
