@@ -15,7 +15,7 @@ bool is_space(char c) {
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path) {
+std::string read_file(const std::filesystem::path& path, std::uint64_t most_bytes) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw InvalidInput(path.string() + ": no such file");
@@ -23,6 +23,9 @@ std::string read_file(const std::filesystem::path& path) {
     std::ifstream in(path, std::ios::binary);
     const auto size = std::filesystem::file_size(path, error);
     if (!in || error) throw InvalidInput(path.string() + ": cannot be opened for reading");
+    if (size > most_bytes)
+        throw InvalidInput(path.string() + ": has " + std::to_string(size) + " bytes; at most " +
+                           std::to_string(most_bytes) + " are read");
     std::string bytes(size, '\0');
     in.read(bytes.data(), static_cast<std::streamsize>(size));
     if (in.gcount() != static_cast<std::streamsize>(size))

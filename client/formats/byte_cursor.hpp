@@ -2,14 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 
 namespace meniscus::formats {
 
-/// The file's bytes. Throws InvalidInput if it does not exist, is not a regular file or cannot be read.
-std::string read_file(const std::filesystem::path& path);
+/// The file's bytes. most_bytes: more are not read. Throws InvalidInput if it does not exist, is not a regular file, is
+/// larger or cannot be read.
+std::string read_file(const std::filesystem::path& path,
+                      std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
 
 /// Reads untrusted bytes. Errors name the file.
 class ByteCursor {

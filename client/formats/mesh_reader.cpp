@@ -41,7 +41,7 @@ bool is_ignored(std::string_view keyword) {
 
 TriangleMesh read_mesh(const std::filesystem::path& path, std::optional<MeshFormat> format, const ReadLimits& limits) {
     if (!format) format = mesh_format_of(path);
-    const std::string bytes = read_input(path);
+    const std::string bytes = read_input(path, limits.most_bytes);
     const std::string name = input_name(path);
     TriangleMesh mesh;
     switch (*format) {

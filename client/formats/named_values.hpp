@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,14 @@ inline std::vector<ParticleArray> views(const std::vector<NamedValues>& arrays) 
     std::vector<ParticleArray> out;
     out.reserve(arrays.size());
     for (const NamedValues& array : arrays) out.push_back(array.view());
+    return out;
+}
+
+/// A frame's arrays, and before them its levels, if it has some, as one of this name.
+inline std::vector<ParticleArray> with_levels(const ParticleFrame& frame, std::string_view name) {
+    std::vector<ParticleArray> out;
+    if (!frame.levels.empty()) out.push_back({name, std::as_bytes(frame.levels), ElementType::uint8, 1});
+    out.insert(out.end(), frame.arrays.begin(), frame.arrays.end());
     return out;
 }
 

@@ -16,17 +16,6 @@
 #include "meniscus/names.hpp"
 
 namespace meniscus::formats {
-namespace {
-
-/// The arrays, and the levels as one more before them.
-std::vector<ParticleArray> with_levels(const ParticleFrame& frame, std::string_view levels) {
-    std::vector<ParticleArray> out;
-    if (!frame.levels.empty()) out.push_back({levels, std::as_bytes(frame.levels), ElementType::uint8, 1});
-    out.insert(out.end(), frame.arrays.begin(), frame.arrays.end());
-    return out;
-}
-
-}  // namespace
 
 void write_particles(const std::filesystem::path& path, const Particles& particles, ParticleFormat format) {
     const std::vector<ParticleArray> arrays = views(particles.arrays);

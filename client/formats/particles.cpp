@@ -66,7 +66,7 @@ void require_arrays(const std::string& file, const Particles& particles, std::sp
 Particles read_particles(const std::filesystem::path& path, std::optional<ParticleFormat> format,
                          const ReadLimits& limits) {
     if (!format) format = particle_format_of(path);
-    const std::string bytes = read_input(path);
+    const std::string bytes = read_input(path, limits.most_bytes);
     const std::string name = input_name(path);
     switch (*format) {
         case ParticleFormat::vtk:

@@ -2,10 +2,10 @@
 
 #include <bit>
 #include <string>
-#include <vector>
 
 #include "formats/atomic_file.hpp"
 #include "formats/legacy_vtk_arrays.hpp"
+#include "formats/named_values.hpp"
 #include "formats/scalar.hpp"
 
 namespace meniscus::formats {
@@ -24,10 +24,7 @@ void write_vtk(const std::filesystem::path& path, const ParticleFrame& frame) {
     out += "\nCELL_TYPES " + n + "\n";
     for (std::size_t i = 0; i < count; ++i) store(out, std::int32_t{1}, std::endian::big);
     out += "\nPOINT_DATA " + n + "\n";
-    std::vector<ParticleArray> arrays;
-    if (!frame.levels.empty()) arrays.push_back({"level", std::as_bytes(frame.levels), ElementType::uint8, 1});
-    arrays.insert(arrays.end(), frame.arrays.begin(), frame.arrays.end());
-    out += vtk_field(arrays, count);
+    out += vtk_field(with_levels(frame, "level"), count);
     write_file(path, out);
 }
 

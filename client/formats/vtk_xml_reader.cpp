@@ -311,7 +311,8 @@ private:
         read(
             array, what, form->type, 3 * p.points,
             [&] {
-                budget_.take(sizeof(out_.points[0]) * p.points, at_, what);
+                // As float64, and as the float32 of particles.
+                budget_.take((sizeof(out_.points[0]) + 3 * sizeof(float)) * p.points, at_, what);
                 out_.points.resize(out_.points.size() + p.points);
             },
             [&](double x) {

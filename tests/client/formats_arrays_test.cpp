@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "formats/atomic_file.hpp"
 #include "formats/particle_writer.hpp"
 #include "formats/particles.hpp"
 #include "sample_files.hpp"
@@ -230,6 +231,16 @@ TEST(ArrayNames, ThatAFileLacksAreRefusedWithThoseThatItHas) {
         "f: no array 'speed'; the file has v (3 float32), id (int32); left out: stress (9 components of float32)");
     EXPECT_EQ(refusal([&] { formats::require_arrays("f", Particles(), missing); }),
               "f: no array 'v'; the file has no arrays");
+}
+
+TEST(ReadLimits, AFileLargerThanTheLimitIsNotRead) {
+    const TemporaryDirectory directory;
+    formats::write_file(directory / "p.xyz", std::string(24, '\0'));
+    EXPECT_EQ(formats::read_particles(directory / "p.xyz", std::nullopt, {.most_bytes = 24}).count(), 2U);
+    EXPECT_NE(refusal([&] {
+                  formats::read_particles(directory / "p.xyz", std::nullopt, {.most_bytes = 23});
+              }).find("p.xyz: has 24 bytes; at most 23 are read"),
+              std::string::npos);
 }
 
 TEST(VtkArrays, OfRealFramesAreIdsAndVelocities) {
