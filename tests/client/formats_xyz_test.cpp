@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "formats/atomic_file.hpp"
+#include "formats/byte_cursor.hpp"
 #include "formats/particles.hpp"
 #include "formats/scalar.hpp"
 #include "sample_files.hpp"
