@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 
 namespace meniscus::formats {
 namespace {
@@ -27,34 +26,50 @@ int window_of(Deflate form) {
 
 }  // namespace
 
-std::string inflate(const ByteCursor& at, std::string_view compressed, Deflate form, std::uint64_t most,
-                    std::string_view what) {
-    const std::string name(what);
-    z_stream stream{};
-    if (inflateInit2(&stream, window_of(form)) != Z_OK) at.fail(name + " cannot be decompressed: no memory");
-    const std::unique_ptr<z_stream, decltype(&inflateEnd)> end(&stream, &inflateEnd);
-    std::string out;
-    for (int status = Z_OK; status != Z_STREAM_END;) {
-        if (stream.avail_in == 0) {
-            if (compressed.empty()) at.fail(name + " ends before its compressed data do");
-            const std::size_t size = std::min<std::size_t>(compressed.size(), std::numeric_limits<uInt>::max());
-            stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(compressed.data()));
-            stream.avail_in = static_cast<uInt>(size);
-            compressed.remove_prefix(size);
+struct Inflater::Stream {
+    z_stream z{};
+    ~Stream() { inflateEnd(&z); }
+};
+
+Inflater::Inflater(const ByteCursor& at, std::string_view compressed, Deflate form, std::string_view what)
+    : at_(at), compressed_(compressed), what_(what), stream_(std::make_unique<Stream>()) {
+    if (inflateInit2(&stream_->z, window_of(form)) != Z_OK) at_.fail(what_ + " cannot be decompressed: no memory");
+}
+
+Inflater::~Inflater() = default;
+
+void Inflater::extend(std::string& out, std::uint64_t size) {
+    z_stream& z = stream_->z;
+    while (!at_end_ && out.size() < size) {
+        if (z.avail_in == 0) {
+            if (compressed_.empty()) at_.fail("truncated: " + what_ + " ends before its compressed data do");
+            const std::size_t next = std::min<std::size_t>(compressed_.size(), std::numeric_limits<uInt>::max());
+            z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(compressed_.data()));
+            z.avail_in = static_cast<uInt>(next);
+            compressed_.remove_prefix(next);
         }
         const std::size_t before = out.size();
-        // One byte more than is allowed shows that there is more.
-        const std::size_t room = static_cast<std::size_t>(std::min<std::uint64_t>(piece_bytes, most - before + 1));
+        const auto room = static_cast<std::size_t>(std::min<std::uint64_t>(piece_bytes, size - before));
         out.resize(before + room);
-        stream.next_out = reinterpret_cast<Bytef*>(out.data() + before);
-        stream.avail_out = static_cast<uInt>(room);
-        status = ::inflate(&stream, Z_NO_FLUSH);
-        out.resize(before + room - stream.avail_out);
-        if (out.size() > most)
-            at.fail(name + " has more than the " + std::to_string(most) + " bytes that it may have decompressed");
+        z.next_out = reinterpret_cast<Bytef*>(out.data() + before);
+        z.avail_out = static_cast<uInt>(room);
+        const int status = ::inflate(&z, Z_NO_FLUSH);
+        out.resize(before + room - z.avail_out);
+        at_end_ = status == Z_STREAM_END;
         if (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR)
-            at.fail(name + " has damaged compressed data (" + (stream.msg != nullptr ? stream.msg : "zlib") + ")");
+            at_.fail(what_ + " has damaged compressed data (" + (z.msg != nullptr ? z.msg : "zlib") + ")");
     }
+}
+
+std::string inflate(const ByteCursor& at, std::string_view compressed, Deflate form, std::uint64_t most,
+                    std::string_view what) {
+    Inflater inflater(at, compressed, form, what);
+    std::string out;
+    // One byte more than is allowed shows that there is more.
+    inflater.extend(out, most + 1);
+    if (out.size() > most)
+        at.fail(std::string(what) + " has more than the " + std::to_string(most) +
+                " bytes that it may have decompressed");
     return out;
 }
 
