@@ -66,7 +66,5 @@ void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh,
                     VtpCompression compression = VtpCompression::none);
 /// Arrays positions (N, 3), triangles (M, 3), normals, levels, and the attributes by their names.
 void write_mesh_npz(const std::filesystem::path& path, const TriangleMesh& mesh);
-void write_glb(const std::filesystem::path& path, const TriangleMesh& mesh);
-void write_usda(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 }  // namespace meniscus::formats

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "formats/atomic_file.hpp"
+#include "formats/glb_writer.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/ply_properties.hpp"
 #include "formats/standard_streams.hpp"
+#include "formats/usda_writer.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::formats {

@@ -1,0 +1,26 @@
+// USD as text.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include "formats/mesh_file.hpp"
+
+namespace meniscus::formats {
+
+/// Writes a prim "/surface": positions, triangles, normals and attributes, which are `primvars:NAME`, but `velocity`,
+/// which is `velocities`, by which renderers blur. time: the time code of the values; without it they hold always.
+/// Atomic. Throws InvalidInput if the path cannot be written.
+void write_usda(const std::filesystem::path& path, const TriangleMesh& mesh, std::optional<double> time = std::nullopt);
+
+struct UsdaClip {
+    double time = 0.0;  ///< time code
+    std::filesystem::path file;
+};
+
+/// Writes a stage that shows each file's mesh from its time on. clips: in the order of their times. like: has the
+/// attributes that all of them have.
+void write_usda_clips(const std::filesystem::path& path, std::span<const UsdaClip> clips, const TriangleMesh& like);
+
+}  // namespace meniscus::formats
