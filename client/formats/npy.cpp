@@ -92,6 +92,17 @@ std::string shape_text(const std::vector<std::size_t>& shape) {
     return out + (shape.size() == 1 ? ",)" : ")");
 }
 
+void set_npy_type(NpyArray& array, std::string_view name) {
+    if (name.starts_with('>')) array.order = std::endian::big;
+    if (!name.empty() && (name[0] == '<' || name[0] == '>' || name[0] == '|' || name[0] == '=')) name.remove_prefix(1);
+    if (const auto type = npy_type(name))
+        array.type = *type;
+    else if (name.starts_with('O'))
+        array.unread = "pickled Python objects";
+    else
+        array.unread = name.empty() ? "structures" : "numbers of type " + quote(name);
+}
+
 NpyArray read_npy_array(const ByteCursor& at, std::string_view bytes) {
     ByteCursor in(at.name(), bytes);
     if (!bytes.starts_with(magic)) in.fail("no numpy array: it does not begin with '\\x93NUMPY'");
@@ -104,18 +115,11 @@ NpyArray read_npy_array(const ByteCursor& at, std::string_view bytes) {
     NpyArray array;
     array.shape = header.tuple("shape");
     array.fortran = header.after("fortran_order").starts_with("True");
-    std::string_view descr = header.string("descr");
-    if (descr.starts_with('>')) array.order = std::endian::big;
-    if (!descr.empty() && (descr[0] == '<' || descr[0] == '>' || descr[0] == '|' || descr[0] == '='))
-        descr.remove_prefix(1);
-    const auto type = npy_type(descr);
-    if (!type) {
-        array.unread = descr.starts_with('O') ? "pickled Python objects"
-                       : descr.empty()        ? "structures"
-                                              : "numbers of type " + quote(descr);
+    set_npy_type(array, header.string("descr"));
+    if (!array.unread.empty()) {
+        array.data = in.rest();
         return array;
     }
-    array.type = *type;
     std::size_t numbers = 1;
     for (const std::size_t size : array.shape)
         if (__builtin_mul_overflow(numbers, size, &numbers))

@@ -19,7 +19,7 @@ struct NpyArray {
     bool fortran = false;  ///< the first index runs fastest
     std::vector<std::size_t> shape;
     std::string_view data;
-    std::string unread;  ///< why its values cannot be read, in which case there are none; "pickled Python objects"
+    std::string unread;  ///< why its values cannot be read, "pickled Python objects": `data` is what the file has
 
     /// Whether it has `count` rows of some numbers each.
     bool has_rows(std::size_t count) const {
@@ -35,6 +35,9 @@ struct NpyArray {
 
 /// "(3, 4)"
 std::string shape_text(const std::vector<std::size_t>& shape);
+
+/// The type and the byte order, or why its values cannot be read. name: as numpy names the type, "<f4".
+void set_npy_type(NpyArray& array, std::string_view name);
 
 /// at: of the file. Throws by it unless the bytes are an array, of the size that its header announces.
 NpyArray read_npy_array(const ByteCursor& at, std::string_view bytes);

@@ -15,6 +15,10 @@
 
 namespace meniscus::formats {
 
+/// Gathers an array, if it has a row for each of `count` points. place: for messages.
+void collect_rows(ArrayCollector& collector, std::string_view name, const NpyArray& array, std::size_t count,
+                  ReadBudget& budget, const ByteCursor& place);
+
 /// Hands out one array after the other, so that one alone is decompressed at a time.
 class NpzReader {
 public:

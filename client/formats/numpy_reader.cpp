@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -5,6 +6,7 @@
 #include "formats/npy.hpp"
 #include "formats/npz.hpp"
 #include "formats/particles.hpp"
+#include "formats/pysph_npz.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -35,6 +37,36 @@ void fill_levels(Particles& particles, const NpyArray& array, const ByteCursor& 
     if (!array.has_rows(particles.count()) || array.columns() != 1 || !is_integer(array.type)) return;
     particles.levels.reserve(particles.count());
     for (std::size_t i = 0; i < particles.count(); ++i) particles.levels.push_back(to_level(array.at(i, 0), i, at));
+}
+
+/// The arrays of PySPH's particles, which are pickled together.
+void read_pysph(NpzReader& file, Particles& particles) {
+    file.with("particles", [&](const NpyArray& pickled, const ByteCursor& place) {
+        const std::vector<NamedNpyArray> arrays = pysph_arrays(place, pickled.data);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::string_view name = std::string_view("xyz").substr(axis, 1);
+            const auto found =
+                std::find_if(arrays.begin(), arrays.end(), [&](const auto& a) { return a.name == name; });
+            if (found == arrays.end()) place.fail("has no array " + quote(name));
+            if (!found->array.unread.empty()) place.fail("array " + quote(name) + ": " + found->array.unread);
+            file.budget().take(sizeof(float) * (found->array.data.size() / size_of(found->array.type)), place,
+                               "what it holds");
+            fill_axis(particles, axis, found->array, place);
+        }
+        ArrayCollector collector;
+        for (const auto& [name, array] : arrays)
+            if (name != "x" && name != "y" && name != "z")
+                collect_rows(collector, name, array, particles.count(), file.budget(), place);
+        collector.finish(particles.arrays, particles.left_out);
+    });
+}
+
+bool has_pickled_particles(NpzReader& file) {
+    bool found = false;
+    if (file.has("particles"))
+        file.with("particles",
+                  [&](const NpyArray& array, const ByteCursor&) { found = array.unread == "pickled Python objects"; });
+    return found;
 }
 
 [[noreturn]] void refuse_without_positions(NpzReader& file) {
@@ -75,6 +107,9 @@ Particles read_npz(const std::string& name, std::string_view bytes, const ReadLi
                 pay(array.data.size() / size_of(array.type), place);
                 fill_axis(particles, axis, array, place);
             });
+    } else if (has_pickled_particles(file)) {
+        read_pysph(file, particles);
+        return particles;
     } else {
         refuse_without_positions(file);
     }

@@ -14,7 +14,7 @@
 namespace meniscus::test {
 namespace {
 
-formats::Particles read(const std::string& bytes, std::uint64_t most = std::uint64_t{1} << 30) {
+formats::Particles read_sample(const std::string& bytes, std::uint64_t most = std::uint64_t{1} << 30) {
     return formats::read_bgeo("f", bytes, formats::ReadLimits{most});
 }
 
@@ -27,7 +27,7 @@ std::vector<T> values(const formats::NamedValues& array) {
 
 TEST(BgeoReader, ReadsPointsVectorsAndIdsGzippedOrNot) {
     for (const std::string& bytes : {sample_bgeo(), gzipped(sample_bgeo())}) {
-        const formats::Particles particles = read(bytes);
+        const formats::Particles particles = read_sample(bytes);
         EXPECT_EQ(particles.positions, (std::vector<float>{1, 2, 3, 2, 3, 4}));
         ASSERT_EQ(particles.arrays.size(), 2U);
         EXPECT_EQ(particles.arrays[0].name, "velocity");
@@ -40,11 +40,11 @@ TEST(BgeoReader, ReadsPointsVectorsAndIdsGzippedOrNot) {
 }
 
 TEST(BgeoReader, ReadsNoPoints) {
-    EXPECT_EQ(read(bgeo_header(0, 0)).count(), 0U);
+    EXPECT_EQ(read_sample(bgeo_header(0, 0)).count(), 0U);
 }
 
 TEST(BgeoReader, RefusesOtherFormatsVersionsAndTypes) {
-    const auto message = [](const std::string& bytes) { return refusal([&] { read(bytes); }); };
+    const auto message = [](const std::string& bytes) { return refusal([&] { read_sample(bytes); }); };
     EXPECT_NE(message("{\"fileversion\":1}").find("not a classic BGEO"), std::string::npos);
     std::string version = sample_bgeo();
     version[8] = 6;
@@ -60,15 +60,15 @@ TEST(BgeoReader, TakesNoMemoryForPointsThatAreNotThere) {
     // Two thousand million points are announced: 32 GB.
     const std::string header = bgeo_header(2'000'000'000, 0);
     for (const std::string& bytes : {header, gzipped(header + std::string(1000, '\0'))}) {
-        EXPECT_NE(refusal([&] { read(bytes); }).find("announce"), std::string::npos);
-        EXPECT_NE(refusal([&] { read(bytes, std::uint64_t{1} << 60); }).find("truncated"), std::string::npos);
+        EXPECT_NE(refusal([&] { read_sample(bytes); }).find("announce"), std::string::npos);
+        EXPECT_NE(refusal([&] { read_sample(bytes, std::uint64_t{1} << 60); }).find("truncated"), std::string::npos);
     }
 }
 
 TEST(BgeoReader, StopsDecompressingBehindThePoints) {
     // Ten MB of zeros behind one point: never unpacked.
     const std::string one = bgeo_header(1, 0) + big(1.0F) + big(2.0F) + big(3.0F) + big(1.0F);
-    EXPECT_EQ(read(gzipped(one + std::string(10'000'000, '\0')), 1'000'000).count(), 1U);
+    EXPECT_EQ(read_sample(gzipped(one + std::string(10'000'000, '\0')), 1'000'000).count(), 1U);
 }
 
 TEST(BgeoReader, ReadsRealFrames) {

@@ -7,13 +7,17 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "bgeo_sample.hpp"
+#include "bi4_sample.hpp"
 #include "formats/brick_file.hpp"
 #include "formats/byte_cursor.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/particle_writer.hpp"
 #include "formats/particles.hpp"
+#include "formats/pysph_npz.hpp"
 #include "formats/scalar.hpp"
 #include "meniscus/error.hpp"
+#include "pysph_sample.hpp"
 
 namespace meniscus::test {
 
@@ -146,6 +150,23 @@ void add_written_files(std::vector<Sample>& out, const TemporaryDirectory& direc
     out.push_back({"mesh npz", bytes_of("m.npz"), limited(formats::read_mesh_npz)});
 }
 
+/// The formats that are read alone.
+void add_files_of_others(std::vector<Sample>& out) {
+    const auto bgeo = [](const std::string& bytes) { (void)formats::read_bgeo("sample", bytes, small_limits); };
+    out.push_back({"bgeo", sample_bgeo(), bgeo});
+    out.push_back({"bgeo gzipped", gzipped(sample_bgeo()), bgeo});
+    out.push_back({"json", "[[1, -2.5, 3e2],\n [0.1, 5, 6]]",
+                   [](const std::string& bytes) { (void)formats::read_particle_json("sample", bytes); }});
+    const auto bi4 = [](const std::string& bytes) { (void)formats::read_bi4("sample", bytes); };
+    out.push_back({"bi4", Bi4{}.sample(), bi4});
+    out.push_back({"bi4 wide", Bi4{std::endian::big, true}.sample(), bi4});
+    out.push_back({"npz of PySPH", sample_pysph_npz(),
+                   [](const std::string& bytes) { (void)formats::read_npz("sample", bytes, small_limits); }});
+    out.push_back({"pickle", sample_pickle(), [](const std::string& bytes) {
+                       (void)formats::pysph_arrays(formats::ByteCursor("sample", {}), bytes);
+                   }});
+}
+
 }  // namespace
 
 std::vector<Sample> samples() {
@@ -180,6 +201,7 @@ std::vector<Sample> samples() {
     out.push_back({"mesh ply", formats::read_file(directory / "mesh.ply"), particles(formats::read_mesh_ply)});
     out.push_back({"mesh obj", formats::read_file(directory / "mesh.obj"), particles(formats::read_obj)});
     add_written_files(out, directory);
+    add_files_of_others(out);
     client::ReceivedFrame frame = formats::encode_frame(tetrahedron(), {}, 4, 0.5);
     frame.bricks = {std::make_shared<const EncodedBrick>(
         EncodedBrick{{1, -2, 3}, 4, 4, {std::byte{1}}, std::vector<std::byte>(30, std::byte{9})})};
