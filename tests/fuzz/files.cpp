@@ -1,6 +1,8 @@
 #include "formats/brick_file.hpp"
+#include "formats/byte_cursor.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/particles.hpp"
+#include "formats/pysph_npz.hpp"
 #include "sample_files.hpp"
 #include "support.hpp"
 
@@ -115,6 +117,38 @@ void npz(Bytes bytes) {
 }
 Seeds npz_seeds() {
     return files_of("npz");
+}
+
+void bgeo(Bytes bytes) {
+    read_particles(limited(formats::read_bgeo), bytes);
+}
+Seeds bgeo_seeds() {
+    return files_of("bgeo");
+}
+
+void particle_json(Bytes bytes) {
+    read_particles(formats::read_particle_json, bytes);
+}
+Seeds particle_json_seeds() {
+    return files_of("json");
+}
+
+void bi4(Bytes bytes) {
+    read_particles(formats::read_bi4, bytes);
+}
+Seeds bi4_seeds() {
+    return files_of("bi4");
+}
+
+void pickle(Bytes bytes) {
+    may_refuse([&] {
+        for (const formats::NamedNpyArray& array : formats::pysph_arrays(formats::ByteCursor(name, {}), bytes))
+            for (std::size_t i = 0; array.array.unread.empty() && i < array.array.shape.at(0); ++i)
+                (void)array.array.at(i, 0);
+    });
+}
+Seeds pickle_seeds() {
+    return files_of("pickle");
 }
 
 void mesh_vtk(Bytes bytes) {

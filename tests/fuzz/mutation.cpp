@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 namespace meniscus::fuzz {
@@ -27,10 +28,22 @@ std::size_t below(std::size_t limit, std::mt19937& random) {
     return limit == 0 ? 0 : random() % limit;
 }
 
+/// A binary count that is somewhat wrong, or a power of two, of 2, 4 or 8 bytes in either byte order.
+void lie_in_number(std::string& bytes, std::size_t place, std::mt19937& random) {
+    const std::size_t size = std::size_t{2} << random() % 3;
+    if (bytes.size() - place < size) return;
+    const bool big = random() % 2 == 0;
+    const auto digit = [&](std::size_t i) -> char& { return bytes[place + (big ? size - 1 - i : i)]; };
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < size; ++i) value |= std::uint64_t{static_cast<unsigned char>(digit(i))} << 8 * i;
+    value = random() % 2 == 0 ? value + random() % 9 - 4 : (std::uint64_t{1} << random() % (8 * size)) - random() % 2;
+    for (std::size_t i = 0; i < size; ++i) digit(i) = static_cast<char>(value >> 8 * i & 0xFFU);
+}
+
 void damage(std::string& bytes, std::mt19937& random) {
     const std::size_t place = below(bytes.size(), random);
     const std::size_t size = 1 + below(std::min<std::size_t>(bytes.size() - place, 40), random);
-    switch (random() % 8) {
+    switch (random() % 9) {
         case 0:
         case 1:
             bytes[place] = static_cast<char>(random() % 256);
@@ -61,14 +74,22 @@ void damage(std::string& bytes, std::mt19937& random) {
             bytes.replace(to, size, piece);
             return;
         }
+        case 8:
+            lie_in_number(bytes, place, random);
+            return;
     }
 }
 
 }  // namespace
 
-std::string mutated(const std::string& seed, std::mt19937& random) {
-    std::string bytes = seed;
+std::string mutated(std::span<const std::string> seeds, std::mt19937& random) {
+    const auto any_seed = [&]() -> const std::string& { return seeds[below(seeds.size(), random)]; };
+    std::string bytes = any_seed();
     if (random() % 8 == 0) bytes.resize(below(bytes.size(), random));
+    if (random() % 8 == 0) {
+        const std::string& other = any_seed();
+        bytes.replace(below(bytes.size(), random), std::string::npos, other.substr(below(other.size(), random)));
+    }
     for (unsigned times = 1 + random() % 4; times > 0 && !bytes.empty(); --times) damage(bytes, random);
     return bytes;
 }

@@ -35,6 +35,8 @@ void keep_input(int signal) {
 
 /// Bytes that the process may take: more than any input justifies.
 constexpr rlim_t most_memory = rlim_t{4} << 30;
+/// Seconds that one input may take: thousands of times what any does.
+constexpr unsigned most_seconds = 20;
 
 void run(const Target& target, std::uint64_t count) {
     std::mt19937 random(1);
@@ -42,7 +44,8 @@ void run(const Target& target, std::uint64_t count) {
     current_name = std::string("broken-") + target.name;
     const auto begin = std::chrono::steady_clock::now();
     for (std::uint64_t i = 0; i < count; ++i) {
-        current = meniscus::fuzz::mutated(seeds[i % seeds.size()], random);
+        current = meniscus::fuzz::mutated(seeds, random);
+        ::alarm(most_seconds);
         target.run(current);
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
@@ -67,7 +70,7 @@ int main(int argc, char** argv) {
     const rlimit memory{most_memory, most_memory};
     ::setrlimit(RLIMIT_AS, &memory);
 #endif
-    for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS}) std::signal(signal, keep_input);
+    for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGALRM}) std::signal(signal, keep_input);
     int runs = 0;
     for (const Target& target : meniscus::fuzz::targets()) {
         bool wanted = argc == 2;

@@ -73,6 +73,15 @@ void npy(Bytes bytes);
 Seeds npy_seeds();
 void npz(Bytes bytes);
 Seeds npz_seeds();
+void bgeo(Bytes bytes);
+Seeds bgeo_seeds();
+void particle_json(Bytes bytes);
+Seeds particle_json_seeds();
+void bi4(Bytes bytes);
+Seeds bi4_seeds();
+/// What PySPH's .npz has inside.
+void pickle(Bytes bytes);
+Seeds pickle_seeds();
 void mesh_vtk(Bytes bytes);
 Seeds mesh_vtk_seeds();
 void mesh_vtp(Bytes bytes);
