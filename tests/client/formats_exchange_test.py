@@ -1,8 +1,9 @@
-"""formats_exchange_test.py PROGRAM: files that meshio and numpy write are read, and ours are read by them.
+"""formats_exchange_test.py PROGRAM HDF5: files that meshio, numpy and h5py write are read, and ours are read by them.
 
-PROGRAM: formats_exchange, which reads one file and writes another.
+PROGRAM: formats_exchange, which reads one file and writes another. HDF5: ON if it reads HDF5.
 """
 
+import json
 import pathlib
 import subprocess
 import sys
@@ -14,7 +15,11 @@ import xml.etree.ElementTree as xml
 import meshio
 import numpy as np
 
-program = sys.argv.pop(1)
+program, hdf5 = sys.argv.pop(1), sys.argv.pop(1) == "ON"
+try:
+    import h5py
+except ImportError:
+    hdf5 = False
 rng = np.random.default_rng(1)
 count = 500
 positions = rng.uniform(-10, 10, (count, 3))
@@ -106,13 +111,96 @@ class Exchange(unittest.TestCase):
             with np.load(self.convert("particles", "a.npy", "back.npz")) as back:
                 np.testing.assert_array_equal(back["positions"], positions.astype(np.float32))
 
-    def test_pickled_objects_are_refused(self):
-        np.savez(self.path / "a.npz", particles=np.array([{"x": 1}], dtype=object))
+    def refusal(self, source):
         run = subprocess.run(
-            [program, "particles", self.path / "a.npz", self.path / "b.npz"], capture_output=True, text=True
+            [program, "particles", self.path / source, self.path / "refused.npz"], capture_output=True, text=True
         )
         self.assertEqual(run.returncode, 1)
-        self.assertIn("holds pickled Python objects", run.stderr)
+        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+        self.assertIn(source, run.stderr)
+        return run.stderr
+
+    def test_other_pickled_objects_are_refused(self):
+        np.savez(self.path / "a.npz", positions=np.array([{"x": 1}], dtype=object))
+        self.assertIn("holds pickled Python objects", self.refusal("a.npz"))
+        np.savez(self.path / "a.npz", particles={"fluid": {"arrays": {"x": np.zeros(2)}}})
+        self.assertIn("has no array 'y'", self.refusal("a.npz"))
+
+    def pysph_arrays(self):
+        x, y, z = positions.T
+        u, v, w = arrays["velocity"].T
+        others = {name: values for name, values in arrays.items() if name != "velocity"}
+        return {"x": x, "y": y, "z": z, "u": u, "v": v, "w": w, **others}
+
+    def test_npz_of_pysph(self):
+        def kind(values):
+            return {"arrays": values, "properties": {name: {"type": "double"} for name in values}, "constants": {}}
+
+        wall = {axis: np.zeros(3) for axis in "xyz"}
+        particles = {"fluid": kind(self.pysph_arrays()), "wall": kind(wall)}
+        for save in (np.savez, np.savez_compressed):
+            save(self.path / "a.npz", version=2, particles=particles, solver_data={"t": 0.5, "dt": 1e-3})
+            self.expect_particles("a.npz")
+
+    def write_hdf5(self, name, place, values):
+        with h5py.File(self.path / name, "w") as file:
+            group = file.create_group(place)
+            for key, array in values.items():
+                group.create_dataset(key, data=array)
+
+    @unittest.skipUnless(hdf5, "without HDF5 or h5py")
+    def test_hdf5_of_h5part_and_pysph(self):
+        for place in ("Step#0", "particles/fluid/arrays"):
+            self.write_hdf5("a.h5", place, self.pysph_arrays())
+            self.expect_particles("a.h5")
+        with h5py.File(self.path / "a.hdf5", "w") as file:
+            group = file.create_group("particles/water/arrays")
+            for key, array in self.pysph_arrays().items():
+                group.create_dataset(key, data=array, compression="gzip", shuffle=True, chunks=(64,))
+        self.expect_particles("a.hdf5")
+
+    @unittest.skipUnless(hdf5, "without HDF5 or h5py")
+    def test_wrong_hdf5_is_refused(self):
+        line = np.zeros(4)
+        (self.path / "a.h5").write_text("no HDF5, but a text of some length")
+        self.assertIn("not an HDF5 file", self.refusal("a.h5"))
+        self.write_hdf5("a.h5", "Step#0", {"y": line, "z": line})
+        self.assertIn("no particles", self.refusal("a.h5"))
+        self.write_hdf5("a.h5", "Step#0", {"x": [b"a", b"b"], "y": line, "z": line})
+        self.assertIn("dataset 'x' is no list of numbers", self.refusal("a.h5"))
+        self.write_hdf5("a.h5", "Step#0", {"x": line, "y": line[:3], "z": line})
+        self.assertIn("dataset 'y' has 3 numbers, x has 4", self.refusal("a.h5"))
+        self.write_hdf5("a.h5", "Step#0", {"x": 1.0, "y": line, "z": line})
+        self.assertIn("dataset 'x' is no list of numbers", self.refusal("a.h5"))
+        self.write_hdf5("a.h5", "Step#0", {"x": line.reshape(2, 2), "y": line, "z": line})
+        self.assertIn("dataset 'x' is no list of numbers", self.refusal("a.h5"))
+        with h5py.File(self.path / "a.h5", "w") as file:
+            for step in range(2):
+                for axis in "xyz":
+                    file[f"Step#{step}/{axis}"] = line
+        self.assertIn("has particles in 2 places", self.refusal("a.h5"))
+        whole = (self.path / "a.h5").read_bytes()
+        for size in range(0, len(whole), 97):
+            (self.path / "a.h5").write_bytes(whole[:size])
+            self.refusal("a.h5")
+
+    def test_an_npz_bomb_stops_at_what_it_announces(self):
+        # 30 MB of zeros in 30 kB, of which the zip directory tells 200 bytes.
+        np.savez_compressed(self.path / "a.npz", positions=np.zeros((2_500_000, 3), np.float32))
+        data = bytearray((self.path / "a.npz").read_bytes())
+        size = data.rindex(b"PK\1\2") + 24
+        data[size : size + 4] = (200).to_bytes(4, "little")
+        (self.path / "a.npz").write_bytes(data)
+        self.assertIn("more than the 200 bytes", self.refusal("a.npz"))
+
+    @unittest.skipUnless(hdf5, "without HDF5 or h5py")
+    def test_an_hdf5_bomb_stops_at_what_it_announces(self):
+        # Ten thousand million zeros, of which the file has none.
+        with h5py.File(self.path / "a.h5", "w") as file:
+            for axis in "xyz":
+                file.create_dataset(f"Step#0/{axis}", (10**10,), "f4", chunks=(2**20,), compression="gzip")
+        self.assertLess((self.path / "a.h5").stat().st_size, 10**6)
+        self.assertIn("more than the file may take in memory", self.refusal("a.h5"))
 
     def test_our_particles(self):
         np.savez(self.path / "a.npz", positions=positions, **arrays)
@@ -163,6 +251,35 @@ class Exchange(unittest.TestCase):
             np.testing.assert_array_equal(back["levels"], levels)
             for name, values in arrays.items():
                 np.testing.assert_array_equal(back[name], values.astype(narrow[name]), err_msg=name)
+
+    def test_our_glb(self):
+        triangles, _ = self.mesh_file()
+        data = self.convert("mesh", "m.npz", "m.glb").read_bytes()
+        self.assertEqual(data[:4], b"glTF")
+        self.assertEqual(int.from_bytes(data[8:12], "little"), len(data))
+        size = int.from_bytes(data[12:16], "little")
+        document = json.loads(data[20 : 20 + size])
+        buffer = data[20 + size + 8 :]
+        types = {5121: "u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+        columns = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+
+        def numbers(index):
+            accessor = document["accessors"][index]
+            view = document["bufferViews"][accessor["bufferView"]]
+            dtype = np.dtype(types[accessor["componentType"]])
+            width = columns[accessor["type"]]
+            start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+            step = view.get("byteStride", width * dtype.itemsize)
+            rows = np.ndarray((accessor["count"], width), dtype, buffer, start, (step, dtype.itemsize))
+            return rows[:, 0] if width == 1 else rows
+
+        primitive = document["meshes"][0]["primitives"][0]
+        np.testing.assert_array_equal(numbers(primitive["indices"]).reshape(-1, 3), triangles)
+        middle = np.array(document["nodes"][0]["translation"])
+        found = numbers(primitive["attributes"]["POSITION"]) + middle
+        np.testing.assert_allclose(found, positions, atol=1e-6)
+        np.testing.assert_array_equal(numbers(primitive["attributes"]["_VELOCITY"]), arrays["velocity"])
+        np.testing.assert_array_equal(numbers(primitive["attributes"]["_ID"]), arrays["id"])
 
     def test_meshes_of_meshio(self):
         triangles = rng.integers(0, count, (50, 3))
