@@ -11,13 +11,13 @@
 
 namespace meniscus::formats {
 
-std::string read_input(const std::filesystem::path& path) {
+std::string read_input(const std::filesystem::path& path, std::uint64_t most_bytes) {
     if (!is_standard_stream(path)) {
         std::error_code ignored;
         if (std::filesystem::is_fifo(path, ignored))
             throw InvalidInput(path.string() + ": a pipe is read as standard input: write - in its place, and <" +
                                path.string());
-        return read_file(path);
+        return read_file(path, most_bytes);
     }
     constexpr std::size_t first_room = std::size_t{1} << 20;
     std::string bytes;
@@ -28,6 +28,9 @@ std::string read_input(const std::filesystem::path& path) {
         if (count < 0)
             throw InvalidInput(input_name(path) + ": cannot be read: " + std::generic_category().message(errno));
         size += static_cast<std::size_t>(count);
+        if (size > most_bytes)
+            throw InvalidInput(input_name(path) + ": has more than the " + std::to_string(most_bytes) +
+                               " bytes that are read");
         if (count > 0) continue;
         bytes.resize(size);
         return bytes;
