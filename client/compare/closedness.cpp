@@ -60,6 +60,7 @@ public:
             if (first->other < vertex) continue;
             const auto all = static_cast<std::size_t>(use - first);
             if (2 * outgoing != all) ++defects_.unbalanced_edges;
+            if (all == 1) ++defects_.border_edges;
             if (all > 2) ++defects_.crowded_edges;
         }
         if (groups > 1) ++defects_.torn_vertices;
@@ -134,6 +135,28 @@ std::string Defects::text() const {
         if (!out.empty()) out += ", ";
         out += counted(count, name.first, name.second);
     }
+    return out;
+}
+
+std::vector<std::string> Defects::lines() const {
+    const std::array<std::pair<std::size_t, std::pair<const char*, const char*>>, 7> all{{
+        {border_edges,
+         {"edge of one triangle: the mesh is open there", "edges of one triangle: the mesh is open there"}},
+        {unbalanced_edges - border_edges,
+         {"edge whose triangles run the same way: the orientation is not consistent",
+          "edges whose triangles run the same way: the orientation is not consistent"}},
+        {crowded_edges,
+         {"edge of more than two triangles: not manifold", "edges of more than two triangles: not manifold"}},
+        {torn_vertices,
+         {"vertex at which parts of the mesh only touch: not manifold",
+          "vertices at which parts of the mesh only touch: not manifold"}},
+        {degenerate_triangles, {"triangle with a vertex twice", "triangles with a vertex twice"}},
+        {repeated_vertices, {"vertex at the place of another one", "vertices at the place of another one"}},
+        {unused_vertices, {"vertex of no triangle", "vertices of no triangle"}},
+    }};
+    std::vector<std::string> out;
+    for (const auto& [count, name] : all)
+        if (count > 0) out.push_back(counted(count, name.first, name.second));
     return out;
 }
 

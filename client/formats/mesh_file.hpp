@@ -20,14 +20,19 @@ namespace meniscus::formats {
 /// 2^-23 of the value.
 bool needs_double(const Mesh& mesh);
 
+/// A convex quadrilateral by its corners' indices, counter-clockwise seen from outside.
+using Quad = std::array<std::uint32_t, 4>;
+
 /// A triangle mesh from a file of any program.
 struct TriangleMesh {
     std::vector<std::array<double, 3>> positions;
-    std::vector<Normal> normals;          ///< empty, or one per position
-    std::vector<Triangle> triangles;      ///< indices into `positions`, checked
-    std::vector<std::uint8_t> levels;     ///< empty, or per triangle 1, 2, 3, crack 0
-    std::vector<NamedValues> attributes;  ///< of the positions
-    bool wide = false;                    ///< float32 would merge positions, or round them: files need float64
+    std::vector<Normal> normals;            ///< empty, or one per position
+    std::vector<Triangle> triangles;        ///< indices into `positions`, checked
+    std::vector<std::uint8_t> levels;       ///< empty, or per triangle 1, 2, 3, crack 0
+    std::vector<NamedValues> attributes;    ///< of the positions
+    bool wide = false;                      ///< float32 would merge positions, or round them: files need float64
+    std::vector<Quad> quads;                ///< beside the triangles, of the formats that have them; readers make none
+    std::vector<std::uint8_t> quad_levels;  ///< empty, or per quadrilateral as `levels`
 };
 
 TriangleMesh to_triangles(const Mesh& mesh);

@@ -1,5 +1,6 @@
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "formats/file_numbers.hpp"
 #include "formats/mesh_file.hpp"
@@ -8,27 +9,40 @@
 namespace meniscus::formats {
 namespace {
 
+/// Where each face's corners end in the list of all: those of the triangles, then of the quadrilaterals.
 template <class Number>
-std::string cell_ends(std::size_t cells, std::size_t corners) {
+std::string face_ends(const TriangleMesh& mesh) {
     std::string out;
-    out.reserve(cells * sizeof(Number));
-    for (std::size_t i = 1; i <= cells; ++i) store(out, static_cast<Number>(corners * i));
+    out.reserve((mesh.triangles.size() + mesh.quads.size()) * sizeof(Number));
+    for (std::size_t i = 1; i <= mesh.triangles.size(); ++i) store(out, static_cast<Number>(3 * i));
+    for (std::size_t i = 1; i <= mesh.quads.size(); ++i)
+        store(out, static_cast<Number>(3 * mesh.triangles.size() + 4 * i));
     return out;
 }
 
+std::vector<std::uint8_t> face_levels(const TriangleMesh& mesh) {
+    std::vector<std::uint8_t> levels = mesh.levels;
+    levels.insert(levels.end(), mesh.quad_levels.begin(), mesh.quad_levels.end());
+    return levels;
+}
+
 void add_polygons(VtpWriter& out, const TriangleMesh& mesh) {
-    const std::size_t corners = 3 * mesh.triangles.size();
+    const std::size_t corners = 3 * mesh.triangles.size() + 4 * mesh.quads.size();
     // Up to 2^31 - 1 as VTK's Int32, which is what lies in memory.
     if (corners <= std::size_t{std::numeric_limits<std::int32_t>::max()} &&
         mesh.positions.size() <= std::size_t{std::numeric_limits<std::int32_t>::max()}) {
-        out.add("connectivity", "Int32", 1, bytes_of(mesh.triangles.data(), mesh.triangles.size()));
-        return out.add("offsets", "Int32", 1, cell_ends<std::int32_t>(mesh.triangles.size(), 3));
+        std::string connectivity(bytes_of(mesh.triangles.data(), mesh.triangles.size()));
+        connectivity += bytes_of(mesh.quads.data(), mesh.quads.size());
+        out.add("connectivity", "Int32", 1, connectivity);
+        return out.add("offsets", "Int32", 1, face_ends<std::int32_t>(mesh));
     }
     std::string connectivity;
     for (const Triangle& triangle : mesh.triangles)
         for (const std::uint32_t corner : triangle) store(connectivity, std::int64_t{corner});
+    for (const Quad& quad : mesh.quads)
+        for (const std::uint32_t corner : quad) store(connectivity, std::int64_t{corner});
     out.add("connectivity", "Int64", 1, connectivity);
-    out.add("offsets", "Int64", 1, cell_ends<std::int64_t>(mesh.triangles.size(), 3));
+    out.add("offsets", "Int64", 1, face_ends<std::int64_t>(mesh));
 }
 
 }  // namespace
@@ -40,7 +54,8 @@ void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh,
     for (const NamedValues& attribute : mesh.attributes) out.add(attribute.view());
     out.end("PointData");
     out.begin("CellData");
-    if (!mesh.levels.empty()) out.add("level", "UInt8", 1, bytes_of(mesh.levels.data(), mesh.levels.size()));
+    const std::vector<std::uint8_t> levels = face_levels(mesh);
+    if (!levels.empty()) out.add("level", "UInt8", 1, bytes_of(levels.data(), levels.size()));
     out.end("CellData");
     out.begin("Points");
     out.add("Points", mesh.wide ? "Float64" : "Float32", 3, coordinate_bytes(mesh.positions, mesh.wide));
@@ -48,7 +63,7 @@ void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh,
     out.begin("Polys");
     add_polygons(out, mesh);
     out.end("Polys");
-    out.write(path, mesh.positions.size(), 0, mesh.triangles.size());
+    out.write(path, mesh.positions.size(), 0, mesh.triangles.size() + mesh.quads.size());
 }
 
 }  // namespace meniscus::formats

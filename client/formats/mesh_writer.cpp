@@ -40,12 +40,23 @@ void flush(AtomicFile& file, std::string& buffer, std::size_t above) {
     buffer.clear();
 }
 
-/// Triangles that lie together and are of one level.
+/// Faces that lie together and are of one level.
 struct Run {
     std::size_t first = 0;
     std::size_t end = 0;
     std::uint8_t level = 0;
 };
+
+/// Those of `count` faces. levels: empty, or one per face.
+std::vector<Run> runs_of(const std::vector<std::uint8_t>& levels, std::size_t count) {
+    std::vector<Run> runs;
+    if (levels.empty() && count > 0) runs.push_back({0, count, 0});
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        if (runs.empty() || runs.back().level != levels[i]) runs.push_back({i, i, levels[i]});
+        ++runs.back().end;
+    }
+    return runs;
+}
 
 /// A mesh as the writers see it.
 struct MeshView {
@@ -54,6 +65,8 @@ struct MeshView {
     std::span<const Triangle> triangles;
     bool levels = false;  ///< runs tell levels
     std::vector<Run> runs;
+    std::span<const Quad> quads;
+    std::vector<Run> quad_runs;
     std::vector<ParticleArray> attributes;
 };
 
@@ -77,12 +90,10 @@ MeshView view_of(const TriangleMesh& mesh) {
     out.wide = mesh.wide;
     if (mesh.normals.size() == mesh.positions.size()) out.normals = mesh.normals;
     out.triangles = mesh.triangles;
-    out.levels = !mesh.levels.empty();
-    if (!out.levels && !mesh.triangles.empty()) out.runs.push_back({0, mesh.triangles.size(), 0});
-    for (std::size_t i = 0; i < mesh.levels.size(); ++i) {
-        if (out.runs.empty() || out.runs.back().level != mesh.levels[i]) out.runs.push_back({i, i, mesh.levels[i]});
-        ++out.runs.back().end;
-    }
+    out.levels = !mesh.levels.empty() || !mesh.quad_levels.empty();
+    out.runs = runs_of(mesh.levels, mesh.triangles.size());
+    out.quads = mesh.quads;
+    out.quad_runs = runs_of(mesh.quad_levels, mesh.quads.size());
     out.attributes = views(mesh.attributes);
     return out;
 }
@@ -169,18 +180,22 @@ void write_obj_of(const std::filesystem::path& path, const AnyMesh& mesh) {
         out += '\n';
         flush(file, out, flush_bytes);
     }
-    for (const Run& run : view.runs) {
-        if (view.levels) out.append("g ").append(group_name(run.level)).append("\n");
-        for (std::size_t i = run.first; i < run.end; ++i) {
-            out += 'f';
-            for (const std::uint32_t v : view.triangles[i]) {
-                append(out += ' ', std::uint64_t{v} + 1);
-                if (!view.normals.empty()) append(out += "//", std::uint64_t{v} + 1);
+    const auto write_faces = [&](const auto& faces, const std::vector<Run>& runs) {
+        for (const Run& run : runs) {
+            if (view.levels) out.append("g ").append(group_name(run.level)).append("\n");
+            for (std::size_t i = run.first; i < run.end; ++i) {
+                out += 'f';
+                for (const std::uint32_t v : faces[i]) {
+                    append(out += ' ', std::uint64_t{v} + 1);
+                    if (!view.normals.empty()) append(out += "//", std::uint64_t{v} + 1);
+                }
+                out += '\n';
+                flush(file, out, flush_bytes);
             }
-            out += '\n';
-            flush(file, out, flush_bytes);
         }
-    }
+    };
+    write_faces(view.triangles, view.runs);
+    write_faces(view.quads, view.quad_runs);
     flush(file, out, 0);
     file.commit();
 }

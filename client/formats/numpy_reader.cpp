@@ -19,7 +19,7 @@ void fill_positions(Particles& particles, const NpyArray& array, const ByteCurso
     particles.positions.reserve(3 * count);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)
-            particles.positions.push_back(to_coordinate(array.at(i, axis), i, at));
+            set_coordinate(particles, particles.positions.size(), array.at(i, axis), at);
 }
 
 /// One coordinate of each particle.
@@ -30,7 +30,7 @@ void fill_axis(Particles& particles, std::size_t axis, const NpyArray& array, co
     if (axis == 0) particles.positions.resize(3 * count);
     if (count != particles.count())
         at.fail("has " + std::to_string(count) + " coordinates, x has " + std::to_string(particles.count()));
-    for (std::size_t i = 0; i < count; ++i) particles.positions[3 * i + axis] = to_coordinate(array.at(i, 0), i, at);
+    for (std::size_t i = 0; i < count; ++i) set_coordinate(particles, 3 * i + axis, array.at(i, 0), at);
 }
 
 void fill_levels(Particles& particles, const NpyArray& array, const ByteCursor& at) {

@@ -40,7 +40,7 @@ Particles read_particle_ply(const std::string& name, std::string_view bytes) {
         if (level) particles.levels.reserve(element.count);
         ply.read_rows(element, [&](std::size_t index, const PlyRow& row) {
             for (const auto& axis : axes)
-                particles.positions.push_back(to_coordinate(row.scalars[*axis], index, ply.in()));
+                set_coordinate(particles, particles.positions.size(), row.scalars[*axis], ply.in());
             if (level) particles.levels.push_back(to_level(row.scalars[*level], index, ply.in()));
             for (auto& [p, array] : arrays) array.add(row.scalars[p]);
         });

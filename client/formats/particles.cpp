@@ -118,6 +118,17 @@ float to_coordinate(double value, std::size_t particle, const ByteCursor& at) {
     return static_cast<float>(value);
 }
 
+void set_coordinate(Particles& particles, std::size_t index, double value, const ByteCursor& at) {
+    const float rounded = to_coordinate(value, index / 3, at);
+    if (index == particles.positions.size())
+        particles.positions.push_back(rounded);
+    else
+        particles.positions[index] = rounded;
+    if (particles.remainders.empty() && (static_cast<double>(rounded) == value || !std::isfinite(value))) return;
+    if (particles.remainders.size() <= index) particles.remainders.resize(index + 1);
+    particles.remainders[index] = static_cast<float>(value - static_cast<double>(rounded));
+}
+
 std::string array_name(std::string_view name) {
     std::string out;
     for (const char c : name.substr(0, 64)) {

@@ -20,7 +20,9 @@ class ByteCursor;
 
 /// One frame of particles, owned.
 struct Particles {
-    std::vector<float> positions;      ///< x y z per particle, world units; may hold NaN or infinity if the file does
+    std::vector<float> positions;  ///< x y z per particle, world units; may hold NaN or infinity if the file does
+    /// What rounding took from `positions`: the file's coordinates are the sums, to 48 bits. Empty if it took nothing.
+    std::vector<float> remainders{};
     std::vector<std::uint8_t> levels;  ///< empty, or one per particle, 0 (finest) to max_particle_level
     /// What else the file tells of each particle, in its order, under array_name(): at most max_particle_arrays.
     std::vector<NamedValues> arrays{};
@@ -31,6 +33,11 @@ struct Particles {
     std::size_t faces = 0;
 
     std::size_t count() const { return positions.size() / 3; }
+    /// As the file has it. index: into `positions`.
+    double coordinate(std::size_t index) const {
+        const auto rounded = static_cast<double>(positions[index]);
+        return remainders.empty() ? rounded : rounded + static_cast<double>(remainders[index]);
+    }
     /// Without arrays: their views have to lie somewhere, see views().
     ParticleFrame frame() const {
         ParticleFrame view;
@@ -112,6 +119,9 @@ std::string array_name(std::string_view name);
 
 /// A coordinate as float32. Throws InvalidInput, naming the particle, if a finite value is beyond float32.
 float to_coordinate(double value, std::size_t particle, const ByteCursor& at);
+/// Sets a coordinate of `positions`, by its index there, which may be one beyond the last; and its remainder. Throws as
+/// to_coordinate() does.
+void set_coordinate(Particles& particles, std::size_t index, double value, const ByteCursor& at);
 /// A particle level. Throws InvalidInput, naming the particle, unless it is 0 to max_particle_level.
 std::uint8_t to_level(double value, std::size_t particle, const ByteCursor& at);
 

@@ -71,7 +71,7 @@ Particles to_particles(VtkDataset dataset, const ByteCursor& at) {
     Particles particles;
     particles.positions.reserve(3 * dataset.points.size());
     for (std::size_t i = 0; i < dataset.points.size(); ++i)
-        for (const double x : dataset.points[i]) particles.positions.push_back(to_coordinate(x, i, at));
+        for (const double x : dataset.points[i]) set_coordinate(particles, particles.positions.size(), x, at);
     particles.levels = std::move(dataset.levels);
     particles.faces = dataset.faces;
     dataset.arrays.finish(particles.arrays, particles.left_out);
