@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "cli/commands.hpp"
+#include "cli/mesh_check.hpp"
 #include "cli/options/near_names.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/warnings.hpp"
@@ -70,6 +71,7 @@ int run(int argc, const char* const* argv) {
     add_watch(app);
     add_picture(app);
     add_compare(app);
+    add_check(app);
     add_info(app);
     add_sessions(app);
     add_top(app);
@@ -88,6 +90,8 @@ int run(int argc, const char* const* argv) {
         if (e.get_exit_code() != 0) return report(refusal(app, e), bad_input);
         app.exit(e);  // prints --help or --version
         return end_of_printing();
+    } catch (const Defective&) {
+        return defective;
     } catch (const Warned&) {
         return warned;
     } catch (const InvalidInput& e) {

@@ -9,6 +9,7 @@ enum ExitCode : int {
     failure = 1,    ///< an error that is not the caller's
     bad_input = 2,  ///< arguments, files, settings, or a server that is not there
     warned = 3,     ///< there were warnings, and --strict
+    defective = 4,  ///< a mesh that was to be checked is not closed, manifold and oriented
 };
 
 /// Runs `meniscus`. Every error is one line on stderr.

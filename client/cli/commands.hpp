@@ -12,6 +12,7 @@ void add_simulate(CLI::App& app);
 void add_watch(CLI::App& app);
 void add_picture(CLI::App& app);
 void add_compare(CLI::App& app);
+void add_check(CLI::App& app);
 void add_info(CLI::App& app);
 void add_sessions(CLI::App& app);
 void add_top(CLI::App& app);

@@ -13,6 +13,7 @@
 #include "cli/mesh_output.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/option_group.hpp"
+#include "cli/options/read_limits_option.hpp"
 #include "formats/atomic_file.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/standard_streams.hpp"
@@ -28,6 +29,7 @@ struct CompareOptions {
     std::string a;
     std::string b;
     std::optional<MeshFormat> input_format;  ///< of the mesh that is "-", or of both
+    formats::ReadLimits limits;
     std::string json;
     std::size_t samples = 200'000;
     std::optional<double> particle_radius;  ///< world units
@@ -68,7 +70,7 @@ compare::SurfaceView view(const formats::TriangleMesh& mesh) {
 }
 
 formats::TriangleMesh read_surface(const CompareOptions& options, const std::string& path) {
-    formats::TriangleMesh mesh = formats::read_mesh(path, options.format_of(path));
+    formats::TriangleMesh mesh = formats::read_mesh(path, options.format_of(path), options.limits);
     compare::validate(view(mesh), formats::input_name(path));
     return mesh;
 }
@@ -142,13 +144,15 @@ void add_compare(CLI::App& app) {
         "compare", "Measure the two-sided distance of two meshes, and name the components that only one of them has");
     {
         const OptionGroup group(command, files_heading);
-        command.add_option("A", options->a, "Mesh: .ply, .obj or .bricks; - for standard input")->required();
+        command.add_option("A", options->a, "Mesh: " + listed(formats::read_mesh_formats()) + "; - for standard input")
+            ->required();
         command.add_option("B", options->b, "Mesh that A is held against, such as the same frame's in uniform mode")
             ->required();
         add_named_option(command, "--input-format", options->input_format,
                          "Format of the mesh that is -, which needs it; else of both, whatever their extensions");
         command.add_option("--json", options->json, "The figures, as JSON; - for standard output");
     }
+    add_read_limits(command, options->limits);
     const OptionGroup group(command, "Measure");
     command.add_option("-r,--particle-radius", options->particle_radius,
                        "World units: gives distances in finest cells, and lost and gained components");

@@ -1,46 +1,51 @@
-// meniscus convert: frames of a recording to files of their own.
+// meniscus convert: frames of a recording to files of their own, and files to other formats.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <set>
 
 #include "cli/commands.hpp"
+#include "cli/convert_files.hpp"
 #include "cli/distinct_files.hpp"
 #include "cli/examples.hpp"
 #include "cli/mesh_output.hpp"
 #include "cli/options/option_group.hpp"
+#include "cli/options/read_limits_option.hpp"
 #include "cli/options/verbosity.hpp"
 #include "cli/recording_files.hpp"
 #include "formats/atomic_file.hpp"
+#include "formats/particle_writer.hpp"
 #include "formats/standard_streams.hpp"
-#include "formats/vtk_writer.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
 
 namespace meniscus::cli {
 namespace {
 
-constexpr std::string_view particles_name = "vtk";
+using formats::ParticleFormat;
 
 struct ConvertOptions {
     RecordingSelection recording;
     std::string directory;
-    std::optional<MeshFormat> format = MeshFormat::ply;  ///< none: the particles, as VTK
+    std::optional<MeshFormat> format = MeshFormat::ply;  ///< none: the particles
+    ParticleFormat particle_format = ParticleFormat::vtk;
     Verbosity verbosity;
 
     std::filesystem::path path_of(const formats::RecordedFrame& frame) const {
         if (formats::is_standard_stream(directory)) return directory;
-        return frame_path(directory, frame.index, format ? name_of(*format) : particles_name);
+        return frame_path(directory, frame.index, format ? name_of(*format) : name_of(particle_format));
     }
 };
 
-void write_particles(const std::filesystem::path& path, const formats::RecordedParticles& particles) {
+void write_particles(const std::filesystem::path& path, const formats::RecordedParticles& particles,
+                     ParticleFormat format) {
     const std::vector<float> positions = particles.world_positions();
     const std::vector<ParticleArray> arrays = formats::views(particles.arrays);
     ParticleFrame frame;
     frame.arrays = arrays;
     frame.positions = positions;
     frame.levels = particles.levels;
-    formats::write_vtk(path, frame);
+    formats::write_particles(path, frame, format);
 }
 
 /// What is wrong with a mesh shows when it is decoded, where nothing is known of the file.
@@ -64,7 +69,7 @@ void check_outputs(const ConvertOptions& options, const formats::Recording& reco
     for (const formats::RecordedFrame& frame : frames) distinct.add_output(options.path_of(frame));
 }
 
-void convert(const ConvertOptions& options) {
+void convert_recording(const ConvertOptions& options) {
     const formats::Recording recording = options.recording.open();
     const auto frames = recording.frames(options.recording.from, options.recording.to);
     check_outputs(options, recording, frames);
@@ -72,7 +77,7 @@ void convert(const ConvertOptions& options) {
     for (const formats::RecordedFrame& frame : frames) {
         const auto path = options.path_of(frame);
         if (!options.format) {
-            write_particles(path, recording.particles(frame));
+            write_particles(path, recording.particles(frame), options.particle_format);
         } else if (frame.mesh) {
             const client::ReceivedFrame mesh = recording.mesh(frame);
             const Surface surface(mesh);
@@ -86,32 +91,93 @@ void convert(const ConvertOptions& options) {
     }
 }
 
+/// The command's flags, before it is known what IN is.
+struct ConvertFlags {
+    FileConversion files;
+    RecordingSelection recording;
+    bool particles = false;
+    bool mesh = false;
+};
+
+/// A recording has both. Without a flag, vtk are its particles.
+ConvertOptions recording_options(const ConvertFlags& flags) {
+    if (flags.files.selection.is_given() || flags.files.input_format)
+        throw InvalidInput(flags.files.in +
+                           " is a recording: its frames are chosen by --from and --to, and it has one format");
+    ConvertOptions options;
+    options.recording = flags.recording;
+    options.recording.path = flags.files.in;
+    options.directory = flags.files.out;
+    options.verbosity = flags.files.verbosity;
+    const auto& format = flags.files.format;
+    if (flags.particles || (!flags.mesh && format == name_of(ParticleFormat::vtk))) {
+        options.format.reset();
+        if (format) options.particle_format = written_particle_format(*format);
+    } else if (format) {
+        options.format = find_by_name<MeshFormat>(*format);
+    }
+    return options;
+}
+
+void convert(const ConvertFlags& flags) {
+    if (is_recording(flags.files.in)) return convert_recording(recording_options(flags));
+    if (flags.recording.is_range_given())
+        throw InvalidInput(flags.files.in + " is no recording: frames of a sequence are chosen by --start and --end");
+    FileConversion files = flags.files;
+    if (flags.particles) files.content = FileContent::particles;
+    if (flags.mesh) files.content = FileContent::mesh;
+    convert_files(files);
+}
+
+std::vector<std::string> read_formats() {
+    std::set<std::string> all(formats::read_mesh_formats().begin(), formats::read_mesh_formats().end());
+    all.insert(names<ParticleFormat>.begin(), names<ParticleFormat>.end());
+    return {all.begin(), all.end()};
+}
+
+/// Particles are written in no other.
+std::vector<std::string> written_formats() {
+    return {names<MeshFormat>.begin(), names<MeshFormat>.end()};
+}
+
 }  // namespace
 
 void add_convert(CLI::App& app) {
-    auto options = std::make_shared<ConvertOptions>();
-    CLI::App& command = *app.add_subcommand("convert", "Write frames of a recording as files of their own");
-    options->recording.add_to(command);
+    auto flags = std::make_shared<ConvertFlags>();
+    FileConversion& files = flags->files;
+    CLI::App& command = *app.add_subcommand(
+        "convert", "Write frames of a recording as files of their own, or particle and mesh files in other formats");
     {
         const OptionGroup group(command, files_heading);
         command
-            .add_option("-o,--output", options->directory, "Folder for the files; - for one frame to standard output")
+            .add_option("IN", files.in,
+                        "A recording, or a session's folder if it holds one only; particles or a mesh; a sequence of "
+                        "those with {}; - for standard input")
             ->required();
-        std::vector<std::string> formats(names<MeshFormat>.begin(), names<MeshFormat>.end());
         command
-            .add_option_function<std::string>(
-                "--format",
-                [options](const std::string& name) {
-                    options->format = name == particles_name ? std::nullopt : find_by_name<MeshFormat>(name);
-                },
-                "Of the meshes; vtk: the particles")
-            ->check(CLI::IsMember(formats))
-            ->default_str(std::string(name_of(MeshFormat::ply)));
+            .add_option("-o,--output", files.out,
+                        "File, with {} for a sequence; of a recording a folder; - for standard output")
+            ->required();
+        command
+            .add_option("--format", files.format,
+                        "Format of OUT, whatever its extension; - needs it. Of a recording: "
+                        "that of the meshes (default ply), or vtk, its particles")
+            ->check(CLI::IsMember(written_formats()));
+        command.add_option("--input-format", files.input_format, "Format of IN, whatever its extension; - needs it")
+            ->check(CLI::IsMember(read_formats()));
+        auto* particles = command.add_flag("--particles", flags->particles,
+                                           "Take IN for particles; without this, a file with faces is a mesh");
+        command.add_flag("--mesh", flags->mesh, "Take IN for a mesh")->excludes(particles);
     }
-    options->verbosity.add_quiet_to(command);
-    add_examples(command, {"meniscus convert recordings/SESSION/000001.recording -o meshes",
-                           "meniscus convert recordings/SESSION --from 20 --to 39 -o particles --format vtk"});
-    command.callback([options] { convert(*options); });
+    flags->recording.add_range_to(command);
+    add_read_limits(command, files.limits);
+    files.selection.add_to(command);
+    files.verbosity.add_quiet_to(command);
+    add_examples(command,
+                 {"meniscus convert recordings/SESSION/000001.recording -o meshes",
+                  "meniscus convert recordings/SESSION --from 20 --to 39 -o particles --format vtk",
+                  "meniscus convert 'frame_{}.vtk' -o 'frame_{}.npz'", "meniscus convert surface.ply -o surface.obj"});
+    command.callback([flags] { convert(*flags); });
 }
 
 }  // namespace meniscus::cli

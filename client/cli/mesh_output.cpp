@@ -4,6 +4,9 @@
 #include <string_view>
 
 #include "cli/file_pattern.hpp"
+#include "cli/mesh_check.hpp"
+#include "editing/mesh_box.hpp"
+#include "editing/quads.hpp"
 #include "formats/brick_file.hpp"
 #include "formats/extension.hpp"
 #include "formats/mesh_file.hpp"
@@ -45,21 +48,30 @@ void check_spray(const Settings& settings) {
                            "', and must be '" + std::string(name_of(Spray::points)) + "'");
 }
 
+MeshOutput::MeshOutput(const Surface& surface, MeshFormat format, const MeshEdits& edits, bool check)
+    : format_(format) {
+    if (format == MeshFormat::bricks) bricks_ = surface.encoded();
+    if (format == MeshFormat::bricks && !check) return;
+    ordered_ = in_canonical_order(surface.mesh());
+    const bool from_mesh = format == MeshFormat::ply || format == MeshFormat::obj || format == MeshFormat::bricks;
+    if (from_mesh && !check && !edits.any()) return;
+    triangles_ = formats::to_triangles(ordered_);
+    if (edits.origin) editing::move_from(*triangles_, *edits.origin);
+    if (edits.box) editing::keep_touching(*triangles_, *edits.box);
+    if (check) defects_ = defects_of(*triangles_);
+    if (edits.quads) editing::merge_to_quads(*triangles_);
+    if (from_mesh && !edits.any()) triangles_.reset();
+}
+
+void MeshOutput::write(const std::filesystem::path& path) const {
+    if (bricks_) return formats::write_bricks(path, *bricks_);
+    if (triangles_) return formats::write_mesh(path, *triangles_, format_);
+    if (format_ == MeshFormat::obj) return formats::write_obj(path, ordered_);
+    formats::write_ply(path, ordered_);
+}
+
 void write_surface(const std::filesystem::path& path, const Surface& surface, MeshFormat format) {
-    switch (format) {
-        case MeshFormat::ply:
-            return formats::write_ply(path, in_canonical_order(surface.mesh()));
-        case MeshFormat::obj:
-            return formats::write_obj(path, in_canonical_order(surface.mesh()));
-        case MeshFormat::bricks:
-            return formats::write_bricks(path, surface.encoded());
-        case MeshFormat::vtk:
-        case MeshFormat::vtp:
-        case MeshFormat::npz:
-        case MeshFormat::glb:
-        case MeshFormat::usda:
-            return formats::write_mesh(path, formats::to_triangles(in_canonical_order(surface.mesh())), format);
-    }
+    MeshOutput(surface, format).write(path);
 }
 
 std::filesystem::path frame_path(const std::filesystem::path& directory, std::uint64_t index,

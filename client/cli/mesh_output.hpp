@@ -7,7 +7,10 @@
 #include <string>
 #include <string_view>
 
+#include "cli/mesh_edits.hpp"
 #include "cli/surfaces.hpp"
+#include "compare/closedness.hpp"
+#include "formats/mesh_file.hpp"
 #include "formats/mesh_format.hpp"
 
 namespace meniscus::cli {
@@ -27,7 +30,24 @@ void check_named(const std::filesystem::path& file, bool named, const std::strin
 void check_points_path(const std::filesystem::path& path);
 /// Throws InvalidInput unless these settings bring points for a file of spray: to be called before long work.
 void check_spray(const Settings& settings);
-/// Meshes are written in their canonical order, so that a file tells nothing of the way of its mesh.
+/// A surface as it is written: in its canonical order, so that a file tells nothing of the way of its mesh.
+class MeshOutput {
+public:
+    /// Does all that takes time but the writing. The surface is not needed afterwards. check: the mesh is looked at.
+    MeshOutput(const Surface& surface, MeshFormat format, const MeshEdits& edits = {}, bool check = false);
+    void write(const std::filesystem::path& path) const;
+    /// None if it was not to be looked at.
+    const std::optional<compare::Defects>& defects() const { return defects_; }
+
+private:
+    MeshFormat format_;
+    Mesh ordered_;                                    ///< for the formats that are written from it
+    std::optional<formats::TriangleMesh> triangles_;  ///< in place of it
+    std::optional<client::ReceivedFrame> bricks_;     ///< for a file of bricks
+    std::optional<compare::Defects> defects_;
+};
+
+/// Both at once.
 void write_surface(const std::filesystem::path& path, const Surface& surface, MeshFormat format);
 
 /// "DIR/frame_000012.ply"

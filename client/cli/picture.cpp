@@ -10,6 +10,7 @@
 #include "cli/mesh_output.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/option_group.hpp"
+#include "cli/options/read_limits_option.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -19,6 +20,7 @@ constexpr std::size_t largest_side = 8192;
 struct PictureCommand {
     std::string mesh;
     std::optional<MeshFormat> input_format;
+    formats::ReadLimits limits;
     std::string out;
     std::vector<double> view;
     PictureOptions options;
@@ -34,13 +36,15 @@ void picture(PictureCommand command) {
     DistinctFiles distinct;
     distinct.add_input(command.mesh);
     distinct.add_output(command.out);
-    const formats::TriangleMesh mesh = formats::read_mesh(command.mesh, command.input_format);
+    const formats::TriangleMesh mesh = formats::read_mesh(command.mesh, command.input_format, command.limits);
     formats::write_png(command.out, draw_picture(mesh, command.options));
 }
 
 void add_files(CLI::App& command, PictureCommand& options) {
     const OptionGroup group(command, files_heading);
-    command.add_option("MESH", options.mesh, ".ply, .obj or .bricks; - for standard input")->required();
+    command
+        .add_option("MESH", options.mesh, "Mesh: " + listed(formats::read_mesh_formats()) + "; - for standard input")
+        ->required();
     command.add_option("-o,--output", options.out, "PNG file; - for standard output")->required();
     add_named_option(command, "--input-format", options.input_format,
                      "Format of MESH, whatever its extension; - needs it");
@@ -52,6 +56,7 @@ void add_picture(CLI::App& app) {
     auto options = std::make_shared<PictureCommand>();
     CLI::App& command = *app.add_subcommand("picture", "Draw a mesh file");
     add_files(command, *options);
+    add_read_limits(command, options->limits);
     const OptionGroup group(command, "Picture");
     command.add_flag("--wireframe", options->options.wireframe,
                      "Lines colored by level (1 blue, 2 green, 3 red, crack filling purple), hidden lines removed");

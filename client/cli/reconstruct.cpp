@@ -2,224 +2,227 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <iostream>
+#include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
 
+#include "cli/array_forms.hpp"
 #include "cli/commands.hpp"
-#include "cli/distinct_files.hpp"
 #include "cli/examples.hpp"
-#include "cli/file_pattern.hpp"
-#include "cli/frame_selection.hpp"
-#include "cli/listener.hpp"
-#include "cli/mesh_output.hpp"
+#include "cli/jobs.hpp"
+#include "cli/options/box_option.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/settings_options.hpp"
-#include "cli/options/verbosity.hpp"
-#include "cli/quantized_positions.hpp"
-#include "cli/statistics_json.hpp"
-#include "cli/statistics_text.hpp"
+#include "cli/particle_input.hpp"
+#include "cli/reconstruct_plan.hpp"
+#include "cli/reconstruct_report.hpp"
 #include "cli/surfaces.hpp"
-#include "cli/warnings.hpp"
-#include "formats/atomic_file.hpp"
-#include "formats/particles.hpp"
-#include "formats/point_writer.hpp"
+#include "cli/work_in_turn.hpp"
 #include "formats/standard_streams.hpp"
 #include "meniscus/error.hpp"
-#include "meniscus/mesh_hash.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::cli {
 namespace {
 
-using formats::ParticleFormat;
+constexpr unsigned most_at_a_time = 256;
 
 struct ReconstructOptions {
-    std::string in;
-    std::optional<ParticleFormat> input_format;
-    std::string out;
-    std::optional<MeshFormat> format;
-    std::string spray_out;
-    std::string stats;
+    ReconstructFiles files;
     double particle_radius = 0.0;
     SettingsOptions settings;
     SurfacesOptions surfaces;
+    std::optional<Box> particle_box;
     PositionEncoding positions = PositionEncoding::float32;
     unsigned repeat = 1;
-    FrameSelection selection;
-    Verbosity verbosity;
-    bool strict = false;
-};
+    std::optional<unsigned> jobs;
+    ReportOptions report;
 
-/// One frame's files. Empty: not asked for.
-struct FrameFiles {
-    std::uint64_t number = 0;
-    std::filesystem::path in;
-    std::filesystem::path out;
-    std::filesystem::path spray_out;
-};
-
-/// What there is to do, checked before any work.
-struct Plan {
-    bool sequence = false;
-    MeshFormat format = MeshFormat::ply;
-    std::vector<FrameFiles> frames;
-};
-
-std::vector<FrameFiles> files_of(const ReconstructOptions& options) {
-    FilePattern in(options.in);
-    FilePattern out(options.out);
-    FilePattern spray_out(options.spray_out);
-    const bool sequence = in.has_number();
-    if (!sequence && options.selection.is_given())
-        throw InvalidInput("--start, --end, --step and --skip-missing need {} in IN, which is '" + options.in + "'");
-    if (!options.out.empty() && out.has_number() != sequence)
-        throw InvalidInput("IN '" + options.in + "' and OUT '" + options.out + "' must both have {} or both not");
-    if (!options.spray_out.empty() && spray_out.has_number() != sequence)
-        throw InvalidInput("IN '" + options.in + "' and --spray-out '" + options.spray_out +
-                           "' must both have {} or both not");
-    if (!sequence) return {{0, options.in, options.out, options.spray_out}};
-    std::vector<FrameFiles> frames;
-    const auto inputs = options.selection.files(in);
-    out.pad_like(in);
-    spray_out.pad_like(in);
-    for (const auto& [number, path] : inputs) frames.push_back({number, path, out.at(number), spray_out.at(number)});
-    return frames;
-}
-
-void check_files(const ReconstructOptions& options, Plan& plan) {
-    DistinctFiles distinct;
-    for (const FrameFiles& frame : plan.frames) {
-        check_named(frame.in, options.input_format.has_value(), "--input-format", names<ParticleFormat>);
-        if (!options.input_format) formats::particle_format_of(frame.in);
-        distinct.add_input(frame.in);
+    bool is_local() const { return surfaces.server.address.empty(); }
+    ParticleInputOptions input() const {
+        return {files.input_format, files.limits, particle_box, report.edits.origin, positions};
     }
-    // Those of the sequence that are not among the frames are somebody's input, too.
-    if (plan.sequence)
-        for (const auto& [number, path] : FilePattern(options.in).match_existing()) distinct.add_input(path);
-    for (const FrameFiles& frame : plan.frames) {
-        if (!frame.out.empty()) {
-            plan.format = check_mesh_path(frame.out, options.format);
-            distinct.add_output(frame.out);
+    /// Relative to the origin, as the particles are.
+    Settings settings_in_place() const {
+        Settings out = settings.build(particle_radius);
+        for (std::size_t a = 0; a < 3 && out.domain && report.edits.origin; ++a) {
+            out.domain->min[a] -= (*report.edits.origin)[a];
+            out.domain->max[a] -= (*report.edits.origin)[a];
         }
-        if (!frame.spray_out.empty()) {
-            check_points_path(frame.spray_out);
-            distinct.add_output(frame.spray_out);
-        }
+        return out;
     }
-    check_folder(options.stats);
-    if (!options.stats.empty()) distinct.add_output(options.stats);
+};
+
+/// The frames of a plan, in this process or on a server.
+class Reconstruction {
+public:
+    Reconstruction(const ReconstructOptions& options, const Plan& plan, const Settings& settings,
+                   ReconstructReport& report)
+        : options_(options), plan_(plan), settings_(settings), report_(report) {}
+
+    void run_here();
+    void run_on_server();
+
+private:
+    class Worker;
+
+    std::unique_ptr<ParticleInput> read(std::size_t index) const {
+        return std::make_unique<ParticleInput>(plan_.frames[index].in, options_.input(), settings_);
+    }
+    unsigned jobs() const;
+    /// All attributes are those of the first frame with particles, whichever worker has it.
+    void name_attributes();
+
+    const ReconstructOptions& options_;
+    const Plan& plan_;
+    Settings settings_;
+    ReconstructReport& report_;
+    ArrayForms forms_;  ///< of the frames that have had their turn
+};
+
+/// One frame at a time in this process, by a reconstructor of its own.
+class Reconstruction::Worker {
+public:
+    Worker(Reconstruction& whole, const SurfacesOptions& surfaces)
+        : whole_(whole),
+          surfaces_(surfaces.open(whole.settings_, [this](const Surface& surface) { handle(surface); })) {}
+
+    void work(std::size_t index, const std::function<void()>& wait_for_turn) {
+        const auto input = whole_.read(index);
+        index_ = index;
+        const std::string name = formats::input_name(whole_.plan_.frames[index].in);
+        try {
+            // Files do not tell their simulation time.
+            for (unsigned run = 0; run < whole_.options_.repeat; ++run) surfaces_->submit(input->frame(), 0.0);
+            finished_.warnings = input->warnings();
+            wait_for_turn();
+            whole_.forms_.require(input->frame().arrays);
+        } catch (const InvalidInput& e) {
+            throw InvalidInput(name + ": " + e.what());
+        } catch (const LimitExceeded& e) {
+            throw LimitExceeded(name + ": " + e.what());
+        }
+        whole_.report_.deliver(std::move(finished_));
+    }
+
+private:
+    void handle(const Surface& surface) {
+        runs_.push_back(surface.statistics());
+        whole_.report_.say_run(runs_.size(), whole_.options_.repeat, runs_.back());
+        if (runs_.size() == whole_.options_.repeat)
+            finished_ = whole_.report_.prepare(surface, index_, std::exchange(runs_, {}));
+    }
+
+    Reconstruction& whole_;
+    std::unique_ptr<Surfaces> surfaces_;
+    std::size_t index_ = 0;
+    std::vector<Statistics> runs_;
+    FinishedFrame finished_;
+};
+
+unsigned threads_of(const BackendOptions& backend) {
+    return backend.threads != 0 ? backend.threads : std::max(1U, std::thread::hardware_concurrency());
 }
 
-Plan make_plan(const ReconstructOptions& options) {
-    if (options.out.empty() && options.spray_out.empty() && options.stats.empty())
-        throw InvalidInput("nothing to write: give -o OUT, --spray-out FILE.ply, --stats FILE.json or several of them");
-    if (options.format && options.out.empty()) throw InvalidInput("--format is that of OUT: give -o OUT");
-    Plan plan;
-    plan.sequence = FilePattern(options.in).has_number();
-    plan.frames = files_of(options);
-    check_files(options, plan);
-    return plan;
+unsigned Reconstruction::jobs() const {
+    if (options_.repeat > 1) return 1;  // what is measured is not disturbed
+    const BackendOptions& backend = options_.surfaces.backend;
+    if (describe_backend(backend.backend, backend.device).backend == Backend::cuda) return 1;
+    JobsInput input{.frames = plan_.frames.size(), .threads = threads_of(backend)};
+    for (const FrameFiles& frame : plan_.frames) {
+        std::error_code error;  // of a file that is not there, which is told when it is read
+        const std::uint64_t bytes = std::filesystem::file_size(frame.in, error);
+        if (!error) input.file_bytes = std::max(input.file_bytes, bytes);
+    }
+    input.memory_bytes =
+        static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    return jobs_of(input, options_.jobs);
 }
 
-void say(const FrameFiles& frame, const Statistics& statistics, bool stages) {
-    std::cerr << formats::input_name(frame.in) << ": " << summary(statistics);
-    for (const auto& path : {frame.out, frame.spray_out})
-        if (!path.empty()) std::cerr << ", " << formats::output_name(path);
-    std::cerr << '\n';
-    if (stages) std::cerr << stages_text(statistics);
-    require_listener();
+void Reconstruction::name_attributes() {
+    for (std::size_t i = 0; i < plan_.frames.size(); ++i) {
+        const auto input = read(i);
+        if (input->frame().count() == 0) continue;
+        for (const ParticleArray& array : input->frame().arrays) settings_.attributes.emplace_back(array.name);
+        break;
+    }
+    settings_.all_attributes = false;
+}
+
+void Reconstruction::run_here() {
+    const unsigned count = jobs();
+    if (plan_.frames.size() > 1 && settings_.all_attributes) name_attributes();
+    SurfacesOptions surfaces = options_.surfaces;
+    if (count > 1) surfaces.backend.threads = std::max(1U, threads_of(surfaces.backend) / count);
+    std::vector<std::unique_ptr<Worker>> workers;
+    std::vector<Work> works;
+    for (unsigned i = 0; i < count; ++i) {
+        workers.push_back(std::make_unique<Worker>(*this, surfaces));
+        works.emplace_back([worker = workers.back().get()](std::size_t index, const std::function<void()>& wait) {
+            worker->work(index, wait);
+        });
+    }
+    work_in_turn(plan_.frames.size(), works);
+}
+
+void Reconstruction::run_on_server() {
+    std::vector<std::vector<FileWarning>> warnings(plan_.frames.size());  // each is there before its frame is submitted
+    std::vector<Statistics> runs;
+    SurfacesOptions place = options_.surfaces;
+    place.stream.spray = settings_.spray == Spray::points;
+    const auto surfaces = place.open(settings_, [&](const Surface& surface) {
+        runs.push_back(surface.statistics());
+        report_.say_run(runs.size(), options_.repeat, runs.back());
+        if (runs.size() < options_.repeat) return;
+        const std::size_t index = surface.index() / options_.repeat;
+        FinishedFrame finished = report_.prepare(surface, index, std::exchange(runs, {}));
+        finished.warnings = std::move(warnings[index]);
+        report_.deliver(std::move(finished));
+    });
+    for (std::size_t i = 0; i < plan_.frames.size(); ++i) {
+        const auto input = read(i);
+        warnings[i] = input->warnings();
+        for (unsigned run = 0; run < options_.repeat; ++run) surfaces->submit(input->frame(), 0.0);
+    }
+    surfaces->finish();
 }
 
 void reconstruct(const ReconstructOptions& options) {
-    const Settings settings = options.settings.build(options.particle_radius);
-    if (!options.spray_out.empty()) check_spray(settings);
-    const Plan plan = make_plan(options);
-    nlohmann::ordered_json frames = nlohmann::ordered_json::array();
-    std::vector<Statistics> runs;
-    Warnings warnings(options.strict);
-    std::vector<FileWarning> files(plan.frames.size());  // each is there before its frame is submitted
-    const bool each_run =
-        options.repeat > 1 && !options.verbosity.quiet && (options.verbosity.verbose || isatty(STDERR_FILENO) != 0);
-
-    const auto handle = [&](const Surface& surface) {
-        runs.push_back(surface.statistics());
-        if (each_run)
-            std::cerr << "run " << runs.size() << " of " << options.repeat << ": " << runs.back().total_seconds
-                      << " s\n";
-        if (runs.size() < options.repeat) return;
-        const std::size_t number = surface.index() / options.repeat;
-        const FrameFiles& frame = plan.frames[number];
-        const FileWarning& file = files[number];
-        if (!frame.out.empty()) write_surface(frame.out, surface, plan.format);
-        if (!frame.spray_out.empty()) formats::write_points(frame.spray_out, surface.spray());
-        if (!options.stats.empty()) {
-            nlohmann::ordered_json figures;
-            if (plan.sequence) figures["frame"] = frame.number;
-            figures.update(to_json(runs, mesh_sha256(surface.mesh())));
-            figures["attributes"] = attributes_json(surface.mesh());
-            if (file.faces != 0) figures["warnings"].push_back(to_json(file));
-            frames.push_back(std::move(figures));
-        }
-        const std::string name = formats::input_name(frame.in);
-        if (file.faces != 0) warnings.say(name, file);
-        warnings.say(name, median_run(runs).warnings);
-        if (!options.verbosity.quiet) say(frame, median_run(runs), options.verbosity.verbose);
-        runs.clear();
-    };
-
-    SurfacesOptions place = options.surfaces;
-    place.stream.spray = settings.spray == Spray::points;
-    const auto surfaces = place.open(settings, handle);
-    for (std::size_t i = 0; i < plan.frames.size(); ++i) {
-        const FrameFiles& frame = plan.frames[i];
-        const formats::Particles particles = formats::read_particles(frame.in, options.input_format);
-        files[i] = {particles.faces, particles.count()};
-        try {
-            validate(particles.frame(), settings);
-        } catch (const InvalidInput& e) {
-            throw InvalidInput(formats::input_name(frame.in) + ": " + e.what());
-        }
-        const std::vector<ParticleArray> arrays = formats::views(particles.arrays);
-        ParticleFrame upload = particles.frame();
-        upload.arrays = arrays;
-        std::optional<QuantizedPositions> quantized;
-        if (options.positions == PositionEncoding::uint16) quantized.emplace(upload);
-        // Files do not tell their simulation time.
-        for (unsigned run = 0; run < options.repeat; ++run) try {
-                surfaces->submit(quantized ? quantized->frame() : upload, 0.0);
-            } catch (const LimitExceeded& e) {
-                // A server's refusal may be that of an earlier frame.
-                if (!options.surfaces.server.address.empty()) throw;
-                throw LimitExceeded(formats::input_name(frame.in) + ": " + e.what());
-            }
-    }
-    surfaces->finish();
-    if (!options.stats.empty()) {
-        const nlohmann::ordered_json all = plan.sequence ? nlohmann::ordered_json{{"frames", frames}} : frames.at(0);
-        formats::write_file(options.stats, all.dump(2) + "\n");
-    }
-    warnings.finish();
+    const Settings settings = options.settings_in_place();
+    if (!options.files.spray_out.empty()) check_spray(settings);
+    const Plan plan = make_plan(options.files);
+    if (!options.files.out.empty()) options.report.edits.require(plan.format);
+    ReportOptions wishes = options.report;
+    wishes.bar = options.repeat == 1;
+    ReconstructReport report(options.files, plan, wishes);
+    Reconstruction reconstruction(options, plan, settings, report);
+    if (!plan.frames.empty()) options.is_local() ? reconstruction.run_here() : reconstruction.run_on_server();
+    report.finish();
 }
 
-void add_files(CLI::App& command, ReconstructOptions& options) {
-    const OptionGroup group(command, files_heading);
+void add_place(CLI::App& command, ReconstructOptions& options) {
+    {
+        const OptionGroup group(command, place_heading);
+        add_named_option(command, "--positions", options.positions,
+                         "Encoding of the positions; uint16 is over the frame's bounding box");
+        command.add_option("--repeat", options.repeat, "Number of times that each frame is reconstructed")
+            ->check(CLI::Range(1U, 1000000U))
+            ->capture_default_str();
+    }
+    options.surfaces.add_to(command);
+    const OptionGroup group(command, place_heading);
     command
-        .add_option(
-            "IN", options.in,
-            "Particles: .vtk (legacy), .ply, or .xyz, .bin, .raw (float32 triples); a sequence with {} or {:03} "
-            "for the frame number ({} also finds zero-padded names); - for standard input")
-        ->required();
-    command.add_option("-o,--output", options.out,
-                       "Mesh: .ply, .obj or .bricks; with {} for a sequence; - for standard output");
-    add_named_option(command, "--input-format", options.input_format,
-                     "Format of IN, whatever its extension; - needs it. xyz: float32 triples");
-    add_named_option(command, "--format", options.format, "Format of OUT, whatever its extension; - needs it");
-    command.add_option("--spray-out", options.spray_out,
-                       "With --spray points: the particles left out of the surface, as PLY; with {} for a sequence");
-    command.add_option("--stats", options.stats, "Figures of each frame, as JSON");
+        .add_option("--jobs", options.jobs,
+                    "Frames of a sequence that are reconstructed at a time, which share the threads; meshes do not "
+                    "depend on it. Default: one per thread, at most 8, as the memory allows; one on a GPU")
+        ->check(CLI::Range(1U, most_at_a_time))
+        ->excludes(command.get_option("--server"))
+        ->excludes(command.get_option("--repeat"));
 }
 
 }  // namespace
@@ -227,30 +230,41 @@ void add_files(CLI::App& command, ReconstructOptions& options) {
 void add_reconstruct(CLI::App& app) {
     auto options = std::make_shared<ReconstructOptions>();
     CLI::App& command = *app.add_subcommand("reconstruct", "Reconstruct the surface of particle files");
-    add_files(command, *options);
+    options->files.add_to(command);
     {
         const OptionGroup group(command, surface_heading);
         command.add_option("-r,--particle-radius", options->particle_radius, "World units")->required();
+        add_box_option(command, "--particle-aabb", options->particle_box,
+                       "X0 Y0 Z0 X1 Y1 Z1: particles outside of this box are left out of the frame, world units");
+        command
+            .add_option_function<std::vector<double>>(
+                "--origin",
+                [options](const std::vector<double>& at) {
+                    options->report.edits.origin = {at[0], at[1], at[2]};
+                },
+                "X Y Z, world units, for coordinates far from 0: subtracted from float64 positions before they are "
+                "rounded to float32, and added to the mesh, which gets float64 positions")
+            ->expected(3);
     }
     options->settings.add_to(command);
     options->settings.add_attribute_to(command);
-    options->selection.add_to(command);
+    options->files.add_sequence_to(command);
+    options->report.edits.add_to(command);
     {
-        const OptionGroup group(command, place_heading);
-        add_named_option(command, "--positions", options->positions,
-                         "Encoding of the positions; uint16 is over the frame's bounding box");
-        command.add_option("--repeat", options->repeat, "Number of times that each frame is reconstructed")
-            ->check(CLI::Range(1U, 1000000U))
-            ->capture_default_str();
+        const OptionGroup group(command, mesh_heading);
+        command.add_flag("--check", options->report.check,
+                         "Exit code 4 unless every mesh is closed, manifold and consistently oriented, with a line for "
+                         "each kind of defect; all output is written all the same");
     }
-    options->surfaces.add_to(command);
+    add_place(command, *options);
     {
         const OptionGroup group(command, other_heading);
-        add_strict_option(command, options->strict);
+        add_strict_option(command, options->report.strict);
     }
-    options->verbosity.add_to(command);
+    options->report.verbosity.add_to(command);
     add_examples(command, {"meniscus reconstruct frame.vtk -o surface.ply --particle-radius 0.025",
                            "meniscus reconstruct 'frame_{}.vtk' -o 'mesh_{}.ply' -r 0.025 --cell-size 1 --step 2",
+                           "meniscus reconstruct 'frame_{}.vtk' -o 'mesh_{}.ply' -r 0.025 --skip-existing",
                            "meniscus reconstruct frame.vtk -o surface.ply -r 0.025 --server localhost",
                            "zcat frame.vtk.gz | meniscus reconstruct - --input-format vtk -o - --format ply -r 0.025 | "
                            "meniscus picture - --input-format ply -o surface.png"});

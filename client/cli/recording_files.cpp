@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <fstream>
 #include <iostream>
 #include <system_error>
 
@@ -25,10 +26,23 @@ std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& fo
     return paths;
 }
 
+bool is_recording(const std::filesystem::path& path) {
+    if (std::filesystem::is_directory(path) || path.extension() == files::recording_extension) return true;
+    std::string beginning(files::recording_magic.size(), '\0');
+    std::ifstream in(path, std::ios::binary);
+    return in.read(beginning.data(), static_cast<std::streamsize>(beginning.size())) &&
+           beginning == files::recording_magic;
+}
+
 void RecordingSelection::add_to(CLI::App& command) {
     const OptionGroup group(command, files_heading);
     command.add_option("RECORDING", path, "A file NNNNNN.recording, or a session's folder if it holds one only")
         ->required();
+    add_range_to(command);
+}
+
+void RecordingSelection::add_range_to(CLI::App& command) {
+    const OptionGroup group(command, files_heading);
     command.add_option("--from", from, "First frame, by its index (default: all)");
     command.add_option("--to", to, "Last frame, by its index");
 }

@@ -66,7 +66,7 @@ nlohmann::ordered_json attributes_json(const Mesh& mesh) {
 }
 
 nlohmann::ordered_json to_json(const FileWarning& warning) {
-    return {{"code", FileWarning::code}, {"value", warning.faces}, {"limit", 0}, {"text", warning.text()}};
+    return {{"code", warning.code}, {"value", warning.value}, {"limit", warning.limit}, {"text", warning.text}};
 }
 
 }  // namespace meniscus::cli

@@ -1,6 +1,7 @@
 // Warnings on stderr, one line each, and the exit code that --strict makes of them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <exception>
 #include <span>
@@ -24,13 +25,18 @@ public:
 /// The flag --strict.
 void add_strict_option(CLI::App& command, bool& strict);
 
-/// What the reader of a particle file finds, which is no frame's.
+/// What is found in a particle file before there is a frame.
 struct FileWarning {
-    static constexpr std::string_view code = "faces_as_particles";
-    std::size_t faces = 0;      ///< of the file
-    std::size_t particles = 0;  ///< that their corners were taken for
-    std::string text() const;
+    std::string_view code;
+    double value = 0.0;
+    double limit = 0.0;
+    std::string text;
 };
+
+/// The file is a mesh of so many faces; its corners were taken for particles.
+FileWarning faces_as_particles(std::size_t faces, std::size_t particles);
+/// float32 has moved a particle by so much, world units. middle: an origin that keeps them.
+FileWarning positions_rounded(double moved, double limit, const std::array<double, 3>& middle);
 
 class Warnings {
 public:

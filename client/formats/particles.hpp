@@ -21,8 +21,6 @@ class ByteCursor;
 /// One frame of particles, owned.
 struct Particles {
     std::vector<float> positions;  ///< x y z per particle, world units; may hold NaN or infinity if the file does
-    /// What rounding took from `positions`: the file's coordinates are the sums, to 48 bits. Empty if it took nothing.
-    std::vector<float> remainders{};
     std::vector<std::uint8_t> levels;  ///< empty, or one per particle, 0 (finest) to max_particle_level
     /// What else the file tells of each particle, in its order, under array_name(): at most max_particle_arrays.
     std::vector<NamedValues> arrays{};
@@ -31,6 +29,8 @@ struct Particles {
 
     /// Faces that the file has beside its points: it is a mesh, whose corners are taken as particles. 0 of particles.
     std::size_t faces = 0;
+    /// What rounding took from `positions`: the file's coordinates are the sums, to 48 bits. Empty if it took nothing.
+    std::vector<float> remainders{};
 
     std::size_t count() const { return positions.size() / 3; }
     /// As the file has it. index: into `positions`.

@@ -28,6 +28,7 @@ inline constexpr const char* files_heading = "Files";
 inline constexpr const char* sequence_heading = "Sequences";
 inline constexpr const char* surface_heading = "Surface";
 inline constexpr const char* grid_heading = "Grid";
+inline constexpr const char* mesh_heading = "The mesh that is written";
 inline constexpr const char* place_heading = "Place of the reconstruction";
 inline constexpr const char* session_heading = "The session on the server";
 inline constexpr const char* server_heading = "Reaching a server";

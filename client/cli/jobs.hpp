@@ -1,0 +1,21 @@
+// How many frames of a sequence are reconstructed at a time.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace meniscus::cli {
+
+/// What there is to work with.
+struct JobsInput {
+    std::size_t frames = 0;
+    unsigned threads = 1;            ///< of this process, at least 1
+    std::uint64_t file_bytes = 0;    ///< of the largest input
+    std::uint64_t memory_bytes = 0;  ///< of the machine
+};
+
+/// Without a wish: as many as there are threads, at most 8, and no more than fit into half of the memory. At least 1,
+/// and never more than there are frames.
+unsigned jobs_of(const JobsInput& input, std::optional<unsigned> wish);
+
+}  // namespace meniscus::cli

@@ -1,0 +1,28 @@
+// What becomes of a mesh before it is written.
+#pragma once
+
+#include <optional>
+
+#include "editing/origin.hpp"
+#include "formats/mesh_format.hpp"
+#include "meniscus/settings.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace meniscus::cli {
+
+/// The flags --mesh-aabb and --quads, and what --origin asks of the mesh.
+struct MeshEdits {
+    std::optional<editing::Origin> origin;  ///< positions are relative to it until they are written
+    std::optional<Box> box;                 ///< triangles without a corner in it are left out
+    bool quads = false;                     ///< pairs of triangles are merged
+
+    void add_to(CLI::App& command);
+    bool any() const { return origin || box || quads; }
+    /// Throws InvalidInput if files of this format cannot hold the result: to be called before long work.
+    void require(formats::MeshFormat format) const;
+};
+
+}  // namespace meniscus::cli
