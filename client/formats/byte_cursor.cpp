@@ -25,7 +25,7 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t most_byte
     if (!in || error) throw InvalidInput(path.string() + ": cannot be opened for reading");
     if (size > most_bytes)
         throw InvalidInput(path.string() + ": has " + std::to_string(size) + " bytes; at most " +
-                           std::to_string(most_bytes) + " are read");
+                           std::to_string(most_bytes) + " are read; --max-file-bytes allows more");
     std::string bytes(size, '\0');
     in.read(bytes.data(), static_cast<std::streamsize>(size));
     if (in.gcount() != static_cast<std::streamsize>(size))

@@ -30,7 +30,7 @@ std::string read_input(const std::filesystem::path& path, std::uint64_t most_byt
         size += static_cast<std::size_t>(count);
         if (size > most_bytes)
             throw InvalidInput(input_name(path) + ": has more than the " + std::to_string(most_bytes) +
-                               " bytes that are read");
+                               " bytes that are read; --max-file-bytes allows more");
         if (count > 0) continue;
         bytes.resize(size);
         return bytes;
