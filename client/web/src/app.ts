@@ -92,6 +92,7 @@ export class App {
     });
     this.screen = new Screen(pool, this.viewer, new Overlay(), {
       shown: () => {
+        this.tools.frameShown();
         this.sessionView.showParticles();
       },
       failed: (reason) => {
@@ -113,6 +114,9 @@ export class App {
       },
       failed: (reason) => {
         this.banner.say(reason);
+      },
+      attribute: (name) => {
+        this.sessionView.setAttribute(name);
       },
     });
     this.sessionView = new SessionView(this.server, this.screen, this.playback, {
@@ -310,6 +314,7 @@ export class App {
     this.linked = state;
     this.setLook(state.look ?? 'water');
     this.tools.chooseUp(state.up);
+    this.tools.chooseColor(state.color);
     if (this.screen.shown) this.place(state.camera);
   }
 

@@ -1,8 +1,9 @@
 // A second session, beside the one that is looked at: its own watch, and no more than its newest frame.
-import { BrickStore } from './bricks/brick_store';
+import { BrickStore, type Shown } from './bricks/brick_store';
 import type { DecodePool } from './decode/decode_pool';
 import type { Server } from './rpc/server';
 import { askForFacts } from './scene_facts';
+import { wishesOf } from './stream/quality';
 import { SessionWatch } from './stream/session_watch';
 import type { WatchState } from './stream/watch_state';
 import type { WorldBox } from './view/bounds';
@@ -19,6 +20,7 @@ export class BesideView {
   private readonly store: BrickStore;
   private watch: SessionWatch | undefined;
   private paused = false;
+  private attribute: string | undefined;
 
   constructor(
     private readonly server: Server,
@@ -26,7 +28,7 @@ export class BesideView {
     private readonly viewer: Viewer,
     private readonly events: BesideViewEvents,
   ) {
-    this.store = new BrickStore((brick, bits) => pool.decode(brick, bits), {
+    this.store = new BrickStore((...what) => pool.decode(...what), {
       shown: (shown) => {
         this.viewer.show(shown);
         this.events.shown(this.viewer.box);
@@ -40,22 +42,29 @@ export class BesideView {
     });
   }
 
+  get shown(): Shown | undefined {
+    return this.store.shown;
+  }
+
+  /** That vertices are to carry. */
+  setAttribute(name: string | undefined): void {
+    if (name === this.attribute) return;
+    this.attribute = name;
+    this.store.setAttribute(name);
+    this.watch?.setWishes(wishesOf('full', 0, name));
+  }
+
   start(session: string): void {
     this.stop();
-    const watch = new SessionWatch(
-      this.server,
-      session,
-      {},
-      {
-        frame: (frame) => {
-          this.store.show(frame);
-        },
-        state: (state) => {
-          this.events.says(stateText(state));
-        },
-        received: () => undefined,
+    const watch = new SessionWatch(this.server, session, wishesOf('full', 0, this.attribute), {
+      frame: (frame) => {
+        this.store.show(frame);
       },
-    );
+      state: (state) => {
+        this.events.says(stateText(state));
+      },
+      received: () => undefined,
+    });
     this.watch = watch;
     // One that is chosen while the other is paused is to be seen.
     this.setPaused(false);

@@ -29,7 +29,7 @@ export class Screen {
     readonly overlay: Overlay,
     private readonly events: ScreenEvents,
   ) {
-    this.store = new BrickStore((brick, bits) => pool.decode(brick, bits), {
+    this.store = new BrickStore((...what) => pool.decode(...what), {
       shown: (shown) => {
         this.viewer.show(shown);
         this.events.shown();
@@ -46,6 +46,11 @@ export class Screen {
 
   get shown(): Shown | undefined {
     return this.store.shown;
+  }
+
+  /** Of vertices, to be decoded with the bricks that carry it. */
+  setAttribute(name: string | undefined): void {
+    this.store.setAttribute(name);
   }
 
   /** Next; one that still waits is skipped. */

@@ -35,6 +35,7 @@ export class SessionView {
   private watch: SessionWatch | undefined;
   private quality: Quality = 'full';
   private moving = false;
+  private attribute: string | undefined;
 
   constructor(
     private readonly server: Server,
@@ -51,22 +52,17 @@ export class SessionView {
     this.stop();
     this.link = new LinkSpeed();
     this.skipped = new SkippedFrames();
-    this.watch = new SessionWatch(
-      this.server,
-      session,
-      {},
-      {
-        frame: (frame) => {
-          this.take(frame);
-        },
-        state: (state) => {
-          this.events.state(state);
-        },
-        received: (bytes) => {
-          this.screen.overlay.receivedBytes(bytes);
-        },
+    this.watch = new SessionWatch(this.server, session, wishesOf('full', 0, this.attribute), {
+      frame: (frame) => {
+        this.take(frame);
       },
-    );
+      state: (state) => {
+        this.events.state(state);
+      },
+      received: (bytes) => {
+        this.screen.overlay.receivedBytes(bytes);
+      },
+    });
     this.particleWatch = new ParticleWatch(this.server, session, {
       particles: (particles) => {
         this.particles.add(particles);
@@ -101,6 +97,13 @@ export class SessionView {
     this.particleWatch = undefined;
     this.particles.clear();
     this.history.clear();
+  }
+
+  /** That vertices are to carry; of this session, and of those that follow. */
+  setAttribute(name: string | undefined): void {
+    if (name === this.attribute) return;
+    this.attribute = name;
+    this.watch?.setWishes(wishesOf(this.quality, this.link.offsetBits, name));
   }
 
   /** Whether particles are shown, in place of the surface. */
@@ -154,7 +157,7 @@ export class SessionView {
     const quality = chooseQuality(this.moving, this.link.secondsPerFullMesh, this.quality);
     if (quality === this.quality) return;
     this.setQuality(quality);
-    this.watch.setWishes(wishesOf(quality, this.link.offsetBits));
+    this.watch.setWishes(wishesOf(quality, this.link.offsetBits, this.attribute));
   }
 
   private setQuality(quality: Quality): void {

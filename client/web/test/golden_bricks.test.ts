@@ -3,6 +3,7 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { knownCodecs } from '../src/bricks/codecs';
+import type { ElementType } from '../src/bricks/attributes';
 import type { EncodedBrick } from '../src/bricks/frame';
 import * as lattice from '../src/bricks/lattice';
 import { decodeBrick } from '../src/decode/decode_brick';
@@ -26,6 +27,16 @@ interface GoldenBrick {
   normals: number[][];
   /** Three vertices, the least first, and the level: 1, 2, 3; crack filling 0. Ascending. */
   triangles: number[][];
+  attributes?: {
+    name: string;
+    type: ElementType;
+    components: number;
+    bits: number;
+    coded_minimum?: number[];
+    coded_maximum?: number[];
+  }[];
+  /** Of each, one vertex after the other, in their order. */
+  attribute_values?: number[][];
 }
 
 interface Golden {
@@ -56,6 +67,11 @@ function encoded(brick: GoldenBrick): EncodedBrick {
     cellLevels: bytes(brick.cell_levels),
     codec: brick.codec,
     data: bytes(brick.data),
+    attributes: (brick.attributes ?? []).map(({ coded_minimum, coded_maximum, ...form }) => ({
+      ...form,
+      minimum: coded_minimum ?? [],
+      maximum: coded_maximum ?? [],
+    })),
   };
 }
 
@@ -116,5 +132,21 @@ describe('golden bricks', () => {
         // Rounded from single precision in one language, from double in the other.
         expect(Math.abs(value - brick.normals[ofPoint[point]!]![axis]!)).toBeLessThanOrEqual(1);
       });
+  });
+
+  it.each(
+    golden.bricks.flatMap((brick) =>
+      (brick.attributes ?? []).map(({ name }, i) => [name, brick.name, brick, i] as const),
+    ),
+  )('have the attribute %s as in core: %s', (name, _, brick, place) => {
+    const decoded = decodeBrick(draco, encoded(brick), brick.offset_bits, name);
+    const { values, components } = decoded.attribute!;
+    const { ofPoint } = verticesOf(decoded, pointCount(decoded));
+    const expected = brick.attribute_values![place]!;
+    ofPoint.forEach((vertex, point) => {
+      expect([...values.subarray(components * point, components * (point + 1))]).toEqual(
+        expected.slice(components * vertex, components * (vertex + 1)),
+      );
+    });
   });
 });

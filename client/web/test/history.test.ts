@@ -11,6 +11,7 @@ function brick(bytes: number): EncodedBrick {
     cellLevels: new Uint8Array(0),
     codec: Codec.DRACO,
     data: new Uint8Array(bytes),
+    attributes: [],
   };
 }
 

@@ -43,9 +43,29 @@ describe('a pick', () => {
   const shown = shownAt([0, 0, 0]);
 
   it('finds the nearest point of the surface, and the level of its triangle', () => {
-    expect(pick(shown, along([100, 14, 13], [-1, 0, 0]), undefined)).toEqual({ place: [20, 14, 13], level: 'level 1' });
-    expect(pick(shown, along([14, 100, 13], [0, -1, 0]), undefined)).toEqual({ place: [14, 20, 13], level: 'level 2' });
-    expect(pick(shown, along([14, 13, 100], [0, 0, -1]), undefined)).toEqual({ place: [14, 13, 20], level: 'level 3' });
+    expect(pick(shown, along([100, 14, 13], [-1, 0, 0]), undefined)).toMatchObject({
+      place: [20, 14, 13],
+      level: 'level 1',
+    });
+    expect(pick(shown, along([14, 100, 13], [0, -1, 0]), undefined)).toMatchObject({
+      place: [14, 20, 13],
+      level: 'level 2',
+    });
+    expect(pick(shown, along([14, 13, 100], [0, 0, -1]), undefined)).toMatchObject({
+      place: [14, 13, 20],
+      level: 'level 3',
+    });
+  });
+
+  it('tells where in its triangle the point lies', () => {
+    const { place, spot } = pick(shown, along([100, 14, 13], [-1, 0, 0]), undefined)!;
+    const { brick, points, weights } = spot!;
+    // The face x = 80, in steps of a quarter.
+    for (const point of points) expect(brick.positions[4 * point]).toBe(80);
+    for (const axis of [0, 1, 2]) {
+      const mean = points.reduce((sum, point, i) => sum + weights[i]! * brick.positions[4 * point + axis]!, 0);
+      expect(mean / 4).toBeCloseTo(place[axis]!, 10);
+    }
   });
 
   it('finds nothing beside the water, nor behind the eye', () => {
@@ -63,11 +83,18 @@ describe('a pick', () => {
     const cut: Cut = { axis: 'x', at: 16, away: 'beyond' };
 
     it('finds the face of the cut, inside of the water', () => {
-      expect(pick(shown, along([100, 14, 13], [-1, 0, 0]), cut)).toEqual({ place: [16, 14, 13], level: undefined });
+      expect(pick(shown, along([100, 14, 13], [-1, 0, 0]), cut)).toEqual({
+        place: [16, 14, 13],
+        level: undefined,
+        spot: undefined,
+      });
     });
 
     it('finds what is kept as before, seen from its own side', () => {
-      expect(pick(shown, along([-100, 14, 13], [1, 0, 0]), cut)).toEqual({ place: [10, 14, 13], level: 'level 1' });
+      expect(pick(shown, along([-100, 14, 13], [1, 0, 0]), cut)).toMatchObject({
+        place: [10, 14, 13],
+        level: 'level 1',
+      });
     });
 
     it('finds nothing of what is taken away', () => {

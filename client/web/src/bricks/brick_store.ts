@@ -2,7 +2,8 @@
 import type { DecodedBrick } from '../decode/decoded_brick';
 import type { BrickKey, EncodedBrick, Frame } from './frame';
 
-export type Decode = (brick: EncodedBrick, offsetBits: number) => Promise<DecodedBrick>;
+/** attribute: of those that the brick carries, the one that is decoded, too. */
+export type Decode = (brick: EncodedBrick, offsetBits: number, attribute?: string) => Promise<DecodedBrick>;
 
 export interface ShownBrick {
   readonly encoded: EncodedBrick;
@@ -23,7 +24,8 @@ export interface BrickStoreEvents {
 export class BrickStore {
   private current: Shown | undefined;
   private waiting: Frame | undefined;
-  private decoding = false;
+  private decoding: Frame | undefined;
+  private attribute: string | undefined;
   /** Changes when everything is forgotten. */
   private epoch = 0;
 
@@ -42,6 +44,14 @@ export class BrickStore {
     if (!this.decoding) void this.work();
   }
 
+  /** The one that bricks are decoded with, where they carry it; also those that are shown. */
+  setAttribute(name: string | undefined): void {
+    if (name === this.attribute) return;
+    this.attribute = name;
+    const frame = this.waiting ?? this.decoding ?? this.current?.frame;
+    if (frame?.attributes.some((attribute) => attribute.carried && attribute.name === name)) this.show(frame);
+  }
+
   /** Forgets everything: what is being decoded is not shown any more. */
   clear(): void {
     this.current = undefined;
@@ -50,9 +60,9 @@ export class BrickStore {
   }
 
   private async work(): Promise<void> {
-    this.decoding = true;
     while (this.waiting) {
       const frame = this.waiting;
+      this.decoding = frame;
       const { epoch } = this;
       this.waiting = undefined;
       try {
@@ -64,17 +74,20 @@ export class BrickStore {
         if (epoch === this.epoch) this.events.failed(error);
       }
     }
-    this.decoding = false;
+    this.decoding = undefined;
   }
 
   private async decodeFrame(frame: Frame): Promise<Map<BrickKey, ShownBrick>> {
     const shown = this.current;
     const sameLattice = shown?.frame.offsetBits === frame.offsetBits;
+    const { attribute } = this;
     const bricks = await Promise.all(
       [...frame.bricks].map(async ([key, encoded]): Promise<[BrickKey, ShownBrick]> => {
         const before = sameLattice ? shown.bricks.get(key) : undefined;
-        if (before?.encoded === encoded) return [key, before];
-        return [key, { encoded, decoded: await this.decode(encoded, frame.offsetBits) }];
+        const has = before?.decoded.attribute?.name === attribute;
+        const wanted = attribute !== undefined && encoded.attributes.some(({ name }) => name === attribute);
+        if (before?.encoded === encoded && (has || !wanted)) return [key, before];
+        return [key, { encoded, decoded: await this.decode(encoded, frame.offsetBits, attribute) }];
       }),
     );
     return new Map(bricks);

@@ -1,4 +1,5 @@
 // A frame as it is kept: its bricks still encoded, shared with the frames before and after it where they did not change.
+import type { CodedAttribute, VertexAttribute } from './attributes';
 import type { Codec, FrameStatistics } from '../gen/meniscus/v1/mesh_pb';
 
 export interface EncodedBrick {
@@ -10,6 +11,8 @@ export interface EncodedBrick {
   readonly codec: Codec;
   /** As the codec writes it. */
   readonly data: Uint8Array;
+  /** What its vertices carry, in the order in which the codec has them. */
+  readonly attributes: readonly CodedAttribute[];
 }
 
 /** Names a place in maps. */
@@ -32,6 +35,8 @@ export interface Frame {
   readonly brickCells: number;
   readonly bricks: ReadonlyMap<BrickKey, EncodedBrick>;
   readonly triangleCount: number;
+  /** What its vertices have; the bricks carry those alone that were asked for. */
+  readonly attributes: readonly VertexAttribute[];
   /** Particles that the surface leaves out: x y z each, world units. */
   readonly spray: Float32Array;
   readonly statistics: FrameStatistics;

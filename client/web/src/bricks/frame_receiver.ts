@@ -1,14 +1,11 @@
 // Puts one call's messages together to whole frames, and believes none of them.
 import type { FrameStatistics, MeshBegin, MeshBrick, SprayPoints } from '../gen/meniscus/v1/mesh_pb';
 import type { WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
+import { readAttributes, type CodedAttribute, type VertexAttribute } from './attributes';
 import { isKnownCodec, knownCodecs } from './codecs';
 import { brickKey, type BrickKey, type EncodedBrick, type Frame } from './frame';
 import { brickCells, maxOffsetBits, minOffsetBits } from './lattice';
-
-/** The server contradicts itself or this version. */
-export class ProtocolError extends Error {
-  override name = 'ProtocolError';
-}
+import { ProtocolError } from './protocol_error';
 
 /** More than any mesh has that a browser could show. */
 const maxBricks = 1 << 20;
@@ -18,6 +15,9 @@ const sprayPointBytes = 12;
 interface Arriving {
   readonly begin: MeshBegin;
   readonly beganAt: number;
+  readonly attributes: readonly VertexAttribute[];
+  /** Of the bricks that arrive. */
+  readonly coded: readonly CodedAttribute[];
   readonly bricks: Map<BrickKey, EncodedBrick>;
   readonly arrived: Set<BrickKey>;
   readonly spray: Uint8Array[];
@@ -79,6 +79,7 @@ export class FrameReceiver {
     this.arriving = {
       begin,
       beganAt: now,
+      ...readAttributes(begin.attributes, name),
       bricks: this.baseBricks(begin, name),
       arrived: new Set(),
       spray: [],
@@ -146,6 +147,7 @@ export class FrameReceiver {
       cellLevels: first.cellLevels.slice(),
       codec: first.codec,
       data: concatenate(parts),
+      attributes: arriving.coded,
     });
   }
 
@@ -192,6 +194,7 @@ export class FrameReceiver {
       brickCells: begin.brickCells,
       bricks,
       triangleCount,
+      attributes: arriving.attributes,
       spray: new Float32Array(concatenate(arriving.spray).buffer),
       statistics,
       bytes: arriving.bytes,

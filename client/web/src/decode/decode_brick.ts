@@ -1,15 +1,20 @@
 // One brick from its Draco bytes. Draco's own checks are not enough: what it decodes is checked against what was announced.
-import type { DracoAttribute, DracoMesh, DracoModule } from 'draco3d/draco_decoder_nodejs.js';
+import type { DracoAttribute, DracoDecoder, DracoMesh, DracoModule } from 'draco3d/draco_decoder_nodejs.js';
+import type { CodedAttribute } from '../bricks/attributes';
 import { isKnownCodec } from '../bricks/codecs';
 import type { EncodedBrick } from '../bricks/frame';
 import { brickCells } from '../bricks/lattice';
+import { storedAs, valuesOf, type DecodedAttribute } from './attribute_values';
 import type { Bounds, DecodedBrick } from './decoded_brick';
 import { requirePlausible } from './draco_header';
 import { groupTriangles } from './group_triangles';
 import { triangleGroups } from './triangle_levels';
 
-/** Throws an Error that names the brick. */
-export function decodeBrick(draco: DracoModule, brick: EncodedBrick, offsetBits: number): DecodedBrick {
+/** Of generic attributes, as the contract has them: their places follow. */
+const firstAttributeId = 16;
+
+/** name: of the attribute that is decoded, too, where the brick carries it. Throws an Error that names the brick. */
+export function decodeBrick(draco: DracoModule, brick: EncodedBrick, offsetBits: number, name?: string): DecodedBrick {
   const decoder = new draco.Decoder();
   const mesh = new draco.Mesh();
   try {
@@ -20,34 +25,64 @@ export function decodeBrick(draco: DracoModule, brick: EncodedBrick, offsetBits:
     if (mesh.num_faces() !== brick.triangleCount)
       throw new Error(`it has ${mesh.num_faces()} triangles; announced were ${brick.triangleCount}`);
     const points = mesh.num_points();
-    const attribute = (type: number): DracoAttribute | undefined => {
+    const named = (type: number): DracoAttribute | undefined => {
       const id = decoder.GetAttributeId(mesh, type);
       return id < 0 ? undefined : decoder.GetAttribute(mesh, id);
     };
     const read = (from: DracoAttribute, type: number, bytes: number): ArrayBuffer =>
       copyOut(draco, bytes, (to) => decoder.GetAttributeDataArrayForAllPoints(mesh, from, type, bytes, to));
 
-    const position = attribute(draco.POSITION);
+    const position = named(draco.POSITION);
     if (position?.data_type() !== draco.DT_UINT16 || position.num_components() !== 3)
       throw new Error('it has no positions of three uint16');
     const positions = paddedPositions(
       new Uint16Array(read(position, draco.DT_UINT16, points * 6)),
       brickCells << offsetBits,
     );
-    const normal = attribute(draco.NORMAL);
+    const normal = named(draco.NORMAL);
     const normals =
       normal?.num_components() === 3
         ? shortNormals(new Float32Array(read(normal, draco.DT_FLOAT32, points * 12)))
         : undefined;
     const triangles = readTriangles(draco, mesh, (bytes, to) => decoder.GetTrianglesUInt32Array(mesh, bytes, to));
     const groups = triangleGroups(positions, 4, triangles, brick.cellLevels, offsetBits);
-    return { positions, normals, bounds: boundsOf(positions), ...groupTriangles(triangles, groups, points) };
+    const place = brick.attributes.findIndex((attribute) => attribute.name === name);
+    const attribute = place < 0 ? undefined : readAttribute(draco, decoder, mesh, brick.attributes, place, read);
+    return {
+      positions,
+      normals,
+      ...(attribute ? { attribute } : {}),
+      bounds: boundsOf(positions),
+      ...groupTriangles(triangles, groups, points),
+    };
   } catch (error) {
     throw new Error(`brick (${brick.place.join(', ')}): ${error instanceof Error ? error.message : String(error)}`);
   } finally {
     draco.destroy(mesh);
     draco.destroy(decoder);
   }
+}
+
+function readAttribute(
+  draco: DracoModule,
+  decoder: DracoDecoder,
+  mesh: DracoMesh,
+  attributes: readonly CodedAttribute[],
+  place: number,
+  read: (from: DracoAttribute, type: number, bytes: number) => ArrayBuffer,
+): DecodedAttribute {
+  const form = attributes[place]!;
+  const { name, components } = form;
+  const stored = storedAs(draco, form);
+  for (let i = 0; i < mesh.num_attributes(); ++i) {
+    const attribute = decoder.GetAttribute(mesh, i);
+    if (attribute.unique_id() !== firstAttributeId + place) continue;
+    if (attribute.data_type() !== stored.type || attribute.num_components() !== stored.components)
+      throw new Error(`its attribute ${name} is not of the type or the components that were announced`);
+    const buffer = read(attribute, stored.type, mesh.num_points() * stored.components * stored.bytes);
+    return { name, components, values: valuesOf(stored.of(buffer), form) };
+  }
+  throw new Error(`it has no attribute ${name}, which was announced`);
 }
 
 /** What `fill` has written to the decoder's memory, copied out of it. */

@@ -24,9 +24,10 @@ export class DecodePool {
     this.idle = [...workers];
   }
 
-  decode(brick: EncodedBrick, offsetBits: number): Promise<DecodedBrick> {
+  /** attribute: of those that the brick carries, the one that is decoded, too. */
+  decode(brick: EncodedBrick, offsetBits: number, attribute?: string): Promise<DecodedBrick> {
     return new Promise((resolve, reject) => {
-      this.queue.push({ request: { brick, offsetBits }, resolve, reject });
+      this.queue.push({ request: { brick, offsetBits, attribute }, resolve, reject });
       this.next();
     });
   }

@@ -1,4 +1,5 @@
 // A brick as the screen wants it.
+import type { DecodedAttribute } from './attribute_values';
 
 export const triangleLevels = ['level 1', 'level 2', 'level 3', 'crack filling'] as const;
 export const levelCount = 4;
@@ -8,6 +9,8 @@ export interface DecodedBrick {
   readonly positions: Uint16Array;
   /** Unit vectors times 32767: x y z and a padding per point; none if the mesh has none. */
   readonly normals: Int16Array | undefined;
+  /** The one that was asked for; none if the brick does not carry it. */
+  readonly attribute?: DecodedAttribute;
   /** Three points per triangle, ordered by level: 1, 2, 3, crack filling. */
   readonly indices: Uint16Array | Uint32Array;
   /** Triangles of each level, in that order. */

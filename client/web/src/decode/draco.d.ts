@@ -6,11 +6,13 @@ declare module 'draco3d/draco_decoder_nodejs.js' {
   }
   export interface DracoAttribute {
     num_components(): number;
+    unique_id(): number;
     data_type(): number;
   }
   export interface DracoMesh {
     num_faces(): number;
     num_points(): number;
+    num_attributes(): number;
   }
   export interface DracoDecoder {
     DecodeArrayToMesh(bytes: Uint8Array, size: number, mesh: DracoMesh): DracoStatus;
@@ -35,7 +37,10 @@ declare module 'draco3d/draco_decoder_nodejs.js' {
     HEAPU8: Uint8Array;
     POSITION: number;
     NORMAL: number;
+    DT_UINT8: number;
     DT_UINT16: number;
+    DT_INT32: number;
+    DT_UINT32: number;
     DT_FLOAT32: number;
   }
   const createModule: (options?: { wasmBinary?: ArrayBuffer }) => Promise<DracoModule>;

@@ -8,7 +8,7 @@ const expected = [0x44, 0x52, 0x41, 0x43, 0x4f, 2, 2, 1, 1, 0, 0];
 const mostTrianglesPerByte = 64;
 
 /** Throws an Error. */
-export function requirePlausible({ triangleCount, data }: EncodedBrick): void {
+export function requirePlausible({ triangleCount, data, attributes }: EncodedBrick): void {
   if (triangleCount > maxBrickTriangles)
     throw new Error(`${triangleCount} triangles are announced; a brick has at most ${maxBrickTriangles}`);
   if (triangleCount > mostTrianglesPerByte * data.length)
@@ -24,7 +24,7 @@ export function requirePlausible({ triangleCount, data }: EncodedBrick): void {
   const symbols = cursor.number();
   const splits = cursor.number();
   if (faces !== triangleCount) throw new Error(`it has ${faces} triangles; announced were ${triangleCount}`);
-  if (!(vertices <= 3 * faces && symbols <= faces && splits <= symbols && connectivities <= 1))
+  if (!(vertices <= 3 * faces && symbols <= faces && splits <= symbols && connectivities <= 1 + attributes.length))
     throw new Error(
       `its Draco mesh has ${vertices} vertices, ${symbols} symbols and ${splits} splits, which do not fit ${faces} triangles`,
     );

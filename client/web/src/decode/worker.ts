@@ -13,7 +13,7 @@ let draco = startDecoder();
 
 async function answer(request: DecodeRequest): Promise<DecodeAnswer> {
   try {
-    return { decoded: decodeBrick(await draco, request.brick, request.offsetBits) };
+    return { decoded: decodeBrick(await draco, request.brick, request.offsetBits, request.attribute) };
   } catch (error) {
     // What a brick that lies has left of the decoder's memory is not used again.
     draco = startDecoder();
@@ -27,6 +27,7 @@ addEventListener('message', (event: MessageEvent<DecodeRequest>) => {
     if ('decoded' in reply) {
       moved.push(reply.decoded.positions.buffer, reply.decoded.indices.buffer);
       if (reply.decoded.normals) moved.push(reply.decoded.normals.buffer);
+      if (reply.decoded.attribute) moved.push(reply.decoded.attribute.values.buffer);
     }
     postMessage(reply, { transfer: moved });
   });

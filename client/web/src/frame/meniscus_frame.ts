@@ -10,6 +10,11 @@ export interface View {
   readonly look?: 'water' | 'levels';
   /** Without one: as the session says. */
   readonly up?: 'x' | 'y' | 'z';
+  /** An attribute that the session's settings name, or a component of one: "velocity", "velocity.x". Without one: water. */
+  readonly color?: string;
+  readonly map?: 'viridis' | 'magma' | 'plasma' | 'cividis' | 'coolwarm';
+  /** What the ends of the map stand for: without it the least and the greatest of the session so far. */
+  readonly range?: 'frame' | 'session' | readonly [number, number];
   /** Where the server asks for one: of the role watcher, since every script of the page can read it. */
   readonly token?: string;
 }
@@ -46,7 +51,7 @@ export function showMeniscus(place: Element, server: string, view: View): Menisc
 
   const tell = (): void => {
     if (nonce === undefined) return;
-    const { session, camera, look, up, token = '' } = shown;
+    const { session, camera, look, up, color, map, range, token = '' } = shown;
     const message: Show = {
       meniscus: 'show',
       nonce,
@@ -55,6 +60,9 @@ export function showMeniscus(place: Element, server: string, view: View): Menisc
       ...(camera ? { camera } : {}),
       ...(look ? { look } : {}),
       ...(up ? { up } : {}),
+      ...(color === undefined ? {} : { color }),
+      ...(map ? { map } : {}),
+      ...(range ? { range } : {}),
       token,
     };
     // Whatever else the frame may hold by now does not hear it.

@@ -2,6 +2,8 @@
 //
 // The viewer begins, each time that it is loaded, with a number drawn at random. What the page answers carries it, and a number
 // that rises: so nothing that was said before, to this viewer or to one before it, can be said again by another.
+import { colorBy, isRange, type ColorChoice } from '../color/color_choice';
+import { colorMapNames, isColorMap } from '../color/color_maps';
 import { isSessionId, type PageState } from '../ui/link';
 
 /** From the viewer: it listens. */
@@ -22,6 +24,12 @@ export interface Show {
   readonly camera?: { readonly position: readonly number[]; readonly target: readonly number[] };
   readonly look?: 'water' | 'levels';
   readonly up?: 'x' | 'y' | 'z';
+  /** Of the attributes that the session's settings name: one, or a component of one, as "velocity.x". */
+  readonly color?: string;
+  /** Of colors; without one viridis. */
+  readonly map?: string;
+  /** Of each frame, of the session so far, or of two numbers; without one of the session so far. */
+  readonly range?: 'frame' | 'session' | readonly [number, number];
   /** Empty: none. */
   readonly token: string;
 }
@@ -42,7 +50,7 @@ export function isShow(data: unknown): data is { readonly nonce: unknown; readon
 
 /** Throws Error with a sentence where the page has handed over something that cannot be. */
 export function readShow(data: unknown): HandedOver {
-  const { session, camera, look, up, token } = data as Record<string, unknown>;
+  const { session, camera, look, up, color, map, range, token } = data as Record<string, unknown>;
   if (typeof session !== 'string' || !isSessionId(session)) throw wrong('session', session, 'a UUID');
   if (typeof token !== 'string' || !/^[\x21-\x7e]{0,4096}$/.test(token))
     // It is not shown: it may be a token with a slip in it.
@@ -52,8 +60,15 @@ export function readShow(data: unknown): HandedOver {
   if (look !== undefined && look !== 'water' && look !== 'levels') throw wrong('look', look, '"water" or "levels"');
   if (up !== undefined && up !== 'x' && up !== 'y' && up !== 'z') throw wrong('up', up, '"x", "y" or "z"');
   const place = readCamera(camera);
+  const choice = readColor(color, map, range);
   return {
-    state: { session, ...(place ? { camera: place } : {}), ...(look ? { look } : {}), ...(up ? { up } : {}) },
+    state: {
+      session,
+      ...(place ? { camera: place } : {}),
+      ...(look ? { look } : {}),
+      ...(up ? { up } : {}),
+      ...(choice ? { color: choice } : {}),
+    },
     token,
   };
 }
@@ -64,6 +79,17 @@ function readCamera(camera: unknown): PageState['camera'] {
   if (!isPoint(position) || !isPoint(target))
     throw wrong('camera', camera, '{position: [x, y, z], target: [x, y, z]}, finite numbers');
   return { position: [...position], target: [...target] };
+}
+
+function readColor(color: unknown, map: unknown, range: unknown): ColorChoice | undefined {
+  if (map !== undefined && (typeof map !== 'string' || !isColorMap(map)))
+    throw wrong('map', map, `one of ${colorMapNames.join(', ')}`);
+  if (range !== undefined && range !== 'frame' && range !== 'session' && !isRange(range))
+    throw wrong('range', range, '"frame", "session" or [from, to], from less than to');
+  if (color === undefined) return undefined;
+  const choice = typeof color === 'string' ? colorBy(color, map, range) : undefined;
+  if (!choice) throw wrong('color', color, 'the name of an attribute, or of its component, as "velocity.x"');
+  return choice;
 }
 
 function isPoint(value: unknown): value is [number, number, number] {

@@ -1,5 +1,5 @@
 // Puts one call's messages together to the particles of whole frames, and believes none of them.
-import { ProtocolError } from '../bricks/frame_receiver';
+import { ProtocolError } from '../bricks/protocol_error';
 import type { Vector3 } from '../gen/meniscus/v1/settings_pb';
 import type { ParticlesBegin, WatchParticlesResponse } from '../gen/meniscus/v1/surface_service_pb';
 import { particleLayout, type ParticleLayout } from './particle_arrays';

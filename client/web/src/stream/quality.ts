@@ -16,8 +16,21 @@ export function chooseQuality(moving: boolean, secondsPerFullMesh: number, befor
   return secondsPerFullMesh > (before === 'full' ? 1 : margin) * stillSeconds ? 'light' : 'full';
 }
 
-/** offsetBits: of the mesh as reconstructed; fewer bits than it has are smaller, more are not to be had. */
-export function wishesOf(quality: Quality, offsetBits: number): Wishes {
+/** Of an attribute, per component: a still picture tells more shades apart than there are colors, for the probe. */
+const attributeBits: Record<Quality, number> = { full: 12, light: 8, coarse: 8 };
+
+/**
+ * offsetBits: of the mesh as reconstructed; fewer bits than it has are smaller, more are not to be had. attribute: what vertices are
+ * to carry.
+ */
+export function wishesOf(quality: Quality, offsetBits: number, attribute?: string): Wishes {
+  const wishes = meshWishes(quality, offsetBits);
+  return attribute === undefined
+    ? wishes
+    : { ...wishes, attributes: [{ name: attribute, bits: attributeBits[quality] }] };
+}
+
+function meshWishes(quality: Quality, offsetBits: number): Wishes {
   switch (quality) {
     case 'full':
       return {};

@@ -1,5 +1,6 @@
 // The second picture: which session it is of, and that both are looked at from one place.
 import { BesideView } from '../beside_view';
+import type { Shown } from '../bricks/brick_store';
 import type { DecodePool } from '../decode/decode_pool';
 import type { Session } from '../gen/meniscus/v1/session_service_pb';
 import { givenName, shortId } from '../list/session_name';
@@ -14,6 +15,8 @@ import { Pane } from './pane';
 export interface BesideToolEvents {
   /** Another session, or none. */
   changed(): void;
+  /** A frame has taken the place of the one before. */
+  shown(): void;
   /** A picture has been drawn. */
   rendered(pane: Pane): void;
   moving(moving: boolean): void;
@@ -34,6 +37,7 @@ export class BesideTool {
   /** What there is to say of the session that is shown. */
   private said = '';
   private theme: Theme = 'light';
+  private attribute: string | undefined;
 
   constructor(
     private readonly server: Server,
@@ -53,6 +57,17 @@ export class BesideTool {
 
   get pane(): Pane | undefined {
     return this.chosen === undefined ? undefined : this.made?.pane;
+  }
+
+  /** What its pane shows. */
+  get shown(): Shown | undefined {
+    return this.chosen === undefined ? undefined : this.made?.view.shown;
+  }
+
+  /** That vertices are to carry. */
+  setAttribute(name: string | undefined): void {
+    this.attribute = name;
+    this.made?.view.setAttribute(name);
   }
 
   /** first: the session that is looked at, which is not offered; second: the one of a link. */
@@ -137,6 +152,7 @@ export class BesideTool {
     const view = new BesideView(this.server, this.pool, viewer, {
       shown: (box) => {
         this.main.setBeside(box);
+        this.events.shown();
       },
       domain: (box) => {
         viewer.setDomain(box);
@@ -145,6 +161,7 @@ export class BesideTool {
         this.say(text);
       },
     });
+    view.setAttribute(this.attribute);
     return { pane, view };
   }
 

@@ -1,5 +1,6 @@
 // What a person measures and keeps a picture with: views, cut, probe, ruler, scale, a session beside, pictures and videos.
 import type { Frame } from '../bricks/frame';
+import type { ColorChoice } from '../color/color_choice';
 import type { DecodePool } from '../decode/decode_pool';
 import { recordedFrames } from '../recordings/recorded_frames';
 import type { RecordingName } from '../recordings/recording_name';
@@ -21,6 +22,7 @@ import type { Theme } from '../view/environment';
 import { isAxis, type Axis, type UpAxis } from '../view/up_axis';
 import type { Viewer } from '../view/viewer';
 import { BesideTool } from './beside_tool';
+import { ColorTool } from './color_tool';
 import { CutTool } from './cut_tool';
 import { Pane } from './pane';
 import { followPointer, type Spot } from './pointer';
@@ -35,9 +37,12 @@ export interface ToolsEvents {
   /** The camera, in the second picture. */
   moving(moving: boolean): void;
   failed(reason: string): void;
+  /** What the vertices of what is looked at are to carry, or nothing. */
+  attribute(name: string | undefined): void;
 }
 
-type ToolAction = `view-${Axis}` | 'beside' | 'cut' | 'probe' | 'ruler' | 'scale' | 'domain' | 'picture' | 'video';
+type ToolAction =
+  `view-${Axis}` | 'beside' | 'color' | 'cut' | 'probe' | 'ruler' | 'scale' | 'domain' | 'picture' | 'video';
 
 export class Tools {
   /** Each is a button's, of that id. */
@@ -53,6 +58,9 @@ export class Tools {
     },
     beside: () => {
       this.beside.toggle();
+    },
+    color: () => {
+      this.color.toggle();
     },
     cut: () => {
       this.cut.toggle();
@@ -84,6 +92,7 @@ export class Tools {
   private readonly probe = new Probe();
   private readonly ruler = new RulerTool();
   private readonly beside: BesideTool;
+  private readonly color: ColorTool;
   private readonly video: VideoTool;
   private readonly upSelect = element('up', HTMLSelectElement);
   private at: { readonly session?: string; readonly recording?: RecordingName } = {};
@@ -121,6 +130,9 @@ export class Tools {
       changed: () => {
         this.events.changed();
       },
+      shown: () => {
+        this.color.refresh();
+      },
       rendered: (pane) => {
         if (this.besideMoves) this.viewer.mirrorCamera(pane.viewer);
         this.annotate(pane);
@@ -130,6 +142,20 @@ export class Tools {
         this.besideMoves = moving;
         this.events.moving(moving);
       },
+    });
+    this.color = new ColorTool({
+      changed: () => {
+        this.events.changed();
+      },
+      attribute: (name) => {
+        this.screen.setAttribute(name);
+        this.beside.setAttribute(name);
+        this.events.attribute(name);
+      },
+      panes: () => [
+        { viewer: this.viewer, shown: this.screen.shown },
+        ...(this.beside.pane ? [{ viewer: this.beside.pane.viewer, shown: this.beside.shown }] : []),
+      ],
     });
     this.video = new VideoTool((reason) => {
       this.events.failed(reason);
@@ -166,6 +192,11 @@ export class Tools {
     this.applyUp();
   }
 
+  /** None: water. */
+  chooseColor(choice: ColorChoice | undefined): void {
+    this.color.set(choice);
+  }
+
   /** For the link. */
   get state(): ToolsState & { readonly up?: UpAxis } {
     return {
@@ -175,6 +206,7 @@ export class Tools {
       ...(this.beside.session === undefined ? {} : { beside: this.beside.session }),
       ...(this.scale ? {} : { scale: 'off' }),
       ...(this.domain ? {} : { domain: 'off' }),
+      ...(this.color.choice ? { color: this.color.choice } : {}),
     };
   }
 
@@ -193,7 +225,13 @@ export class Tools {
     this.probe.setActive(false);
     this.ruler.setActive(state.ruler !== undefined, state.ruler);
     this.beside.open(state.session, state.beside);
+    this.color.open(state.color);
     void this.learn();
+  }
+
+  /** A frame has taken the place of the one before; it is drawn next. */
+  frameShown(): void {
+    this.color.refresh();
   }
 
   /** The frame's first picture has been drawn. */
@@ -241,7 +279,7 @@ export class Tools {
     return decimalsOf(this.frame?.cellSize ?? 1);
   }
 
-  private get marks(): Marks {
+  private get marks(): Omit<Marks, 'legend'> {
     return {
       scale: this.scale,
       probe: this.probe.place,
@@ -252,7 +290,7 @@ export class Tools {
   }
 
   private annotate(pane: Pane): void {
-    pane.annotate(this.marks);
+    pane.annotate({ ...this.marks, legend: this.color.legend(pane.viewer) });
     this.video.take(pane);
   }
 
@@ -328,7 +366,8 @@ export class Tools {
       this.pointing = false;
       if (!this.pointer || !this.probe.active) return;
       const { pane, spot } = this.pointer;
-      this.probe.show(pane.viewer.pick(...spot), this.unit, this.decimals);
+      const picked = pane.viewer.pick(...spot);
+      this.probe.show(picked, this.unit, this.decimals, this.color.valueAt(pane.viewer, picked?.spot));
       this.redraw();
     });
   }

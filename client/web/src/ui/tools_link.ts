@@ -1,6 +1,7 @@
 // What the link tells of the tools.
 import type { Point } from '../view/bounds';
 import type { Cut } from '../view/cut';
+import { readColorLink, writeColorLink, type ColorChoice } from '../color/color_choice';
 import { isAxis } from '../view/up_axis';
 import { sessionForm } from './session_form';
 
@@ -14,6 +15,8 @@ export interface ToolsState {
   readonly scale?: 'off';
   /** Without the domain's box. */
   readonly domain?: 'off';
+  /** What the surface is colored by. */
+  readonly color?: ColorChoice;
 }
 
 /** What is not understood is left out. */
@@ -21,21 +24,27 @@ export function readToolsLink(fields: URLSearchParams): ToolsState {
   const cut = readCut(fields.get('cut'));
   const ruler = numbers(fields.get('ruler'));
   const beside = fields.get('beside');
+  const color = readColorLink(fields);
   return {
     ...(cut ? { cut } : {}),
     ...(ruler?.length === 6 ? { ruler: [ruler.slice(0, 3) as Point, ruler.slice(3) as Point] as const } : {}),
     ...(beside !== null && sessionForm.test(beside) ? { beside } : {}),
     ...(fields.get('scale') === 'off' ? { scale: 'off' as const } : {}),
     ...(fields.get('domain') === 'off' ? { domain: 'off' as const } : {}),
+    ...(color ? { color } : {}),
   };
 }
 
-export function writeToolsLink(fields: URLSearchParams, { cut, ruler, beside, scale, domain }: ToolsState): void {
+export function writeToolsLink(
+  fields: URLSearchParams,
+  { cut, ruler, beside, scale, domain, color }: ToolsState,
+): void {
   if (cut) fields.set('cut', `${cut.axis},${linkNumber(cut.at)},${cut.away}`);
   if (ruler) fields.set('ruler', ruler.flat().map(linkNumber).join(','));
   if (beside !== undefined) fields.set('beside', beside);
   if (scale) fields.set('scale', scale);
   if (domain) fields.set('domain', domain);
+  if (color) writeColorLink(fields, color);
 }
 
 function readCut(text: string | null): Cut | undefined {

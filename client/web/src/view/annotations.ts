@@ -1,6 +1,7 @@
 // What is drawn over a picture: scale bar, axes, ruler, probe. On a canvas of their own, which pictures and videos are made of as well.
 import { drawAxes } from './axes_gizmo';
 import type { Point } from './bounds';
+import { drawColorLegend, legendText, type ColorLegend } from './color_legend';
 import type { Margins } from './fit';
 import { drawLine, drawRing, drawText, type Pen } from './pen';
 import { drawScaleBar, scaleBar, worldPerPixel } from './scale_bar';
@@ -16,10 +17,17 @@ export interface Marks {
   /** Of a length on the scale bar, and of one on the ruler. */
   readonly scaleText: (length: number) => string;
   readonly rulerText: string;
+  /** None where nothing is colored. */
+  readonly legend: ColorLegend | undefined;
 }
 
 /** CSS pixels, from the left and from what covers the bottom. */
 const inset = 18;
+/** Of scale bar and axes, and above them. */
+const scaleWidth = 140;
+const scaleHeight = 125;
+/** Narrower, the legend lies above the scale. */
+const narrowest = 150;
 
 export class Annotations {
   private readonly context: CanvasRenderingContext2D;
@@ -35,9 +43,10 @@ export class Annotations {
 
   /** Over the picture as it is now; empty: whether there is no picture. */
   draw(marks: Marks, empty: boolean): void {
-    const nothing = empty || (!marks.scale && !marks.probe && marks.ruler.length === 0);
+    const nothing = empty || (!marks.scale && !marks.probe && marks.ruler.length === 0 && !marks.legend);
     if (nothing && !this.drawn) return;
     this.drawn = !nothing;
+    this.tellLegend(nothing ? undefined : marks.legend);
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const density = Math.min(2, devicePixelRatio);
     const [pixelsX, pixelsY] = [Math.round(width * density), Math.round(height * density)];
@@ -48,6 +57,7 @@ export class Annotations {
     if (nothing || width === 0) return;
     const pen = this.pen(density);
     if (marks.scale) this.drawScale(pen, marks, height);
+    if (marks.legend) this.drawLegend(pen, marks.legend, marks.scale, width, height);
     this.drawMeasured(pen, marks);
     const probe = marks.probe && this.onCanvas(marks.probe);
     if (probe) drawRing(pen, probe, 6);
@@ -69,6 +79,21 @@ export class Annotations {
     drawAxes(pen, [inset + 34, bottom - 66], this.viewer.upAxis, camera.quaternion);
     // For those who look from outside: tests, and assistive tools.
     this.canvas.dataset.scale = marks.scaleText(length);
+  }
+
+  private drawLegend(pen: Pen, legend: ColorLegend, scale: boolean, width: number, height: number): void {
+    const covered = this.covered();
+    const right = width - covered.right - inset;
+    const bottom = height - covered.bottom - inset;
+    const beside = inset + scaleWidth;
+    const above = scale && right - beside < narrowest;
+    drawColorLegend(pen, [scale && !above ? beside : inset, right, above ? bottom - scaleHeight : bottom], legend);
+  }
+
+  /** For those who look from outside: tests, and assistive tools. */
+  private tellLegend(legend: ColorLegend | undefined): void {
+    if (legend) this.canvas.dataset.legend = legendText(legend);
+    else delete this.canvas.dataset.legend;
   }
 
   private drawMeasured(pen: Pen, { ruler, rulerText }: Marks): void {

@@ -1,14 +1,21 @@
 // A decoded brick on the graphics hardware: as it is, positions in brick-local steps, 16 bytes per point.
 import { BufferAttribute, BufferGeometry, Sphere, Vector3 } from 'three';
+import type { PointValues } from '../color/quantity';
 import type { DecodedBrick } from '../decode/decoded_brick';
 
-export function surfaceGeometry(brick: DecodedBrick): BufferGeometry {
+/** values: of the points, to be colored by. */
+export function surfaceGeometry(brick: DecodedBrick, values?: PointValues): BufferGeometry {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(brick.positions, 4));
   if (brick.normals) geometry.setAttribute('normal', new BufferAttribute(brick.normals, 4, true));
+  if (values) geometry.setAttribute('value', valueAttribute(values));
   geometry.setIndex(new BufferAttribute(brick.indices, 1));
   geometry.boundingSphere = boundingSphere(brick);
   return geometry;
+}
+
+function valueAttribute({ values }: PointValues): BufferAttribute {
+  return values instanceof Float32Array ? new BufferAttribute(values, 1) : new BufferAttribute(values, 4, true);
 }
 
 /** The edges of the triangles, one range for each level. */

@@ -2,6 +2,7 @@
 import { Group, LineSegments, Mesh, type LineBasicMaterial, type Material } from 'three';
 import type { ShownBrick, Shown } from '../bricks/brick_store';
 import { brickEdge, type BrickKey, type Frame } from '../bricks/frame';
+import type { Quantity } from '../color/quantity';
 import { surfaceGeometry, wireGeometry } from './brick_geometry';
 import { pictureLayer } from './thickness_pass';
 
@@ -15,6 +16,7 @@ export class BrickMeshes {
   readonly group = new Group();
   private readonly meshes = new Map<BrickKey, BrickMesh>();
   private wired = false;
+  private quantity: Quantity | undefined;
 
   constructor(
     private surfaceMaterial: Material,
@@ -31,7 +33,8 @@ export class BrickMeshes {
     for (const [key, shown] of bricks) {
       let mesh = this.meshes.get(key);
       if (!mesh) {
-        mesh = { shown, surface: new Mesh(surfaceGeometry(shown.decoded), this.surfaceMaterial), wires: undefined };
+        const geometry = surfaceGeometry(shown.decoded, this.quantity?.of(shown.decoded));
+        mesh = { shown, surface: new Mesh(geometry, this.surfaceMaterial), wires: undefined };
         this.meshes.set(key, mesh);
         this.group.add(mesh.surface);
       }
@@ -43,6 +46,12 @@ export class BrickMeshes {
   clear(): void {
     for (const mesh of this.meshes.values()) this.dispose(mesh);
     this.meshes.clear();
+  }
+
+  /** That the points have; all bricks go, and are to be shown again. */
+  setQuantity(quantity: Quantity | undefined): void {
+    this.quantity = quantity;
+    this.clear();
   }
 
   setLook(surfaceMaterial: Material, wired: boolean): void {

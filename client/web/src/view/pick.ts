@@ -13,11 +13,21 @@ export interface WorldRay {
   readonly direction: Point;
 }
 
+/** A place within a triangle. */
+export interface Spot {
+  readonly brick: DecodedBrick;
+  readonly points: readonly [number, number, number];
+  /** Of the points; they sum to 1. */
+  readonly weights: readonly [number, number, number];
+}
+
 export interface Pick {
   /** World units. */
   readonly place: Point;
   /** Of the triangle; none on the face of a cut. */
   readonly level: (typeof triangleLevels)[number] | undefined;
+  /** None on the face of a cut. */
+  readonly spot: Spot | undefined;
 }
 
 interface Hit {
@@ -27,6 +37,7 @@ interface Hit {
   readonly inwards: boolean;
   readonly brick: DecodedBrick;
   readonly triangle: number;
+  readonly weights: readonly [number, number, number];
 }
 
 export function pick({ frame, bricks }: Shown, ray: WorldRay, cut: Cut | undefined): Pick | undefined {
@@ -35,11 +46,11 @@ export function pick({ frame, bricks }: Shown, ray: WorldRay, cut: Cut | undefin
   const face = cut && cutDistance(cut, ray);
   // Within the water if more of what lies behind leads out of it than into it.
   if (face !== undefined && kept.reduce((sum, { inwards }) => sum + (inwards ? -1 : 1), 0) > 0)
-    return { place: at(ray, face), level: undefined };
+    return { place: at(ray, face), level: undefined, spot: undefined };
   const entries = kept.filter(({ inwards }) => inwards);
   if (entries.length === 0) return undefined;
   const first = entries.reduce((a, b) => (b.distance < a.distance ? b : a));
-  return { place: at(ray, first.distance), level: levelOf(first) };
+  return { place: at(ray, first.distance), level: levelOf(first), spot: spotOf(first) };
 }
 
 function at({ origin, direction }: WorldRay, distance: number): Point {
@@ -66,18 +77,25 @@ function hitsOf(frame: Frame, { encoded, decoded }: ShownBrick, { origin, direct
   if (!ray.intersectsBox(new Box3(new Vector3(...decoded.bounds.min), new Vector3(...decoded.bounds.max)))) return [];
   const hits: Hit[] = [];
   const { a, b, c } = new Triangle();
-  const [met, normal] = [new Vector3(), new Vector3()];
+  const [met, normal, weights] = [new Vector3(), new Vector3(), new Vector3()];
   for (let i = 0; i < decoded.indices.length; i += 3) {
     for (const [k, corner] of [a, b, c].entries()) corner.fromArray(decoded.positions, 4 * decoded.indices[i + k]!);
     if (!ray.intersectTriangle(a, b, c, false, met)) continue;
+    Triangle.getBarycoord(met, a, b, c, weights);
     hits.push({
       distance: met.sub(ray.origin).dot(ray.direction) * step,
       inwards: Triangle.getNormal(a, b, c, normal).dot(ray.direction) < 0,
       brick: decoded,
       triangle: i / 3,
+      weights: weights.toArray(),
     });
   }
   return hits;
+}
+
+function spotOf({ brick, triangle, weights }: Hit): Spot {
+  const [a, b, c] = brick.indices.subarray(3 * triangle, 3 * triangle + 3);
+  return { brick, points: [a!, b!, c!], weights };
 }
 
 function levelOf({ brick, triangle }: Hit): (typeof triangleLevels)[number] {

@@ -2,11 +2,15 @@
 import { Scene, Vector3, WebGLRenderer, type PerspectiveCamera, type Plane } from 'three';
 import type { Shown } from '../bricks/brick_store';
 import type { Frame } from '../bricks/frame';
+import type { ColorMap } from '../color/color_maps';
+import type { Quantity, QuantityKind } from '../color/quantity';
+import type { ValueRange } from '../color/value_range';
 import type { Particles } from '../particles/particles';
 import { Background } from './background';
 import { center, contains, corners, size, union, unionOf, worldBox, type Point, type WorldBox } from './bounds';
 import { BrickMeshes } from './brick_meshes';
 import { CameraControls } from './camera_controls';
+import { ColoredMaterial } from './colored_material';
 import { cutPlane, type Cut } from './cut';
 import { CutFace } from './cut_face';
 import { DomainBox } from './domain_box';
@@ -22,6 +26,14 @@ import { alongAxis, toScene, toWorld, turnUp, type Axis, type UpAxis } from './u
 import { waterMaterial } from './water_material';
 
 export type Look = 'water' | 'levels';
+
+/** The surface in the colors of what its points have. */
+export interface Coloring {
+  readonly quantity: Quantity;
+  readonly map: ColorMap;
+  /** Of numbers; none without any. */
+  readonly range: ValueRange | undefined;
+}
 
 export interface CameraPlace {
   readonly position: Point;
@@ -49,6 +61,8 @@ export class Viewer {
   private readonly environment = environmentUniforms();
   private readonly water = waterMaterial(this.environment);
   private readonly levelSurface = levelSurfaceMaterial();
+  private readonly coloredMaterials = new Map<QuantityKind, ColoredMaterial>();
+  private coloring: Coloring | undefined;
   private readonly background = new Background(this.environment);
   /** One while something is cut away; materials share the array. */
   private readonly cutPlanes: Plane[] = [];
@@ -174,8 +188,42 @@ export class Viewer {
 
   setLook(look: Look): void {
     this.look = look;
-    this.bricks.setLook(look === 'water' ? this.water : this.levelSurface, look === 'levels');
+    this.showLook();
+  }
+
+  /** None: water, or the levels' own surface. Bricks that are shown must have been decoded with it. */
+  setColoring(coloring: Coloring | undefined): void {
+    const { shown } = this;
+    if (coloring?.quantity !== this.coloring?.quantity) {
+      this.bricks.setQuantity(coloring?.quantity);
+      if (shown) this.bricks.show(shown, this.origin);
+    }
+    this.coloring = coloring;
+    if (coloring) this.coloredMaterial(coloring.quantity.kind).set(coloring.map, coloring.range);
+    this.showLook();
+  }
+
+  /** Whether in place of water there are colors. */
+  get colored(): boolean {
+    return this.coloring !== undefined;
+  }
+
+  private showLook(): void {
+    const plain = this.look === 'water' ? this.water : this.levelSurface;
+    const material = this.coloring ? this.coloredMaterial(this.coloring.quantity.kind).material : plain;
+    this.bricks.setLook(material, this.look === 'levels');
     this.draw();
+  }
+
+  /** Made when it is first needed. */
+  private coloredMaterial(kind: QuantityKind): ColoredMaterial {
+    let made = this.coloredMaterials.get(kind);
+    if (!made) {
+      made = new ColoredMaterial(kind, this.environment, this.water.uniforms.hasNormals);
+      made.material.clippingPlanes = this.cutPlanes;
+      this.coloredMaterials.set(kind, made);
+    }
+    return made;
   }
 
   setTheme(theme: Theme): void {
@@ -382,7 +430,7 @@ export class Viewer {
     if (this.waterChanged) this.sunlight.render(this.renderer, this.scene);
     this.waterChanged = false;
     const surface = this.particles.shown === undefined;
-    if (this.look === 'water' && surface) this.thickness.render(this.renderer, this.scene, camera);
+    if (this.look === 'water' && surface && !this.coloring) this.thickness.render(this.renderer, this.scene, camera);
     this.renderer.info.reset();
     this.renderer.clear();
     if (!surface) camera.layers.disable(waterLayer);

@@ -1,6 +1,7 @@
 // Draco itself: the decoder that the viewer ships, and the encoder, to make bricks as the server does.
 import createDecoder, { type DracoModule } from 'draco3d/draco_decoder_nodejs.js';
 import createEncoder from 'draco3d/draco_encoder_nodejs.js';
+import type { CodedAttribute } from '../../src/bricks/attributes';
 import type { EncodedBrick } from '../../src/bricks/frame';
 import { Codec } from '../../src/gen/meniscus/v1/mesh_pb';
 
@@ -16,6 +17,8 @@ export interface BrickOptions {
   triangles: [number, number, number][];
   /** Of the base cells that hold triangles, in order. */
   levels: number[];
+  /** As the server codes them: numbers of uint8, uint16 or float32; of an id its four bytes. */
+  attributes?: { form: CodedAttribute; coded: Uint8Array | Uint16Array | Float32Array }[];
 }
 
 export async function encodeBrick({
@@ -24,6 +27,7 @@ export async function encodeBrick({
   normals,
   triangles,
   levels,
+  attributes = [],
 }: BrickOptions): Promise<EncodedBrick> {
   const draco = await createEncoder();
   const builder = new draco.MeshBuilder();
@@ -36,10 +40,21 @@ export async function encodeBrick({
     builder.AddFloatAttribute(mesh, draco.NORMAL, normals.length, 3, new Float32Array(normals.flat()));
     encoder.SetAttributeQuantization(draco.NORMAL, 8);
   }
+  for (const { coded } of attributes) {
+    const components = coded.length / positions.length;
+    if (coded instanceof Uint8Array)
+      builder.AddUInt8Attribute(mesh, draco.GENERIC, positions.length, components, coded);
+    else if (coded instanceof Uint16Array)
+      builder.AddUInt16Attribute(mesh, draco.GENERIC, positions.length, components, coded);
+    else builder.AddFloatAttribute(mesh, draco.GENERIC, positions.length, components, coded);
+  }
   const bytes = new draco.DracoInt8Array();
   const size = encoder.EncodeMeshToDracoBuffer(mesh, bytes);
   if (size === 0) throw new Error('Draco could not encode the brick');
   const encoded = Uint8Array.from({ length: size }, (_, i) => bytes.GetValue(i) & 0xff);
+  attributes.forEach(({ coded }, place) => {
+    nameAttribute(encoded, coded, coded.length / positions.length, (normals ? 2 : 1) + place, 16 + place);
+  });
   const packed = new Uint8Array(Math.ceil(levels.length / 4));
   levels.forEach((level, i) => {
     packed[i >> 2]! |= level << (2 * (i & 3));
@@ -51,7 +66,24 @@ export async function encodeBrick({
     cellLevels: packed,
     codec: Codec.DRACO,
     data: encoded,
+    attributes: attributes.map(({ form }) => form),
   };
+}
+
+/** Gives the attribute, which the encoder numbers, the server's number: its description is type, data type, components, 0, number. */
+function nameAttribute(
+  data: Uint8Array,
+  coded: Uint8Array | Uint16Array | Float32Array,
+  components: number,
+  number: number,
+  id: number,
+): void {
+  const generic = 4;
+  const dataType = coded instanceof Uint8Array ? 2 : coded instanceof Uint16Array ? 4 : 9;
+  const description = [generic, dataType, components, 0, number];
+  const at = data.findIndex((_, i) => description.every((byte, k) => data[i + k] === byte));
+  if (at < 0) throw new Error('the attribute was not found in its brick');
+  data[at + 4] = id;
 }
 
 const step = 64;

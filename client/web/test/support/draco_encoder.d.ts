@@ -8,6 +8,7 @@ declare module 'draco3d/draco_encoder_nodejs.js' {
   interface MeshBuilder {
     AddFacesToMesh(mesh: Mesh, faces: number, indices: Uint32Array): boolean;
     AddUInt16Attribute(mesh: Mesh, type: number, vertices: number, components: number, values: Uint16Array): number;
+    AddUInt8Attribute(mesh: Mesh, type: number, vertices: number, components: number, values: Uint8Array): number;
     AddFloatAttribute(mesh: Mesh, type: number, vertices: number, components: number, values: Float32Array): number;
   }
   interface Encoder {
@@ -22,6 +23,7 @@ declare module 'draco3d/draco_encoder_nodejs.js' {
     DracoInt8Array: new () => Int8Array;
     POSITION: number;
     NORMAL: number;
+    GENERIC: number;
     MESH_EDGEBREAKER_ENCODING: number;
   }
   const createModule: () => Promise<EncoderModule>;

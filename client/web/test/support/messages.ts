@@ -1,6 +1,6 @@
 // Watch responses as a server would send them.
-import { create } from '@bufbuild/protobuf';
-import { Codec } from '../../src/gen/meniscus/v1/mesh_pb';
+import { create, type MessageInitShape } from '@bufbuild/protobuf';
+import { Codec, type MeshAttributeSchema } from '../../src/gen/meniscus/v1/mesh_pb';
 import { WatchResponseSchema, type WatchResponse } from '../../src/gen/meniscus/v1/surface_service_pb';
 
 export type Place = [number, number, number];
@@ -16,6 +16,7 @@ export interface FrameOptions {
   spray?: number[][];
   sprayCount?: number;
   runId?: bigint;
+  attributes?: MessageInitShape<typeof MeshAttributeSchema>[];
 }
 
 export function begin(options: FrameOptions): WatchResponse {
@@ -34,6 +35,7 @@ export function begin(options: FrameOptions): WatchResponse {
         vanished: vanished.map(([x, y, z]) => ({ x, y, z })),
         triangleCount: BigInt(triangles ?? bricks.reduce((sum, brick) => sum + (brick.triangles ?? 1), 0)),
         runId,
+        attributes: options.attributes ?? [],
         sprayCount: BigInt(options.sprayCount ?? spray.flat().length / 3),
       },
     },

@@ -1,0 +1,4 @@
+/** The server contradicts itself or this version. */
+export class ProtocolError extends Error {
+  override name = 'ProtocolError';
+}
