@@ -39,6 +39,28 @@ describe('the link', () => {
     expect(writeLink(tools)).toContain('&cut=z,-1000.0625,before&ruler=1,2,3,4,5,1e-7&beside=1123');
   });
 
+  it('reopens what the surface is colored by', () => {
+    const { session } = state;
+    const by = (color: Parameters<typeof writeLink>[0]['color']): string =>
+      writeLink({ session, ...(color ? { color } : {}) });
+    const cases = {
+      '&color=velocity': { attribute: 'velocity', map: 'viridis', range: 'session' },
+      '&color=velocity.x&range=frame': { attribute: 'velocity', component: 'x', map: 'viridis', range: 'frame' },
+      '&color=age&map=magma&range=-0.5,1e-7': { attribute: 'age', map: 'magma', range: [-0.5, 1e-7] },
+    } as const;
+    for (const [text, color] of Object.entries(cases)) {
+      expect(by(color)).toBe(`#session=${session}${text}`);
+      expect(readLink(by(color))).toEqual({ session, color });
+    }
+    expect(readLink('#color=age&map=jet&range=5,0').color).toEqual({
+      attribute: 'age',
+      map: 'viridis',
+      range: 'session',
+    });
+    for (const text of ['', 'Velocity', 'velocity.q', 'a b', 'x'.repeat(65), 'velocity.x.y'])
+      expect(readLink(`#color=${text}&map=magma&range=0,5`).color).toBeUndefined();
+  });
+
   it('leaves out what it does not understand', () => {
     expect(readLink('#camera=1,2,3&look=x&up=w')).toEqual({});
     expect(readLink('#camera=1,2,3,4,5,x')).toEqual({});

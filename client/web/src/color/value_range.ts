@@ -38,11 +38,12 @@ export function ticks({ low, high }: ValueRange, most: number): number[] {
   return [];
 }
 
-/** With as many digits as tell numbers apart that differ by a thousandth of the extent. */
+/** To a thousandth of the extent; where there is none, four digits. */
 export function valueText(value: number, extent: number): string {
-  const largest = Math.max(Math.abs(value), extent);
-  const digits = extent > 0 ? Math.ceil(Math.log10(largest / extent)) + 4 : 4;
-  return String(Number(value.toPrecision(Math.min(15, Math.max(1, digits)))));
+  const order = (x: number): number => Math.floor(Math.log10(Math.abs(x)));
+  const digits = extent > 0 ? order(value) - order(extent) + 4 : 4;
+  if (!(digits >= 1)) return '0';
+  return String(Number(value.toPrecision(Math.min(15, digits))));
 }
 
 export function rangeText({ low, high }: ValueRange): string {

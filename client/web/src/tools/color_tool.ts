@@ -130,7 +130,7 @@ export class ColorTool {
 
   /** Map and range of the choice, for another attribute: numbers by hand were meant for this one. */
   private other(): Omit<ColorChoice, 'attribute'> {
-    const { map, range } = this.current ?? { map: colorMapNames[0]!, range: 'session' as const };
+    const { map, range } = this.current ?? { map: colorMapNames[0], range: 'session' as const };
     return { map, range: typeof range === 'string' ? range : 'session' };
   }
 
