@@ -67,6 +67,17 @@ describe('the viewer in a frame', () => {
     expect(shown).toEqual([{ state: { session, camera, look: 'levels', up: 'z' }, token: 'secret' }]);
   });
 
+  it('takes what the surface is colored by', () => {
+    hear(message({ color: 'velocity.x', map: 'magma', range: [0, 5] }));
+    hear(message({ number: 3, color: 'age' }));
+    hear(message({ number: 4, map: 'magma' }));
+    expect(shown.map(({ state }) => state.color)).toEqual([
+      { attribute: 'velocity', component: 'x', map: 'magma', range: [0, 5] },
+      { attribute: 'age', map: 'viridis', range: 'session' },
+      undefined,
+    ]);
+  });
+
   it('hears no other origin, no other window, and no other viewer’s messages', () => {
     for (const origin of ['https://page.example.evil', 'http://page.example', 'https://page.example:8443', 'null', ''])
       hear(message(), { origin });
@@ -93,6 +104,11 @@ describe('the viewer in a frame', () => {
     ['camera', { camera: null }],
     ['look', { look: 'oil' }],
     ['up', { up: 'w' }],
+    ['color', { color: 'Velocity' }],
+    ['color', { color: 7 }],
+    ['map', { color: 'age', map: 'jet' }],
+    ['range', { color: 'age', range: [5, 0] }],
+    ['range', { color: 'age', range: 'all' }],
     ['token', { token: 'a\r\nb' }],
     ['token', { token: 7 }],
   ])('refuses in words a %s that cannot be', (name, changes) => {
@@ -152,9 +168,11 @@ describe('the page around', () => {
     expect(told()).toEqual([[message, viewer]]);
     frame.show({ session: other });
     expect(told()[1]).toEqual([{ meniscus: 'show', nonce: 'one', number: 2, session: other, token: '' }, viewer]);
+    frame.show({ session: other, color: 'velocity', map: 'magma', range: 'frame' });
+    expect(told()[2]).toMatchObject([{ number: 3, color: 'velocity', map: 'magma', range: 'frame' }, viewer]);
     // Loaded again.
     hear('two');
-    expect(told()[2]).toMatchObject([{ nonce: 'two', number: 3, session: other }, viewer]);
+    expect(told()[3]).toMatchObject([{ nonce: 'two', number: 4, session: other }, viewer]);
   });
 
   it('answers no other origin and no other window', () => {

@@ -17,11 +17,24 @@ beforeAll(async () => {
 });
 
 function shownOf(...bricks: EncodedBrick[]): Shown {
+  return shownWith(undefined, ...bricks);
+}
+
+/** attribute: of those that the bricks have, the one that is decoded. */
+function shownWith(attribute: string | undefined, ...bricks: EncodedBrick[]): Shown {
   const shown = new Map<string, ShownBrick>();
   for (const encoded of bricks)
-    shown.set(brickKey(...encoded.place), { encoded, decoded: decodeBrick(draco, encoded, offsetBits) });
+    shown.set(brickKey(...encoded.place), { encoded, decoded: decodeBrick(draco, encoded, offsetBits, attribute) });
+  const attributes = bricks[0]?.attributes ?? [];
   return {
-    frame: { index: 12n, simulationTime: 0.5, cellSize: 0.25, offsetBits, brickCells: 64 } as Shown['frame'],
+    frame: {
+      index: 12n,
+      simulationTime: 0.5,
+      cellSize: 0.25,
+      offsetBits,
+      brickCells: 64,
+      attributes,
+    } as unknown as Shown['frame'],
     bricks: shown,
   };
 }
@@ -91,6 +104,104 @@ describe('writeGlb', () => {
       expect(decoder.GetAttributeByUniqueId(mesh, attributes.NORMAL!).data_type()).toBe(draco.DT_FLOAT32);
       expect(json.accessors[primitive.attributes.POSITION!]!.count).toBe(mesh.num_points());
     });
+  });
+});
+
+const age = { name: 'age', type: 'float32', components: 1, bits: 8, minimum: [-1], maximum: [3] } as const;
+const velocity = { name: 'velocity', type: 'float32', components: 3, bits: 0, minimum: [], maximum: [] } as const;
+const color = { name: 'color', type: 'uint8', components: 3, bits: 0, minimum: [], maximum: [] } as const;
+const id = { name: 'id', type: 'int32', components: 1, bits: 0, minimum: [], maximum: [] } as const;
+
+/** A triangle whose vertices have these values. */
+function valued(): Promise<EncodedBrick> {
+  return encodeBrick({
+    positions: [
+      [1, 1, 1],
+      [9, 1, 2],
+      [1, 9, 3],
+    ],
+    triangles: [[0, 1, 2]],
+    levels: [1],
+    attributes: [
+      { form: age, coded: Uint8Array.of(0, 255, 51) },
+      { form: velocity, coded: Float32Array.of(1, 2, 3, 4, 5, 6, 7, 8, 9) },
+      { form: color, coded: Uint8Array.of(10, 20, 30, 40, 50, 60, 70, 80, 90) },
+      { form: id, coded: new Uint8Array(Int32Array.of(-7, 8, 2 ** 31 - 1).buffer) },
+    ],
+  });
+}
+
+describe('what the surface is colored by', () => {
+  it.each([
+    ['age', 'VEC0', 4],
+    ['velocity', 'VEC3', 12],
+    ['color', 'VEC3', 4],
+  ] as const)('is in the GLB: %s', async (name, type, stride) => {
+    const shown = shownWith(name, await valued());
+    const file = writeGlb(shown, 'y');
+    const { issues } = await validateBytes(file);
+    expect(issues.messages.filter(({ severity }) => severity < 2)).toEqual([]);
+    const { json, binary } = read(file);
+    const at = json.meshes[0]!.primitives[0]!.attributes[`_${name.toUpperCase()}`]!;
+    const accessor = json.accessors[at]! as unknown as { bufferView: number; type: string; count: number };
+    expect([accessor.type.replace('SCALAR', 'VEC0'), accessor.count]).toEqual([type, 3]);
+    const { byteOffset } = json.bufferViews[accessor.bufferView]!;
+    const { decoded } = [...shown.bricks.values()][0]!;
+    const { values, components } = decoded.attribute!;
+    const view = new DataView(binary.buffer, binary.byteOffset + byteOffset);
+    for (let point = 0; point < 3; ++point)
+      for (let c = 0; c < components; ++c) {
+        const place = point * stride + c * (name === 'color' ? 1 : 4);
+        expect(name === 'color' ? view.getUint8(place) : view.getFloat32(place, true)).toBe(
+          values[components * point + c],
+        );
+      }
+  });
+
+  it('is not in the GLB where it is an id, which the format has no numbers for', async () => {
+    const { json } = read(writeGlb(shownWith('id', await valued()), 'y'));
+    expect(Object.keys(json.meshes[0]!.primitives[0]!.attributes)).toEqual(['POSITION']);
+  });
+
+  it.each([
+    ['age', 'property float age\n', [[-1], [3], [Math.fround(-1 + (51 * 4) / 255)]]],
+    [
+      'velocity',
+      'property float velocity_x\nproperty float velocity_y\nproperty float velocity_z\n',
+      [
+        [1, 2, 3],
+        [4, 5, 6],
+        [7, 8, 9],
+      ],
+    ],
+    [
+      'color',
+      'property uchar red\nproperty uchar green\nproperty uchar blue\n',
+      [
+        [10, 20, 30],
+        [40, 50, 60],
+        [70, 80, 90],
+      ],
+    ],
+    ['id', 'property int id\n', [[-7], [8], [2 ** 31 - 1]]],
+  ])('is in the PLY: %s', async (name, properties, expected) => {
+    const file = writePly(shownWith(name, await valued()));
+    const text = new TextDecoder('latin1').decode(file);
+    expect(text).toContain(`property float z\n${properties}element face 1\n`);
+    const start = text.indexOf('end_header\n') + 'end_header\n'.length;
+    const components = expected[0]!.length;
+    const bytes = name === 'color' ? 1 : 4;
+    const stride = 12 + components * bytes;
+    expect(file.length).toBe(start + 3 * stride + 14);
+    const view = new DataView(file.buffer, start);
+    const found = [0, 1, 2].map((vertex) =>
+      Array.from({ length: components }, (_, c) => {
+        const at = vertex * stride + 12 + c * bytes;
+        if (name === 'color') return view.getUint8(at);
+        return name === 'id' ? view.getInt32(at, true) : view.getFloat32(at, true);
+      }),
+    );
+    expect(found.sort((a, b) => a[0]! - b[0]!)).toEqual(expected.sort((a, b) => a[0]! - b[0]!));
   });
 });
 

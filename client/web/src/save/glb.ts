@@ -1,33 +1,75 @@
 // A mesh as GLB: the Draco bytes as they came (KHR_draco_mesh_compression), positions in brick-local integers
-// (KHR_mesh_quantization), a node for each brick that puts them in place.
+// (KHR_mesh_quantization), a node for each brick that puts them in place. What the surface is colored by lies beside the Draco bytes, in
+// the order of their points: in them it is the steps of a range, which glTF cannot tell.
+import { isId, type AttributeForm } from '../bricks/attributes';
 import type { ShownBrick, Shown } from '../bricks/brick_store';
 import { brickEdge } from '../bricks/frame';
-import { pointCount } from '../decode/decoded_brick';
+import { pointCount, type DecodedBrick } from '../decode/decoded_brick';
 import { toScene, type UpAxis } from '../view/up_axis';
+import { decodedForm } from './weld';
 
+const unsignedByte = 5121;
 const unsignedShort = 5123;
 const unsignedInt = 5125;
 const float = 5126;
 const triangles = 4;
+const arrayBuffer = 34962;
 /** As the server adds them to a brick's Draco mesh. */
 const dracoIds = { POSITION: 0, NORMAL: 1 };
 
+interface View {
+  readonly buffer: number;
+  readonly byteOffset: number;
+  readonly byteLength: number;
+  readonly byteStride?: number;
+  readonly target?: number;
+}
+
 export function writeGlb(shown: Shown, up: UpAxis): Uint8Array {
   const bricks = [...shown.bricks.values()].filter(({ encoded }) => encoded.triangleCount > 0);
-  const views: { buffer: number; byteOffset: number; byteLength: number }[] = [];
+  const form = decodedForm(bricks, shown.frame.attributes);
+  // The format has integers of four bytes for indices alone.
+  const attribute = form && !isId(form.type) ? form : undefined;
+  const views: View[] = [];
   let bytes = 0;
   for (const { encoded } of bricks) {
     views.push({ buffer: 0, byteOffset: bytes, byteLength: encoded.data.length });
     bytes = aligned(bytes + encoded.data.length);
   }
+  const values = attribute ? bricks.map(({ decoded }) => valueBytes(decoded, attribute)) : [];
+  for (const { length } of values) {
+    const stride = attribute!.type === 'uint8' ? { byteStride: 4 } : {};
+    views.push({ buffer: 0, byteOffset: bytes, byteLength: length, ...stride, target: arrayBuffer });
+    bytes += length;
+  }
   const binary = new Uint8Array(bytes);
   bricks.forEach(({ encoded }, i) => {
     binary.set(encoded.data, views[i]!.byteOffset);
   });
-  return container(document(shown, bricks, views, bytes, up), binary);
+  values.forEach((of, i) => {
+    binary.set(of, views[bricks.length + i]!.byteOffset);
+  });
+  return container(document(shown, bricks, attribute, views, bytes, up), binary);
 }
 
-function document(shown: Shown, bricks: ShownBrick[], views: object[], bytes: number, up: UpAxis): object {
+/** Whole words for each point. */
+function valueBytes({ attribute }: DecodedBrick, { components }: AttributeForm): Uint8Array {
+  const { values } = attribute!;
+  if (!(values instanceof Uint8Array)) return new Uint8Array(values.buffer, values.byteOffset, values.byteLength);
+  const padded = new Uint8Array((4 * values.length) / components);
+  for (let point = 0; 4 * point < padded.length; ++point)
+    padded.set(values.subarray(components * point, components * (point + 1)), 4 * point);
+  return padded;
+}
+
+function document(
+  shown: Shown,
+  bricks: ShownBrick[],
+  attribute: AttributeForm | undefined,
+  views: View[],
+  bytes: number,
+  up: UpAxis,
+): object {
   const { frame } = shown;
   const asset = {
     version: '2.0',
@@ -49,12 +91,22 @@ function document(shown: Shown, bricks: ShownBrick[], views: object[], bytes: nu
       max: decoded.bounds.max,
     });
     const normal = decoded.normals ? { NORMAL: add({ componentType: float, count: points, type: 'VEC3' }) } : {};
+    const value = attribute
+      ? {
+          [`_${attribute.name.toUpperCase()}`]: add({
+            bufferView: bricks.length + i,
+            componentType: attribute.type === 'uint8' ? unsignedByte : float,
+            count: points,
+            type: attribute.components === 1 ? 'SCALAR' : `VEC${attribute.components}`,
+          }),
+        }
+      : {};
     const dracoAttributes = decoded.normals ? dracoIds : { POSITION: dracoIds.POSITION };
     return {
       name: `brick ${encoded.place.join(' ')}`,
       primitives: [
         {
-          attributes: { POSITION, ...normal },
+          attributes: { POSITION, ...normal, ...value },
           indices,
           material: 0,
           mode: triangles,

@@ -1,5 +1,6 @@
 // The bricks as one mesh: a vertex's position on the lattice is its identity.
-import type { Shown } from '../bricks/brick_store';
+import type { AttributeForm } from '../bricks/attributes';
+import type { Shown, ShownBrick } from '../bricks/brick_store';
 import { brickKey, type BrickKey, type EncodedBrick } from '../bricks/frame';
 import { pointCount, type DecodedBrick } from '../decode/decoded_brick';
 
@@ -11,10 +12,14 @@ export interface WeldedMesh {
   readonly triangles: number[];
   /** Of each triangle: 1, 2, 3; crack filling 0. */
   readonly levels: number[];
+  /** What all vertices have, of what was decoded: its numbers, one vertex after the other. */
+  readonly attribute: { readonly form: AttributeForm; readonly values: number[] } | undefined;
 }
 
 export function weld({ frame, bricks }: Shown): WeldedMesh {
-  const mesh: WeldedMesh = { vertices: [], normals: [], triangles: [], levels: [] };
+  const form = decodedForm([...bricks.values()], frame.attributes);
+  const attribute = form && { form, values: new Array<number>() };
+  const mesh: WeldedMesh = { vertices: [], normals: [], triangles: [], levels: [], attribute };
   const hasNormals = [...bricks.values()].every(({ decoded }) => decoded.normals !== undefined);
   const numbers = new VertexNumbers(frame.brickCells << frame.offsetBits);
   for (const { encoded, decoded } of bricks.values()) {
@@ -27,6 +32,10 @@ export function weld({ frame, bricks }: Shown): WeldedMesh {
         mesh.vertices.push(encoded.place[axis]! * numbers.edge + decoded.positions[4 * point + axis]!);
         if (hasNormals) mesh.normals.push(decoded.normals![4 * point + axis]!);
       }
+      if (attribute) {
+        const { components } = form;
+        attribute.values.push(...decoded.attribute!.values.subarray(components * point, components * (point + 1)));
+      }
     }
     for (const point of decoded.indices) mesh.triangles.push(ofPoint[point]!);
     decoded.levelTriangles.forEach((count, group) => {
@@ -34,6 +43,16 @@ export function weld({ frame, bricks }: Shown): WeldedMesh {
     });
   }
   return mesh;
+}
+
+/** Of the attribute that every brick was decoded with; none if there is none. */
+export function decodedForm(
+  bricks: readonly ShownBrick[],
+  announced: readonly AttributeForm[],
+): AttributeForm | undefined {
+  const name = bricks[0]?.decoded.attribute?.name;
+  if (name === undefined || bricks.some(({ decoded }) => decoded.attribute?.name !== name)) return undefined;
+  return announced.find((form) => form.name === name);
 }
 
 /** A vertex on a face that bricks share is looked up in the brick above, so that each has one place to be found. */

@@ -20,7 +20,7 @@ export class BrickMeshes {
 
   constructor(
     private surfaceMaterial: Material,
-    private readonly wireMaterials: LineBasicMaterial[],
+    private wireMaterials: LineBasicMaterial[],
   ) {}
 
   /** origin: of the scene, world units. */
@@ -54,9 +54,11 @@ export class BrickMeshes {
     this.clear();
   }
 
-  setLook(surfaceMaterial: Material, wired: boolean): void {
+  /** wireMaterials: one for each level; none: no wires. */
+  setLook(surfaceMaterial: Material, wireMaterials: LineBasicMaterial[] | undefined): void {
     this.surfaceMaterial = surfaceMaterial;
-    this.wired = wired;
+    this.wired = wireMaterials !== undefined;
+    if (wireMaterials) this.wireMaterials = wireMaterials;
     for (const { surface } of this.meshes.values()) surface.material = surfaceMaterial;
     this.updateWires();
   }
@@ -71,6 +73,7 @@ export class BrickMeshes {
           mesh.wires.layers.set(pictureLayer);
           this.group.add(mesh.wires);
         }
+        mesh.wires.material = this.wireMaterials;
         mesh.wires.position.copy(mesh.surface.position);
         mesh.wires.scale.copy(mesh.surface.scale);
       }

@@ -9,6 +9,9 @@ export interface ColorLegend {
   readonly scale?: { readonly map: ColorMap; readonly range: ValueRange };
 }
 
+/** With what is left free below it, CSS pixels. */
+export const legendHeight = 64;
+
 /** CSS pixels. */
 const widest = 300;
 const barHeight = 12;

@@ -8,6 +8,12 @@ export function levelLineMaterials(): LineBasicMaterial[] {
   return levelColors.map((color) => new LineBasicMaterial({ color, toneMapped: false }));
 }
 
+/** Over a surface whose colors mean something else: of one color, so that those are seen. */
+export function plainLineMaterials(): LineBasicMaterial[] {
+  const material = new LineBasicMaterial({ color: 0x101418, transparent: true, opacity: 0.35, toneMapped: false });
+  return levelColors.map(() => material);
+}
+
 /** What the wires lie on, and what hides those behind. */
 export function levelSurfaceMaterial(): ShaderMaterial {
   return new ShaderMaterial({

@@ -10,13 +10,14 @@ import { Background } from './background';
 import { center, contains, corners, size, union, unionOf, worldBox, type Point, type WorldBox } from './bounds';
 import { BrickMeshes } from './brick_meshes';
 import { CameraControls } from './camera_controls';
+import { legendHeight } from './color_legend';
 import { ColoredMaterial } from './colored_material';
 import { cutPlane, type Cut } from './cut';
 import { CutFace } from './cut_face';
 import { DomainBox } from './domain_box';
 import { environmentUniforms, setTheme, type Theme } from './environment';
 import { distanceToSee, putInTheMiddle, type Margins } from './fit';
-import { levelLineMaterials, levelSurfaceMaterial } from './level_materials';
+import { levelLineMaterials, levelSurfaceMaterial, plainLineMaterials } from './level_materials';
 import { ParticleCloud } from './particle_cloud';
 import { pick, type Pick } from './pick';
 import { SprayCloud } from './spray_cloud';
@@ -70,6 +71,7 @@ export class Viewer {
   private readonly thickness = new ThicknessPass(this.environment, this.cutPlanes);
   private readonly sunlight = new Sunlight(this.environment, this.cutPlanes);
   private readonly levelLines = levelLineMaterials();
+  private readonly plainLines = plainLineMaterials();
   private readonly bricks = new BrickMeshes(this.water, this.levelLines);
   private readonly particles = new ParticleCloud();
   private readonly spray = new SprayCloud();
@@ -109,6 +111,7 @@ export class Viewer {
       this.water,
       this.levelSurface,
       ...this.levelLines,
+      ...this.plainLines,
       this.particles.material,
       this.spray.material,
     ])
@@ -198,9 +201,11 @@ export class Viewer {
       this.bricks.setQuantity(coloring?.quantity);
       if (shown) this.bricks.show(shown, this.origin);
     }
+    const legendComes = this.colored !== (coloring !== undefined);
     this.coloring = coloring;
     if (coloring) this.coloredMaterial(coloring.quantity.kind).set(coloring.map, coloring.range);
     this.showLook();
+    if (legendComes) this.resize();
   }
 
   /** Whether in place of water there are colors. */
@@ -208,10 +213,17 @@ export class Viewer {
     return this.coloring !== undefined;
   }
 
+  /** What covers the canvas, with the legend of the colors. */
+  private get margins(): Margins {
+    const margins = this.covered();
+    return this.colored ? { ...margins, bottom: margins.bottom + legendHeight } : margins;
+  }
+
   private showLook(): void {
     const plain = this.look === 'water' ? this.water : this.levelSurface;
     const material = this.coloring ? this.coloredMaterial(this.coloring.quantity.kind).material : plain;
-    this.bricks.setLook(material, this.look === 'levels');
+    const lines = this.coloring ? this.plainLines : this.levelLines;
+    this.bricks.setLook(material, this.look === 'levels' ? lines : undefined);
     this.draw();
   }
 
@@ -337,7 +349,7 @@ export class Viewer {
     this.adopt(box);
     const target = this.inScene(center(box));
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const margins = this.covered();
+    const margins = this.margins;
     const free = {
       width: Math.max(0.2, 1 - margins.right / width),
       height: Math.max(0.2, 1 - (margins.top + margins.bottom) / height),
@@ -404,7 +416,7 @@ export class Viewer {
     this.particles.setScreenHeight(this.canvas.height);
     this.spray.setScreenHeight(this.canvas.height);
     this.thickness.setSize(this.canvas.width / thicknessCoarseness, this.canvas.height / thicknessCoarseness);
-    putInTheMiddle(this.controls.camera, this.covered(), clientWidth, clientHeight);
+    putInTheMiddle(this.controls.camera, this.margins, clientWidth, clientHeight);
     if (this.following) this.lookAt(this.following);
     // At once: the canvas is blank now.
     this.render();
