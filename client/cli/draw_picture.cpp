@@ -1,7 +1,11 @@
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "cli/color_legend.hpp"
 #include "cli/picture.hpp"
 #include "cli/shading.hpp"
+#include "cli/shown_values.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -32,10 +36,49 @@ Direction interpolate(const std::array<Direction, 3>& corners, const std::array<
     return {sign * n[0] / length, sign * n[1] / length, sign * n[2] / length};
 }
 
+/// What the surface is colored by.
+class Coloring {
+public:
+    Coloring(const formats::TriangleMesh& mesh, const PictureOptions& options)
+        : values_(values_to_show(mesh, options.color)), map_(options.color_map) {
+        if (options.range)
+            values_.range = options.range;
+        else if (values_.range && is_diverging(map_))
+            values_.range = around_zero(*values_.range);
+    }
+
+    /// sRGB, 0 to 255.
+    std::array<float, 3> at(const Triangle& triangle, const std::array<float, 3>& weights) const {
+        if (values_.colors.empty()) {
+            float value = 0.0F;
+            for (std::size_t k = 0; k < 3; ++k) value += weights[k] * values_.numbers[triangle[k]];
+            const Rgb color = color_of(map_, part_of(static_cast<double>(value), *values_.range));
+            return {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2])};
+        }
+        std::array<float, 3> mean{};
+        const auto nearest = static_cast<std::size_t>(std::ranges::max_element(weights) - weights.begin());
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const float weight = !values_.nearest ? weights[k] : k == nearest ? 1.0F : 0.0F;
+                mean[c] += weight * static_cast<float>(values_.colors[triangle[k]][c]);
+            }
+        return mean;
+    }
+
+    ColorLegend legend() const { return {values_.title, map_, values_.range}; }
+
+private:
+    ShownValues values_;
+    ColorMap map_;
+};
+
 }  // namespace
 
 formats::Image draw_picture(const formats::TriangleMesh& mesh, const PictureOptions& options) {
-    const Camera camera(mesh.positions, options.up, options.azimuth, options.elevation, options.width, options.height);
+    std::optional<Coloring> coloring;
+    if (!options.color.empty()) coloring.emplace(mesh, options);
+    const std::size_t free_height = options.height - (coloring ? legend_height(options.height) : 0);
+    const Camera camera(mesh.positions, options.up, options.azimuth, options.elevation, options.width, free_height);
     Rasterizer rasterizer(options.width, options.height, samples_per_axis);
     rasterizer.clear([&](float row) -> Color {
         if (options.wireframe) return {1.0F, 1.0F, 1.0F};
@@ -56,11 +99,14 @@ formats::Image draw_picture(const formats::TriangleMesh& mesh, const PictureOpti
         const std::uint8_t level = mesh.levels.empty() ? std::uint8_t{1} : mesh.levels[i];
         rasterizer.draw({points[t[0]], points[t[1]], points[t[2]]}, [&](const Fragment& fragment) {
             const Direction n = interpolate(normals, fragment.weights);
+            if (coloring) return colored(coloring->at(t, fragment.weights), n);
             if (!options.wireframe) return water(n, up);
             return wire(level, fragment.edge_distance < half_line ? 1.0F : 0.0F, n[2]);
         });
     }
-    return rasterizer.image();
+    formats::Image image = rasterizer.image();
+    if (coloring) draw_legend(image, coloring->legend());
+    return image;
 }
 
 }  // namespace meniscus::cli

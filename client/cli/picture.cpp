@@ -11,6 +11,7 @@
 #include "cli/options/named_option.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/read_limits_option.hpp"
+#include "meniscus/error.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -23,6 +24,7 @@ struct PictureCommand {
     formats::ReadLimits limits;
     std::string out;
     std::vector<double> view;
+    std::vector<double> range;
     PictureOptions options;
 };
 
@@ -30,6 +32,12 @@ void picture(PictureCommand command) {
     if (!command.view.empty()) {
         command.options.azimuth = command.view[0];
         command.options.elevation = command.view[1];
+    }
+    if (!command.range.empty()) {
+        command.options.range = ValueRange{command.range[0], command.range[1]};
+        if (!(command.range[0] < command.range[1]))
+            throw InvalidInput("--range is from " + value_text(command.range[0], 0.0) + " to " +
+                               value_text(command.range[1], 0.0) + ", its first number must be less than its second");
     }
     check_named(command.mesh, command.input_format.has_value(), "--input-format", formats::read_mesh_formats());
     check_folder(command.out);
@@ -60,6 +68,16 @@ void add_picture(CLI::App& app) {
     const OptionGroup group(command, "Picture");
     command.add_flag("--wireframe", options->options.wireframe,
                      "Lines colored by level (1 blue, 2 green, 3 red, crack filling purple), hidden lines removed");
+    CLI::Option* const color = command.add_option(
+        "--color", options->options.color,
+        "Color the surface by an attribute of its vertices: NAME, or NAME.x, .y, .z, .w; of a vector otherwise its "
+        "magnitude. With a legend");
+    color->excludes("--wireframe");
+    add_named_option(command, "--color-map", options->options.color_map, "Colors of --color")->needs(color);
+    command.add_option("--range", options->range, "A,B: values at the ends of the colors (default: those of the mesh)")
+        ->delimiter(',')
+        ->expected(2)
+        ->needs(color);
     command.add_option("--width", options->options.width, "Pixels")
         ->check(CLI::Range(std::size_t{1}, largest_side))
         ->capture_default_str();
@@ -71,7 +89,8 @@ void add_picture(CLI::App& app) {
         ->check(CLI::Range(-360.0, 360.0));
     add_named_option(command, "--up", options->options.up, "Axis that points up");
     add_examples(command, {"meniscus picture surface.ply -o surface.png",
-                           "meniscus picture surface.ply -o surface.png --wireframe --up z --view 60 20"});
+                           "meniscus picture surface.ply -o surface.png --wireframe --up z --view 60 20",
+                           "meniscus picture surface.ply -o speed.png --color velocity --color-map magma --range 0,5"});
     command.callback([options] { picture(*options); });
 }
 

@@ -46,6 +46,20 @@ Color water(const Direction& normal, const Direction& up) {
     return mix(color, sky, mirrored);
 }
 
+Color colored(const std::array<float, 3>& rgb, const Direction& normal) {
+    static const Direction towards = normalized({-0.5F, 0.8F, 0.7F});
+    static const Direction halfway = normalized({towards[0], towards[1], towards[2] + 1.0F});
+    const float facing = std::clamp(normal[2], 0.0F, 1.0F);
+    const float light = 0.55F + 0.3F * (0.5F + 0.5F * dot(normal, towards)) + 0.2F * facing;
+    const float highlight = 0.22F * std::pow(std::max(0.0F, dot(normal, halfway)), 48.0F);
+    Color linear{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float v = std::clamp(rgb[i] / 255.0F * light + highlight, 0.0F, 1.0F);
+        linear[i] = v <= 0.04045F ? v / 12.92F : std::pow((v + 0.055F) / 1.055F, 2.4F);
+    }
+    return linear;
+}
+
 Color wire(std::uint8_t level, float line, float facing) {
     static constexpr std::array<Color, 4> colors{
         {{0.45F, 0.02F, 0.55F}, {0.02F, 0.12F, 0.75F}, {0.01F, 0.38F, 0.05F}, {0.80F, 0.06F, 0.01F}}};

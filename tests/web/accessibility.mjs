@@ -33,7 +33,7 @@ describe('the page', { skip: missing }, () => {
       await entry.click();
       await surface(page);
       assert.deepEqual(await violations(page), []);
-      for (const tool of ['cut', 'probe', 'ruler', 'beside']) await page.click(`#${tool}`);
+      for (const tool of ['color', 'cut', 'probe', 'ruler', 'beside']) await page.click(`#${tool}`);
       assert.deepEqual(await violations(page), []);
       await server.kill();
       await state(page, 'waiting');
@@ -50,7 +50,7 @@ describe('the page', { skip: missing }, () => {
     await page.keyboard.press('Enter');
     await surface(page);
     const reached = [];
-    for (let i = 0; i < 45; ++i) {
+    for (let i = 0; i < 50; ++i) {
       reached.push(await page.evaluate(() => document.activeElement.id));
       await page.keyboard.press('Tab');
     }

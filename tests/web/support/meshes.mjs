@@ -44,12 +44,19 @@ export function boundsOfPly(ply) {
 
 /** Of such a file: x y z each. */
 export function verticesOfPly(ply) {
+  return vertexProperties(ply, ['x', 'y', 'z']);
+}
+
+/** Of such a file, the properties of these names, of each vertex. */
+export function vertexProperties(ply, names) {
   const end = 'end_header\n';
   const header = ply.subarray(0, ply.indexOf(end) + end.length);
   const text = header.toString('latin1');
   const count = Number(/element vertex (\d+)/.exec(text)[1]);
-  const stride = 4 * text.slice(0, text.indexOf('element face')).match(/property float/g).length;
+  const properties = [...text.slice(0, text.indexOf('element face')).matchAll(/property float (\w+)/g)];
+  const places = names.map((name) => 4 * properties.findIndex(([, property]) => property === name));
+  if (places.some((at) => at < 0)) throw new Error(`the mesh has not all of ${names.join(', ')}`);
   return Array.from({ length: count }, (_, vertex) =>
-    [0, 4, 8].map((at) => ply.readFloatLE(header.length + vertex * stride + at)),
+    places.map((at) => ply.readFloatLE(header.length + vertex * 4 * properties.length + at)),
   );
 }

@@ -1,0 +1,114 @@
+import assert from 'node:assert/strict';
+import { mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { describe, it } from 'node:test';
+import { missing, screenshot } from './support/browser.mjs';
+import { save } from './support/files.mjs';
+import { vertexProperties, verticesOfPly } from './support/meshes.mjs';
+import { run, startServer, startUploader } from './support/programs.mjs';
+import { link, open, surface } from './support/viewer.mjs';
+
+const small = { viewport: { width: 640, height: 480 } };
+const speedOf = ([x, y, z]) => Math.hypot(x, y, z);
+const velocities = (ply) => vertexProperties(ply, ['velocity_x', 'velocity_y', 'velocity_z']);
+/** "velocity, magnitude: 0.1 to 2.5" */
+const ends = (legend) => /: (\S+) to (\S+)$/.exec(legend).slice(1).map(Number);
+const legend = (page) => page.getAttribute('#annotations', 'data-legend');
+const colored = (page, pattern) =>
+  page.waitForFunction(
+    (source) => new RegExp(source).test(document.getElementById('annotations').dataset.legend ?? ''),
+    pattern.source,
+  );
+
+/** A session that stays with its last frame, and that frame as the command line receives it, exactly. */
+async function restingSession(server, folder) {
+  const args = 'simulate --scene dam-break --particles 1500 --frames 100000 --attribute velocity --attribute age';
+  const simulator = startUploader(server, args.split(' '));
+  const receive = async (frames, to) => {
+    const watch = ['watch', simulator.session, '--server', server.address, '-o', to, '--frames', `${frames}`];
+    await run([...watch, '--format', 'ply', '--attribute', 'velocity', '--attribute-bits', '0']);
+  };
+  // Until the water moves.
+  await receive(20, join(folder, 'moving'));
+  await simulator.kill();
+  const last = join(folder, 'last');
+  await receive(1, last);
+  return { session: simulator.session, ply: readFileSync(join(last, readdirSync(last)[0])) };
+}
+
+describe('colors', { skip: missing }, () => {
+  it('show speeds with their legend, which the probe and the saved mesh agree with', async () => {
+    const folder = mkdtempSync(join(tmpdir(), 'meniscus-web-'));
+    try {
+      const server = await startServer();
+      const { session, ply } = await restingSession(server, folder);
+      const places = verticesOfPly(ply);
+      const known = velocities(ply);
+      const speeds = known.map(speedOf);
+      const [slowest, fastest] = [Math.min(...speeds), Math.max(...speeds)];
+      // Twelve bits of a range that is rounded outward, and what the legend is rounded to.
+      const near = (a, b) => assert.ok(Math.abs(a - b) < 0.003 * fastest, `${a}, not ${b}`);
+      const top = places.reduce((best, place, i) => (place[1] > places[best][1] ? i : best), 0);
+      const camera = [places[top][0] + 0.1, places[top][1] + 2, places[top][2] + 0.2, ...places[top]];
+      const page = await open(`${link(server, session)}&camera=${camera}&color=velocity&map=plasma`, small);
+      await surface(page);
+      await colored(page, /^velocity, magnitude:/);
+      const [low, high] = ends(await legend(page));
+      near(low, slowest);
+      near(high, fastest);
+
+      await page.click('#probe');
+      await page.click('#probe-middle');
+      const value = page.locator('#probe-value', { hasText: /\d/ });
+      near(Number(await value.innerText()), speeds[top]);
+      assert.equal(await page.locator('#probe-title').innerText(), 'velocity, magnitude');
+      await screenshot(page, 'colors');
+
+      const saved = velocities((await save(page, '#ply')).bytes).map(speedOf);
+      near(Math.min(...saved), slowest);
+      near(Math.max(...saved), fastest);
+
+      await page.click('#color');
+      await page.selectOption('#color-component', 'y');
+      await colored(page, /^velocity\.y:/);
+      near(Number(await value.innerText()), known[top][1]);
+      const [least, greatest] = ends(await legend(page));
+      near(least, Math.min(...known.map(([, y]) => y)));
+      near(greatest, Math.max(...known.map(([, y]) => y)));
+      await page.selectOption('#color-range', 'hand');
+      await page.fill('#color-low', '-1');
+      await page.fill('#color-high', '3');
+      await page.keyboard.press('Enter');
+      await colored(page, /: -1 to 3$/);
+      const fields = new URLSearchParams(new URL(page.url()).hash.slice(1));
+      assert.deepEqual(
+        ['color', 'map', 'range'].map((name) => fields.get(name)),
+        ['velocity.y', 'plasma', '-1,3'],
+      );
+      await page.reload();
+      await surface(page);
+      await colored(page, /^velocity\.y: -1 to 3$/);
+      await page.click('#color');
+      await page.selectOption('#color-attribute', '');
+      await page.waitForFunction(() => document.getElementById('annotations').dataset.legend === undefined);
+      assert.equal(new URLSearchParams(new URL(page.url()).hash.slice(1)).get('color'), null);
+    } finally {
+      rmSync(folder, { recursive: true });
+    }
+  });
+
+  it('that a session does not have are told of in the panel, and its own are offered', async () => {
+    const server = await startServer();
+    const args = 'simulate --scene dam-break --particles 500 --frames 100000 --attribute age';
+    const simulator = startUploader(server, args.split(' '));
+    const page = await open(`${link(server, simulator.session)}&color=pressure`, small);
+    await surface(page);
+    await page.getByText('This session has no attribute "pressure".').waitFor();
+    const offered = () => page.locator('#color-attribute option').evaluateAll((all) => all.map(({ value }) => value));
+    assert.deepEqual(await offered(), ['', 'age', 'pressure']);
+    await page.selectOption('#color-attribute', 'age');
+    await colored(page, /^age:/);
+    assert.deepEqual(await offered(), ['', 'age']);
+  });
+});
