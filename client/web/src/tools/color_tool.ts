@@ -229,11 +229,11 @@ export class ColorTool {
       });
   }
 
-  /** In words: what hinders, or else the range. */
+  /** The range, and in words what hinders. */
   private tell(): void {
-    const text = this.problem() ?? (this.range ? rangeText(this.range) : '');
-    const output = element('color-text', HTMLOutputElement);
-    if (output.textContent !== text) output.textContent = text;
+    write('color-numbers', this.range ? rangeText(this.range) : '');
+    // Said aloud, when it changes, to those that cannot see it.
+    write('color-problem', this.problem() ?? '');
   }
 
   private problem(): string | undefined {
@@ -253,4 +253,10 @@ export class ColorTool {
     if (typeof this.current.range !== 'string' && !isRange([low, high])) return 'From must be less than to.';
     return undefined;
   }
+}
+
+function write(id: string, text: string): void {
+  const place = element(id, HTMLElement);
+  place.hidden = text === '';
+  if (place.textContent !== text) place.textContent = text;
 }

@@ -196,21 +196,23 @@ export class Viewer {
 
   /** None: water, or the levels' own surface. Bricks that are shown must have been decoded with it. */
   setColoring(coloring: Coloring | undefined): void {
+    if (!coloring && !this.coloring) return;
     const { shown } = this;
     if (coloring?.quantity !== this.coloring?.quantity) {
       this.bricks.setQuantity(coloring?.quantity);
       if (shown) this.bricks.show(shown, this.origin);
     }
-    const legendComes = this.colored !== (coloring !== undefined);
+    const before = this.colored;
     this.coloring = coloring;
     if (coloring) this.coloredMaterial(coloring.quantity.kind).set(coloring.map, coloring.range);
     this.showLook();
-    if (legendComes) this.resize();
+    // The legend comes, or goes.
+    if (this.colored !== before) this.resize();
   }
 
   /** Whether in place of water there are colors. */
   get colored(): boolean {
-    return this.coloring !== undefined;
+    return this.coloring !== undefined && this.particles.shown === undefined;
   }
 
   /** What covers the canvas, with the legend of the colors. */
