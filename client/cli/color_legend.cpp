@@ -15,7 +15,7 @@ constexpr std::size_t space = 4;
 constexpr std::size_t strip = letter_height + space + bar_height + space + letter_height + 2 * space;
 
 std::size_t scale_of(std::size_t height) {
-    return std::max<std::size_t>(1, height / 400);
+    return std::max<std::size_t>(1, (height + 100) / 300);
 }
 
 /// Its middle is at x.
