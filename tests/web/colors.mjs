@@ -72,6 +72,7 @@ describe('colors', { skip: missing }, () => {
       await page.click('#color');
       await page.selectOption('#color-component', 'y');
       await colored(page, /^velocity\.y:/);
+      await page.locator('#probe-title', { hasText: 'velocity.y' }).waitFor();
       near(Number(await value.innerText()), known[top][1]);
       const [least, greatest] = ends(await legend(page));
       near(least, Math.min(...known.map(([, y]) => y)));

@@ -118,6 +118,12 @@ export class App {
       attribute: (name) => {
         this.sessionView.setAttribute(name);
       },
+      absent: (reason) => {
+        // A viewer that shows the water alone has no panel to say it.
+        if (!this.embedding) return;
+        this.handingFailed = true;
+        this.banner.say(reason);
+      },
     });
     this.sessionView = new SessionView(this.server, this.screen, this.playback, {
       state: (state) => {

@@ -22,6 +22,8 @@ export interface ColorToolEvents {
   changed(): void;
   /** Vertices are to carry another attribute, or none. */
   attribute(name: string | undefined): void;
+  /** What is looked at does not have the attribute that was chosen. */
+  absent(reason: string): void;
   /** The first one is of what is looked at. */
   panes(): readonly ColoredPane[];
 }
@@ -40,6 +42,8 @@ export class ColorTool {
   /** Of all frames that were shown. */
   private seen: ValueRange | undefined;
   private range: ValueRange | undefined;
+  /** Whether it was told that the attribute is not there. */
+  private toldAbsent = false;
 
   constructor(private readonly events: ColorToolEvents) {
     this.mapSelect.replaceChildren(...colorMapNames.map((name) => new Option(name)));
@@ -94,6 +98,7 @@ export class ColorTool {
       this.seen = undefined;
     }
     this.current = choice;
+    this.toldAbsent = false;
     this.events.attribute(choice?.attribute);
     this.refresh();
   }
@@ -193,8 +198,12 @@ export class ColorTool {
     this.showRange(scaled ? this.current?.range : undefined);
     if (this.current) this.mapSelect.value = this.current.map;
     this.tell();
-    // A link's attribute that is not there is to be told.
-    if (frame && this.current && !attribute) this.setPanel(true);
+    const absent = frame !== undefined && this.current !== undefined && !attribute;
+    if (absent && !this.toldAbsent) {
+      this.setPanel(true);
+      this.events.absent(this.problem()!);
+    }
+    this.toldAbsent = absent;
   }
 
   /** The names, and the one that is chosen whether it is there or not. */

@@ -39,6 +39,8 @@ export interface ToolsEvents {
   failed(reason: string): void;
   /** What the vertices of what is looked at are to carry, or nothing. */
   attribute(name: string | undefined): void;
+  /** There is no such attribute: the panel says so, too. */
+  absent(reason: string): void;
 }
 
 type ToolAction =
@@ -145,7 +147,11 @@ export class Tools {
     });
     this.color = new ColorTool({
       changed: () => {
+        if (this.probe.active) this.pointAgain();
         this.events.changed();
+      },
+      absent: (reason) => {
+        this.events.absent(reason);
       },
       attribute: (name) => {
         this.screen.setAttribute(name);
@@ -232,6 +238,7 @@ export class Tools {
   /** A frame has taken the place of the one before; it is drawn next. */
   frameShown(): void {
     this.color.refresh();
+    if (this.probe.active) this.pointAgain();
   }
 
   /** The frame's first picture has been drawn. */
@@ -239,7 +246,6 @@ export class Tools {
     const first = this.frame === undefined;
     this.frame = frame;
     if (first) this.measured();
-    if (this.probe.active) this.pointAgain();
     this.cut.show();
   }
 
