@@ -95,7 +95,7 @@ private:
             cells();
         } else if (keyword == "VERTICES" || keyword == "LINES") {
             cells_ += cells();
-            cell_ends_.clear();
+            append_faces([] { return std::optional<VtkCell>(); });
         } else if (keyword == "POLYGONS" || keyword == "TRIANGLE_STRIPS") {
             const std::size_t count = cells();
             out_.faces += count;
