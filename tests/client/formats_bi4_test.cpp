@@ -54,8 +54,8 @@ TEST(Bi4, ArraysOfOtherFormsAreLeftOutWithTheReason) {
                                              form.array("Mass", 11, 2, form.numbers<float>({1, 2}))}));
     EXPECT_EQ(particles.count(), 1U);
     ASSERT_EQ(particles.left_out.size(), 2U);
-    EXPECT_EQ(particles.left_out[0], "Names (texts)");
-    EXPECT_EQ(particles.left_out[1], "Mass (2 values for 1 particles)");
+    EXPECT_EQ(particles.left_out[0], "names (texts)");
+    EXPECT_EQ(particles.left_out[1], "mass (2 values for 1 particles)");
 }
 
 TEST(Bi4, WrongFilesAreRefusedWithTheReason) {

@@ -114,8 +114,8 @@ TEST(Npz, CoordinatesInArraysOfTheirOwnAreReadAsPySphNamesThem) {
 TEST(Npz, FilesWithoutPositionsAreRefusedWithTheReason) {
     EXPECT_EQ(said_of_npz(npz([](formats::NpzWriter& out) { out.add("a", "<f4", {1}, bytes_of({1})); })),
               "f: neither an array positions nor arrays x, y and z");
-    EXPECT_EQ(said_of_npz(npz([](formats::NpzWriter& out) { out.add("particles", "|O", {}, "pickle"); })),
-              "f: array 'particles': holds pickled Python objects, which are not read: save plain arrays, as "
+    EXPECT_EQ(said_of_npz(npz([](formats::NpzWriter& out) { out.add("objects", "|O", {}, "pickle"); })),
+              "f: array 'objects': holds pickled Python objects, which are not read: save plain arrays, as "
               "numpy.savez(FILE, positions=..., velocity=...)");
     EXPECT_EQ(said_of_npz("PK"), "f: no zip file: it has no directory at its end");
 }
