@@ -27,6 +27,8 @@ void ZipWriter::add(const std::string& name, std::span<const std::string_view> p
     std::uint64_t size = 0;
     auto crc = ::crc32_z(0, nullptr, 0);
     for (const std::string_view part : parts) {
+        // zlib takes no address for a new beginning.
+        if (part.empty()) continue;
         crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(part.data()), part.size());
         size += part.size();
     }
