@@ -100,9 +100,13 @@ public:
     /// Pieces of two points with an array.
     std::string text(int pieces = 1) {
         std::string body;
-        for (int i = 0; i < pieces; ++i)
-            body += "<Piece NumberOfPoints=\"2\" NumberOfVerts=\"0\"><Points>" + array("Points", xml_points, 3) +
-                    "</Points><PointData>" + array("Age", xml_ages, 1) + "</PointData></Piece>\n";
+        for (int i = 0; i < pieces; ++i) {
+            // One after the other, as they are appended.
+            const std::string points = array("Points", xml_points, 3);
+            const std::string ages = array("Age", xml_ages, 1);
+            body += "<Piece NumberOfPoints=\"2\" NumberOfVerts=\"0\"><Points>" + points + "</Points><PointData>" +
+                    ages + "</PointData></Piece>\n";
+        }
         std::string out = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"";
         out += form_.order == std::endian::big ? "BigEndian\"" : "LittleEndian\"";
         if (form_.wide_header) out += " header_type=\"UInt64\"";

@@ -38,7 +38,7 @@ TEST(ReadParticles, RefusesMissingFilesFoldersAndUnknownExtensions) {
     std::filesystem::create_directory(directory / "folder.xyz");
     EXPECT_NE(refusal([&] { formats::read_particles(directory / "folder.xyz"); }).find("not a regular file"),
               std::string::npos);
-    EXPECT_NE(refusal([&] { formats::read_particles("a.vtu"); }).find("'.vtu'"), std::string::npos);
+    EXPECT_NE(refusal([&] { formats::read_particles("a.pvtu"); }).find("'.pvtu'"), std::string::npos);
 }
 
 TEST(AtomicFile, LeavesNothingWithoutCommit) {
