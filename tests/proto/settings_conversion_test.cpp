@@ -61,6 +61,16 @@ TEST(SettingsConversion, KeepsEachWayWithSpray) {
     }
 }
 
+TEST(SettingsConversion, KeepsTheNamesOfAttributesInTheirOrderOrThatTheyAreAll) {
+    Settings settings = of_field(Field::smooth);
+    settings.attributes = {"velocity", "age"};
+    EXPECT_EQ(from_wire(to_wire(settings)).attributes, settings.attributes);
+    EXPECT_NE(from_wire(to_wire(settings)), in_force(of_field(Field::smooth)));
+    settings.attributes.clear();
+    settings.all_attributes = true;
+    EXPECT_TRUE(from_wire(to_wire(settings)).all_attributes);
+}
+
 TEST(SettingsConversion, WritesTheDefaultsOfTheFieldOutAndNothingOfOtherFields) {
     for (const Field field : choices<Field>) {
         SCOPED_TRACE(name_of(field));
