@@ -48,11 +48,11 @@ void expect_naive_means(const Settings& settings, const test::ParticlesWithArray
     std::vector<double> share(n);
     for (std::size_t v = 0; v < mesh.vertices.size(); v += 1 + mesh.vertices.size() / 300) {
         const auto p = mesh.world(mesh.vertices[v]);
-        double total = 0.0, largest = 0.0;
+        double total = 0.0, largest_share = 0.0;
         for (std::size_t i = 0; i < n; ++i) {
             share[i] = naive.share(i, p[0], p[1], p[2]);
             total += share[i];
-            largest = std::max(largest, share[i]);
+            largest_share = std::max(largest_share, share[i]);
         }
         ASSERT_GT(total, 0.0);
         for (std::size_t a = 0; a < particles.arrays.size(); ++a) {
@@ -64,7 +64,7 @@ void expect_naive_means(const Settings& settings, const test::ParticlesWithArray
                 double of_id = 0.0;
                 for (std::size_t i = 0; i < n; ++i)
                     if (particles.value<std::uint32_t>(a, i, 0) == id) of_id = std::max(of_id, share[i]);
-                EXPECT_GT(of_id, largest * 0.9999) << attribute.name << ", vertex " << v;
+                EXPECT_GT(of_id, largest_share * 0.9999) << attribute.name << ", vertex " << v;
                 continue;
             }
             for (std::size_t c = 0; c < attribute.components; ++c) {
