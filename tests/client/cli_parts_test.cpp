@@ -110,7 +110,7 @@ TEST(SettingsAsJson, HaveEveryKeyWhateverIsChosen) {
     EXPECT_EQ(keys(defaults),
               (std::vector<std::string>{"particle_radius", "cell_size", "iso", "field", "smoothness", "spray",
                                         "smoothing_length", "mode", "criterion", "tolerance", "count_threshold",
-                                        "edge_points", "bisection_steps", "normals"}));
+                                        "edge_points", "bisection_steps", "normals", "attributes"}));
     settings.criterion = CountCriterion{4};
     settings.edge_points = Bisection{3};
     const nlohmann::ordered_json others = to_json(settings);

@@ -279,6 +279,8 @@ TEST(BrickFile, IsReadBackInParts) {
 TEST(BrickFile, HasTheAttributesOfItsMesh) {
     const TemporaryDirectory directory;
     Mesh mesh = tetrahedron();
+    // All of one level, as the triangles of a cell are.
+    mesh.levels = {{{0, 4}, {4, 0}, {4, 0}, {4, 0}}};
     mesh.bricks.push_back({{0, 0, 0}, mesh.levels});
     const std::vector<float> speeds{0.25F, 0.5F, 1.0F, 8.25F};
     MeshAttribute& speed = mesh.attributes.emplace_back();

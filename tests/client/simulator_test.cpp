@@ -49,8 +49,12 @@ TEST(CubicSpline, IntegratesToItsMassAndSlopesAsItFalls) {
 
 TEST(Simulation, KnowsHowFastItsParticlesMoveAndHowOldTheyAre) {
     Simulation simulation(make_scene(SceneKind::pour_on_obstacle, 2000));
-    simulation.advance(frame_seconds);
+    const std::size_t at_first = simulation.positions().size();
+    double time = 0.0;
+    for (; time < 1.0 && simulation.positions().size() == at_first; time += frame_seconds)
+        simulation.advance(frame_seconds);
     const std::vector<float> before = simulation.positions();
+    ASSERT_GT(before.size(), at_first) << "nothing was poured";
     EXPECT_EQ(simulation.ages().size(), before.size() / 3);
     EXPECT_EQ(simulation.velocities().size(), before.size());
     constexpr double moment = 1e-4;
@@ -60,7 +64,7 @@ TEST(Simulation, KnowsHowFastItsParticlesMoveAndHowOldTheyAre) {
     const std::vector<float> ages = simulation.ages();
     for (std::size_t i = 0; i < before.size(); ++i)
         EXPECT_NEAR(static_cast<double>(after[i] - before[i]) / moment, static_cast<double>(velocities[i]), 0.05);
-    EXPECT_NEAR(ages.front(), frame_seconds + moment, 1e-6);
+    EXPECT_NEAR(ages.front(), time + moment, 1e-4);
     EXPECT_TRUE(std::is_sorted(ages.rbegin(), ages.rend())) << "particles are in the order in which they came in";
     EXPECT_LT(ages.back(), ages.front());
     EXPECT_GE(ages.back(), 0.0F);
