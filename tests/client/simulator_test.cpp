@@ -49,12 +49,12 @@ TEST(CubicSpline, IntegratesToItsMassAndSlopesAsItFalls) {
 
 TEST(Simulation, KnowsHowFastItsParticlesMoveAndHowOldTheyAre) {
     Simulation simulation(make_scene(SceneKind::pour_on_obstacle, 2000));
-    const std::size_t at_first = simulation.positions().size();
     double time = 0.0;
-    for (; time < 1.0 && simulation.positions().size() == at_first; time += frame_seconds)
+    do {
         simulation.advance(frame_seconds);
+        time += frame_seconds;
+    } while (time < 1.0 && simulation.ages().front() == simulation.ages().back());
     const std::vector<float> before = simulation.positions();
-    ASSERT_GT(before.size(), at_first) << "nothing was poured";
     EXPECT_EQ(simulation.ages().size(), before.size() / 3);
     EXPECT_EQ(simulation.velocities().size(), before.size());
     constexpr double moment = 1e-4;
