@@ -340,6 +340,7 @@ std::unique_ptr<HttpServer> Server::Impl::open_http(const std::string& listen, c
     const GrpcWeb calls{.channel = grpc_->InProcessChannel({}),
                         .origins = origins,
                         .needs_certificate = tls && tls->mutual(),
+                        .memory = registry_.memory(),
                         .refused = [metrics = metrics_](std::string_view target, grpc::StatusCode code) {
                             const Metrics::Method& method = known_method(target);
                             metrics->call_started(method);

@@ -8,8 +8,8 @@
 #include <string>
 #include <system_error>
 
+#include "files/centered_positions.hpp"
 #include "formats/atomic_file.hpp"
-#include "formats/centered_positions.hpp"
 #include "formats/usda_writer.hpp"
 
 namespace meniscus::formats {
@@ -90,7 +90,7 @@ private:
             });
         };
         if (!mesh.wide) return write(mesh.positions);
-        const CenteredPositions centered(mesh);
+        const files::CenteredPositions centered(mesh.positions);
         out_ += time_ ? "    double3 xformOp:translate.timeSamples = {\n        " : "    double3 xformOp:translate = ";
         if (time_) append(out_, *time_);
         if (time_) out_ += ": ";

@@ -88,6 +88,8 @@ public:
     std::chrono::duration<double> busy_time();
     Metrics& metrics() const noexcept { return *metrics_; }
     SnapshotPlaces& snapshots() noexcept { return snapshots_; }
+    /// Of all sessions.
+    const std::shared_ptr<SharedMemory>& memory() const noexcept { return memory_; }
     /// A caller's account. name: of its token, or its address. own: what the tokens file says of it.
     std::shared_ptr<NameAccount> account(const std::string& name, const OwnShares& own = {}) {
         return accounts_.of(name, own.over(limits_.per_name));

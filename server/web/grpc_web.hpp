@@ -8,6 +8,7 @@
 #include <memory>
 #include <string_view>
 
+#include "meniscus/memory.hpp"
 #include "web/origins.hpp"
 
 namespace meniscus::server {
@@ -15,7 +16,8 @@ namespace meniscus::server {
 struct GrpcWeb {
     std::shared_ptr<grpc::Channel> channel;  ///< to the server in this process; none: nothing can be called
     AllowedOrigins origins;
-    bool needs_certificate = false;  ///< a client's, by TLS
+    bool needs_certificate = false;          ///< a client's, by TLS
+    std::shared_ptr<SharedMemory> memory{};  ///< that meshes are made in; none: is not counted
     /// Of a call that ends here, before its handler, by the request's target: so that metrics count it.
     std::function<void(std::string_view target, grpc::StatusCode)> refused{};
 

@@ -1,8 +1,5 @@
 #include "web/grpc_web_exchange.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <boost/asio/write.hpp>
 #include <boost/beast/http/chunk_encode.hpp>
 #include <boost/beast/http/write.hpp>
@@ -11,31 +8,13 @@
 
 #include "meniscus/error.hpp"
 #include "web/beast_text.hpp"
+#include "web/call_metadata.hpp"
 #include "web/origins.hpp"
 #include "web/web_peer.hpp"
 
 namespace meniscus::server {
 
 namespace http = boost::beast::http;
-
-namespace {
-
-/// Throws InvalidInput for what gRPC cannot carry.
-std::vector<std::pair<std::string, std::string>> metadata_of(const GrpcWebRequest& request) {
-    std::vector<std::pair<std::string, std::string>> metadata;
-    for (const std::string_view name : {"authorization", "x-session-id", forwarded_for_key}) {
-        const auto [first, last] = request.equal_range(boost::beast::string_view(name.data(), name.size()));
-        for (auto field = first; field != last; ++field) {
-            std::string value(field->value());
-            if (!std::ranges::all_of(value, [](char c) { return c >= ' ' && c <= '~'; }))
-                throw InvalidInput(fmt::format("the header {} has characters other than printable ASCII", name));
-            metadata.emplace_back(name, std::move(value));
-        }
-    }
-    return metadata;
-}
-
-}  // namespace
 
 bool is_grpc_web(const http::fields& request) {
     const std::string_view type = view(request[http::field::content_type]);
@@ -45,7 +24,7 @@ bool is_grpc_web(const http::fields& request) {
 grpc::Status bridged_request(const GrpcWebRequest& request, BridgedCall::Request& call) {
     call.method = std::string(request.target());
     try {
-        call.metadata = metadata_of(request);
+        call.metadata = call_metadata(request, {"authorization", "x-session-id", forwarded_for_key});
         if (const auto timeout = request.find("grpc-timeout"); timeout != request.end())
             call.timeout = grpc_timeout(view(timeout->value()));
     } catch (const InvalidInput& refusal) {

@@ -16,7 +16,10 @@
 #include <string_view>
 #include <utility>
 
+#include "meniscus/error.hpp"
+#include "rpc/session_id.hpp"
 #include "web/beast_text.hpp"
+#include "web/call_metadata.hpp"
 #include "web/grpc_web_messages.hpp"
 #include "web/web_peer.hpp"
 
@@ -38,11 +41,12 @@ constexpr std::string_view not_tls =
     "This port speaks TLS: the address is https://...\n";
 
 /// To a browser that asks whether a page may make a call.
-Page preflight_page(std::string_view origin) {
+Page preflight_page(std::string_view origin, std::string_view methods) {
     Page page{.status = 204, .headers = cross_origin_headers(origin)};
-    page.headers.emplace_back("Access-Control-Allow-Methods", "POST");
-    page.headers.emplace_back("Access-Control-Allow-Headers",
-                              "authorization, content-type, grpc-timeout, x-grpc-web, x-session-id, x-user-agent");
+    page.headers.emplace_back("Access-Control-Allow-Methods", methods);
+    page.headers.emplace_back(
+        "Access-Control-Allow-Headers",
+        "authorization, content-type, grpc-timeout, if-none-match, x-grpc-web, x-session-id, x-user-agent");
     page.headers.emplace_back("Access-Control-Max-Age", "600");
     return page;
 }
@@ -80,6 +84,7 @@ void HttpConnection::leave() {
 
 void HttpConnection::close() {
     if (exchange_) exchange_->cancel();
+    if (mesh_) mesh_->cancel();
     stream_.tcp().close();
 }
 
@@ -102,6 +107,7 @@ void HttpConnection::name_tls() {
 void HttpConnection::read() {
     busy_ = false;
     is_call_ = false;
+    is_mesh_ = false;
     if (leaving_) return end_connection();
     call_parser_.reset();
     parser_.emplace();
@@ -132,27 +138,39 @@ void HttpConnection::answer() {
     busy_ = true;
     if (request.count(http::field::host) > 1) return refuse(400, "The request names more than one host.\n");
     is_call_ = content_.grpc_web.channel && is_method(path);
-    if ((is_call_ || content_.router.is_for_browsers(path)) && !origins.knows_host(host))
+    is_mesh_ = content_.grpc_web.channel && is_mesh_target(path);
+    if ((is_call_ || is_mesh_ || content_.router.is_for_browsers(path)) && !origins.knows_host(host))
         return refuse(
             421,
             fmt::format("This server is not known as {0}; use its address, or start it with --web-origin http://{0}\n",
                         host.substr(0, shown_bytes)));
     if (is_call_) {
-        const std::string_view origin = view(request[http::field::origin]);
-        if (!origins.admits(origin, host))
-            return refuse(403, fmt::format("Pages of {} may not call this server; --web-origin allows them.\n",
-                                           origin.substr(0, shown_bytes)));
+        if (!passes_origin("POST")) return;
         if (request.method() == http::verb::post) return receive_call();
-        if (request.method() == http::verb::options) return write(preflight_page(origin), request.keep_alive());
         return refuse(405, fmt::format("{} is not allowed here; POST is.\n", std::string(request.method_string())));
     }
+    if (is_mesh_ && !passes_origin("GET, HEAD")) return;
     if (request.method() != http::verb::get && request.method() != http::verb::head)
         return refuse(405,
                       fmt::format("{} is not allowed here; GET and HEAD are.\n", std::string(request.method_string())));
     if (!parser_->is_done()) return refuse(413, "A body is not taken here.\n");
+    if (is_mesh_) return answer_mesh();
     write(content_.router.answer(path, {.accept_encoding = view(request[http::field::accept_encoding]),
                                         .if_none_match = view(request[http::field::if_none_match])}),
           request.keep_alive());
+}
+
+bool HttpConnection::passes_origin(std::string_view methods) {
+    const auto& request = parser_->get();
+    const std::string_view origin = view(request[http::field::origin]);
+    if (!content_.grpc_web.origins.admits(origin, view(request[http::field::host])))
+        refuse(403, fmt::format("Pages of {} may not call this server; --web-origin allows them.\n",
+                                origin.substr(0, shown_bytes)));
+    else if (request.method() == http::verb::options)
+        write(preflight_page(origin, methods), request.keep_alive());
+    else
+        return true;
+    return false;
 }
 
 grpc::Status HttpConnection::call_refusal(std::string_view path) {
@@ -208,6 +226,45 @@ void HttpConnection::answer_call(boost::beast::error_code error) {
     exchange_->start(content_.grpc_web.channel, call_parser_->get(), std::move(call));
 }
 
+void HttpConnection::answer_mesh() {
+    const auto& request = parser_->get();
+    if (const grpc::Status refusal = call_refusal(snapshot_method); !refusal.ok()) {
+        count_refusal(refusal.error_code());
+        return write_mesh(page_of(refusal));
+    }
+    MeshRequest asked;
+    LatestMesh::Metadata metadata;
+    try {
+        asked = mesh_request(view(request.target()));
+        metadata = call_metadata(request, {"authorization", forwarded_for_key});
+    } catch (const InvalidInput& refusal) {
+        count_refusal(grpc::StatusCode::INVALID_ARGUMENT);
+        return write_mesh({.status = 400, .body = std::string(refusal.what()) + '\n'});
+    }
+    if (!is_session_id(asked.session)) {
+        count_refusal(grpc::StatusCode::INVALID_ARGUMENT);
+        return write_mesh(
+            {.status = 404, .body = "There is no such session: an id has 8-4-4-4-12 lower-case hexadecimal digits.\n"});
+    }
+    metadata.emplace_back(web_peer_key, peer());
+    streams_ = true;
+    mesh_ = std::make_shared<LatestMesh>(
+        context_, LatestMesh::Means{content_.grpc_web.channel, content_.grpc_web.memory, content_.worker},
+        std::move(asked), std::move(metadata), std::string(request[http::field::if_none_match]),
+        [self = shared_from_this()](Page page) {
+            self->mesh_.reset();
+            self->write_mesh(std::move(page));
+        });
+    mesh_->start();
+}
+
+void HttpConnection::write_mesh(Page page) {
+    const auto& request = parser_->get();
+    for (auto& header : cross_origin_headers(view(request[http::field::origin])))
+        page.headers.push_back(std::move(header));
+    write(std::move(page), request.keep_alive());
+}
+
 std::string HttpConnection::peer() {
     boost::beast::error_code error;
     const auto end = stream_.tcp().socket().remote_endpoint(error);
@@ -227,7 +284,7 @@ void HttpConnection::call_ended(GrpcWebExchange::Ending ending) {
 }
 
 void HttpConnection::refuse(unsigned status, std::string sentence) {
-    if (is_call_)
+    if (is_call_ || is_mesh_)
         count_refusal(status == 403 ? grpc::StatusCode::PERMISSION_DENIED : grpc::StatusCode::INVALID_ARGUMENT);
     write({.status = status, .body = std::move(sentence)}, false);
 }
@@ -247,7 +304,8 @@ const HttpConnection::RequestHeader& HttpConnection::request_header() const {
 }
 
 void HttpConnection::count_refusal(grpc::StatusCode code) const {
-    if (content_.grpc_web.refused) content_.grpc_web.refused(view(request_header().target()), code);
+    if (content_.grpc_web.refused)
+        content_.grpc_web.refused(is_mesh_ ? snapshot_method : view(request_header().target()), code);
 }
 
 void HttpConnection::write(Page page, bool keep_alive) {
@@ -265,7 +323,7 @@ void HttpConnection::write(Page page, bool keep_alive) {
     response_->body() = {body.data(), body.size()};
     response_->prepare_payload();
     serializer_.emplace(*response_);
-    stream_.tcp().expires_after(limits_.patience);
+    stream_.tcp().expires_after(limits_.patience + std::chrono::seconds(body.size() / limits_.bytes_per_second));
     const auto done = [self = shared_from_this()](boost::beast::error_code error, std::size_t) {
         self->written(error);
     };
@@ -276,6 +334,8 @@ void HttpConnection::write(Page page, bool keep_alive) {
 }
 
 void HttpConnection::written(boost::beast::error_code error) {
+    streams_ = false;
+    page_ = {};
     if (error) return;
     if (!response_->keep_alive()) return end_connection();
     observer_.answered(*this);

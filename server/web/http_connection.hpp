@@ -22,6 +22,7 @@
 #include "web/grpc_web_exchange.hpp"
 #include "web/http_limits.hpp"
 #include "web/http_stream.hpp"
+#include "web/latest_mesh.hpp"
 #include "web/router.hpp"
 
 namespace meniscus::server {
@@ -39,6 +40,7 @@ public:
     struct Content {
         const Router& router;
         const GrpcWeb& grpc_web;
+        boost::asio::thread_pool& worker;  ///< for what would hold the HTTP thread up
     };
 
     /// share: of the client's address. tls: none for HTTP alone.
@@ -70,11 +72,16 @@ private:
     void read();
     void receive(boost::beast::error_code error);
     void answer();
+    /// Answers pages of other origins, which must be admitted, and their questions before a call. False if it has
+    /// answered. methods: that are taken here.
+    bool passes_origin(std::string_view methods);
     /// Reads the body of a gRPC-Web call, then answers it.
     void receive_call();
     /// The reason why no call can be made at this path; OK if it can.
     grpc::Status call_refusal(std::string_view path);
     void answer_call(boost::beast::error_code error);
+    void answer_mesh();
+    void write_mesh(Page page);
     void call_ended(GrpcWebExchange::Ending ending);
     /// Refuses a request after which no other can follow on this connection.
     void refuse(unsigned status, std::string sentence);
@@ -106,11 +113,13 @@ private:
     std::uint32_t chunks_ = 0;  ///< of the call's body
     std::function<void(std::uint64_t, boost::beast::string_view, boost::beast::error_code&)> on_chunk_;
     std::shared_ptr<GrpcWebExchange> exchange_;  ///< the call that is answered now
+    std::shared_ptr<LatestMesh> mesh_;           ///< likewise
     Page page_;                                  ///< whose body the response shows
     std::optional<Response> response_;
     std::optional<boost::beast::http::response_serializer<boost::beast::http::span_body<const char>>> serializer_;
     bool busy_ = false;     ///< from a request's last byte to its answer's
     bool is_call_ = false;  ///< the request, of gRPC-Web
+    bool is_mesh_ = false;  ///< the request, for a session's mesh
     bool streams_ = false;
     bool leaving_ = false;
 };

@@ -137,7 +137,7 @@ void HttpServer::welcome(tcp::socket socket) {
     if (!make_room(peer)) return;
     const auto connection = std::make_shared<HttpConnection>(
         std::move(socket), peer.share(), tls_ ? tls_->current() : nullptr, context_,
-        HttpConnection::Content{router_, grpc_web_}, limits_,
+        HttpConnection::Content{router_, grpc_web_, worker_}, limits_,
         HttpConnection::Observer{.answered =
                                      [this](HttpConnection& active) {
                                          connections_.remove(&active);

@@ -1,9 +1,11 @@
-// The HTTP port: accepts connections and bounds their number. One thread serves them all.
+// The HTTP port: accepts connections and bounds their number. One thread serves them all; a second one makes files of
+// meshes.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <chrono>
 #include <future>
 #include <list>
@@ -58,6 +60,7 @@ private:
     std::list<HttpConnection*> connections_;  ///< the one that has been silent longest first
     bool finishing_ = false;
     std::promise<void> none_;  ///< kept once no connection is left
+    boost::asio::thread_pool worker_{1};
     /// After them: its handlers own the connections. Shared with calls, whose gRPC threads may be the last to leave it.
     std::shared_ptr<boost::asio::io_context> context_ = std::make_shared<boost::asio::io_context>(1);
     boost::asio::ip::tcp::acceptor acceptor_{*context_};

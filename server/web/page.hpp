@@ -1,6 +1,7 @@
 // The answer to an HTTP request.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@ struct Page {
     std::string_view lasting_body{};  ///< in place of `body`: borrowed, outlives the router
     std::string cache_control = "no-store";
     std::vector<std::pair<std::string, std::string>> headers{};  ///< beside those that every answer has
+    std::shared_ptr<const void> memory{};  ///< is charged for the body; kept until it has been sent
 };
 
 }  // namespace meniscus::server
