@@ -12,3 +12,4 @@ import './keyboard.mjs';
 import './list.mjs';
 import './embed.mjs';
 import './warnings.mjs';
+import './latest_mesh.mjs';

@@ -1,4 +1,5 @@
 // GET /sessions/ID/latest.glb: the newest mesh for everything that reads glTF, to those who may see it.
+#include <grpcpp/create_channel.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

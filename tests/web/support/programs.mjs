@@ -67,6 +67,14 @@ export async function startServer({ ports = { grpc: 0, http: 0 }, args = [] } = 
   };
 }
 
+/** Of `meniscus`, to its end. */
+export async function run(args) {
+  const child = start(meniscus, args);
+  await child.ended;
+  if (child.exitCode !== 0)
+    throw new Error(`${args[0]} ended with ${child.exitCode ?? child.signalCode}: ${child.output}`);
+}
+
 /** Streams a dam break as fast as it can. Its session goes when it ends, and stays when it is killed. */
 export function startSimulator(server, { session, particles = 2000, frames = 100_000, stats } = {}) {
   const args = ['simulate', '--scene', 'dam-break', '--particles', `${particles}`, '--frames', `${frames}`];
