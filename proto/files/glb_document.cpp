@@ -14,10 +14,6 @@ using Json = nlohmann::ordered_json;
 constexpr int triangle_list = 4;
 enum Target { array_buffer = 34962, element_array_buffer = 34963 };
 
-constexpr std::size_t aligned(std::size_t bytes) {
-    return (bytes + glb_alignment - 1) / glb_alignment * glb_alignment;
-}
-
 std::string type_name(std::size_t components) {
     return components == 1 ? "SCALAR" : "VEC" + std::to_string(components);
 }
@@ -78,7 +74,7 @@ void GlbDocument::add(const std::vector<GlbVertices>& vertices, std::span<const 
     const std::size_t count = vertices.front().bytes.size() / vertices.front().vertex_bytes();
     Json attributes;
     for (const GlbVertices& each : vertices) {
-        const std::size_t stride = aligned(each.vertex_bytes());
+        const std::size_t stride = glb_aligned(each.vertex_bytes());
         Json one = accessor(each, count);
         const Json properties{{"byteStride", stride}, {"target", static_cast<int>(array_buffer)}};
         one["bufferView"] = stride == each.vertex_bytes() ? add_view(each.bytes, properties)
@@ -131,7 +127,7 @@ std::string GlbDocument::file() && {
 }
 
 std::size_t GlbDocument::add_view(std::string_view part, const Json& properties) {
-    buffer_.resize(aligned(buffer_.size()));
+    buffer_.resize(glb_aligned(buffer_.size()));
     Json view{{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", part.size()}};
     view.update(properties);
     views_.push_back(std::move(view));
