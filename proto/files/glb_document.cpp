@@ -94,8 +94,8 @@ void GlbDocument::add(const GlbDracoMesh& mesh) {
 
 void GlbDocument::add_part(const std::string& name, const GlbDracoMesh& mesh, const std::array<double, 3>& translation,
                            double scale) {
-    require_extension("KHR_mesh_quantization");
     const std::size_t index = add_mesh(name, draco_primitive(mesh));
+    require_extension("KHR_mesh_quantization");
     parts_.push_back(
         Json{{"mesh", index}, {"translation", translation}, {"scale", std::array<double, 3>{scale, scale, scale}}});
 }
