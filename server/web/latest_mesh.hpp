@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "meniscus/v1/session_service.pb.h"
 #include "sessions/limits/retained_memory.hpp"
 #include "web/bridged_call.hpp"
 #include "web/mesh_request.hpp"

@@ -6,6 +6,7 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <boost/asio/write.hpp>
 #include <memory>
 
@@ -57,6 +58,7 @@ void http(Bytes bytes) {
     static Calls calls;
     static const server::GrpcWeb grpc_web = calls.web();
     static const auto context = std::make_shared<boost::asio::io_context>(1);
+    static boost::asio::thread_pool worker(1);
     static tcp::acceptor acceptor(*context, {boost::asio::ip::address_v4::loopback(), 0});
     // More would fill the sockets between the two ends of this one thread.
     constexpr std::size_t most = 32768;
@@ -64,8 +66,8 @@ void http(Bytes bytes) {
     client.connect(acceptor.local_endpoint());
     bool gone = false;
     std::make_shared<server::HttpConnection>(
-        acceptor.accept(), server::PeerAddress{}, nullptr, context, server::HttpConnection::Content{router, grpc_web},
-        server::HttpLimits{},
+        acceptor.accept(), server::PeerAddress{}, nullptr, context,
+        server::HttpConnection::Content{router, grpc_web, worker}, server::HttpLimits{},
         server::HttpConnection::Observer{
             .answered = [](auto&) {}, .gone = [&gone](auto&) { gone = true; }, .may_stream = [] { return true; }})
         ->start();
