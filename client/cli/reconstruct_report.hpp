@@ -31,7 +31,7 @@ struct FinishedFrame {
     std::vector<FileWarning> warnings;
     std::optional<MeshOutput> mesh;  ///< none: only figures are wished for
     std::vector<Point> spray;
-    std::string mesh_sha256;  ///< empty: not asked for
+    std::string mesh_sha256;            ///< empty: not asked for
     nlohmann::ordered_json attributes;  ///< ranges
 };
 

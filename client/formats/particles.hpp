@@ -20,7 +20,7 @@ class ByteCursor;
 
 /// One frame of particles, owned.
 struct Particles {
-    std::vector<float> positions;  ///< x y z per particle, world units; may hold NaN or infinity if the file does
+    std::vector<float> positions;      ///< x y z per particle, world units; may hold NaN or infinity if the file does
     std::vector<std::uint8_t> levels;  ///< empty, or one per particle, 0 (finest) to max_particle_level
     /// What else the file tells of each particle, in its order, under array_name(): at most max_particle_arrays.
     std::vector<NamedValues> arrays{};

@@ -26,10 +26,8 @@ constexpr Element element_of(v1::ElementType type, ElementType in_core) {
 }
 
 constexpr std::array elements{
-    element_of(v1::ELEMENT_TYPE_FLOAT32, ElementType::float32),
-    element_of(v1::ELEMENT_TYPE_UINT8, ElementType::uint8),
-    Element{v1::ELEMENT_TYPE_UINT16, "uint16", 2, std::nullopt},
-    element_of(v1::ELEMENT_TYPE_INT32, ElementType::int32),
+    element_of(v1::ELEMENT_TYPE_FLOAT32, ElementType::float32),  element_of(v1::ELEMENT_TYPE_UINT8, ElementType::uint8),
+    Element{v1::ELEMENT_TYPE_UINT16, "uint16", 2, std::nullopt}, element_of(v1::ELEMENT_TYPE_INT32, ElementType::int32),
     element_of(v1::ELEMENT_TYPE_UINT32, ElementType::uint32),
 };
 static_assert(elements.size() == v1::ElementType_ARRAYSIZE - 1, "every element type of the contract has a row");

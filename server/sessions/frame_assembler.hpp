@@ -64,10 +64,10 @@ private:
     Limits limits_;
     Settings settings_;
     bool in_frame_ = false;
-    FramePlan plan_;            ///< of the frame begun last
-    std::size_t piece_ = 0;     ///< that the next byte is of
-    std::size_t filled_ = 0;    ///< bytes that have arrived
-    std::size_t kept_ = 0;      ///< of those
+    FramePlan plan_;          ///< of the frame begun last
+    std::size_t piece_ = 0;   ///< that the next byte is of
+    std::size_t filled_ = 0;  ///< bytes that have arrived
+    std::size_t kept_ = 0;    ///< of those
     std::uint32_t chunks_ = 0;
     std::optional<std::uint64_t> index_;  ///< of the frame begun last
     std::size_t expected_ = 0;

@@ -9,8 +9,8 @@
 #include "formats/brick_file.hpp"
 #include "formats/byte_cursor.hpp"
 #include "formats/mesh_file.hpp"
-#include "meniscus/canonical_order.hpp"
 #include "formats/pvd_writer.hpp"
+#include "meniscus/canonical_order.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {
