@@ -11,6 +11,7 @@
 #include "formats/extension.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/standard_streams.hpp"
+#include "formats/usda_writer.hpp"
 #include "meniscus/canonical_order.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
@@ -63,11 +64,22 @@ MeshOutput::MeshOutput(const Surface& surface, MeshFormat format, const MeshEdit
     if (from_mesh && !edits.any()) triangles_.reset();
 }
 
-void MeshOutput::write(const std::filesystem::path& path) const {
+void MeshOutput::write(const std::filesystem::path& path, std::optional<double> time) const {
+    if (triangles_ && format_ == MeshFormat::usda) return formats::write_usda(path, *triangles_, time);
     if (bricks_) return formats::write_bricks(path, *bricks_);
     if (triangles_) return formats::write_mesh(path, *triangles_, format_);
     if (format_ == MeshFormat::obj) return formats::write_obj(path, ordered_);
     formats::write_ply(path, ordered_);
+}
+
+formats::TriangleMesh MeshOutput::form() const {
+    formats::TriangleMesh form;
+    if (!triangles_) return form;
+    form.wide = triangles_->wide;
+    if (!triangles_->normals.empty()) form.normals.emplace_back();
+    for (const formats::NamedValues& values : triangles_->attributes)
+        form.attributes.push_back({values.name, values.type, values.components, {}});
+    return form;
 }
 
 void write_surface(const std::filesystem::path& path, const Surface& surface, MeshFormat format) {

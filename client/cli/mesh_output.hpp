@@ -35,7 +35,10 @@ class MeshOutput {
 public:
     /// Does all that takes time but the writing. The surface is not needed afterwards. check: the mesh is looked at.
     MeshOutput(const Surface& surface, MeshFormat format, const MeshEdits& edits = {}, bool check = false);
-    void write(const std::filesystem::path& path) const;
+    /// time: the time code of a USD file of a sequence.
+    void write(const std::filesystem::path& path, std::optional<double> time = std::nullopt) const;
+    /// What the mesh has beside positions and triangles, without values: for the stage of a sequence of USD files.
+    formats::TriangleMesh form() const;
     /// None if it was not to be looked at.
     const std::optional<compare::Defects>& defects() const { return defects_; }
 

@@ -55,20 +55,23 @@ void check_files(const ReconstructFiles& files, Plan& plan) {
             distinct.add_output(frame.spray_out);
         }
     }
-    for (const std::string& file : {files.stats, files.pvd}) {
+    for (const std::string& file : {files.stats, files.pvd, files.usd_stage}) {
         check_folder(file);
         if (!file.empty()) distinct.add_output(file);
     }
 }
 
-void check_pvd(const ReconstructFiles& files, const Plan& plan) {
-    if (files.pvd.empty()) return;
+/// file: that lists the meshes of a sequence, which are of this format; empty: not asked for.
+void check_list(const std::string& option, const std::string& file, std::string_view extension, MeshFormat format,
+                const ReconstructFiles& files, const Plan& plan) {
+    if (file.empty()) return;
     if (!plan.sequence || files.out.empty())
-        throw InvalidInput("--pvd lists the meshes of a sequence: give IN and -o OUT with {}");
-    if (plan.format != MeshFormat::vtp)
-        throw InvalidInput("--pvd lists .vtp files, and the meshes are '" + std::string(name_of(plan.format)) + "'");
-    if (formats::lower_extension(files.pvd) != ".pvd")
-        throw InvalidInput(files.pvd + ": the list of a sequence ends in .pvd");
+        throw InvalidInput(option + " lists the meshes of a sequence: give IN and -o OUT with {}");
+    if (plan.format != format)
+        throw InvalidInput(option + " lists ." + std::string(name_of(format)) + " files, and the meshes are '" +
+                           std::string(name_of(plan.format)) + "'");
+    if (formats::lower_extension(file) != extension)
+        throw InvalidInput(file + ": the list of a sequence ends in " + std::string(extension));
 }
 
 /// Whether there is nothing left to do: files appear whole or not at all.
@@ -110,6 +113,8 @@ void ReconstructFiles::add_sequence_to(CLI::App& command) {
     command.add_flag("--skip-existing", skip_existing,
                      "Leave the frames alone whose outputs are all there: a run that was interrupted goes on");
     command.add_option("--pvd", pvd, "With .vtp: list the sequence for ParaView in this .pvd, frame numbers as times");
+    command.add_option("--usd-stage", usd_stage,
+                       "With .usda: a stage that shows the sequence by value clips, frame numbers as time codes");
 }
 
 Plan make_plan(const ReconstructFiles& files) {
@@ -122,7 +127,8 @@ Plan make_plan(const ReconstructFiles& files) {
     plan.sequence = FilePattern(files.in).has_number();
     plan.all = frames_of(files);
     check_files(files, plan);
-    check_pvd(files, plan);
+    check_list("--pvd", files.pvd, ".pvd", MeshFormat::vtp, files, plan);
+    check_list("--usd-stage", files.usd_stage, ".usda", MeshFormat::usda, files, plan);
     for (const FrameFiles& frame : plan.all)
         if (!files.skip_existing || !is_done(frame)) plan.frames.push_back(frame);
     return plan;

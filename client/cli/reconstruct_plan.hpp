@@ -25,6 +25,7 @@ struct ReconstructFiles {
     std::string spray_out;
     std::string stats;
     std::string pvd;
+    std::string usd_stage;
     FrameSelection selection;
     bool skip_existing = false;
 

@@ -12,6 +12,8 @@
 #include "formats/point_writer.hpp"
 #include "formats/pvd_writer.hpp"
 #include "formats/standard_streams.hpp"
+#include "formats/usda_writer.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/mesh_hash.hpp"
 
 namespace meniscus::cli {
@@ -45,7 +47,10 @@ FinishedFrame ReconstructReport::prepare(const Surface& surface, std::size_t ind
 
 void ReconstructReport::deliver(FinishedFrame finished) {
     const FrameFiles& frame = plan_.frames[finished.index];
-    if (!frame.out.empty()) finished.mesh->write(frame.out);
+    if (!frame.out.empty())
+        finished.mesh->write(frame.out,
+                             plan_.sequence ? std::optional(static_cast<double>(frame.number)) : std::nullopt);
+    if (!files_.usd_stage.empty()) form_ = finished.mesh->form();
     if (!frame.spray_out.empty())
         formats::write_points(frame.spray_out, finished.spray, options_.edits.origin.value_or(editing::Origin{}));
     if (!files_.stats.empty()) {
@@ -64,6 +69,18 @@ void ReconstructReport::deliver(FinishedFrame finished) {
 void ReconstructReport::say_run(std::size_t run, std::size_t runs, const Statistics& statistics) const {
     if (runs == 1 || options_.verbosity.quiet || !(options_.verbosity.verbose || isatty(STDERR_FILENO) != 0)) return;
     std::cerr << "run " << run << " of " << runs << ": " << statistics.total_seconds << " s\n";
+}
+
+void ReconstructReport::write_usd_stage() const {
+    // Where all frames were skipped, nobody knows what they have.
+    if (!form_) {
+        if (!std::filesystem::exists(files_.usd_stage))
+            throw InvalidInput(files_.usd_stage + ": not written, as all frames were skipped: make one of them anew");
+        return;
+    }
+    std::vector<formats::UsdaClip> clips;
+    for (const FrameFiles& frame : plan_.all) clips.push_back({static_cast<double>(frame.number), frame.out});
+    formats::write_usda_clips(files_.usd_stage, clips, *form_);
 }
 
 void ReconstructReport::say(const FrameFiles& frame, const FinishedFrame& finished) {
@@ -103,6 +120,7 @@ void ReconstructReport::finish() {
         for (const FrameFiles& frame : plan_.all) entries.push_back({static_cast<double>(frame.number), frame.out});
         formats::write_pvd(files_.pvd, entries);
     }
+    if (!files_.usd_stage.empty()) write_usd_stage();
     check_.finish();
     warnings_.finish();
 }

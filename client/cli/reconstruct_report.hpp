@@ -49,6 +49,7 @@ public:
     void finish();
 
 private:
+    void write_usd_stage() const;
     void say(const FrameFiles& frame, const FinishedFrame& finished);
 
     const ReconstructFiles& files_;
@@ -57,6 +58,7 @@ private:
     ProgressBar bar_;
     Warnings warnings_;
     MeshCheck check_;
+    std::optional<formats::TriangleMesh> form_;  ///< of the frame that was delivered last, for a stage of USD
     nlohmann::ordered_json figures_ = nlohmann::ordered_json::array();
 };
 

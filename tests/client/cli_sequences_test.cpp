@@ -241,6 +241,23 @@ TEST_F(Sequences, AreListedForParaViewWithTheFramesThatWereThere) {
     expect_refused(arguments, {"v.xml", ".pvd"});
 }
 
+TEST_F(Sequences, AreOnAUsdStageWithTheFramesThatWereThere) {
+    std::vector<std::string> arguments{"reconstruct", path("f_{}.xyz"), "-o", path("u_{}.usda"), "-r", "0.5",
+                                       "--usd-stage", path("u.usda"),   "-q", "--end",           "2"};
+    ASSERT_EQ(run_meniscus(arguments).exit_code, 0);
+    const std::string stage = formats::read_file(path("u.usda"));
+    EXPECT_NE(stage.find("[@@@./u_00.usda@@@, @@@./u_01.usda@@@, @@@./u_02.usda@@@]"), std::string::npos) << stage;
+    EXPECT_NE(stage.find("normal3f[] normals"), std::string::npos) << stage;
+    EXPECT_NE(formats::read_file(path("u_01.usda")).find("points.timeSamples = {\n        1: ["), std::string::npos);
+    std::filesystem::remove(path("u_01.usda"));
+    arguments.emplace_back("--skip-existing");
+    ASSERT_EQ(run_meniscus(arguments).exit_code, 0);
+    EXPECT_EQ(formats::read_file(path("u.usda")), stage);
+    std::filesystem::remove(path("u.usda"));
+    expect_refused(arguments, {"u.usda", "all frames were skipped"});
+    expect_refused(sequence("m", {"--usd-stage", path("u.usda")}), {"--usd-stage", "usda", "ply"});
+}
+
 class Boxes : public Cli {
 protected:
     /// The smallest and the largest x of a mesh.

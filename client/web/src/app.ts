@@ -203,7 +203,9 @@ export class App {
     this.tools.open(this.embedding ? { ...state, scale: 'off', domain: 'off' } : state);
     if (!watching && this.embedding) {
       element('watch', HTMLElement).hidden = false;
-      this.inPlaceOfPicture(state.problem ?? 'No session is chosen.');
+      // The page around will say which, once it listens.
+      const nothing = this.embedding.page === undefined ? 'No session is chosen.' : '';
+      this.inPlaceOfPicture(state.problem ?? nothing);
       return;
     }
     if (!watching) {
