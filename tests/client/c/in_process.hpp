@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <initializer_list>
+#include <string>
 #include <utility>
 
 #include "handles.hpp"
@@ -30,6 +31,16 @@ inline CReconstructor reconstructor_of(std::initializer_list<std::pair<const cha
 
 inline CReconstructor default_reconstructor() {
     return reconstructor_of({{"particle-radius", "0.025"}, {"threads", "1"}});
+}
+
+/// What creating a reconstructor with these settings besides the radius is refused with.
+inline std::string refusal_of(std::initializer_list<std::pair<const char*, const char*>> values) {
+    COptions options = options_of(values);
+    if (meniscus_options_set(options.get(), "particle-radius", "0.025") != MENISCUS_OK) return {};
+    CReconstructor reconstructor;
+    if (meniscus_reconstructor_create(options.get(), reconstructor.out()) != MENISCUS_INVALID_INPUT) return {};
+    EXPECT_EQ(reconstructor.get(), nullptr);
+    return meniscus_error_message();
 }
 
 }  // namespace meniscus::test

@@ -17,16 +17,6 @@
 namespace meniscus::test {
 namespace {
 
-/// What creating a reconstructor with these settings besides the radius is refused with.
-std::string refusal_of(std::initializer_list<std::pair<const char*, const char*>> values) {
-    COptions options = options_of(values);
-    if (meniscus_options_set(options.get(), "particle-radius", "0.025") != MENISCUS_OK) return {};
-    CReconstructor reconstructor;
-    if (meniscus_reconstructor_create(options.get(), reconstructor.out()) != MENISCUS_INVALID_INPUT) return {};
-    EXPECT_EQ(reconstructor.get(), nullptr);
-    return meniscus_error_message();
-}
-
 TEST(CInProcess, GivesTheLibrarysMeshToTheByte) {
     Particles particles = splash(3, 8);
     for (std::size_t i = 0; i < particles.count(); ++i) particles.levels.push_back(i % 5 == 0 ? 1 : 0);
