@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -27,7 +28,10 @@ Router router() {
 
 /// With clients that are soon too slow.
 HttpLimits impatient() {
-    return {.connections = 8, .header_bytes = 1024, .patience = std::chrono::milliseconds(200)};
+    return {.connections = 8,
+            .header_bytes = 1024,
+            .patience = std::chrono::milliseconds(200),
+            .bytes_per_second = std::numeric_limits<std::uint32_t>::max()};
 }
 
 TEST(HttpServer, AnswersWhatItHasAndSaysWhatItHasNot) {
