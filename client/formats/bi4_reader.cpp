@@ -204,7 +204,7 @@ Particles read_bi4(const std::string& name, std::string_view bytes) {
     particles.positions.reserve(3 * rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)
-            particles.positions.push_back(to_coordinate(number(place, rows[i], axis), i, file.at()));
+            set_coordinate(particles, particles.positions.size(), number(place, rows[i], axis), file.at());
 
     ArrayCollector collector;
     for (const Bi4Array& array : file.arrays()) {

@@ -210,8 +210,7 @@ private:
             if (values.size() != particles.count())
                 at_.fail("dataset " + quote(name) + " has " + std::to_string(values.size()) + " numbers, x has " +
                          std::to_string(particles.count()));
-            for (std::size_t i = 0; i < values.size(); ++i)
-                particles.positions[3 * i + axis] = to_coordinate(values[i], i, at_);
+            for (std::size_t i = 0; i < values.size(); ++i) set_coordinate(particles, 3 * i + axis, values[i], at_);
         }
     }
 

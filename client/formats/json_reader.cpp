@@ -10,7 +10,7 @@ namespace {
 
 class Positions : public nlohmann::json_sax<nlohmann::json> {
 public:
-    Positions(const ByteCursor& at, std::vector<float>& positions) : at_(at), positions_(positions) {}
+    Positions(const ByteCursor& at, Particles& particles) : at_(at), particles_(particles) {}
 
     bool start_array(std::size_t) override {
         if (depth_ == 2) refuse("a list within a position");
@@ -40,17 +40,17 @@ public:
 private:
     bool coordinate(double value) {
         if (depth_ != 2 || found_ == 3) refuse("a number that is none of three of a position");
-        positions_.push_back(to_coordinate(value, positions_.size() / 3, at_));
+        set_coordinate(particles_, particles_.positions.size(), value, at_);
         ++found_;
         return true;
     }
     [[noreturn]] void refuse(const std::string& what) const {
-        at_.fail(what + " after " + std::to_string(positions_.size() / 3) +
+        at_.fail(what + " after " + std::to_string(particles_.count()) +
                  " whole positions; a list of positions is expected: [[x, y, z], ...]");
     }
 
     const ByteCursor& at_;
-    std::vector<float>& positions_;
+    Particles& particles_;
     int depth_ = 0;
     std::size_t found_ = 0;  ///< numbers of the position that has begun
 };
@@ -60,7 +60,7 @@ private:
 Particles read_particle_json(const std::string& name, std::string_view bytes) {
     const ByteCursor at(name, bytes);
     Particles particles;
-    Positions positions(at, particles.positions);
+    Positions positions(at, particles);
     nlohmann::json::sax_parse(bytes.begin(), bytes.end(), &positions);
     return particles;
 }

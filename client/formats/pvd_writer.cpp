@@ -19,7 +19,7 @@ std::string shortest(double number) {
 }  // namespace
 
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries) {
-    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+    const std::filesystem::path folder = std::filesystem::absolute(path).lexically_normal().parent_path();
     pugi::xml_document document;
     pugi::xml_node file = document.append_child("VTKFile");
     file.append_attribute("type") = "Collection";
@@ -31,7 +31,8 @@ void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entr
         node.append_attribute("timestep") = shortest(entry.time).c_str();
         node.append_attribute("group") = "";
         node.append_attribute("part") = "0";
-        const std::filesystem::path relative = std::filesystem::absolute(entry.file).lexically_relative(folder);
+        const std::filesystem::path relative =
+            std::filesystem::absolute(entry.file).lexically_normal().lexically_relative(folder);
         node.append_attribute("file") = relative.string().c_str();
     }
     std::ostringstream text;

@@ -167,11 +167,10 @@ private:
     std::string out_;
 };
 
-/// A path between at signs: three of them let it have one.
+/// A path between at signs: three of them let it have one. folder: absolute.
 std::string asset(const std::filesystem::path& file, const std::filesystem::path& folder) {
     std::error_code error;
-    const auto relative =
-        std::filesystem::relative(std::filesystem::absolute(file), std::filesystem::absolute(folder), error);
+    const auto relative = std::filesystem::relative(std::filesystem::absolute(file), folder, error);
     return "@@@./" + (error || relative.empty() ? file : relative).generic_string() + "@@@";
 }
 
@@ -196,7 +195,7 @@ void write_usda_clips(const std::filesystem::path& path, std::span<const UsdaCli
         ")\n\ndef Mesh \"surface\" (\n    clips = {\n        dictionary default = {\n            asset[] assetPaths = "
         "[";
     for (const UsdaClip& clip : clips)
-        out += (&clip == clips.data() ? "" : ", ") + asset(clip.file, path.parent_path());
+        out += (&clip == clips.data() ? "" : ", ") + asset(clip.file, std::filesystem::absolute(path).parent_path());
     out += "]\n            string primPath = \"/surface\"\n";
     // Stage times, and which clip is in force from then on; stage times, and the times in the clips.
     for (const bool active : {true, false}) {

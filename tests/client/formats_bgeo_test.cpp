@@ -108,6 +108,8 @@ TEST(JsonReader, ReadsListsOfTriples) {
     EXPECT_EQ(formats::read_particle_json("f", "[[1, -2.5, 3e2],\n [0.1, 5, 6]]").positions,
               (std::vector<float>{1.0F, -2.5F, 300.0F, 0.1F, 5.0F, 6.0F}));
     EXPECT_EQ(formats::read_particle_json("f", "[]").count(), 0U);
+    // An origin is subtracted from the float64 of the file.
+    EXPECT_NEAR(formats::read_particle_json("f", "[[1000000.01, 2, 3]]").coordinate(0), 1'000'000.01, 1e-9);
 }
 
 TEST(JsonReader, RefusesEverythingElseByItsPlace) {

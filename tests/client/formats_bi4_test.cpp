@@ -42,6 +42,7 @@ TEST(Bi4, PositionsOfFloat64AndIdsOf64BitsAreRead) {
         "f", form.file(1, {form.array("Idpd", 10, 2, form.numbers<std::uint64_t>({0, 4'000'000'000ULL})),
                            form.array("Posd", 23, 2, form.numbers<double>({1, 2, 3, 0.1, 5, 6}))}));
     EXPECT_EQ(particles.positions, (std::vector<float>{0.1F, 5, 6}));
+    EXPECT_NEAR(particles.coordinate(0), 0.1, 1e-15) << "an origin is subtracted from float64";
     ASSERT_EQ(particles.arrays.size(), 1U);
     EXPECT_EQ(bi4_numbers<std::uint32_t>(particles.arrays[0]), std::vector<std::uint32_t>{4'000'000'000U});
 }

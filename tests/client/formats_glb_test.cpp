@@ -170,6 +170,16 @@ TEST(UsdaWriter, AStageOfClipsNamesEveryFrameWithItsTime) {
         EXPECT_NE(stage.find(line), std::string::npos) << line << stage;
 }
 
+TEST(UsdaWriter, AStageMayLieInTheCurrentFolder) {
+    const TemporaryDirectory directory;
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(directory.path());
+    const std::array clips{formats::UsdaClip{3.0, "meshes/mesh_3.usda"}};
+    EXPECT_NO_THROW(formats::write_usda_clips("all.usda", clips, attributed_tetrahedron()));
+    std::filesystem::current_path(before);
+    EXPECT_NE(text_of(directory / "all.usda").find("[@@@./meshes/mesh_3.usda@@@]"), std::string::npos);
+}
+
 TEST(UsdaWriter, AMeshFarAwayIsPutInPlaceByATranslation) {
     const TemporaryDirectory directory;
     TriangleMesh mesh = attributed_tetrahedron();

@@ -217,6 +217,11 @@ TEST(Pvd, NamesFilesRelativeToItsFolderWithTheirTimes) {
     const std::string text = formats::read_file(directory / "s.pvd");
     EXPECT_NE(text.find("<DataSet timestep=\"0\" group=\"\" part=\"0\" file=\"a.vtp\" />"), std::string::npos) << text;
     EXPECT_NE(text.find("timestep=\"0.1\" group=\"\" part=\"0\" file=\"b &amp; c/d.vtp\""), std::string::npos) << text;
+    // A folder that is named by way of another one.
+    std::filesystem::create_directory(directory / "meshes");
+    formats::write_pvd(directory / "meshes/../t.pvd",
+                       std::vector<formats::PvdEntry>{{0.0, directory / "meshes/a.vtp"}});
+    EXPECT_NE(formats::read_file(directory / "t.pvd").find("file=\"meshes/a.vtp\""), std::string::npos);
 }
 
 TEST(MeshWriters, UseFloat32WhereItSuffices) {
