@@ -75,7 +75,7 @@ private:
         return std::make_unique<ParticleInput>(plan_.frames[index].in, options_.input(), settings_);
     }
     unsigned jobs() const;
-    /// All attributes are those of the first frame with particles, whichever worker has it.
+    /// All attributes are those of the first frame with particles, whichever worker has it, and if it is skipped.
     void name_attributes();
 
     const ReconstructOptions& options_;
@@ -145,10 +145,10 @@ unsigned Reconstruction::jobs() const {
 }
 
 void Reconstruction::name_attributes() {
-    for (std::size_t i = 0; i < plan_.frames.size(); ++i) {
-        const auto input = read(i);
-        if (input->frame().count() == 0) continue;
-        for (const ParticleArray& array : input->frame().arrays) settings_.attributes.emplace_back(array.name);
+    for (const FrameFiles& frame : plan_.all) {
+        const ParticleInput input(frame.in, options_.input(), settings_);
+        if (input.frame().count() == 0) continue;
+        for (const ParticleArray& array : input.frame().arrays) settings_.attributes.emplace_back(array.name);
         break;
     }
     settings_.all_attributes = false;
@@ -156,7 +156,7 @@ void Reconstruction::name_attributes() {
 
 void Reconstruction::run_here() {
     const unsigned count = jobs();
-    if (plan_.frames.size() > 1 && settings_.all_attributes) name_attributes();
+    if (plan_.all.size() > 1 && settings_.all_attributes) name_attributes();
     SurfacesOptions surfaces = options_.surfaces;
     if (count > 1) surfaces.backend.threads = std::max(1U, threads_of(surfaces.backend) / count);
     std::vector<std::unique_ptr<Worker>> workers;
@@ -173,6 +173,7 @@ void Reconstruction::run_here() {
 void Reconstruction::run_on_server() {
     std::vector<std::vector<FileWarning>> warnings(plan_.frames.size());  // each is there before its frame is submitted
     std::vector<Statistics> runs;
+    if (plan_.skipped() > 0 && settings_.all_attributes) name_attributes();
     SurfacesOptions place = options_.surfaces;
     place.stream.spray = settings_.spray == Spray::points;
     const auto surfaces = place.open(settings_, [&](const Surface& surface) {

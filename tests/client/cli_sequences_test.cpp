@@ -215,6 +215,24 @@ TEST_F(Sequences, SayErrorsAndWarningsOnLinesOfTheirOwnBesideTheBar) {
     EXPECT_NE(said.find("\r\x1b[Kmeniscus: " + path(frame_name(5))), std::string::npos) << said;
 }
 
+TEST_F(Sequences, HaveTheAttributesOfTheFirstFrameEvenIfItIsSkipped) {
+    const auto frame = [](const std::string& more) {
+        return "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+               "property float age\n" +
+               more;
+    };
+    write("a_0.ply", frame("end_header\n0 0 0 1\n"));
+    write("a_1.ply", frame("property float heat\nend_header\n0 0 0 1 2\n"));
+    std::vector<std::string> arguments{
+        "reconstruct", path("a_{}.ply"), "-o", path("b_{}.npz"), "-r", "0.5", "--attribute", "all", "-q"};
+    ASSERT_EQ(run_meniscus(arguments).exit_code, 0);
+    const std::string whole = formats::read_file(path("b_1.npz"));
+    std::filesystem::remove(path("b_1.npz"));
+    arguments.emplace_back("--skip-existing");
+    ASSERT_EQ(run_meniscus(arguments).exit_code, 0);
+    EXPECT_TRUE(formats::read_file(path("b_1.npz")) == whole);
+}
+
 TEST_F(Sequences, RefuseJobsWhereThereIsNothingToShare) {
     expect_refused(sequence("m", {"--jobs", "2", "--repeat", "2"}), {"--jobs", "--repeat"});
     expect_refused(sequence("m", {"--jobs", "0"}), {"--jobs", "0"});
