@@ -4,6 +4,7 @@
 #include <openssl/err.h>
 #include <openssl/sslerr.h>
 
+#include <algorithm>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/http/error.hpp>
@@ -323,14 +324,23 @@ void HttpConnection::write(Page page, bool keep_alive) {
     response_->body() = {body.data(), body.size()};
     response_->prepare_payload();
     serializer_.emplace(*response_);
-    stream_.tcp().expires_after(limits_.patience + std::chrono::seconds(body.size() / limits_.bytes_per_second));
-    const auto done = [self = shared_from_this()](boost::beast::error_code error, std::size_t) {
-        self->written(error);
-    };
-    if (!call_parser_ && parser_->get().method() == http::verb::head)
-        http::async_write_header(stream_, *serializer_, done);
-    else
-        http::async_write(stream_, *serializer_, done);
+    written_by_ = std::chrono::steady_clock::now() + limits_.patience +
+                  std::chrono::seconds(body.size() / limits_.bytes_per_second);
+    if (call_parser_ || parser_->get().method() != http::verb::head) return write_rest();
+    stream_.tcp().expires_at(written_by_);
+    http::async_write_header(
+        stream_, *serializer_,
+        [self = shared_from_this()](boost::beast::error_code error, std::size_t) { self->written(error); });
+}
+
+void HttpConnection::write_rest() {
+    // A client that takes nothing any more must not hold a large answer's memory for as long as a slow one may.
+    stream_.tcp().expires_at(std::min(written_by_, std::chrono::steady_clock::now() + limits_.patience));
+    http::async_write_some(stream_, *serializer_,
+                           [self = shared_from_this()](boost::beast::error_code error, std::size_t) {
+                               if (error || self->serializer_->is_done()) return self->written(error);
+                               self->write_rest();
+                           });
 }
 
 void HttpConnection::written(boost::beast::error_code error) {

@@ -10,6 +10,7 @@
 #include <boost/beast/http/serializer.hpp>
 #include <boost/beast/http/span_body.hpp>
 #include <boost/beast/http/string_body.hpp>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -94,6 +95,7 @@ private:
     /// The other end, as gRPC writes those of its connections.
     std::string peer();
     void write(Page page, bool keep_alive);
+    void write_rest();
     void written(boost::beast::error_code error);
     void end_connection();
     /// Ends the connection. Were it closed with bytes unread, the client might lose the answer.
@@ -117,9 +119,10 @@ private:
     Page page_;                                  ///< whose body the response shows
     std::optional<Response> response_;
     std::optional<boost::beast::http::response_serializer<boost::beast::http::span_body<const char>>> serializer_;
-    bool busy_ = false;     ///< from a request's last byte to its answer's
-    bool is_call_ = false;  ///< the request, of gRPC-Web
-    bool is_mesh_ = false;  ///< the request, for a session's mesh
+    std::chrono::steady_clock::time_point written_by_;  ///< the answer, whole
+    bool busy_ = false;                                 ///< from a request's last byte to its answer's
+    bool is_call_ = false;                              ///< the request, of gRPC-Web
+    bool is_mesh_ = false;                              ///< the request, for a session's mesh
     bool streams_ = false;
     bool leaving_ = false;
 };

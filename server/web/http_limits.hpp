@@ -16,7 +16,8 @@ struct HttpLimits {
     std::uint32_t header_bytes = 8192;  ///< of the request line, and of all fields
     std::uint32_t body_bytes = 65536;   ///< of a gRPC-Web request, in at most body_chunks chunks
     std::uint32_t body_chunks = 64;
-    /// For a whole request to come, and for an answer to be taken, which has more time the larger it is.
+    /// For a whole request to come, and for an answer to be taken, which has more time the larger it is, if some of it
+    /// is taken within each such time.
     std::chrono::milliseconds patience = std::chrono::seconds(30);
     std::uint32_t bytes_per_second = 64 << 10;  ///< with which an answer is taken beyond that
 };

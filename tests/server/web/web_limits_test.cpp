@@ -4,7 +4,11 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
+#include <future>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "meniscus/v1/server_service.pb.h"
@@ -66,6 +70,24 @@ TEST_F(WebLimits, WhoConnectsAndIsSilentTakesNobodysStream) {
     running.client.delete_session(id);
     EXPECT_FALSE(stream.next());
     EXPECT_EQ(stream.status, 0);
+}
+
+TEST(WebPatience, ALargeAnswerThatNobodyTakesIsForgottenAsSoonAsASmallOne) {
+    std::promise<void> forgotten;
+    std::future<void> end = forgotten.get_future();
+    Router router;
+    router.add("/large", [&] {
+        constexpr std::size_t more_than_a_socket_holds = std::size_t{64} << 20;
+        Page page{.body = std::string(more_than_a_socket_holds, 'x')};
+        page.memory = std::shared_ptr<void>(nullptr, [&](void*) { forgotten.set_value(); });
+        return page;
+    });
+    // A client that goes on taking it would have two years.
+    const HttpServer http{
+        "127.0.0.1:0", std::move(router), {}, {.patience = std::chrono::milliseconds(100), .bytes_per_second = 1}};
+    HttpClient client(http.address());
+    client.send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(end.wait_for(std::chrono::seconds(30)), std::future_status::ready);
 }
 
 }  // namespace
