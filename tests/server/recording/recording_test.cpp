@@ -118,8 +118,11 @@ TEST_F(RecordedSession, KeepsItsNameAndIsReplayedUnderItOrAnother) {
         stream.finish();
         while (stream.next()) {
         }
-        EXPECT_EQ(running.client.recordings().at(0).description.name, named.name);
-        EXPECT_EQ(running.client.recordings().at(0).description.length_unit, "mm");
+        // Its file may still be on its way to the disk.
+        std::vector<client::RecordingInfo> recordings;
+        while (recordings.empty()) recordings = running.client.recordings();
+        EXPECT_EQ(recordings.at(0).description.name, named.name);
+        EXPECT_EQ(recordings.at(0).description.length_unit, "mm");
     }
     EXPECT_EQ(Recording(recorded).description().name, named.name);
     EXPECT_EQ(Recording(recorded).description().up_axis, client::UpAxis::z);

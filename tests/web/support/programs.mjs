@@ -34,13 +34,6 @@ async function printed(child, pattern) {
   }
 }
 
-/** args: of `meniscus`. Resolves when it has ended well. */
-export async function run(args) {
-  const child = start(meniscus, args);
-  await child.ended;
-  if (child.exitCode !== 0) throw new Error(`${args[0]} ended with ${child.exitCode}: ${child.output}`);
-}
-
 /** ports: of a server before it, which it takes the place of. */
 export async function startServer({ ports = { grpc: 0, http: 0 }, args = [] } = {}) {
   const child = start(meniscusd, [
@@ -67,7 +60,7 @@ export async function startServer({ ports = { grpc: 0, http: 0 }, args = [] } = 
   };
 }
 
-/** Of `meniscus`, to its end. */
+/** args: of `meniscus`. Resolves when it has ended well. */
 export async function run(args) {
   const child = start(meniscus, args);
   await child.ended;
