@@ -2,6 +2,7 @@
 
 #include "options.hpp"
 #include "result.hpp"
+#include "text_options/client_options.hpp"
 
 using namespace meniscus::c;
 
@@ -9,16 +10,8 @@ meniscus_result meniscus_client_connect(const char* address, const meniscus_opti
                                         meniscus_client** client) {
     return guarded([&] {
         required(client, "client") = nullptr;
-        OptionReader reader(options);
-        meniscus::client::ConnectionOptions connection;
-        reader.read("tls-ca", connection.ca_file);
-        reader.read("tls-cert", connection.certificate_file);
-        reader.read("tls-key", connection.key_file);
-        reader.read("tls-server-name", connection.server_name);
-        reader.read("token", connection.token);
-        reader.read("insecure", connection.insecure);
-        reader.read("timeout", connection.timeout);
-        reader.read("wait", connection.wait);
+        auto reader = reader_of(options);
+        const auto connection = meniscus::text_options::read_connection(reader);
         reader.finish();
         *client = new meniscus_client{meniscus::client::Client(&required(address, "address"), connection)};
         return MENISCUS_OK;

@@ -1,122 +1,6 @@
 #include "options.hpp"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <limits>
-#include <span>
-
-#include "meniscus/error.hpp"
 #include "result.hpp"
-
-namespace meniscus::c {
-namespace {
-
-/// Whatever the locale. The whole text must be the number.
-template <class Number>
-bool is_number(std::string_view text, Number& value) {
-    const char* const end = text.data() + text.size();
-    const auto [stopped_at, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc() && stopped_at == end;
-}
-
-[[noreturn]] void refuse(std::string_view name, std::string_view text, const std::string& wanted) {
-    throw InvalidInput("option '" + std::string(name) + "' is '" + std::string(text) + "', must be " + wanted);
-}
-
-double number(std::string_view name, std::string_view text) {
-    double value = 0.0;
-    if (!is_number(text, value)) refuse(name, text, "a number such as 0.5");
-    return value;
-}
-
-/// As many numbers as `values` has room for, with spaces between them.
-void numbers(std::string_view name, std::string_view text, std::span<double> values) {
-    const std::string wanted = std::to_string(values.size()) + " numbers with spaces between them";
-    std::string_view rest = text;
-    for (double& value : values) {
-        rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
-        const std::string_view word = rest.substr(0, rest.find(' '));
-        if (!is_number(word, value)) refuse(name, text, wanted);
-        rest.remove_prefix(word.size());
-    }
-    if (rest.find_first_not_of(' ') != std::string_view::npos) refuse(name, text, wanted);
-}
-
-}  // namespace
-
-std::string OptionReader::quoted(std::string_view name) {
-    return "option '" + std::string(name) + "'";
-}
-
-const std::string* OptionReader::find(std::string_view name) {
-    if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.push_back(name);
-    if (options_ == nullptr) return nullptr;
-    const auto found = options_->values.find(name);
-    return found == options_->values.end() ? nullptr : &found->second;
-}
-
-void OptionReader::read(std::string_view name, std::string& value) {
-    if (const std::string* text = find(name)) value = *text;
-}
-
-void OptionReader::read(std::string_view name, bool& value) {
-    const std::string* text = find(name);
-    if (text == nullptr) return;
-    if (*text != "true" && *text != "false") refuse(name, *text, "true or false");
-    value = *text == "true";
-}
-
-void OptionReader::read(std::string_view name, double& value) {
-    if (const std::string* text = find(name)) value = number(name, *text);
-}
-
-void OptionReader::read(std::string_view name, std::optional<Box>& value) {
-    const std::string* text = find(name);
-    if (text == nullptr) return;
-    std::array<double, 6> corners{};
-    numbers(name, *text, corners);
-    value = Box{{corners[0], corners[1], corners[2]}, {corners[3], corners[4], corners[5]}};
-}
-
-void OptionReader::read(std::string_view name, std::optional<std::array<double, 3>>& value) {
-    const std::string* text = find(name);
-    if (text == nullptr) return;
-    value.emplace();
-    numbers(name, *text, *value);
-}
-
-void OptionReader::read(std::string_view name, std::chrono::milliseconds& value) {
-    const std::string* text = find(name);
-    if (text == nullptr) return;
-    constexpr double most = 1e9;
-    const double seconds = number(name, *text);
-    // Also false for a NaN.
-    if (!(seconds >= 0.0 && seconds <= most)) refuse(name, *text, "0 to 1000000000 seconds");
-    value = std::chrono::milliseconds(std::llround(seconds * 1000.0));
-}
-
-template <class Number>
-Number OptionReader::whole_number(std::string_view name, const std::string& text) {
-    Number value{};
-    if (!is_number(text, value))
-        refuse(name, text,
-               "a whole number, " + std::to_string(std::numeric_limits<Number>::min()) + " to " +
-                   std::to_string(std::numeric_limits<Number>::max()));
-    return value;
-}
-template int OptionReader::whole_number(std::string_view, const std::string&);
-template std::uint32_t OptionReader::whole_number(std::string_view, const std::string&);
-template std::uint64_t OptionReader::whole_number(std::string_view, const std::string&);
-
-void OptionReader::finish() const {
-    if (options_ == nullptr) return;
-    for (const auto& [name, value] : options_->values)
-        if (std::find(known_.begin(), known_.end(), name) == known_.end())
-            throw InvalidInput("option '" + name + "' is not known here, must be " + listed(known_));
-}
-
-}  // namespace meniscus::c
 
 using namespace meniscus::c;
 
@@ -147,14 +31,7 @@ meniscus_result meniscus_options_set(meniscus_options* options, const char* name
 meniscus_result meniscus_options_set_number(meniscus_options* options, const char* name, double value) {
     return guarded([&] {
         auto& values = required(options, "options").values;
-        std::array<char, 32> text{};  // the shortest that is read as the same number has 24 at most
-        char* const end = text.data() + text.size() - 1;
-        // The shortest form of a round number has an exponent, as 1e+09, which options of whole numbers refuse.
-        if (constexpr double first_inexact = 0x1p53; value == std::trunc(value) && std::abs(value) < first_inexact)
-            std::to_chars(text.data(), end, value, std::chars_format::fixed);
-        else
-            std::to_chars(text.data(), end, value);
-        values.insert_or_assign(&required(name, "name"), text.data());
+        values.insert_or_assign(&required(name, "name"), meniscus::text_options::number_text(value));
         return MENISCUS_OK;
     });
 }

@@ -1,70 +1,18 @@
-// Options by name, as the functions that take them read them.
+// Options of the C interface.
 #pragma once
 
-#include <array>
-#include <chrono>
-#include <concepts>
-#include <cstddef>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "meniscus/meniscus.h"
-#include "meniscus/names.hpp"
-#include "meniscus/settings.hpp"
+#include "text_options/option_reader.hpp"
 
 struct meniscus_options {
-    std::map<std::string, std::string, std::less<>> values;
+    meniscus::text_options::Options values;
 };
 
 namespace meniscus::c {
 
-/// Reads the options of one call. Whatever the call knows is asked for, whether it is set or not; then finish() refuses
-/// what is set and was not asked for. What is not set leaves its target as it is. All throw InvalidInput with the
-/// option's name and value.
-class OptionReader {
-public:
-    /// options: may be null, for none. They outlive the reader.
-    explicit OptionReader(const meniscus_options* options) : options_(options) {}
-
-    void read(std::string_view name, std::string& value);
-    void read(std::string_view name, bool& value);
-    void read(std::string_view name, double& value);
-    void read(std::string_view name, std::optional<Box>& value);
-    void read(std::string_view name, std::optional<std::array<double, 3>>& value);
-    /// Seconds.
-    void read(std::string_view name, std::chrono::milliseconds& value);
-    template <std::integral Number>
-    void read(std::string_view name, Number& value) {
-        if (const std::string* text = find(name)) value = whole_number<Number>(name, *text);
-    }
-    template <class T>
-    void read(std::string_view name, std::optional<T>& value) {
-        T given{};
-        if (find(name) == nullptr) return;
-        read(name, given);
-        value = given;
-    }
-    /// One of the names of a choice.
-    template <class Choice>
-    void read_choice(std::string_view name, Choice& value) {
-        if (const std::string* text = find(name)) value = by_name<Choice>(*text, quoted(name));
-    }
-
-    /// What was set, if it was; counts as asked for.
-    const std::string* find(std::string_view name);
-
-    void finish() const;
-
-private:
-    static std::string quoted(std::string_view name);
-    template <class Number>
-    static Number whole_number(std::string_view name, const std::string& text);
-
-    const meniscus_options* options_;
-    std::vector<std::string_view> known_;
-};
+/// options: may be null, for none.
+inline text_options::OptionReader reader_of(const meniscus_options* options) {
+    return text_options::OptionReader(options == nullptr ? nullptr : &options->values);
+}
 
 }  // namespace meniscus::c

@@ -4,11 +4,13 @@
 #include "options.hpp"
 #include "particles.hpp"
 #include "result.hpp"
-#include "settings_options.hpp"
 #include "sized_struct.hpp"
 #include "statistics.hpp"
+#include "text_options/backend_options.hpp"
+#include "text_options/settings_options.hpp"
 
 using namespace meniscus::c;
+using namespace meniscus::text_options;
 
 struct meniscus_reconstructor {
     meniscus::Reconstructor content;
@@ -18,13 +20,8 @@ struct meniscus_reconstructor {
 meniscus_result meniscus_reconstructor_create(const meniscus_options* options, meniscus_reconstructor** reconstructor) {
     return guarded([&] {
         required(reconstructor, "reconstructor") = nullptr;
-        OptionReader reader(options);
-        meniscus::BackendOptions backend;
-        reader.read_choice("backend", backend.backend);
-        reader.read("threads", backend.threads);
-        reader.read("memory-limit", backend.memory_limit);
-        reader.read("device", backend.device);
-        reader.read("device-memory-limit", backend.device_memory_limit);
+        auto reader = reader_of(options);
+        const meniscus::BackendOptions backend = read_backend(reader);
         const meniscus::Settings settings = read_settings(reader);
         reader.finish();
         *reconstructor = new meniscus_reconstructor{meniscus::Reconstructor(settings, backend), {}};

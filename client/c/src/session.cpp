@@ -1,54 +1,31 @@
 #include <utility>
 
-#include "attribute_options.hpp"
 #include "client.hpp"
 #include "next_frame.hpp"
 #include "options.hpp"
 #include "particles.hpp"
 #include "result.hpp"
-#include "settings_options.hpp"
+#include "text_options/attribute_options.hpp"
+#include "text_options/client_options.hpp"
+#include "text_options/settings_options.hpp"
 
 using namespace meniscus::c;
+using namespace meniscus::text_options;
 
 struct meniscus_session {
     meniscus::client::Session content;
     meniscus::client::Stream stream;  ///< goes first
 };
 
-namespace {
-
-meniscus::client::OpenOptions read_open_options(OptionReader& reader) {
-    meniscus::client::OpenOptions open;
-    reader.read("session", open.id);
-    reader.read("name", open.description.name);
-    reader.read_choice("up-axis", open.description.up_axis);
-    reader.read("length-unit", open.description.length_unit);
-    reader.read("ephemeral", open.ephemeral);
-    return open;
-}
-
-meniscus::client::StreamOptions read_stream_options(OptionReader& reader) {
-    meniscus::client::StreamOptions stream;
-    reader.read("meshes", stream.receive_meshes);
-    reader.read("normal-bits", stream.normal_bits);
-    reader.read("waiting-limit", stream.waiting_limit);
-    reader.read_choice("policy", stream.policy);
-    reader.read("nth", stream.nth);
-    reader.read("reconnect", stream.reconnect);
-    return stream;
-}
-
-}  // namespace
-
 meniscus_result meniscus_session_open(meniscus_client* client, const meniscus_options* options,
                                       meniscus_session** session) {
     return guarded([&] {
         required(session, "session") = nullptr;
         meniscus::client::Client& connected = required(client, "client").content;
-        OptionReader reader(options);
+        auto reader = reader_of(options);
         const meniscus::Settings settings = read_settings(reader);
-        const auto open = read_open_options(reader);
-        auto streaming = read_stream_options(reader);
+        const auto open = read_open(reader);
+        auto streaming = read_stream(reader);
         streaming.spray = settings.spray == meniscus::Spray::points;
         streaming.attributes = read_every_attribute(reader);
         reader.finish();

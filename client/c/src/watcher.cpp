@@ -1,10 +1,10 @@
 #include <utility>
 
-#include "attribute_options.hpp"
 #include "client.hpp"
 #include "next_frame.hpp"
 #include "options.hpp"
 #include "result.hpp"
+#include "text_options/client_options.hpp"
 
 using namespace meniscus::c;
 
@@ -16,17 +16,8 @@ meniscus_result meniscus_watcher_open(meniscus_client* client, const char* sessi
                                       meniscus_watcher** watcher) {
     return guarded([&] {
         required(watcher, "watcher") = nullptr;
-        OptionReader reader(options);
-        meniscus::client::WatchOptions wishes;
-        reader.read("max-level", wishes.max_level);
-        reader.read("normal-bits", wishes.normal_bits);
-        reader.read("position-bits", wishes.position_bits);
-        reader.read("region", wishes.region);
-        reader.read("spray", wishes.spray);
-        reader.read("bytes-per-second", wishes.bytes_per_second);
-        reader.read("viewpoint", wishes.viewpoint);
-        reader.read("reconnect", wishes.reconnect);
-        wishes.attributes = read_attribute_wishes(reader);
+        auto reader = reader_of(options);
+        const auto wishes = meniscus::text_options::read_watch(reader);
         reader.finish();
         *watcher =
             new meniscus_watcher{required(client, "client").content.watch(&required(session_id, "session_id"), wishes)};

@@ -156,7 +156,7 @@ TEST_F(CServer, GivesVerticesWhatParticlesCarry) {
     input.count = particles.count();
     input.positions = particles.positions.data();
     EXPECT_TRUE(refused(meniscus_session_push(session.get(), &input, 0, 0.0), MENISCUS_INVALID_INPUT,
-                        "no array \"age\", which the session's settings name"));
+                        "no array 'age', which the session's settings name"));
     input.array_count = 1;
     input.arrays = &array;
     ASSERT_EQ(meniscus_session_push(session.get(), &input, 0, 0.0), MENISCUS_OK) << meniscus_error_message();

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "meniscus/settings.hpp"
-#include "options.hpp"
+#include "text_options/option_reader.hpp"
 
-namespace meniscus::c {
+namespace meniscus::text_options {
 
 /// Throws InvalidInput for an option that is wrong or would change nothing, and for settings out of range.
 Settings read_settings(OptionReader& options);
 
-}  // namespace meniscus::c
+}  // namespace meniscus::text_options

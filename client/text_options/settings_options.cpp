@@ -1,11 +1,11 @@
-#include "settings_options.hpp"
+#include "text_options/settings_options.hpp"
 
 #include <variant>
 
-#include "attribute_options.hpp"
 #include "meniscus/error.hpp"
+#include "text_options/attribute_options.hpp"
 
-namespace meniscus::c {
+namespace meniscus::text_options {
 namespace {
 
 /// The alternative that `option` names; one that the preset has chosen already keeps its parameters.
@@ -24,8 +24,8 @@ void read_parameter(OptionReader& options, std::string_view option, std::string_
     if (text == nullptr) return;
     auto* const chosen = std::get_if<Alternative>(&choice);
     if (chosen == nullptr)
-        throw InvalidInput("option '" + std::string(option) + "' is '" + *text + "', but '" + std::string(of) +
-                           "' is " + std::string(name_of(choice)) + ": set it to " + std::string(Alternative::name) +
+        throw InvalidInput(options.quoted(option) + " is '" + *text + "', but '" + options.naming()(of) + "' is " +
+                           std::string(name_of(choice)) + ": set it to " + std::string(Alternative::name) +
                            ", or leave the option out");
     options.read(option, chosen->*parameter);
 }
@@ -37,7 +37,8 @@ Settings read_settings(OptionReader& options) {
     options.read_choice("preset", named);
     double particle_radius = 0.0;
     if (options.find("particle-radius") == nullptr)
-        throw InvalidInput("option 'particle-radius' is not set, must be the particles' radius in world units");
+        throw InvalidInput(options.quoted("particle-radius") +
+                           " is not set, must be the particles' radius in world units");
     options.read("particle-radius", particle_radius);
     Settings settings = preset(named, particle_radius);
     options.read("cell-size", settings.cell_size);
@@ -59,4 +60,4 @@ Settings read_settings(OptionReader& options) {
     return settings;
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::text_options

@@ -1,11 +1,11 @@
-#include "attribute_options.hpp"
+#include "text_options/attribute_options.hpp"
 
 #include <string>
 #include <string_view>
 
 #include "meniscus/error.hpp"
 
-namespace meniscus::c {
+namespace meniscus::text_options {
 namespace {
 
 constexpr std::string_view all = "all";
@@ -22,7 +22,8 @@ std::vector<std::string> names_of(OptionReader& options) {
     }
     if (names.size() > 1)
         for (const std::string& name : names)
-            if (name == all) throw InvalidInput("option 'attribute' is '" + *text + "', must be names, or all alone");
+            if (name == all)
+                throw InvalidInput(options.quoted("attribute") + " is '" + *text + "', must be names, or all alone");
     return names;
 }
 
@@ -30,9 +31,19 @@ int bits_of(OptionReader& options) {
     int bits = default_attribute_bits;
     options.read("attribute-bits", bits);
     if (bits < 0 || bits > max_attribute_bits)
-        throw InvalidInput("option 'attribute-bits' is '" + std::to_string(bits) + "', must be 1 to " +
+        throw InvalidInput(options.quoted("attribute-bits") + " is '" + std::to_string(bits) + "', must be 1 to " +
                            std::to_string(max_attribute_bits) + ", or 0 for exact values");
     return bits;
+}
+
+/// "velocity", or "velocity:12" with bits of its own.
+AttributeWish wish_of(const std::string& text, int bits, OptionNaming naming) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos) return {.name = text, .bits = bits};
+    const std::string own = text.substr(colon + 1);
+    const Options options{{"attribute-bits", own}};
+    OptionReader reader(&options, naming);
+    return {.name = text.substr(0, colon), .bits = bits_of(reader)};
 }
 
 /// Empty names stand for all.
@@ -53,7 +64,7 @@ std::vector<AttributeWish> read_attribute_wishes(OptionReader& options) {
     const int bits = bits_of(options);
     if (names == std::vector{std::string(all)}) return every_attribute(bits);
     std::vector<AttributeWish> wishes;
-    for (const std::string& name : names) wishes.push_back({.name = name, .bits = bits});
+    for (const std::string& name : names) wishes.push_back(wish_of(name, bits, options.naming()));
     return wishes;
 }
 
@@ -61,4 +72,4 @@ std::vector<AttributeWish> read_every_attribute(OptionReader& options) {
     return every_attribute(bits_of(options));
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::text_options
