@@ -10,9 +10,9 @@ OpenedSession::OpenedSession(const ServerFlags& server, const SessionFlags& flag
           settings, {.description = flags.description, .id = flags.id, .ephemeral = flags.id.empty() && !flags.keep})) {
     if (flags.keep) session_.leave();
     if (!session_.is_owned()) return;
-    interrupts_.emplace([this, id = session_.id()] {
+    interrupts_.emplace([end = session_.ending()] {
         try {
-            client_.delete_session(id);
+            end();
         } catch (const std::exception&) {
             // The process ends, and an ephemeral session after it.
         }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -19,6 +20,8 @@ namespace {
 
 std::string read_pem(const std::string& path) {
     if (path.empty()) return {};
+    // Reading one throws what names neither the file nor what is wanted.
+    if (std::filesystem::is_directory(path)) throw InvalidInput(path + " is a folder, must be a file in PEM form");
     std::ifstream file(path, std::ios::binary);
     std::string pem{std::istreambuf_iterator<char>(file), {}};
     if (pem.find("-----BEGIN ") == std::string::npos)
@@ -62,6 +65,19 @@ std::string checked_address(const std::string& address) {
     return address::with_port(address);
 }
 
+/// As the channel's WaitForStateChange, which nothing can end: in pieces, where somebody may want to.
+bool wait_for_change(grpc::Channel& channel, grpc_connectivity_state from,
+                     std::chrono::system_clock::time_point deadline, const std::stop_token& stop) {
+    constexpr std::chrono::milliseconds piece{50};
+    if (!stop.stop_possible()) return channel.WaitForStateChange(from, deadline);
+    while (!stop.stop_requested()) {
+        const auto now = std::chrono::system_clock::now();
+        if (channel.WaitForStateChange(from, std::min(deadline, now + piece))) return true;
+        if (now >= deadline) return false;
+    }
+    return false;
+}
+
 /// Whether the channel is connected before it is time to give up.
 bool connect(grpc::Channel& channel, const ConnectionOptions& options) {
     const auto last_retry = deadline_after<std::chrono::system_clock>(options.wait);
@@ -70,7 +86,7 @@ bool connect(grpc::Channel& channel, const ConnectionOptions& options) {
         const grpc_connectivity_state state = channel.GetState(true);
         if (state == GRPC_CHANNEL_READY) return true;
         const bool refused = state == GRPC_CHANNEL_TRANSIENT_FAILURE;
-        if (!channel.WaitForStateChange(state, refused ? last_retry : deadline)) return false;
+        if (!wait_for_change(channel, state, refused ? last_retry : deadline, options.stop)) return false;
     }
 }
 
@@ -104,6 +120,8 @@ Connection::Connection(const std::string& server_address, const ConnectionOption
       recordings(v1::RecordingService::NewStub(channel)),
       token_(checked_token(address, options)) {
     if (connect(*channel, options)) return;
+    if (options.stop.stop_requested())
+        throw ServerError("the attempt to connect to " + address + " was canceled", ErrorCode::canceled);
     const std::string reason = connection_failure(*server);
     if (options.ca_file.empty())
         throw ServerError("no server at " + address + " (" + reason +
@@ -120,6 +138,13 @@ void Connection::add_metadata(grpc::ClientContext& context, const std::string& s
 }
 
 void add_session_id(grpc::ClientContext& context, const std::string& session_id) {
+    // gRPC ends the process for metadata that are no text. What else is no UUID the server refuses.
+    constexpr std::size_t longest = 4096;  // of all metadata it takes 8192 bytes
+    if (session_id.size() > longest)
+        throw InvalidInput("the session's id has " + std::to_string(session_id.size()) + " characters, must be a UUID");
+    for (const char c : session_id)
+        if (c < ' ' || c > '~')
+            throw InvalidInput("the session's id has a character that is not an ASCII one to be read, must be a UUID");
     context.AddMetadata("x-session-id", session_id);
 }
 

@@ -36,7 +36,7 @@ private:
     const std::string token_;
 };
 
-/// Every call about one session carries its id as metadata too.
+/// Every call about one session carries its id as metadata too. Throws InvalidInput for what cannot be there.
 void add_session_id(grpc::ClientContext& context, const std::string& session_id);
 
 }  // namespace meniscus::client

@@ -43,11 +43,13 @@ public:
 
     const std::shared_ptr<Connection>& connection() const noexcept { return connection_; }
 
+    CallLimits limits(const std::stop_token& stop) const { return {.timeout = connection_->timeout, .stop = stop}; }
     /// One unary call about a session, or (no id) about none.
     template <class Stub, class Request, class Response>
     void call(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
-              const std::string& session_id, const Request& request, Response& response) const {
-        client::call(*connection_, stub, method, session_id, request, response, connection_->timeout);
+              const std::string& session_id, const Request& request, Response& response,
+              const std::stop_token& stop) const {
+        client::call(*connection_, stub, method, session_id, request, response, limits(stop));
     }
 
 private:
@@ -60,9 +62,9 @@ Client::Client(Client&&) noexcept = default;
 Client& Client::operator=(Client&&) noexcept = default;
 Client::~Client() = default;
 
-ServerInfo Client::server_info() {
+ServerInfo Client::server_info(const std::stop_token& stop) {
     v1::GetServerInfoResponse response;
-    impl_->call(*impl_->connection()->server, &v1::ServerService::Stub::GetServerInfo, {}, {}, response);
+    impl_->call(*impl_->connection()->server, &v1::ServerService::Stub::GetServerInfo, {}, {}, response, stop);
     ServerInfo info;
     info.version = response.version();
     info.backend = response.backend();
@@ -99,32 +101,32 @@ ServerInfo Client::server_info() {
     return info;
 }
 
-bool Client::serving() {
+bool Client::serving(const std::stop_token& stop) {
     const auto health = grpc::health::v1::Health::NewStub(impl_->connection()->channel);
     grpc::health::v1::HealthCheckResponse response;
-    impl_->call(*health, &grpc::health::v1::Health::Stub::Check, {}, {}, response);
+    impl_->call(*health, &grpc::health::v1::Health::Stub::Check, {}, {}, response, stop);
     return response.status() == grpc::health::v1::HealthCheckResponse::SERVING;
 }
 
-bool Client::create_session(const std::string& id, const Settings& settings, const SessionOptions& options) {
-    const Connection& connection = *impl_->connection();
-    return client::create_session(connection, id, settings, options, connection.timeout).created();
+bool Client::create_session(const std::string& id, const Settings& settings, const SessionOptions& options,
+                            const std::stop_token& stop) {
+    return client::create_session(*impl_->connection(), id, settings, options, impl_->limits(stop)).created();
 }
 
-SessionInfo Client::session(const std::string& id) {
-    return session_info(*impl_->connection(), id, impl_->connection()->timeout);
+SessionInfo Client::session(const std::string& id, const std::stop_token& stop) {
+    return session_info(*impl_->connection(), id, impl_->limits(stop));
 }
 
-std::vector<SessionInfo> Client::sessions() {
+std::vector<SessionInfo> Client::sessions(const std::stop_token& stop) {
     v1::ListSessionsResponse response;
-    impl_->call(*impl_->connection()->sessions, &v1::SessionService::Stub::ListSessions, {}, {}, response);
+    impl_->call(*impl_->connection()->sessions, &v1::SessionService::Stub::ListSessions, {}, {}, response, stop);
     std::vector<SessionInfo> sessions;
     for (const v1::Session& session : response.sessions()) sessions.push_back(from_wire(session));
     return sessions;
 }
 
-void Client::delete_session(const std::string& id) {
-    client::delete_session(*impl_->connection(), id, impl_->connection()->timeout);
+void Client::delete_session(const std::string& id, const std::stop_token& stop) {
+    client::delete_session(*impl_->connection(), id, impl_->limits(stop));
 }
 
 Session Client::open_session(const Settings& settings, const OpenOptions& options) {
@@ -152,9 +154,9 @@ ParticleWatcher Client::watch_particles(const std::string& session_id, std::uint
     return watch_particles(session_id, {.max_particles = max_particles, .reconnect = reconnect});
 }
 
-std::vector<RecordingInfo> Client::recordings() {
+std::vector<RecordingInfo> Client::recordings(const std::stop_token& stop) {
     v1::ListRecordingsResponse response;
-    impl_->call(*impl_->connection()->recordings, &v1::RecordingService::Stub::ListRecordings, {}, {}, response);
+    impl_->call(*impl_->connection()->recordings, &v1::RecordingService::Stub::ListRecordings, {}, {}, response, stop);
     std::vector<RecordingInfo> recordings;
     for (const v1::Recording& recording : response.recordings()) recordings.push_back(recording_info(recording));
     return recordings;
@@ -165,13 +167,13 @@ RecordingReader Client::read_recording(const std::string& session_id, std::uint3
     return RecordingReader(std::make_unique<RecordingReader::Impl>(impl_->connection(), session_id, number, options));
 }
 
-void Client::delete_recording(const std::string& session_id, std::uint32_t number) {
+void Client::delete_recording(const std::string& session_id, std::uint32_t number, const std::stop_token& stop) {
     v1::DeleteRecordingRequest request;
     request.set_session_id(session_id);
     request.set_number(number);
     v1::DeleteRecordingResponse response;
     impl_->call(*impl_->connection()->recordings, &v1::RecordingService::Stub::DeleteRecording, session_id, request,
-                response);
+                response, stop);
 }
 
 }  // namespace meniscus::client

@@ -10,7 +10,7 @@ namespace meniscus::client {
 namespace {
 
 std::string quoted(std::string_view name) {
-    return '"' + std::string(name) + '"';
+    return "'" + std::string(name) + "'";
 }
 
 const ParticleArray* find_once(std::span<const ParticleArray> arrays, std::string_view name) {

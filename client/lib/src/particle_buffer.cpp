@@ -29,7 +29,7 @@ constexpr std::size_t aligned(std::size_t bytes) {
 
 std::size_t array_size(const ArrayForm& form, std::size_t particles) {
     if (form.components < 1 || form.components > most_components)
-        throw InvalidInput("a buffer with an array \"" + form.name + "\" of " + std::to_string(form.components) +
+        throw InvalidInput("a buffer with an array '" + form.name + "' of " + std::to_string(form.components) +
                            " components was asked for; it must have 1 to " + std::to_string(most_components));
     return size_of(form.type) * form.components * particles;
 }
@@ -45,9 +45,9 @@ ParticleBuffer::ParticleBuffer(std::vector<float>&& positions, std::vector<std::
 
 std::span<std::byte> ParticleBuffer::array_bytes(std::string_view name, ElementType type) const {
     const auto array = std::ranges::find(arrays_, name, [](const FurtherArray& a) { return a.form.name; });
-    if (array == arrays_.end()) throw InvalidInput("the buffer has no array \"" + std::string(name) + '"');
+    if (array == arrays_.end()) throw InvalidInput("the buffer has no array '" + std::string(name) + "'");
     if (array->form.type != type)
-        throw InvalidInput("array \"" + std::string(name) + "\" of the buffer is of " +
+        throw InvalidInput("array '" + std::string(name) + "' of the buffer is of " +
                            std::string(name_of(array->form.type)) + ", not of " + std::string(name_of(type)));
     return array->bytes;
 }

@@ -1,6 +1,7 @@
 #include "pushed_frame.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -18,6 +19,9 @@ namespace {
 /// Without its bytes. arrays: those beside positions and levels.
 PushedFrame begin_frame(const ParticleFrame& frame, std::span<const ParticleArray> arrays, std::uint64_t index,
                         double simulation_time) {
+    if (!std::isfinite(simulation_time))
+        throw InvalidInput("frame " + std::to_string(index) + ": simulation_time is " +
+                           std::to_string(simulation_time) + "; it must be finite");
     PushedFrame pushed;
     pushed.begin.set_frame_index(index);
     pushed.begin.set_simulation_time(simulation_time);

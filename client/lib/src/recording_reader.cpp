@@ -17,8 +17,8 @@ RecordingReader::Impl::Impl(std::shared_ptr<Connection> connection, const std::s
     request.set_with_spray(options.spray);
     conversion::add_known_codecs(*request.mutable_codecs());
     connection_->add_metadata(context_, session_id);
-    reader_ = connection_->recordings->ReadRecording(&context_, request);
     on_stop_.emplace(options.stop, [this] { cancel(); });
+    reader_ = connection_->recordings->ReadRecording(&context_, request);
 }
 
 RecordingReader::Impl::~Impl() {

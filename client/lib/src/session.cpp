@@ -17,6 +17,16 @@ namespace {
 /// Of each of two calls, so that a Session goes within a second, though nothing answers.
 constexpr std::chrono::milliseconds farewell_time{400};
 
+/// Ends it, unless it has ended, and somebody else has created another one of this id. limits: of each call.
+void delete_own(const Connection& connection, const std::string& id, const MadeSessions& made,
+                const CallLimits& limits) {
+    try {
+        if (made.has(session_info(connection, id, limits).created_at)) delete_session(connection, id, limits);
+    } catch (const ServerError& error) {
+        if (error.code() != ErrorCode::not_found) throw;
+    }
+}
+
 }  // namespace
 
 Session::Impl::Impl(std::shared_ptr<Connection> connection, const Settings& settings, const OpenOptions& options)
@@ -24,41 +34,41 @@ Session::Impl::Impl(std::shared_ptr<Connection> connection, const Settings& sett
       id_(options.id.empty() ? new_session_id() : options.id),
       settings_(settings),
       options_{.description = options.description, .ephemeral = options.ephemeral},
-      owned_(create().created()) {}
+      owned_(create(options.stop).created()) {}
 
 Session::Impl::~Impl() {
     if (!owned_) return;
     try {
-        delete_own(farewell_time);
+        delete_own(*connection_, id_, *made_, {.timeout = farewell_time});
     } catch (...) {
         // Nobody is left to be told. The server ends an ephemeral session by itself.
     }
 }
 
-void Session::Impl::create_again() {
+void Session::Impl::create_again(const std::stop_token& stop) {
     if (!owned_ || !options_.ephemeral) return;
-    const v1::CreateSessionResponse response = create();
+    const v1::CreateSessionResponse response = create(stop);
     owned_ = made_->has(time_from_wire(response.session().created_at()));
 }
 
-v1::CreateSessionResponse Session::Impl::create() {
-    v1::CreateSessionResponse response = create_session(*connection_, id_, settings_, options_, connection_->timeout);
+v1::CreateSessionResponse Session::Impl::create(const std::stop_token& stop) {
+    v1::CreateSessionResponse response =
+        create_session(*connection_, id_, settings_, options_, {.timeout = connection_->timeout, .stop = stop});
     made_->note(response);
     return response;
 }
 
-void Session::Impl::delete_own(std::chrono::milliseconds timeout) {
-    if (made_->has(session_info(*connection_, id_, timeout).created_at)) delete_session(*connection_, id_, timeout);
+void Session::Impl::end(const std::stop_token& stop) {
+    if (!owned_) return;
+    delete_own(*connection_, id_, *made_, {.timeout = connection_->timeout, .stop = stop});
+    owned_ = false;
 }
 
-void Session::Impl::end() {
-    if (!owned_) return;
-    try {
-        delete_own(connection_->timeout);
-    } catch (const ServerError& error) {
-        if (error.code() != ErrorCode::not_found) throw;
-    }
-    owned_ = false;
+std::function<void()> Session::Impl::ending() const {
+    if (!owned_) return [] {};
+    return [connection = connection_, id = id_, made = made_] {
+        delete_own(*connection, id, *made, {.timeout = connection->timeout});
+    };
 }
 
 Session::Session(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -74,12 +84,12 @@ bool Session::is_owned() const noexcept {
     return impl_->is_owned();
 }
 
-SessionInfo Session::info() {
-    return session_info(*impl_->connection(), impl_->id(), impl_->connection()->timeout);
+SessionInfo Session::info(const std::stop_token& stop) {
+    return session_info(*impl_->connection(), impl_->id(), {.timeout = impl_->connection()->timeout, .stop = stop});
 }
 
 Stream Session::stream(const StreamOptions& options) {
-    impl_->create_again();
+    impl_->create_again(options.stop);
     return Stream(
         Stream::Impl::open(impl_->connection(), impl_->id(), options, impl_->made(), NamedArrays(impl_->settings())));
 }
@@ -92,8 +102,12 @@ ParticleWatcher Session::watch_particles(const ParticleWatchOptions& options) {
     return ParticleWatcher(std::make_unique<ParticleWatcher::Impl>(impl_->connection(), impl_->id(), options));
 }
 
-void Session::end() {
-    impl_->end();
+void Session::end(const std::stop_token& stop) {
+    impl_->end(stop);
+}
+
+std::function<void()> Session::ending() const {
+    return impl_->ending();
 }
 
 void Session::leave() noexcept {

@@ -40,30 +40,30 @@ SessionInfo from_wire(const v1::Session& wire) {
 }
 
 v1::CreateSessionResponse create_session(const Connection& connection, const std::string& id, const Settings& settings,
-                                         const SessionOptions& options, std::chrono::milliseconds timeout) {
+                                         const SessionOptions& options, const CallLimits& limits) {
     v1::CreateSessionRequest request;
     request.set_id(id);
     *request.mutable_settings() = conversion::to_wire(settings);
     *request.mutable_description() = to_wire(options.description);
     request.set_ephemeral(options.ephemeral);
     v1::CreateSessionResponse response;
-    call(connection, *connection.sessions, &v1::SessionService::Stub::CreateSession, id, request, response, timeout);
+    call(connection, *connection.sessions, &v1::SessionService::Stub::CreateSession, id, request, response, limits);
     return response;
 }
 
-SessionInfo session_info(const Connection& connection, const std::string& id, std::chrono::milliseconds timeout) {
+SessionInfo session_info(const Connection& connection, const std::string& id, const CallLimits& limits) {
     v1::GetSessionRequest request;
     request.set_id(id);
     v1::GetSessionResponse response;
-    call(connection, *connection.sessions, &v1::SessionService::Stub::GetSession, id, request, response, timeout);
+    call(connection, *connection.sessions, &v1::SessionService::Stub::GetSession, id, request, response, limits);
     return from_wire(response.session());
 }
 
-void delete_session(const Connection& connection, const std::string& id, std::chrono::milliseconds timeout) {
+void delete_session(const Connection& connection, const std::string& id, const CallLimits& limits) {
     v1::DeleteSessionRequest request;
     request.set_id(id);
     v1::DeleteSessionResponse response;
-    call(connection, *connection.sessions, &v1::SessionService::Stub::DeleteSession, id, request, response, timeout);
+    call(connection, *connection.sessions, &v1::SessionService::Stub::DeleteSession, id, request, response, limits);
 }
 
 }  // namespace meniscus::client

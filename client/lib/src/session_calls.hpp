@@ -7,14 +7,15 @@
 #include "connection/connection.hpp"
 #include "meniscus/client/session_info.hpp"
 #include "meniscus/v1/session_service.pb.h"
+#include "unary_call.hpp"
 
 namespace meniscus::client {
 
-/// As Client's; they throw what the call failed with. timeout: for an answer.
+/// As Client's; they throw what the call failed with.
 v1::CreateSessionResponse create_session(const Connection& connection, const std::string& id, const Settings& settings,
-                                         const SessionOptions& options, std::chrono::milliseconds timeout);
-SessionInfo session_info(const Connection& connection, const std::string& id, std::chrono::milliseconds timeout);
-void delete_session(const Connection& connection, const std::string& id, std::chrono::milliseconds timeout);
+                                         const SessionOptions& options, const CallLimits& limits);
+SessionInfo session_info(const Connection& connection, const std::string& id, const CallLimits& limits);
+void delete_session(const Connection& connection, const std::string& id, const CallLimits& limits);
 
 SessionInfo from_wire(const v1::Session& wire);
 /// Microseconds since 1970.

@@ -1,8 +1,9 @@
 // The inside of a Session.
 #pragma once
 
-#include <chrono>
+#include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include "connection/connection.hpp"
@@ -25,15 +26,14 @@ public:
     /// For streams, which create it again where a server has lost it.
     const std::shared_ptr<MadeSessions>& made() const noexcept { return made_; }
     /// If it is owned, and has ended meanwhile.
-    void create_again();
-    void end();
+    void create_again(const std::stop_token& stop);
+    void end(const std::stop_token& stop);
+    std::function<void()> ending() const;
     void leave() noexcept { owned_ = false; }
 
 private:
     /// Joins it if it is there.
-    v1::CreateSessionResponse create();
-    /// Ends it, unless it has ended, and somebody else has created another one of this id. timeout: for each call.
-    void delete_own(std::chrono::milliseconds timeout);
+    v1::CreateSessionResponse create(const std::stop_token& stop);
 
     const std::shared_ptr<Connection> connection_;
     const std::string id_;

@@ -93,6 +93,7 @@ std::optional<ReceivedFrame> take_snapshot(const Connection& connection, const s
     request.set_max_level(static_cast<std::uint32_t>(options.max_level));
     conversion::add_known_codecs(*request.mutable_codecs());
     SilenceLimit silence(context, connection.timeout);
+    const CancelOnStop cancel_on_stop(context, options.stop);
     const auto call = connection.surfaces->Snapshot(&context, request);
     call->WaitForInitialMetadata();
     silence.begin(part_time);

@@ -101,6 +101,7 @@ Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& se
       named_(std::move(named)) {
     if (resumes()) {
         grpc::ClientContext context;
+        const CancelOnStop cancel_on_stop(context, options_.stop);
         session_ = as_it_is_now(*connection_, context, session_id);
         created_by_ = ended_by(context);
         named_ = NamedArrays(session_.settings());

@@ -62,6 +62,8 @@ TEST(ErrorCode, TellsWhyTheServerRefused) {
     one.next();
     EXPECT_EQ(code_from([&] { client.stream(id).next(); }), ErrorCode::failed_precondition);
     EXPECT_EQ(code_from([&] { client::Client("127.0.0.1:1"); }), ErrorCode::unavailable);
+    EXPECT_EQ(code_from([&] { client.session(std::string("a\0b", 3)); }), ErrorCode::invalid_input);
+    EXPECT_EQ(code_from([&] { client.watch(id + "\n").next(); }), ErrorCode::invalid_input);
     running.reset();
     EXPECT_EQ(code_from([&] { client.session(id); }), ErrorCode::unavailable);
 }

@@ -107,10 +107,10 @@ TEST(ParticleReceiver, RefusesWhatContradictsItself) {
              b.set_particle_count(std::numeric_limits<std::uint64_t>::max());
              b.set_sent_count(std::numeric_limits<std::uint64_t>::max());
          })}},
-        {"no arrays; the first must be \"position\"", {changed([](auto& b) { b.clear_arrays(); })}},
+        {"no arrays; the first must be 'position'", {changed([](auto& b) { b.clear_arrays(); })}},
         {"positions of float32; they must be of uint16",
          {changed([](auto& b) { b.mutable_arrays(0)->set_type(v1::ELEMENT_TYPE_FLOAT32); })}},
-        {"array \"level\" has the element type 9",
+        {"array 'level' has the element type 9",
          {changed([](auto& b) { b.mutable_arrays(1)->set_type(static_cast<v1::ElementType>(9)); })}},
         {"have the radius nan",
          {changed([](auto& b) { b.set_particle_radius(std::numeric_limits<double>::quiet_NaN()); })}},

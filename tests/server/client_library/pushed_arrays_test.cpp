@@ -121,7 +121,7 @@ TEST_F(PushedArrays, OfASessionWithAllAttributesAreAll) {
     expect_same_attributes(stream.next()->mesh(), carrying.mesh(of));
     Carrying odd;
     odd.arrays[1].name = "Id";
-    EXPECT_NE(refusal(stream, odd.frame()).find("an array is named \"Id\""), std::string::npos);
+    EXPECT_NE(refusal(stream, odd.frame()).find("an array is named 'Id'"), std::string::npos);
 }
 
 TEST_F(PushedArrays, ThatTheSettingsDoNotNameStayHere) {
@@ -151,12 +151,12 @@ TEST_F(PushedArrays, AreRefusedByNameBeforeTheyAreSent) {
         const std::string said = refusal(known, odd.frame());
         EXPECT_NE(said.find(words), std::string::npos) << said;
     };
-    expect_refused("frame 0: no array \"id\"", [](Carrying& c) { c.arrays.pop_back(); });
-    expect_refused("frame 0: no array \"velocity\"", [](Carrying& c) { c.arrays.clear(); });
-    expect_refused("array \"id\" comes twice", [](Carrying& c) { c.arrays.push_back(c.arrays[1]); });
+    expect_refused("frame 0: no array 'id'", [](Carrying& c) { c.arrays.pop_back(); });
+    expect_refused("frame 0: no array 'velocity'", [](Carrying& c) { c.arrays.clear(); });
+    expect_refused("array 'id' comes twice", [](Carrying& c) { c.arrays.push_back(c.arrays[1]); });
     expect_refused("array 'velocity' has",
                    [](Carrying& c) { c.arrays[0].data = c.arrays[0].data.first(c.arrays[0].data.size() - 12); });
-    expect_refused("array \"velocity\" is float32 x 2", [](Carrying& c) {
+    expect_refused("array 'velocity' is float32 x 2", [](Carrying& c) {
         c.arrays[0].components = 2;
         c.arrays[0].data = c.arrays[0].data.first(8 * c.count);
     });
@@ -170,7 +170,7 @@ TEST_F(PushedArrays, AreLookedForAtTheServerWhereAStreamHasTheIdAlone) {
     client::Stream stream = running.client.stream(session.id(), {.attributes = exactly});
     Carrying odd;
     odd.arrays.erase(odd.arrays.begin());
-    EXPECT_NE(refusal(stream, odd.frame()).find("no array \"velocity\""), std::string::npos);
+    EXPECT_NE(refusal(stream, odd.frame()).find("no array 'velocity'"), std::string::npos);
     stream.push(carrying.frame(), 0, 0.0);
     expect_same_attributes(stream.next()->mesh(), carrying.mesh(with_attributes({"velocity"})));
 }

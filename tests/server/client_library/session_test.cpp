@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "running_server.hpp"
@@ -68,6 +70,34 @@ TEST(OwnedSession, LeavesASessionThatCameInItsPlace) {
     late.reset();
     EXPECT_TRUE(is_there(running, id));
     EXPECT_TRUE(is_there(running, id_of_late));
+}
+
+TEST(OwnedSession, CanBeEndedFromElsewhereAsByItself) {
+    RunningServer running;
+    std::optional<Session> session = running.client.open_session(settings());
+    const std::string id = session->id();
+    const std::function<void()> end = session->ending();
+    end();
+    EXPECT_FALSE(is_there(running, id));
+    EXPECT_NO_THROW(end());
+    // Somebody else's.
+    running.client.create_session(id, settings());
+    end();
+    session.reset();
+    end();
+    EXPECT_TRUE(is_there(running, id));
+    Session joined = running.client.open_session(settings(), {.id = id});
+    joined.ending()();
+    EXPECT_TRUE(is_there(running, id));
+    // After its owner, on another thread.
+    std::optional<Session> left = running.client.open_session(settings(), {.ephemeral = false});
+    const std::string id_of_left = left->id();
+    const std::function<void()> end_left = left->ending();
+    left->leave();
+    left.reset();
+    ASSERT_TRUE(is_there(running, id_of_left));
+    std::thread(end_left).join();
+    EXPECT_FALSE(is_there(running, id_of_left));
 }
 
 TEST(OwnedSession, StaysWhenItIsLeft) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,8 @@
 
 namespace meniscus::client {
 
-/// A connection to one server. Thread-safe.
+/// A connection to one server. Thread-safe. A call that is answered once ends with ServerError (canceled) when its stop
+/// is requested.
 class Client {
 public:
     /// address: "HOST:PORT", "HOST" for port 50051, or "unix:PATH"; IPv6 stands in brackets. Throws ServerError if the
@@ -34,17 +36,18 @@ public:
     Client& operator=(Client&&) noexcept;
     ~Client();
 
-    ServerInfo server_info();
+    ServerInfo server_info(const std::stop_token& stop = {});
     /// Whether the server takes calls: false once it shuts down.
-    bool serving();
+    bool serving(const std::stop_token& stop = {});
     /// Opens a session that ends with the object returned, unless it was there before: create_session() and, in time,
     /// delete_session().
     Session open_session(const Settings& settings, const OpenOptions& options = {});
     /// Creates the session (true), or joins it if it exists with equal settings (false); it then keeps its own options.
-    bool create_session(const std::string& id, const Settings& settings, const SessionOptions& options = {});
-    SessionInfo session(const std::string& id);
-    std::vector<SessionInfo> sessions();
-    void delete_session(const std::string& id);
+    bool create_session(const std::string& id, const Settings& settings, const SessionOptions& options = {},
+                        const std::stop_token& stop = {});
+    SessionInfo session(const std::string& id, const std::stop_token& stop = {});
+    std::vector<SessionInfo> sessions(const std::stop_token& stop = {});
+    void delete_session(const std::string& id, const std::stop_token& stop = {});
 
     /// The session must exist.
     Stream stream(const std::string& session_id, const StreamOptions& options = {});
@@ -57,11 +60,11 @@ public:
                                     std::chrono::milliseconds reconnect = {});
 
     /// What the server has recorded, the newest first. Throws ServerError (UNIMPLEMENTED) if it records nothing.
-    std::vector<RecordingInfo> recordings();
+    std::vector<RecordingInfo> recordings(const std::stop_token& stop = {});
     RecordingReader read_recording(const std::string& session_id, std::uint32_t number,
                                    const ReadOptions& options = {});
     /// Deletes the recording's file. Throws ServerError (FAILED_PRECONDITION) while it is being written or read.
-    void delete_recording(const std::string& session_id, std::uint32_t number);
+    void delete_recording(const std::string& session_id, std::uint32_t number, const std::stop_token& stop = {});
 
 private:
     class Impl;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <stop_token>
 #include <string>
 
 namespace meniscus::client {
@@ -19,6 +20,7 @@ struct ConnectionOptions {
     std::chrono::milliseconds timeout = std::chrono::seconds(10);
     /// For how long a refused connection is tried again, since the server may still be starting.
     std::chrono::milliseconds wait = std::chrono::milliseconds(0);
+    std::stop_token stop{};  ///< when a stop is requested, the attempt to connect ends: ServerError (canceled)
 };
 
 }  // namespace meniscus::client

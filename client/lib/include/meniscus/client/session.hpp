@@ -1,7 +1,9 @@
 // A session that its owner holds, and that ends with it.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include "meniscus/client/particle_watcher.hpp"
@@ -18,6 +20,7 @@ struct OpenOptions {
     /// As in SessionOptions: the server ends the session soon after its stream, so that a process that is killed leaves
     /// nothing behind. False: a session that rests, or is watched between two streams, stays until the Session goes.
     bool ephemeral = true;
+    std::stop_token stop{};  ///< when a stop is requested while the session is opened: ServerError (canceled)
 };
 
 /// A session on the server, from Client::open_session(). When it goes, it ends the session if it has created it, itself
@@ -34,8 +37,8 @@ public:
     /// Whether this session ends with this object: it was created by it, and neither left nor ended.
     bool is_owned() const noexcept;
 
-    /// Throws ServerError, here and below; of a session that has ended: not_found.
-    SessionInfo info();
+    /// Throws ServerError, here and below; of a session that has ended: not_found. stop: as in the calls of Client.
+    SessionInfo info(const std::stop_token& stop = {});
     /// As Client::stream(). An owned ephemeral session that has ended meanwhile, since no stream was open, is created
     /// again.
     Stream stream(const StreamOptions& options = {});
@@ -45,7 +48,10 @@ public:
 
     /// Ends the session now, its streams and watchers with it, if it is owned. Says what went wrong, which the
     /// destructor cannot; a session that is not there any more is no error.
-    void end();
+    void end(const std::stop_token& stop = {});
+    /// What ends the session as end() does, from any thread, also while this object goes and after it: for a process
+    /// that is told to end. Does nothing for a session that is not owned now.
+    std::function<void()> ending() const;
     /// The session stays when this goes; an ephemeral one still ends soon after its stream.
     void leave() noexcept;
 

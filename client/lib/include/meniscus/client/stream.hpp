@@ -65,7 +65,9 @@ struct StreamOptions {
     /// Told of each attempt to go on after the connection broke, in a thread of the stream's own, which waits for it.
     /// So does the stream's destructor: it is not called once the stream has gone.
     ReconnectHandler on_reconnect{};
-    std::stop_token stop{};  ///< when a stop is requested: as cancel()
+    /// When a stop is requested: as cancel(); while the stream is opened: ServerError (canceled), or a stream that has
+    /// been canceled.
+    std::stop_token stop{};
 };
 
 /// Uploads frames and receives their meshes, in order. Reads on a thread of its own, so that a caller that only pushes

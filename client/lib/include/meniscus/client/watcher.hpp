@@ -49,6 +49,7 @@ struct SnapshotOptions {
     std::optional<int> position_bits{};
     int max_level = 3;
     std::vector<AttributeWish> attributes{};
+    std::stop_token stop{};  ///< when a stop is requested: ServerError (canceled)
 };
 
 /// Receives a session's meshes, always the newest; frames that came while the caller was busy are skipped by the
