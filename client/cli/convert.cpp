@@ -3,17 +3,20 @@
 #include <iostream>
 #include <memory>
 #include <set>
+#include <system_error>
 
 #include "cli/commands.hpp"
 #include "cli/convert_files.hpp"
 #include "cli/distinct_files.hpp"
 #include "cli/examples.hpp"
+#include "cli/file_pattern.hpp"
 #include "cli/mesh_output.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/read_limits_option.hpp"
 #include "cli/options/verbosity.hpp"
 #include "cli/recording_files.hpp"
 #include "formats/atomic_file.hpp"
+#include "formats/extension.hpp"
 #include "formats/particle_writer.hpp"
 #include "formats/standard_streams.hpp"
 #include "meniscus/error.hpp"
@@ -99,8 +102,20 @@ struct ConvertFlags {
     bool mesh = false;
 };
 
+/// A recording is many frames: OUT is a folder, unless it was written as if it were a file, or a sequence of files.
+void require_folder(const std::string& recording, const std::string& out) {
+    std::error_code error;
+    const std::string extension = formats::lower_extension(out);
+    const std::string format = extension.empty() ? extension : extension.substr(1);
+    const bool sequence = FilePattern(out).has_number();
+    if (!sequence && (!find_by_name<MeshFormat>(format) || std::filesystem::is_directory(out, error))) return;
+    throw InvalidInput(recording + " is a recording: OUT is a folder, in which each frame gets its file, not '" + out +
+                       "'; say -o FOLDER" + (find_by_name<MeshFormat>(format) ? " --format " + format : ""));
+}
+
 /// A recording has both. Without a flag, vtk are its particles.
 ConvertOptions recording_options(const ConvertFlags& flags) {
+    require_folder(flags.files.in, flags.files.out);
     if (flags.files.selection.is_given() || flags.files.input_format)
         throw InvalidInput(flags.files.in +
                            " is a recording: its frames are chosen by --from and --to, and it has one format");

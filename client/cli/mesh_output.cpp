@@ -9,14 +9,12 @@
 #include "editing/quads.hpp"
 #include "formats/brick_file.hpp"
 #include "formats/extension.hpp"
-#include "formats/mesh_file.hpp"
 #include "formats/standard_streams.hpp"
-#include "formats/usda_writer.hpp"
-#include "meniscus/canonical_order.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
 
 namespace meniscus::cli {
+
 void check_folder(const std::filesystem::path& path) {
     const std::filesystem::path folder = path.parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder))
@@ -49,37 +47,25 @@ void check_spray(const Settings& settings) {
                            "', and must be '" + std::string(name_of(Spray::points)) + "'");
 }
 
-MeshOutput::MeshOutput(const Surface& surface, MeshFormat format, const MeshEdits& edits, bool check)
-    : format_(format) {
+MeshOutput::MeshOutput(const Surface& surface, MeshFormat format, const MeshEdits& edits, bool check) {
     if (format == MeshFormat::bricks) bricks_ = surface.encoded();
     if (format == MeshFormat::bricks && !check) return;
-    ordered_ = in_canonical_order(surface.mesh());
-    const bool from_mesh = format == MeshFormat::ply || format == MeshFormat::obj || format == MeshFormat::bricks;
-    if (from_mesh && !check && !edits.any()) return;
-    triangles_ = formats::to_triangles(ordered_);
-    if (edits.origin) editing::move_from(*triangles_, *edits.origin);
-    if (edits.box) editing::keep_touching(*triangles_, *edits.box);
-    if (check) defects_ = defects_of(*triangles_);
-    if (edits.quads) editing::merge_to_quads(*triangles_);
-    if (from_mesh && !edits.any()) triangles_.reset();
+    content_.emplace(surface.mesh(), format);
+    if (!check && !edits.any()) return;
+    formats::TriangleMesh& triangles = content_->triangles();
+    if (edits.origin) editing::move_from(triangles, *edits.origin);
+    if (edits.box) editing::keep_touching(triangles, *edits.box);
+    if (check) defects_ = defects_of(triangles);
+    if (edits.quads) editing::merge_to_quads(triangles);
 }
 
 void MeshOutput::write(const std::filesystem::path& path, std::optional<double> time) const {
-    if (triangles_ && format_ == MeshFormat::usda) return formats::write_usda(path, *triangles_, time);
     if (bricks_) return formats::write_bricks(path, *bricks_);
-    if (triangles_) return formats::write_mesh(path, *triangles_, format_);
-    if (format_ == MeshFormat::obj) return formats::write_obj(path, ordered_);
-    formats::write_ply(path, ordered_);
+    content_->write(path, time);
 }
 
 formats::TriangleMesh MeshOutput::form() const {
-    formats::TriangleMesh form;
-    if (!triangles_) return form;
-    form.wide = triangles_->wide;
-    if (!triangles_->normals.empty()) form.normals.emplace_back();
-    for (const formats::NamedValues& values : triangles_->attributes)
-        form.attributes.push_back({values.name, values.type, values.components, {}});
-    return form;
+    return content_ ? content_->form() : formats::TriangleMesh{};
 }
 
 void write_surface(const std::filesystem::path& path, const Surface& surface, MeshFormat format) {

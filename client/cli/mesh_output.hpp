@@ -10,6 +10,7 @@
 #include "cli/mesh_edits.hpp"
 #include "cli/surfaces.hpp"
 #include "compare/closedness.hpp"
+#include "formats/mesh_content.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/mesh_format.hpp"
 
@@ -43,10 +44,8 @@ public:
     const std::optional<compare::Defects>& defects() const { return defects_; }
 
 private:
-    MeshFormat format_;
-    Mesh ordered_;                                    ///< for the formats that are written from it
-    std::optional<formats::TriangleMesh> triangles_;  ///< in place of it
-    std::optional<client::ReceivedFrame> bricks_;     ///< for a file of bricks
+    std::optional<formats::MeshContent> content_;
+    std::optional<client::ReceivedFrame> bricks_;  ///< for a file of bricks
     std::optional<compare::Defects> defects_;
 };
 

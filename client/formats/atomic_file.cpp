@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <stdexcept>
 #include <system_error>
@@ -34,6 +35,12 @@ std::filesystem::path behind_links(const std::filesystem::path& path) {
     return error ? path : place;
 }
 
+/// Of all files that are being written at once, in this process and in others.
+std::string unique_suffix() {
+    static std::atomic<unsigned> files = 0;
+    return ".partial-" + std::to_string(::getpid()) + "-" + std::to_string(files++);
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
@@ -44,7 +51,7 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
             throw InvalidInput(path_.string() + ": cannot be written: it is a directory");
         if (!stays(path_)) {
             place_ = behind_links(path_);
-            (temporary_ = place_) += ".partial-" + std::to_string(::getpid());
+            (temporary_ = place_) += unique_suffix();
         }
         descriptor_ = ::open(temporary_.empty() ? path_.c_str() : temporary_.c_str(),
                              O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

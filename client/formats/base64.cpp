@@ -24,12 +24,30 @@ std::string Base64Reader::take(std::size_t size, const ByteCursor& at, std::stri
     std::string out;
     out.reserve(std::min(size, most()));
     while (out.size() < size) {
+        if (ready_.empty()) take_plain_groups(out, size);
+        if (out.size() == size) break;
         if (ready_.empty()) decode(at, what);
         const std::size_t taken = std::min(size - out.size(), ready_.size());
         out.append(ready_, 0, taken);
         ready_.erase(0, taken);
     }
     return out;
+}
+
+void Base64Reader::take_plain_groups(std::string& out, std::size_t size) {
+    while (size - out.size() >= 3 && text_.size() >= 4) {
+        std::uint32_t bits = 0, all = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const std::uint32_t digit = digits[static_cast<unsigned char>(text_[i])];
+            bits = bits << 6U | digit;
+            all |= digit;
+        }
+        if (all >= no_digit) return;
+        const std::array bytes{static_cast<char>(bits >> 16U), static_cast<char>(bits >> 8U & 0xFFU),
+                               static_cast<char>(bits & 0xFFU)};
+        out.append(bytes.data(), bytes.size());
+        text_.remove_prefix(4);
+    }
 }
 
 void Base64Reader::decode(const ByteCursor& at, std::string_view what) {

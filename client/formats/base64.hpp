@@ -22,6 +22,8 @@ public:
     std::size_t most() const { return ready_.size() + text_.size() / 4 * 3 + 3; }
 
 private:
+    /// Appends groups of four digits without anything between them, which most are, while 3 bytes of `size` lack.
+    void take_plain_groups(std::string& out, std::size_t size);
     /// Decodes the next four characters to ready_.
     void decode(const ByteCursor& at, std::string_view what);
 

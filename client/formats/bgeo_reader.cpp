@@ -27,7 +27,8 @@ constexpr std::size_t number_bytes = 4;
 /// The file from its beginning on, decompressed as far as it has been read.
 class Bytes {
 public:
-    Bytes(const ByteCursor& at, std::string_view file) : at_(at), whole_(file) {
+    /// budget: what is decompressed is taken from it.
+    Bytes(const ByteCursor& at, std::string_view file, ReadBudget& budget) : at_(at), budget_(budget), whole_(file) {
         if (!file.starts_with(gzip_magic)) return;
         inflater_.emplace(at, file, Deflate::gzip, "the gzipped file");
         whole_ = {};
@@ -37,6 +38,7 @@ public:
     /// Throws unless so many bytes follow. The view holds until the next call.
     std::string_view take(std::uint64_t size, std::string_view what) {
         if (inflater_ && inflated_.size() < position_ + size) {
+            budget_.take(position_ + size - inflated_.size(), at_, what);
             inflater_->extend(inflated_, position_ + size);
             whole_ = inflated_;
         }
@@ -61,6 +63,7 @@ public:
 
 private:
     const ByteCursor& at_;
+    ReadBudget& budget_;
     std::string_view whole_;
     std::string inflated_;
     std::optional<Inflater> inflater_;
@@ -136,11 +139,11 @@ Header read_header(Bytes& in, const ByteCursor& at) {
 Particles read_bgeo(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
     const ByteCursor at(name, bytes);
     ReadBudget budget(limits, bytes.size(), at);
-    Bytes in(at, bytes);
+    Bytes in(at, bytes, budget);
     const Header header = read_header(in, at);
     const std::uint64_t row_bytes = number_bytes * header.row_numbers;
-    // The rows, and what is kept of them.
-    budget.take(2 * row_bytes * header.points, at, "what the points announce");
+    // What is kept of the rows.
+    budget.take(row_bytes * header.points, at, "what the points announce");
     const std::string_view rows = in.take(row_bytes * header.points, "the points");
 
     Particles particles;

@@ -131,8 +131,7 @@ private:
             const double value = load_scalar(type->type, in_.take(type->bytes()).data(), order_);
             if (name == "CaseNfixed" || name == "CaseNmoving" || name == "CaseNfloat") first_fluid_id_ += value;
             if (name == "Npiece" && value > 1)
-                in_.fail("is one of " + std::to_string(static_cast<std::uint64_t>(value)) +
-                         " pieces of a step; steps in one piece are read");
+                in_.fail("is one of several pieces of a step; steps in one piece are read");
         }
     }
 

@@ -22,11 +22,13 @@ using files::GlbVertices;
 std::vector<GlbVertices> all_vertices(const TriangleMesh& mesh, const std::vector<std::array<float, 3>>& positions) {
     std::vector<GlbVertices> all;
     all.push_back(files::glb_positions(positions));
-    if (mesh.normals.size() == positions.size()) all.push_back(files::glb_normals(mesh.normals));
+    // The positions of a mesh are finite; what else a file of strangers has need not be.
+    const auto add = [&](GlbVertices vertices) {
+        if (files::is_finite(vertices)) all.push_back(std::move(vertices));
+    };
+    if (mesh.normals.size() == positions.size()) add(files::glb_normals(mesh.normals));
     for (const NamedValues& values : mesh.attributes)
-        if (GlbVertices vertices = files::glb_attribute(values.name, values.type, values.components, values.data);
-            files::is_finite(vertices))
-            all.push_back(std::move(vertices));
+        add(files::glb_attribute(values.name, values.type, values.components, values.data));
     return all;
 }
 

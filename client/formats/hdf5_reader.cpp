@@ -74,7 +74,7 @@ std::vector<std::string> names_in(hid_t group) {
         static_cast<std::vector<std::string>*>(into)->emplace_back(name);
         return 0;
     };
-    H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add, &names);
+    H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names);
     return names;
 }
 

@@ -66,7 +66,7 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh);
 void write_obj(const std::filesystem::path& path, const TriangleMesh& mesh);
 /// Legacy VTK, binary POLYDATA: normals and attributes as point data, `level` as cell data.
 void write_mesh_vtk(const std::filesystem::path& path, const TriangleMesh& mesh);
-/// VTK's XML: the same, appended raw. compression: zlib's, which halves the file and takes longer.
+/// VTK's XML: the same, as base64. compression: zlib's, which halves the file and takes longer.
 void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh,
                     VtpCompression compression = VtpCompression::none);
 /// Arrays positions (N, 3), triangles (M, 3), normals, levels, and the attributes by their names.

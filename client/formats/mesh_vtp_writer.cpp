@@ -48,7 +48,7 @@ void add_polygons(VtpWriter& out, const TriangleMesh& mesh) {
 }  // namespace
 
 void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh, VtpCompression compression) {
-    VtpWriter out(compression);
+    VtpWriter out(path, mesh.positions.size(), {.polys = mesh.triangles.size() + mesh.quads.size()}, compression);
     out.begin("PointData", mesh.normals.empty() ? "" : " Normals=\"Normals\"");
     if (!mesh.normals.empty()) out.add("Normals", "Float32", 3, bytes_of(mesh.normals.data(), mesh.normals.size()));
     for (const NamedValues& attribute : mesh.attributes) out.add(attribute.view());
@@ -63,7 +63,7 @@ void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh,
     out.begin("Polys");
     add_polygons(out, mesh);
     out.end("Polys");
-    out.write(path, mesh.positions.size(), 0, mesh.triangles.size() + mesh.quads.size());
+    out.commit();
 }
 
 }  // namespace meniscus::formats

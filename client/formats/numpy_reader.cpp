@@ -39,10 +39,16 @@ void fill_levels(Particles& particles, const NpyArray& array, const ByteCursor& 
     for (std::size_t i = 0; i < particles.count(); ++i) particles.levels.push_back(to_level(array.at(i, 0), i, at));
 }
 
+/// PySPH keeps rows of several numbers as one list.
+void divide_into_rows(NpyArray& array, std::size_t count) {
+    if (array.shape.size() == 1 && count != 0 && array.shape[0] % count == 0)
+        array.shape = {count, array.shape[0] / count};
+}
+
 /// The arrays of PySPH's particles, which are pickled together.
 void read_pysph(NpzReader& file, Particles& particles) {
     file.with("particles", [&](const NpyArray& pickled, const ByteCursor& place) {
-        const std::vector<NamedNpyArray> arrays = pysph_arrays(place, pickled.data);
+        std::vector<NamedNpyArray> arrays = pysph_arrays(place, pickled.data);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::string_view name = std::string_view("xyz").substr(axis, 1);
             const auto found =
@@ -54,9 +60,11 @@ void read_pysph(NpzReader& file, Particles& particles) {
             fill_axis(particles, axis, found->array, place);
         }
         ArrayCollector collector;
-        for (const auto& [name, array] : arrays)
-            if (name != "x" && name != "y" && name != "z")
-                collect_rows(collector, name, array, particles.count(), file.budget(), place);
+        for (auto& [name, array] : arrays) {
+            if (name == "x" || name == "y" || name == "z") continue;
+            divide_into_rows(array, particles.count());
+            collect_rows(collector, name, array, particles.count(), file.budget(), place);
+        }
         collector.finish(particles.arrays, particles.left_out);
     });
 }

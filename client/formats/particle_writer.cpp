@@ -56,7 +56,7 @@ void write_particle_ply(const std::filesystem::path& path, const ParticleFrame& 
 
 void write_particle_vtp(const std::filesystem::path& path, const ParticleFrame& frame) {
     const std::size_t count = frame.count();
-    VtpWriter out(VtpCompression::none);
+    VtpWriter out(path, count, {.verts = count}, VtpCompression::none);
     out.begin("PointData");
     for (const ParticleArray& array : with_levels(frame, "level")) out.add(array);
     out.end("PointData");
@@ -70,7 +70,7 @@ void write_particle_vtp(const std::filesystem::path& path, const ParticleFrame& 
     std::iota(numbers.begin(), numbers.end(), 1);
     out.add("offsets", "Int64", 1, bytes_of(numbers.data(), count));
     out.end("Verts");
-    out.write(path, count, count, 0);
+    out.commit();
 }
 
 void write_particle_npz(const std::filesystem::path& path, const ParticleFrame& frame) {

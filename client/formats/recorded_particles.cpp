@@ -60,12 +60,11 @@ private:
             particles.positions.resize(3 * count);
         }
         if (layout.has_levels && layout.levels_after != layout.position_bytes)
-            fail("array \"level\" does not follow \"position\"");
+            fail("array 'level' does not follow 'position'");
         if (layout.has_levels) particles.levels.resize(count);
         for (const conversion::FurtherArray& array : layout.further) {
             if (!array.can_be_attribute())
-                fail("array \"" + array.name + "\" is " + conversion::form_of(array) +
-                     ", of which no attribute is made");
+                fail("array '" + array.name + "' is " + conversion::form_of(array) + ", of which no attribute is made");
             particles.arrays.push_back({.name = array.name,
                                         .type = *array.type,
                                         .components = array.components,

@@ -50,6 +50,19 @@ std::string type_of(const NamedValues& values) {
     return {};
 }
 
+/// Renderers blur by this one.
+bool is_velocity(const NamedValues& values) {
+    return values.name == "velocity" && values.type == ElementType::float32 && values.components == 3;
+}
+
+/// USD's names begin with no digit: such a name gets a _ before it. So does one that begins with _ and a digit, so that
+/// no two become one.
+std::string primvar(const std::string& name) {
+    const std::size_t first = name.find_first_not_of('_');
+    const bool digit = first != std::string::npos && name[first] >= '0' && name[first] <= '9';
+    return "primvars:" + (digit ? "_" + name : name);
+}
+
 class MeshWriter {
 public:
     MeshWriter(AtomicFile& file, std::optional<double> time) : file_(file), time_(time) {}
@@ -131,10 +144,8 @@ private:
                 append_tuple(out_, numbers.data(), values.components);
             };
         };
-        // Renderers blur by this one.
-        const bool velocity =
-            values.name == "velocity" && values.type == ElementType::float32 && values.components == 3;
-        const std::string name = velocity ? "velocities" : "primvars:" + values.name;
+        const bool velocity = is_velocity(values);
+        const std::string name = velocity ? "velocities" : primvar(values.name);
         const std::string interpolation = velocity ? "" : "vertex";
         switch (values.type) {
             case ElementType::float32:
@@ -214,9 +225,8 @@ void write_usda_clips(const std::filesystem::path& path, std::span<const UsdaCli
     const std::string by_vertex = " (\n        interpolation = \"vertex\"\n    )\n";
     if (!like.normals.empty()) out += "    normal3f[] normals" + by_vertex;
     for (const NamedValues& values : like.attributes)
-        out += values.name == "velocity" && values.type == ElementType::float32 && values.components == 3
-                   ? std::string("    vector3f[] velocities\n")
-                   : "    " + type_of(values) + " primvars:" + values.name + by_vertex;
+        out += is_velocity(values) ? std::string("    vector3f[] velocities\n")
+                                   : "    " + type_of(values) + ' ' + primvar(values.name) + by_vertex;
     write_file(path, out + "}\n");
 }
 

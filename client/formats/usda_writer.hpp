@@ -9,8 +9,9 @@
 
 namespace meniscus::formats {
 
-/// Writes a prim "/surface": positions, triangles, normals and attributes, which are `primvars:NAME`, but `velocity`,
-/// which is `velocities`, by which renderers blur. time: the time code of the values; without it they hold always.
+/// Writes a prim "/surface": positions, triangles, normals and attributes, which are `primvars:NAME` (`primvars:_2nd`
+/// for `2nd`, since no name of USD begins with a digit), but `velocity`, which is `velocities`, by which renderers
+/// blur. time: the time code of the values; without it they hold always.
 /// Atomic. Throws InvalidInput if the path cannot be written.
 void write_usda(const std::filesystem::path& path, const TriangleMesh& mesh, std::optional<double> time = std::nullopt);
 

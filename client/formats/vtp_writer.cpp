@@ -2,12 +2,12 @@
 
 #include <zlib.h>
 
-#include <algorithm>
 #include <bit>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
-#include "formats/atomic_file.hpp"
+#include "formats/base64_writer.hpp"
 #include "formats/scalar.hpp"
 
 namespace meniscus::formats {
@@ -42,57 +42,69 @@ std::string compressed(std::string_view bytes) {
     return out;
 }
 
-/// The number of blocks, their size, that of the last one if it is smaller, their compressed sizes; the blocks.
-void append_blocks(std::string& out, std::string_view bytes) {
+/// A header of the number of blocks, their size, that of the last one if it is smaller and their compressed sizes; then
+/// the blocks, as a stream of their own.
+void write_blocks(AtomicFile& file, std::string_view bytes) {
     std::vector<std::string> blocks;
     for (std::size_t at = 0; at < bytes.size(); at += block_bytes)
         blocks.push_back(compressed(bytes.substr(at, block_bytes)));
-    store(out, std::uint64_t{blocks.size()});
-    store(out, std::uint64_t{block_bytes});
-    store(out, std::uint64_t{bytes.size() % block_bytes});
-    for (const std::string& block : blocks) store(out, std::uint64_t{block.size()});
-    for (const std::string& block : blocks) out += block;
+    std::string header;
+    store(header, std::uint64_t{blocks.size()});
+    store(header, std::uint64_t{block_bytes});
+    store(header, std::uint64_t{bytes.size() % block_bytes});
+    for (const std::string& block : blocks) store(header, std::uint64_t{block.size()});
+    Base64Writer out(file);
+    out.write(header);
+    out.finish();
+    for (const std::string& block : blocks) out.write(block);
+    out.finish();
+}
+
+/// A header of the number of bytes, and they.
+void write_plain(AtomicFile& file, std::string_view bytes) {
+    std::string header;
+    store(header, std::uint64_t{bytes.size()});
+    Base64Writer out(file);
+    out.write(header);
+    out.write(bytes);
+    out.finish();
 }
 
 }  // namespace
 
+VtpWriter::VtpWriter(const std::filesystem::path& path, std::size_t points, VtpCells cells, VtpCompression compression)
+    : file_(path), compression_(compression) {
+    file_.write(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+        "header_type=\"UInt64\"");
+    if (compression_ == VtpCompression::zlib) file_.write(" compressor=\"vtkZLibDataCompressor\"");
+    file_.write(">\n  <PolyData>\n    <Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfVerts=\"" +
+                std::to_string(cells.verts) + "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+                std::to_string(cells.polys) + "\">\n");
+}
+
 void VtpWriter::begin(std::string_view element, std::string_view attributes) {
-    elements_.append("      <").append(element).append(attributes).append(">\n");
+    file_.write(std::string("      <").append(element).append(attributes).append(">\n"));
 }
 
 void VtpWriter::end(std::string_view element) {
-    elements_.append("      </").append(element).append(">\n");
+    file_.write(std::string("      </").append(element).append(">\n"));
 }
 
 void VtpWriter::add(std::string_view name, std::string_view type, std::size_t components, std::string_view bytes) {
-    elements_.append("        <DataArray type=\"").append(type).append("\" Name=\"").append(name);
-    elements_ += "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"appended\" offset=\"" +
-                 std::to_string(appended_.size()) + "\"/>\n";
-    if (compression_ == VtpCompression::zlib) return append_blocks(appended_, bytes);
-    store(appended_, std::uint64_t{bytes.size()});
-    appended_ += bytes;
+    file_.write(std::string("        <DataArray type=\"").append(type).append("\" Name=\"").append(name) +
+                "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"binary\">\n");
+    compression_ == VtpCompression::zlib ? write_blocks(file_, bytes) : write_plain(file_, bytes);
+    file_.write("\n        </DataArray>\n");
 }
 
 void VtpWriter::add(const ParticleArray& array) {
     add(array.name, vtk_type_of(array.type), array.components, bytes_of(array.data.data(), array.data.size()));
 }
 
-void VtpWriter::write(const std::filesystem::path& path, std::size_t points, std::size_t verts,
-                      std::size_t polys) const {
-    std::string head =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-        "header_type=\"UInt64\"";
-    if (compression_ == VtpCompression::zlib) head += " compressor=\"vtkZLibDataCompressor\"";
-    head += ">\n  <PolyData>\n    <Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfVerts=\"" +
-            std::to_string(verts) + "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-            std::to_string(polys) + "\">\n";
-    AtomicFile file(path);
-    file.write(head);
-    file.write(elements_);
-    file.write("    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_");
-    file.write(appended_);
-    file.write("\n  </AppendedData>\n</VTKFile>\n");
-    file.commit();
+void VtpWriter::commit() {
+    file_.write("    </Piece>\n  </PolyData>\n</VTKFile>\n");
+    file_.commit();
 }
 
 }  // namespace meniscus::formats

@@ -122,5 +122,16 @@ TEST_F(Convert, RefusesWhatItCannotMakeBeforeItWritesAnything) {
                    {"x.ply is a recording", "--from"});
 }
 
+TEST_F(Convert, OfARecordingGoesToAFolderAndSaysSoWhereItIsGivenAFile) {
+    const std::string recording = write("x.recording", "Meniscus recording\n");
+    expect_refused({"convert", recording, "-o", path("y_{}.vtp")}, {"x.recording is a recording", "--format vtp"});
+    expect_refused({"convert", recording, "-o", path("y_{}")}, {"is a folder", "-o FOLDER"});
+    expect_refused({"convert", recording, "-o", path("y.PLY")}, {"is a folder", "y.PLY", "--format ply"});
+    EXPECT_FALSE(std::filesystem::exists(path("y.PLY")));
+    // One that is there has any name. The recording has no more than its first line.
+    std::filesystem::create_directory(path("z.ply"));
+    expect_refused({"convert", recording, "-o", path("z.ply")}, {"x.recording:"});
+}
+
 }  // namespace
 }  // namespace meniscus::test

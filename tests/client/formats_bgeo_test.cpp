@@ -65,6 +65,17 @@ TEST(BgeoReader, TakesNoMemoryForPointsThatAreNotThere) {
     }
 }
 
+TEST(BgeoReader, TakesNoMoreMemoryForNamesThanAFileMayTake) {
+    // Strings of a hundred bytes that compress to nothing, more of them than fit.
+    constexpr std::int32_t strings = 20'000;
+    std::string names = counted("material") + std::string{0, 1} + big(std::int32_t{4}) + big(strings);
+    for (std::int32_t i = 0; i < strings; ++i) names += counted(std::string(100, 'a'));
+    const std::string bytes = gzipped(bgeo_header(1, 1) + names + std::string(20, '\0'));
+    ASSERT_LT(bytes.size(), 100'000U);
+    EXPECT_EQ(read_sample(bytes).count(), 1U);
+    EXPECT_NE(refusal([&] { read_sample(bytes, 200'000); }).find("a string takes"), std::string::npos);
+}
+
 TEST(BgeoReader, StopsDecompressingBehindThePoints) {
     // Ten MB of zeros behind one point: never unpacked.
     const std::string one = bgeo_header(1, 0) + big(1.0F) + big(2.0F) + big(3.0F) + big(1.0F);

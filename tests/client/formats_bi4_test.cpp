@@ -74,8 +74,10 @@ TEST(Bi4, WrongFilesAreRefusedWithTheReason) {
     std::string order = form.sample();
     order[60] = 7;
     EXPECT_EQ(said_of_bi4(order), "f: byte 60, the byte order, is 7, none of 0, 1, 10 and 11");
-    EXPECT_EQ(said_of_bi4(form.header() + form.item("a", {form.value("Npiece", 8, form.number(2))}, {}, {})),
-              "f: is one of 2 pieces of a step; steps in one piece are read");
+    for (const std::string& pieces :
+         {form.value("Npiece", 8, form.number(2)), form.value("Npiece", 12, form.numbers<double>({1e300}))})
+        EXPECT_EQ(said_of_bi4(form.header() + form.item("a", {pieces}, {}, {})),
+                  "f: is one of several pieces of a step; steps in one piece are read");
     const std::string step = form.item("p", {}, {form.array("Pos", 22, 1, form.numbers<float>({1, 2, 3}))}, {});
     EXPECT_EQ(said_of_bi4(form.header() + form.item("a", {}, {}, {step, step})),
               "f: has several steps; one is read: give it a file of its own");

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "formats/glb_writer.hpp"
@@ -95,6 +96,20 @@ TEST(GlbWriter, EveryAttributeIsWhereItsAccessorSays) {
               (std::vector<std::uint16_t>{4'000'000'001U & 0xFFFF, 4'000'000'001U >> 16}));
 }
 
+TEST(GlbWriter, WhatIsNotFiniteIsLeftOutSinceTheFormatKnowsNone) {
+    TriangleMesh mesh = attributed_tetrahedron();
+    mesh.normals[1][0] = std::numeric_limits<float>::quiet_NaN();
+    const float infinity = std::numeric_limits<float>::infinity();
+    std::memcpy(mesh.attributes[0].data.data(), &infinity, sizeof infinity);
+    for (const auto coding : {formats::GlbCoding::plain, formats::GlbCoding::draco}) {
+        const Glb glb(formats::to_glb(mesh, coding));
+        const json& attributes = glb.document["meshes"][0]["primitives"][0]["attributes"];
+        EXPECT_FALSE(attributes.contains("NORMAL"));
+        EXPECT_FALSE(attributes.contains("_VELOCITY"));
+        EXPECT_TRUE(attributes.contains("_AGE"));
+    }
+}
+
 TEST(GlbWriter, WithoutASurfaceThereIsNoEmptyList) {
     for (const auto coding : {formats::GlbCoding::plain, formats::GlbCoding::draco}) {
         const Glb glb(formats::to_glb(TriangleMesh{}, coding));
@@ -168,6 +183,21 @@ TEST(UsdaWriter, AStageOfClipsNamesEveryFrameWithItsTime) {
              "    float[] primvars:age (\n",
          })
         EXPECT_NE(stage.find(line), std::string::npos) << line << stage;
+}
+
+TEST(UsdaWriter, NamesBeginWithNoDigitAndStayDistinct) {
+    const TemporaryDirectory directory;
+    TriangleMesh mesh = attributed_tetrahedron();
+    mesh.attributes.clear();
+    for (const char* name : {"2nd", "_2nd", "__2nd", "_second", "second_2"})
+        mesh.attributes.push_back(values<float>(name, ElementType::float32, 1, {1, 2, 3, 4}));
+    formats::write_usda(directory / "a.usda", mesh);
+    formats::write_usda_clips(directory / "all.usda", {}, mesh);
+    for (const std::string& text : {text_of(directory / "a.usda"), text_of(directory / "all.usda")}) {
+        for (const char* name : {"_2nd", "__2nd", "___2nd", "_second", "second_2"})
+            EXPECT_NE(text.find("    float[] primvars:" + std::string(name) + ' '), std::string::npos) << name << text;
+        EXPECT_EQ(text.find("primvars:2nd"), std::string::npos) << text;
+    }
 }
 
 TEST(UsdaWriter, AStageMayLieInTheCurrentFolder) {

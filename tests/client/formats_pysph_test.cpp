@@ -21,7 +21,7 @@ TEST(PySph, ArraysAreThoseOfTheFluidOrOfTheOnlyKind) {
     for (const char* kind : {"fluid", "solid"}) {
         const std::string pickled = sample_pickle(kind);
         const auto arrays = arrays_of(pickled);
-        ASSERT_EQ(arrays.size(), 4U) << kind;
+        ASSERT_EQ(arrays.size(), 5U) << kind;
         EXPECT_EQ(arrays[0].name, "x");
         EXPECT_EQ(arrays[0].array.type, formats::ScalarType::float64);
         EXPECT_EQ(arrays[0].array.shape, std::vector<std::size_t>{2});
@@ -45,9 +45,13 @@ TEST(PySph, OtherPicklesAreRefusedWithWhatToDo) {
 TEST(PySph, PositionsAndArraysComeOutOfTheZippedPickle) {
     const formats::Particles particles = formats::read_npz("f", sample_pysph_npz(), {});
     EXPECT_EQ(particles.positions, (std::vector<float>{1, 3, 5, 2, 4, 6}));
-    ASSERT_EQ(particles.arrays.size(), 1U);
+    ASSERT_EQ(particles.arrays.size(), 2U);
     EXPECT_EQ(particles.arrays[0].name, "gid");
     EXPECT_EQ(particles.arrays[0].type, ElementType::uint32);
+    // Six numbers of two particles, one after the other.
+    EXPECT_EQ(particles.arrays[1].name, "dw");
+    EXPECT_EQ(particles.arrays[1].components, 3U);
+    EXPECT_EQ(particles.arrays[1].count(), 2U);
 }
 
 TEST(Pickle, TakesNoMoreThanAMillionValues) {

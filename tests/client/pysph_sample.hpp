@@ -42,7 +42,8 @@ inline std::string sample_pickle(const std::string& kind = "fluid") {
                                numpy_array("f8", 2, pickled_bytes<double>({1.0, 2.0})) + short_text("y") +
                                numpy_array("f8", 2, pickled_bytes<double>({3.0, 4.0})) + short_text("z") +
                                numpy_array("f8", 2, pickled_bytes<double>({5.0, 6.0})) + short_text("gid") +
-                               numpy_array("u4", 2, pickled_bytes<std::uint32_t>({7, 9})) + "u";
+                               numpy_array("u4", 2, pickled_bytes<std::uint32_t>({7, 9})) + short_text("dw") +
+                               numpy_array("f4", 6, pickled_bytes<float>({1, 2, 3, 4, 5, 6})) + "u";
     const std::string kinds = "}" + short_text(kind) + "}" + short_text("arrays") + arrays + "ss";
     const std::string dtype =
         std::string("cnumpy\ndtype\n") + short_text("O8") + "\x89\x88\x87R(" + small(3) + short_text("|") + "tb";

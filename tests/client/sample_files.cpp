@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
@@ -116,6 +117,27 @@ std::string vtp_inline() {
            "</DataArray></Points></Piece></PolyData></VTKFile>";
 }
 
+/// A triangle, its arrays appended raw, as VTK writes by default.
+std::string vtp_appended() {
+    std::string appended;
+    const auto add = [&](const auto& numbers) {
+        const std::size_t offset = appended.size();
+        formats::store(appended, std::uint32_t{sizeof(numbers)});
+        for (const auto number : numbers) formats::store(appended, number);
+        return " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>";
+    };
+    const std::string points = add(std::array{0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F});
+    const std::string ids = add(std::array{std::int32_t{5}, std::int32_t{6}, std::int32_t{7}});
+    const std::string corners = add(std::array{std::int64_t{0}, std::int64_t{1}, std::int64_t{2}});
+    const std::string ends = add(std::array{std::int64_t{3}});
+    return "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\" header_type=\"UInt32\"><PolyData>"
+           "<Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><PointData><DataArray type=\"Int32\" Name=\"id\"" +
+           ids + "</PointData><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\"" + points +
+           "</Points><Polys><DataArray type=\"Int64\" Name=\"connectivity\"" + corners +
+           "<DataArray type=\"Int64\" Name=\"offsets\"" + ends +
+           "</Polys></Piece></PolyData><AppendedData encoding=\"raw\">_" + appended + "</AppendedData></VTKFile>";
+}
+
 /// The formats that are read as they are written: particles and meshes with arrays.
 void add_written_files(std::vector<Sample>& out, const TemporaryDirectory& directory) {
     const auto bytes_of = [&](const std::string& name) { return formats::read_file(directory / name); };
@@ -137,7 +159,8 @@ void add_written_files(std::vector<Sample>& out, const TemporaryDirectory& direc
 
     out.push_back({"xml ascii", vtu_ascii(), limited(formats::read_vtk_xml)});
     out.push_back({"xml inline", vtp_inline(), limited(formats::read_vtk_xml)});
-    out.push_back({"xml raw", bytes_of("p.vtp"), limited(formats::read_vtk_xml)});
+    out.push_back({"xml raw", vtp_appended(), limited(formats::read_vtk_xml)});
+    out.push_back({"xml of ours", bytes_of("p.vtp"), limited(formats::read_vtk_xml)});
     out.push_back({"npz particles", bytes_of("p.npz"), limited(formats::read_npz)});
     const std::string npz = bytes_of("p.npz");
     const std::size_t array = npz.find("\x93NUMPY");
@@ -145,7 +168,8 @@ void add_written_files(std::vector<Sample>& out, const TemporaryDirectory& direc
     out.push_back({"npy", npz.substr(array, npz.find("PK\3\4", array) - array), read_npy});
     const auto read_vtk = [](const std::string& bytes) { (void)formats::read_mesh_vtk("sample", bytes); };
     out.push_back({"mesh vtk", bytes_of("m.vtk"), read_vtk});
-    out.push_back({"mesh vtp raw", bytes_of("m.vtp"), limited(formats::read_mesh_vtp)});
+    out.push_back({"mesh vtp raw", vtp_appended(), limited(formats::read_mesh_vtp)});
+    out.push_back({"mesh vtp", bytes_of("m.vtp"), limited(formats::read_mesh_vtp)});
     out.push_back({"mesh vtp zlib", bytes_of("z.vtp"), limited(formats::read_mesh_vtp)});
     out.push_back({"mesh npz", bytes_of("m.npz"), limited(formats::read_mesh_npz)});
 }
