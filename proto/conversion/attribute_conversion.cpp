@@ -13,7 +13,7 @@ namespace meniscus::conversion {
 namespace {
 
 std::string quoted(const std::string& name) {
-    return '"' + name + '"';
+    return "'" + name + "'";
 }
 
 enum class EmptyName { refused, allowed };

@@ -50,7 +50,7 @@ constexpr KnownArray level_array{"level", level_forms};
 constexpr std::array known_arrays{position_array, level_array};
 
 std::string quoted(std::string_view name) {
-    return '"' + std::string(name) + '"';
+    return "'" + std::string(name) + "'";
 }
 
 /// "float32 x 3 or uint16 x 3".

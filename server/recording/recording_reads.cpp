@@ -14,6 +14,12 @@ RecordingReads::RecordingReads(std::filesystem::path directory, std::uint32_t re
                                std::chrono::milliseconds patience)
     : limit_(readers), patience_(patience), catalog_(std::move(directory)) {}
 
+RecordingReads::~RecordingReads() {
+    // Before the timer goes, which a scan under way sets.
+    thread_.stop();
+    thread_.join();
+}
+
 RecordingReads::Place RecordingReads::admit() {
     require_going_on();
     const std::uint32_t others = readers_++;
@@ -31,15 +37,22 @@ void RecordingReads::post(std::function<void(RecordingCatalog&)> job) {
 }
 
 void RecordingReads::post_scan(std::function<void(RecordingCatalog&)> job) {
-    boost::asio::post(thread_, [this, job = std::move(job)] {
-        // Where the server ends, the wait is cut short, and the job finds out.
-        if (ending_) return job(catalog_);
-        next_scan_.async_wait([this, job](const boost::system::error_code&) {
-            const auto begun = std::chrono::steady_clock::now();
-            job(catalog_);
-            const auto end = std::chrono::steady_clock::now();
-            next_scan_.expires_at(end + (end - begun));
-        });
+    boost::asio::post(thread_, [this, job = std::move(job)]() mutable {
+        scans_.push_back(std::move(job));
+        if (scans_.size() == 1) wait_to_scan();
+    });
+}
+
+void RecordingReads::wait_to_scan() {
+    // Where the server ends, there is no pause, and the job finds out.
+    if (ending_) next_scan_.expires_at(std::chrono::steady_clock::now());
+    next_scan_.async_wait([this](const boost::system::error_code&) {
+        const auto begun = std::chrono::steady_clock::now();
+        scans_.front()(catalog_);
+        const auto end = std::chrono::steady_clock::now();
+        scans_.pop_front();
+        next_scan_.expires_at(end + (end - begun));
+        if (!scans_.empty()) wait_to_scan();
     });
 }
 

@@ -7,6 +7,7 @@
 #include <boost/asio/thread_pool.hpp>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -20,6 +21,9 @@ public:
     /// readers: the number that may read at a time; 0: no limit. patience: how long each may take for a message; 0: for
     /// ever.
     RecordingReads(std::filesystem::path directory, std::uint32_t readers, std::chrono::milliseconds patience);
+    ~RecordingReads();
+    RecordingReads(const RecordingReads&) = delete;
+    RecordingReads& operator=(const RecordingReads&) = delete;
 
     std::chrono::milliseconds patience() const noexcept { return patience_; }
 
@@ -43,11 +47,15 @@ public:
     void require_going_on() const;
 
 private:
+    /// Begins the first of scans_ once the time has come.
+    void wait_to_scan();
+
     const std::uint32_t limit_;
     const std::chrono::milliseconds patience_;
     std::atomic<std::uint32_t> readers_{0};
     std::atomic<bool> ending_{false};
-    RecordingCatalog catalog_;  ///< of the thread
+    RecordingCatalog catalog_;                                  ///< of the thread
+    std::deque<std::function<void(RecordingCatalog&)>> scans_;  ///< of the thread: they wait, or the first is under way
     boost::asio::thread_pool thread_{1};
     boost::asio::steady_timer next_scan_{thread_};  ///< of the thread
 };

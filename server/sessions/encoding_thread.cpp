@@ -87,6 +87,7 @@ void EncodingThread::run() {
 
 void EncodingThread::give_back(ReconstructedFrame& frame) {
     frame.download = {};  // of a mesh that nobody may have wanted
+    frame.ranges = {};    // of that mesh, not of the next
     free_frames_.put(&frame);
 }
 

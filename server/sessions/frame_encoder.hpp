@@ -6,7 +6,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
+#include "meniscus/attribute_coding.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
 #include "meniscus/statistics.hpp"
@@ -36,12 +39,14 @@ struct ReconstructedFrame {
     MeshDownload download;             ///< of that mesh
     std::array<CappedMesh, 2> capped;  ///< at levels 1 and 2
     Statistics statistics;
+    mutable std::array<std::optional<std::vector<AttributeRange>>, 3> ranges;  ///< see ranges_at()
 
     /// Gives up the meshes.
     void release_memory() {
         download = {};
         mesh = {};
         capped = {};
+        ranges = {};
     }
     CappedMesh& capped_at(int max_level) { return capped.at(static_cast<std::size_t>(max_level - 1)); }
     /// Null if it was not made.
@@ -54,6 +59,13 @@ struct ReconstructedFrame {
     const MeshDownload& download_at(int max_level) const {
         static const MeshDownload complete;
         return max_level == 3 ? download : complete;
+    }
+    /// Of the attributes of the mesh at this cap, which was made: found for its first format, kept for the others. For
+    /// one thread at a time.
+    const std::vector<AttributeRange>& ranges_at(int max_level) const {
+        auto& found = ranges.at(static_cast<std::size_t>(max_level - 1));
+        if (!found) found = attribute_ranges(*mesh_at(max_level));
+        return *found;
     }
 };
 

@@ -18,7 +18,7 @@ using conversion::FurtherArray;
 std::string names_of(const std::vector<FurtherArray>& arrays) {
     if (arrays.empty()) return "none beside positions and levels";
     std::string names;
-    for (const FurtherArray& array : arrays) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", array.name);
+    for (const FurtherArray& array : arrays) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", array.name);
     return names;
 }
 
@@ -38,11 +38,11 @@ std::vector<FurtherArray> arrays_to_keep(const conversion::ParticleLayout& layou
         if (found == layout.further.end() && particle_count == 0) continue;
         if (found == layout.further.end())
             throw InvalidInput(fmt::format(
-                "no array \"{}\", which the session's settings name as an attribute; the frame's further arrays are {}",
+                "no array '{}', which the session's settings name as an attribute; the frame's further arrays are {}",
                 name, names_of(layout.further)));
         if (!found->can_be_attribute())
             throw InvalidInput(
-                fmt::format("array \"{}\" is {}, and the session's settings name it as an attribute; that is float32 "
+                fmt::format("array '{}' is {}, and the session's settings name it as an attribute; that is float32 "
                             "or uint8 x 1, 3 or 4, or int32 or uint32 x 1",
                             name, conversion::form_of(*found)));
         arrays.push_back(*found);

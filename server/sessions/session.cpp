@@ -424,7 +424,8 @@ std::optional<std::chrono::steady_clock::duration> Session::without_stream(
     std::chrono::steady_clock::time_point now) const {
     const std::lock_guard lock(mutex_);
     if (has_stream()) return std::nullopt;
-    return now - without_stream_since_;
+    // A stream may have ended since `now`.
+    return std::max(now - without_stream_since_, std::chrono::steady_clock::duration::zero());
 }
 
 std::future<void> Session::release_buffers() {

@@ -323,6 +323,11 @@ void HttpConnection::write(Page page, bool keep_alive) {
     const std::string_view body = page_.lasting_body.empty() ? std::string_view(page_.body) : page_.lasting_body;
     response_->body() = {body.data(), body.size()};
     response_->prepare_payload();
+    // They would be those of the page that the client has.
+    if (page_.status == 304) {
+        response_->content_length(boost::none);
+        response_->erase(http::field::content_type);
+    }
     serializer_.emplace(*response_);
     written_by_ = std::chrono::steady_clock::now() + limits_.patience +
                   std::chrono::seconds(body.size() / limits_.bytes_per_second);

@@ -321,7 +321,7 @@ TEST_F(RecordingFormat, RefusesMessagesThatAreNotTheirFrame) {
         {1, begin(7, 1) + chunk(12) + end, "its frame_begin tells of frame 7 with 1 particles"},
         {2, begin(0, 1) + chunk(12) + end, "its frame_begin tells of frame 0 with 1 particles"},
         {huge, begin(0, huge) + chunk(12) + end, "particles of 12 bytes are announced, but only"},
-        {1, begin(0, 1, 9) + chunk(12) + end, "array \"position\" has the element type 9"},
+        {1, begin(0, 1, 9) + chunk(12) + end, "array 'position' has the element type 9"},
         {1, begin(0, 1, v1::ELEMENT_TYPE_UINT16) + chunk(6) + end, "quantization_box"},
         {1, begin(0, 1) + chunk(11) + end, "no frame_chunk"},
         {1, begin(0, 1) + chunk(13) + end, "more bytes than its particles have"},

@@ -51,6 +51,11 @@ struct ShortlyOrphanedSession : EphemeralSession {
 
 constexpr auto a_little = std::chrono::minutes(1);
 
+TEST_F(EphemeralSession, HasBeenWithoutAStreamForNoTimeWhereThatBeganSinceOneLooked) {
+    const auto looked = Clock::now() - a_little;
+    EXPECT_EQ(create()->without_stream(looked), Clock::duration::zero());
+}
+
 TEST_F(EphemeralSession, GoesSoonAfterItsCreationWithoutAStreamThoughItIsWatchedAndAskedFor) {
     const auto session = create();
     std::exception_ptr error;

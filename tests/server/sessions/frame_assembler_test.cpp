@@ -271,22 +271,22 @@ TEST_F(ArraysOfAFrame, AreForgottenWithTheFrame) {
 TEST_F(ArraysOfAFrame, AreRefusedByNameWhereOneIsMissingOrCannotBeAnAttribute) {
     FrameAssembler receiver(limits, naming({"id", "velocity"}));
     EXPECT_EQ(refusal(receiver, {sent_positions, sent_id, sent_color}),
-              "frame 0: no array \"velocity\", which the session's settings name as an attribute; the frame's further "
-              "arrays are \"id\", \"color\"");
+              "frame 0: no array 'velocity', which the session's settings name as an attribute; the frame's further "
+              "arrays are 'id', 'color'");
     EXPECT_EQ(refusal(receiver, {sent_positions}),
-              "frame 0: no array \"id\", which the session's settings name as an attribute; the frame's further arrays "
+              "frame 0: no array 'id', which the session's settings name as an attribute; the frame's further arrays "
               "are none beside positions and levels");
     SentArray pair = sent_velocity;
     pair.components = 2;
     EXPECT_EQ(refusal(receiver, {sent_positions, sent_id, pair}),
-              "frame 0: array \"velocity\" is float32 x 2, and the session's settings name it as an attribute; that is "
+              "frame 0: array 'velocity' is float32 x 2, and the session's settings name it as an attribute; that is "
               "float32 or uint8 x 1, 3 or 4, or int32 or uint32 x 1");
     SentArray half = sent_half;
     half.name = "velocity";
-    EXPECT_NE(refusal(receiver, {sent_positions, sent_id, half}).find("array \"velocity\" is uint16 x 1, and"),
+    EXPECT_NE(refusal(receiver, {sent_positions, sent_id, half}).find("array 'velocity' is uint16 x 1, and"),
               std::string::npos);
     EXPECT_EQ(refusal(receiver, {sent_positions, sent_id, sent_velocity, sent_id}),
-              "frame 0: array \"id\" comes twice; each comes once");
+              "frame 0: array 'id' comes twice; each comes once");
     receive(receiver, {sent_positions, sent_velocity, sent_id});
     EXPECT_EQ(frame.view().arrays.size(), 2U) << "a refusal leaves nothing behind";
     v1::FrameBegin empty = begin_of({sent_positions}, next_index);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
 #include "late_meshes.hpp"
 #include "meniscus/brick_coding.hpp"
@@ -113,6 +115,38 @@ TEST(FrameEncoder, HasTheSprayAtEveryLevelCapAndSendsItWhereThatIsAskedFor) {
             EXPECT_EQ(std::ranges::count(sent, encoded->spray[0]), asked_for ? 1 : 0);
             EXPECT_EQ(sent.back(), encoded->end);
         }
+}
+
+TEST(FrameEncoder, FindsTheRangesOfAttributesOnceForAllFormatsOfALevelCap) {
+    FrameOf frame(test::wave(6, 0.0));
+    auto& capped = frame.capped_at(2);
+    Reconstructor(test::settings(), {.threads = 1}).reconstruct(test::wave(3, 0.0).view(), capped.mesh);
+    capped.made = true;
+    const auto give_values_up_to = [](Mesh& mesh, float greatest) {
+        std::vector<float> values(mesh.vertices.size());
+        values.back() = greatest;
+        mesh.attributes = {{"age", ElementType::float32, 1, {}}};
+        const auto bytes = std::as_bytes(std::span(values));
+        mesh.attributes[0].data.assign(bytes.begin(), bytes.end());
+    };
+    give_values_up_to(frame.mesh, 3.0F);
+    give_values_up_to(capped.mesh, 2.0F);
+    WorkerPool workers(1);
+    ScratchPool scratch;
+    const auto announced = [&](int max_level, int bits) {
+        const MeshFormat format{.max_level = max_level, .attributes = {{.name = "age", .bits = bits}}};
+        const auto encoded = encode_frame(frame, format, nullptr, workers, scratch, nullptr);
+        return parsed(encoded->begin).mesh_begin().attributes(0).maximum(0);
+    };
+    EXPECT_EQ(announced(3, 8), 3.0);
+    EXPECT_EQ(announced(2, 8), 2.0);
+    // No format looks at the values of all vertices again.
+    const auto* const found = frame.ranges_at(3).data();
+    give_values_up_to(frame.mesh, 2.5F);
+    EXPECT_EQ(announced(3, 12), 3.0);
+    EXPECT_EQ(frame.ranges_at(3).data(), found);
+    frame.release_memory();
+    EXPECT_TRUE(frame.ranges_at(3).empty());
 }
 
 TEST(FrameEncoder, SendsAnEmptyMesh) {

@@ -141,25 +141,27 @@ TEST_F(SessionAttributes, AreAnnouncedWithTheirRangesToEveryoneAndCodedForThoseW
     }
 }
 
-TEST_F(SessionAttributes, OfABrickThatChangesWhileTheSurfaceStaysAreSentAgainAndNoOther) {
-    for (const int bits : {0, 8}) {
-        Watcher asks = watcher(everything(bits));
-        Watcher asks_not = watcher({});
-        first_speed = 0.0F;
-        send(static_cast<std::uint64_t>(2 * bits));
-        const std::size_t whole = asks.next().bricks;
-        EXPECT_GT(whole, most_of_a_vertex);
-        EXPECT_EQ(asks_not.next().bricks, whole);
-        first_speed = 0.75F;
-        send(static_cast<std::uint64_t>(2 * bits) + 1);
-        const Sent changed = asks.next();
-        EXPECT_TRUE(changed.begin.has_base_frame_index());
-        EXPECT_GE(changed.bricks, 1U) << bits;
-        EXPECT_LE(changed.bricks, most_of_a_vertex) << bits;
-        EXPECT_EQ(asks_not.next().bricks, 0U);
-        session.close_watch(asks.watch);
-        session.close_watch(asks_not.watch);
-    }
+/// A session of its own for each number of bits: a new watcher is first sent the last frame that there was.
+struct ChangingAttributes : SessionAttributes, testing::WithParamInterface<int> {};
+INSTANTIATE_TEST_SUITE_P(OfBits, ChangingAttributes, testing::Values(0, 8));
+
+TEST_P(ChangingAttributes, OfABrickWhileTheSurfaceStaysAreSentAgainAndNoOther) {
+    Watcher asks = watcher(everything(GetParam()));
+    Watcher asks_not = watcher({});
+    first_speed = 0.0F;
+    send(0);
+    const std::size_t whole = asks.next().bricks;
+    EXPECT_GT(whole, most_of_a_vertex);
+    EXPECT_EQ(asks_not.next().bricks, whole);
+    first_speed = 0.75F;
+    send(1);
+    const Sent changed = asks.next();
+    EXPECT_TRUE(changed.begin.has_base_frame_index());
+    EXPECT_GE(changed.bricks, 1U);
+    EXPECT_LE(changed.bricks, most_of_a_vertex);
+    EXPECT_EQ(asks_not.next().bricks, 0U);
+    session.close_watch(asks.watch);
+    session.close_watch(asks_not.watch);
 }
 
 TEST_F(SessionAttributes, AreAllSentAgainWhereTheRangeThatTheyAreCodedOverChanges) {

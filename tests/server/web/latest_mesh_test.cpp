@@ -228,6 +228,8 @@ TEST_F(LatestMeshOnAServer, IsSentAgainOnlyWhenItIsAnother) {
         EXPECT_EQ(unchanged.status, 304) << known;
         EXPECT_EQ(value_of(unchanged, "ETag"), tag);
         EXPECT_EQ(unchanged.body, "");
+        for (const char* name : {"Content-Length", "Content-Type", "Transfer-Encoding"})
+            EXPECT_EQ(value_of(unchanged, name), "") << name << ", which the file has";
     }
     EXPECT_EQ(get().body, first.body);
     EXPECT_EQ(get("?draco", {{"If-None-Match", tag}}).status, 200);

@@ -92,7 +92,7 @@ std::vector<BadInputCase> open_cases() {
          reconnect(std::numeric_limits<double>::quiet_NaN())},
         {"NoNormals", ok, "", normal_bits(0)},
         {"SeventeenAttributeBits", invalid,
-         "wished attribute \"a\" has 17 bits, must have 1 to 16, or 0 for exact values",
+         "wished attribute 'a' has 17 bits, must have 1 to 16, or 0 for exact values",
          open_with([](v1::StreamOpen& open) {
              open.add_attributes()->set_name("a");
              open.mutable_attributes(0)->set_bits(17);

@@ -147,14 +147,14 @@ std::vector<BadInputCase> watch_cases() {
         {"AWatcherOfExactAttributes", ok, "", attributes(1, 0)},
         {"AWatcherOfSixteenAttributeBits", ok, "", attributes(1, 16)},
         {"AWatcherOfSeventeenAttributeBits", invalid,
-         "wished attribute \"a0\" has 17 bits, must have 1 to 16, or 0 for exact values", attributes(1, 17)},
-        {"AWatcherOfAnAttributeTwice", invalid, "wished attribute \"a\" comes twice; each comes once",
+         "wished attribute 'a0' has 17 bits, must have 1 to 16, or 0 for exact values", attributes(1, 17)},
+        {"AWatcherOfAnAttributeTwice", invalid, "wished attribute 'a' comes twice; each comes once",
          wish([](v1::WatchRequest& request) {
              request.add_attributes()->set_name("a");
              request.add_attributes()->set_name("a");
          })},
         {"AWatcherOfAllAttributes", ok, "", wish([](v1::WatchRequest& request) { request.add_attributes(); })},
-        {"AWatcherOfAllAttributesTwice", invalid, "wished attribute \"\" comes twice; each comes once",
+        {"AWatcherOfAllAttributesTwice", invalid, "wished attribute '' comes twice; each comes once",
          wish([](v1::WatchRequest& request) {
              request.add_attributes();
              request.add_attributes();
@@ -163,7 +163,7 @@ std::vector<BadInputCase> watch_cases() {
          "the name of wished attribute 0 must be 1 to 64 of a-z, 0-9 and _",
          wish([](v1::WatchRequest& request) { request.add_attributes()->set_name("A\n"); })},
         {"ASnapshotOfSeventeenAttributeBits", invalid,
-         "wished attribute \"a\" has 17 bits, must have 1 to 16, or 0 for exact values",
+         "wished attribute 'a' has 17 bits, must have 1 to 16, or 0 for exact values",
          wish_for_snapshot([](v1::SnapshotRequest& request) {
              request.add_attributes()->set_name("a");
              request.mutable_attributes(0)->set_bits(17);
