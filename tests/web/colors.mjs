@@ -103,6 +103,49 @@ describe('colors', { skip: missing }, () => {
     }
   });
 
+  it('show what a recording has, frame by frame, and its link reopens them', async () => {
+    const folder = mkdtempSync(join(tmpdir(), 'meniscus-web-'));
+    try {
+      const server = await startServer({ args: ['--record', folder] });
+      const args = 'simulate --scene dam-break --particles 800 --frames 12 --attribute velocity --out';
+      const local = join(folder, 'local');
+      const simulator = startUploader(server, [...args.split(' '), local]);
+      await simulator.finished();
+      // The speeds of a frame's vertices, as the simulator received them.
+      const fastest = (frame) => {
+        const file = join(local, `frame_${String(frame).padStart(6, '0')}.ply`);
+        return Math.max(...velocities(readFileSync(file)).map(speedOf));
+      };
+      const page = await open(server.url, small);
+      await page.locator(`[data-recording="${simulator.session}/1"]`).click();
+      await page.waitForFunction(() => Number(document.getElementById('view').dataset.frame) >= 2);
+      const shows = async (frame) => {
+        await page.waitForFunction((wanted) => Number(document.getElementById('view').dataset.frame) === wanted, frame);
+        await page.waitForFunction(
+          ([pattern, wanted]) => {
+            const found = new RegExp(pattern).exec(document.getElementById('annotations').dataset.legend ?? '');
+            return found && Math.abs(Number(found[1]) - wanted) < 0.01 * wanted;
+          },
+          ['^velocity, magnitude: \\S+ to (\\S+)$', fastest(frame)],
+        );
+      };
+      await page.click('#color');
+      await page.selectOption('#color-attribute', 'velocity');
+      await page.selectOption('#color-range', 'frame');
+      for (const frame of [3, 11]) {
+        await page.fill('#scrub', String(frame));
+        await shows(frame);
+      }
+      assert.ok(fastest(11) > 1.5 * fastest(3), 'or both frames have one legend');
+      assert.match(page.url(), /#recording=.*color=velocity/);
+      await page.reload();
+      await shows(11);
+      await screenshot(page, 'colored-recording');
+    } finally {
+      rmSync(folder, { recursive: true });
+    }
+  });
+
   it('that a session does not have are told of in the panel, and its own are offered', async () => {
     const server = await startServer();
     const args = 'simulate --scene dam-break --particles 500 --frames 100000 --attribute age';

@@ -9,22 +9,13 @@ import { pointCount, type DecodedBrick } from '../src/decode/decoded_brick';
 import { AttributeType, MeshAttributeSchema } from '../src/gen/meniscus/v1/mesh_pb';
 import { create, type MessageInitShape } from '@bufbuild/protobuf';
 import { wishesOf } from '../src/stream/quality';
-import { dracoDecoder, encodeBrick, type BrickOptions } from './support/draco';
+import { dracoDecoder, encodeBrick, flat, type BrickOptions } from './support/draco';
 import { frame } from './support/messages';
 
 type Announced = MessageInitShape<typeof MeshAttributeSchema>;
 
 const offsetBits = 6;
-const flat: BrickOptions = {
-  place: [4, 5, 6],
-  positions: [
-    [1, 1, 1],
-    [9, 1, 2],
-    [1, 9, 3],
-  ],
-  triangles: [[0, 1, 2]],
-  levels: [1],
-};
+const placed: BrickOptions = { ...flat, place: [4, 5, 6] };
 let draco: DracoModule;
 
 beforeAll(async () => {
@@ -84,13 +75,13 @@ describe('attributes of a brick', () => {
     ],
     ['id', [[-7], [2 ** 31 - 1], [-(2 ** 31)]]],
   ])('are decoded one at a time, to what they stand for: %s', async (name, expected) => {
-    const decoded = decodeBrick(draco, await encodeBrick({ ...flat, attributes: all }), offsetBits, name);
-    const keys = flat.positions.map((position) => position.join(' '));
+    const decoded = decodeBrick(draco, await encodeBrick({ ...placed, attributes: all }), offsetBits, name);
+    const keys = placed.positions.map((position) => position.join(' '));
     expect(values(decoded)).toEqual(new Map(keys.map((key, i) => [key, expected[i]!])));
   });
 
   it('are not decoded unless they are asked for', async () => {
-    const brick = await encodeBrick({ ...flat, attributes: all });
+    const brick = await encodeBrick({ ...placed, attributes: all });
     expect(decodeBrick(draco, brick, offsetBits).attribute).toBeUndefined();
     expect(decodeBrick(draco, brick, offsetBits, 'pressure').attribute).toBeUndefined();
   });
@@ -100,7 +91,7 @@ describe('attributes of a brick', () => {
     ['not of the type', { components: 3 }],
     ['not of the type', { type: 'uint32', components: 1, bits: 0, name: 'color', minimum: [1] }],
   ])('are refused where the brick lies: %s', async (words, lie) => {
-    const brick = await encodeBrick({ ...flat, attributes: [{ ...color, form: { ...color.form, ...lie } }] });
+    const brick = await encodeBrick({ ...placed, attributes: [{ ...color, form: { ...color.form, ...lie } }] });
     if (lie.type === 'uint32') {
       // Four bytes: by their form nothing tells them from an id.
       expect(decodeBrick(draco, brick, offsetBits, 'color').attribute!.values).toBeInstanceOf(Uint32Array);
@@ -112,7 +103,7 @@ describe('attributes of a brick', () => {
 
   it('are refused beyond their bits, without a range, not finite, or missing', async () => {
     const lying = async (name: string, attribute: NonNullable<BrickOptions['attributes']>[number]): Promise<string> => {
-      const brick = await encodeBrick({ ...flat, attributes: [attribute] });
+      const brick = await encodeBrick({ ...placed, attributes: [attribute] });
       try {
         decodeBrick(draco, brick, offsetBits, name);
         return '';
@@ -127,14 +118,14 @@ describe('attributes of a brick', () => {
       'without a range',
     );
     expect(await lying('mass', { ...mass, coded: Float32Array.of(1, NaN, 2) })).toContain('mass is not finite');
-    const brick = await encodeBrick({ ...flat, attributes: [mass] });
+    const brick = await encodeBrick({ ...placed, attributes: [mass] });
     expect(() => decodeBrick(draco, { ...brick, attributes: [mass.form, age.form] }, offsetBits, 'age')).toThrow(
       'no attribute age',
     );
   });
 
   it('survive every cut and every changed byte', async () => {
-    const brick = await encodeBrick({ ...flat, attributes: all });
+    const brick = await encodeBrick({ ...placed, attributes: all });
     for (let i = 0; i < brick.data.length; ++i) {
       const changed = brick.data.slice();
       changed[i]! ^= 0x5a;

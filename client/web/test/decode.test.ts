@@ -4,7 +4,7 @@ import { DecodePool, type DecodeWorker } from '../src/decode/decode_pool';
 import { decodeBrick } from '../src/decode/decode_brick';
 import { pointCount } from '../src/decode/decoded_brick';
 import type { DecodeAnswer, DecodeRequest } from '../src/decode/messages';
-import { dracoDecoder, encodeBrick, tetrahedron, type BrickOptions } from './support/draco';
+import { dracoDecoder, encodeBrick, flat, tetrahedron } from './support/draco';
 
 const offsetBits = 6;
 let draco: DracoModule;
@@ -86,15 +86,6 @@ describe('decodeBrick', () => {
     expect(decoded.normals).toBeUndefined();
   });
 
-  const flat: BrickOptions = {
-    positions: [
-      [1, 1, 1],
-      [9, 1, 2],
-      [1, 9, 3],
-    ],
-    triangles: [[0, 1, 2]],
-    levels: [1],
-  };
   it.each([
     ['announced were 2', { triangleCount: 2 }],
     ['a brick has at most', { triangleCount: 2 ** 31 }],

@@ -135,8 +135,11 @@ describe('the page around', () => {
   let listener: ((event: MessageEvent<unknown>) => void) | undefined;
   let frame: MeniscusFrame;
 
+  const warned = vi.spyOn(console, 'warn');
+
   beforeEach(() => {
     vi.useFakeTimers();
+    warned.mockReset().mockImplementation(() => undefined);
     frameWindow.postMessage.mockClear();
     vi.stubGlobal('location', { origin: page });
     vi.stubGlobal('document', { createElement: () => iframe });
@@ -179,6 +182,18 @@ describe('the page around', () => {
     for (const origin of ['https://water.example', 'https://evil.example', 'null']) hear('one', { origin });
     for (const source of [null, {}]) hear('one', { source });
     expect(told()).toEqual([]);
+  });
+
+  it('warns a page that waits for nothing, without an error that nobody handles', async () => {
+    const unhandled = vi.fn();
+    process.on('unhandledRejection', unhandled);
+    await vi.advanceTimersByTimeAsync(10_000);
+    vi.useRealTimers();
+    // Node tells of it once no promise has anything left to do.
+    await new Promise((resolve) => setTimeout(resolve, 0));
+    process.off('unhandledRejection', unhandled);
+    expect(unhandled).not.toHaveBeenCalled();
+    expect(warned).toHaveBeenCalledExactlyOnceWith(expect.stringContaining('--web-frame-ancestors'));
   });
 
   it('says what to do where the viewer does not answer, and nothing once it is gone', async () => {

@@ -7,7 +7,7 @@ import { decodeBrick } from '../src/decode/decode_brick';
 import { writeGlb } from '../src/save/glb';
 import { writePly } from '../src/save/ply';
 import { weld } from '../src/save/weld';
-import { dracoDecoder, encodeBrick, tetrahedron } from './support/draco';
+import { dracoDecoder, encodeBrick, flat, tetrahedron } from './support/draco';
 
 const offsetBits = 6;
 let draco: DracoModule;
@@ -66,15 +66,7 @@ describe('writeGlb', () => {
   });
 
   it('passes the validator without normals and without any mesh', async () => {
-    const plain = await encodeBrick({
-      positions: [
-        [1, 1, 1],
-        [9, 1, 2],
-        [1, 9, 3],
-      ],
-      triangles: [[0, 1, 2]],
-      levels: [1],
-    });
+    const plain = await encodeBrick(flat);
     for (const shown of [shownOf(plain), shownOf()]) {
       const { issues } = await validateBytes(writeGlb(shown, 'y'));
       expect(issues.messages.filter(({ severity }) => severity < 2)).toEqual([]);
@@ -113,20 +105,14 @@ const color = { name: 'color', type: 'uint8', components: 3, bits: 0, minimum: [
 const id = { name: 'id', type: 'int32', components: 1, bits: 0, minimum: [], maximum: [] } as const;
 
 /** A triangle whose vertices have these values. */
-function valued(): Promise<EncodedBrick> {
+function valued(ids: readonly number[] = [-7, 8, 2 ** 31 - 1]): Promise<EncodedBrick> {
   return encodeBrick({
-    positions: [
-      [1, 1, 1],
-      [9, 1, 2],
-      [1, 9, 3],
-    ],
-    triangles: [[0, 1, 2]],
-    levels: [1],
+    ...flat,
     attributes: [
       { form: age, coded: Uint8Array.of(0, 255, 51) },
       { form: velocity, coded: Float32Array.of(1, 2, 3, 4, 5, 6, 7, 8, 9) },
       { form: color, coded: Uint8Array.of(10, 20, 30, 40, 50, 60, 70, 80, 90) },
-      { form: id, coded: new Uint8Array(Int32Array.of(-7, 8, 2 ** 31 - 1).buffer) },
+      { form: id, coded: new Uint8Array(Int32Array.from(ids).buffer) },
     ],
   });
 }
@@ -158,9 +144,30 @@ describe('what the surface is colored by', () => {
       }
   });
 
-  it('is not in the GLB where it is an id, which the format has no numbers for', async () => {
-    const { json } = read(writeGlb(shownWith('id', await valued()), 'y'));
-    expect(Object.keys(json.meshes[0]!.primitives[0]!.attributes)).toEqual(['POSITION']);
+  it.each([
+    ['float32 where that holds all of them', [-7, 8, 2 ** 24], 5126, 'SCALAR'],
+    ['two uint16, the low one first, where one does not fit', [-7, 8, 2 ** 24 + 1], 5123, 'VEC2'],
+  ] as const)('is in the GLB where it is an id: as %s', async (_, ids, componentType, type) => {
+    // In two bricks, of which the first alone would fit.
+    const first = await valued([1, 2, 3]);
+    const shown = shownWith('id', first, { ...(await valued(ids)), place: [1, 0, 0] });
+    const file = writeGlb(shown, 'y');
+    const { issues } = await validateBytes(file);
+    expect(issues.messages.filter(({ severity }) => severity < 2)).toEqual([]);
+    const { json, binary } = read(file);
+    const found = json.meshes.map(({ primitives }) => {
+      const accessor = json.accessors[primitives[0]!.attributes._ID!]! as unknown as { bufferView: number };
+      expect(accessor).toMatchObject({ componentType, type, count: 3 });
+      const view = new DataView(binary.buffer, binary.byteOffset + json.bufferViews[accessor.bufferView]!.byteOffset);
+      return [0, 4, 8]
+        .map((at) =>
+          componentType === 5126
+            ? view.getFloat32(at, true)
+            : view.getUint16(at, true) | (view.getUint16(at + 2, true) << 16),
+        )
+        .sort((a, b) => a - b);
+    });
+    expect(found).toEqual([[1, 2, 3], ids]);
   });
 
   it.each([

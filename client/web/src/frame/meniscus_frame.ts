@@ -21,7 +21,7 @@ export interface View {
 
 export interface MeniscusFrame {
   readonly element: HTMLIFrameElement;
-  /** Resolves when the viewer listens; rejects when it has not within ten seconds. */
+  /** Resolves when the viewer listens; rejects, with a warning on the console, when it has not within ten seconds. */
   readonly ready: Promise<void>;
   /** Another session, camera or token; what is left out is as at the beginning. */
   show(view: View): void;
@@ -87,6 +87,10 @@ export function showMeniscus(place: Element, server: string, view: View): Menisc
   });
   const ready = Promise.race([listening, late]).finally(() => {
     clearTimeout(timer);
+  });
+  // A page that waits for nothing is told, too, and not by an error that nobody has handled.
+  ready.catch((error: unknown) => {
+    console.warn(error instanceof Error ? error.message : error);
   });
   element.src = `${viewer}/?embed=${encodeURIComponent(location.origin)}`;
   place.replaceChildren(element);

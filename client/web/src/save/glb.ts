@@ -1,14 +1,13 @@
 // A mesh as GLB: the Draco bytes as they came (KHR_draco_mesh_compression), positions in brick-local integers
 // (KHR_mesh_quantization), a node for each brick that puts them in place. What the surface is colored by lies beside the Draco bytes, in
 // the order of their points: in them it is the steps of a range, which glTF cannot tell.
-import { isId, type AttributeForm } from '../bricks/attributes';
 import type { ShownBrick, Shown } from '../bricks/brick_store';
 import { brickEdge } from '../bricks/frame';
-import { pointCount, type DecodedBrick } from '../decode/decoded_brick';
+import { pointCount } from '../decode/decoded_brick';
 import { toScene, type UpAxis } from '../view/up_axis';
+import { glbValues, type GlbValues } from './glb_values';
 import { decodedForm } from './weld';
 
-const unsignedByte = 5121;
 const unsignedShort = 5123;
 const unsignedInt = 5125;
 const float = 5126;
@@ -28,44 +27,33 @@ interface View {
 export function writeGlb(shown: Shown, up: UpAxis): Uint8Array {
   const bricks = [...shown.bricks.values()].filter(({ encoded }) => encoded.triangleCount > 0);
   const form = decodedForm(bricks, shown.frame.attributes);
-  // The format has integers of four bytes for indices alone.
-  const attribute = form && !isId(form.type) ? form : undefined;
+  const values =
+    form &&
+    glbValues(
+      form,
+      bricks.map(({ decoded }) => decoded),
+    );
   const views: View[] = [];
+  const parts: Uint8Array[] = [];
   let bytes = 0;
-  for (const { encoded } of bricks) {
-    views.push({ buffer: 0, byteOffset: bytes, byteLength: encoded.data.length });
-    bytes = aligned(bytes + encoded.data.length);
-  }
-  const values = attribute ? bricks.map(({ decoded }) => valueBytes(decoded, attribute)) : [];
-  for (const { length } of values) {
-    const stride = attribute!.type === 'uint8' ? { byteStride: 4 } : {};
-    views.push({ buffer: 0, byteOffset: bytes, byteLength: length, ...stride, target: arrayBuffer });
-    bytes += length;
-  }
+  const add = (part: Uint8Array, properties: Pick<View, 'byteStride' | 'target'> = {}): void => {
+    views.push({ buffer: 0, byteOffset: bytes, byteLength: part.length, ...properties });
+    parts.push(part);
+    bytes = aligned(bytes + part.length);
+  };
+  for (const { encoded } of bricks) add(encoded.data);
+  for (const part of values?.bytes ?? []) add(part, { byteStride: values!.stride, target: arrayBuffer });
   const binary = new Uint8Array(bytes);
-  bricks.forEach(({ encoded }, i) => {
-    binary.set(encoded.data, views[i]!.byteOffset);
+  parts.forEach((part, i) => {
+    binary.set(part, views[i]!.byteOffset);
   });
-  values.forEach((of, i) => {
-    binary.set(of, views[bricks.length + i]!.byteOffset);
-  });
-  return container(document(shown, bricks, attribute, views, bytes, up), binary);
-}
-
-/** Whole words for each point. */
-function valueBytes({ attribute }: DecodedBrick, { components }: AttributeForm): Uint8Array {
-  const { values } = attribute!;
-  if (!(values instanceof Uint8Array)) return new Uint8Array(values.buffer, values.byteOffset, values.byteLength);
-  const padded = new Uint8Array((4 * values.length) / components);
-  for (let point = 0; 4 * point < padded.length; ++point)
-    padded.set(values.subarray(components * point, components * (point + 1)), 4 * point);
-  return padded;
+  return container(document(shown, bricks, values, views, bytes, up), binary);
 }
 
 function document(
   shown: Shown,
   bricks: ShownBrick[],
-  attribute: AttributeForm | undefined,
+  values: GlbValues | undefined,
   views: View[],
   bytes: number,
   up: UpAxis,
@@ -91,13 +79,13 @@ function document(
       max: decoded.bounds.max,
     });
     const normal = decoded.normals ? { NORMAL: add({ componentType: float, count: points, type: 'VEC3' }) } : {};
-    const value = attribute
+    const value = values
       ? {
-          [`_${attribute.name.toUpperCase()}`]: add({
+          [values.name]: add({
             bufferView: bricks.length + i,
-            componentType: attribute.type === 'uint8' ? unsignedByte : float,
+            componentType: values.componentType,
             count: points,
-            type: attribute.components === 1 ? 'SCALAR' : `VEC${attribute.components}`,
+            type: values.type,
           }),
         }
       : {};

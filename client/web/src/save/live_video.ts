@@ -18,11 +18,13 @@ export interface RecordedVideo {
 export class LiveVideo {
   private readonly recorder: MediaRecorder;
   private readonly parts: Blob[] = [];
+  private readonly stopped: Promise<void>;
+  private asked = false;
 
-  /** Begins at once. failed: nothing follows. */
+  /** Begins at once. ended: the browser has stopped by itself; what there is comes by stop(). Throws where it cannot begin. */
   constructor(
     private readonly picture: Picture,
-    failed: (reason: string) => void,
+    ended: (reason: string) => void,
   ) {
     const mimeType = types.find((type) => MediaRecorder.isTypeSupported(type));
     this.recorder = new MediaRecorder(picture.canvas.captureStream(), {
@@ -32,8 +34,12 @@ export class LiveVideo {
     this.recorder.addEventListener('dataavailable', ({ data }) => {
       this.parts.push(data);
     });
-    this.recorder.addEventListener('error', () => {
-      failed('The browser has stopped recording the video.');
+    // Also after an error.
+    this.stopped = new Promise((resolve) => {
+      this.recorder.addEventListener('stop', () => {
+        resolve();
+        if (!this.asked) ended('The browser has stopped recording the video: what there is of it is saved.');
+      });
     });
     this.recorder.start(1000);
     // A canvas gives its stream what is drawn from now on.
@@ -52,15 +58,13 @@ export class LiveVideo {
 
   /** Throws if nothing has been recorded. */
   async stop(): Promise<RecordedVideo> {
-    const stopped = new Promise((resolve) => {
-      this.recorder.addEventListener('stop', resolve, { once: true });
-    });
-    await twoPictures();
-    this.recorder.stop();
-    await stopped;
+    this.asked = true;
+    if (this.recorder.state !== 'inactive') await twoPictures();
+    if (this.recorder.state !== 'inactive') this.recorder.stop();
+    await this.stopped;
     const type = this.recorder.mimeType.replace(/;.*/, '');
     const bytes = new Uint8Array(await new Blob(this.parts).arrayBuffer());
-    if (bytes.length === 0) throw new Error('The video is empty: the browser has recorded no picture.');
+    if (bytes.length === 0) throw new Error('the browser has recorded no picture.');
     return { bytes, type };
   }
 }

@@ -44,7 +44,8 @@ export class RecordingVideo {
     this.panes = panes;
     const missing = whyNoEncoder(window);
     this.text.textContent = missing ?? intro;
-    this.setWorking(false, missing !== undefined);
+    // One that was canceled may not have ended yet: the next begins after it.
+    this.setWorking(this.working !== undefined, missing !== undefined);
     this.dialog.showModal();
   }
 

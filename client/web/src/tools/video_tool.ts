@@ -39,7 +39,15 @@ export class VideoTool {
       this.failed(missing);
       return;
     }
-    this.setLive(new LiveVideo(new Picture(panes), this.failed));
+    try {
+      const live = new LiveVideo(new Picture(panes), (reason) => {
+        this.failed(reason);
+        if (this.live === live) void this.finish();
+      });
+      this.setLive(live);
+    } catch (error) {
+      this.fail(error);
+    }
   }
 
   private async finish(): Promise<void> {
@@ -49,8 +57,12 @@ export class VideoTool {
       const { bytes, type } = await live!.stop();
       download(`meniscus.${type === 'video/mp4' ? 'mp4' : 'webm'}`, type, bytes);
     } catch (error) {
-      this.failed(error instanceof Error ? error.message : String(error));
+      this.fail(error);
     }
+  }
+
+  private fail(error: unknown): void {
+    this.failed(`There is no video: ${error instanceof Error ? error.message : String(error)}`);
   }
 
   private setLive(live: LiveVideo | undefined): void {

@@ -4,6 +4,7 @@ import { colorOf, type ColorMap } from '../color/color_maps';
 import type { QuantityKind } from '../color/quantity';
 import type { ValueRange } from '../color/value_range';
 import { environmentGlsl, type EnvironmentUniforms } from './environment';
+import { surfaceFragmentGlsl, surfaceVertexShader } from './surface_shader';
 
 const mapColors = 256;
 
@@ -36,35 +37,17 @@ export class ColoredMaterial {
       polygonOffset: true,
       polygonOffsetFactor: 1,
       polygonOffsetUnits: 1,
-      vertexShader: /* glsl */ `
-        #include <clipping_planes_pars_vertex>
-        ${value}
-        varying vec3 place;
-        varying vec3 outward;
-        ${declare}
-        void main() {
-          vec4 world = modelMatrix * vec4(position, 1.0);
-          place = world.xyz;
-          outward = mat3(modelMatrix) * normal;
-          shown = value;
-          vec4 mvPosition = viewMatrix * world;
-          gl_Position = projectionMatrix * mvPosition;
-          #include <clipping_planes_vertex>
-        }`,
+      vertexShader: surfaceVertexShader(`${value}\n${declare}`, 'shown = value;'),
       fragmentShader: /* glsl */ `
         ${environmentGlsl}
-        #include <clipping_planes_pars_fragment>
-        uniform bool hasNormals;
+        ${surfaceFragmentGlsl}
         uniform sampler2D colorMap;
         uniform vec2 range;
-        varying vec3 place;
-        varying vec3 outward;
         ${declare}
         void main() {
           #include <clipping_planes_fragment>
-          vec3 v = normalize(cameraPosition - place);
-          vec3 n = normalize(hasNormals ? outward : cross(dFdx(place), dFdy(place)));
-          if (dot(n, v) < 0.0) n = normalize(n - 1.02 * dot(n, v) * v);
+          vec3 v = toEye();
+          vec3 n = facingNormal(v);
           float facing = clamp(dot(n, v), 0.0, 1.0);
           float lit = 0.5 + 0.5 * dot(n, sunDirection);
           float light = 0.55 + 0.3 * lit + 0.2 * facing;

@@ -1,6 +1,7 @@
 // Water as a dielectric: Fresnel reflection and refraction of the environment, absorption along the ray's way through it, and the sun.
 import { ShaderMaterial, Vector2, type Texture } from 'three';
 import { environmentGlsl, type EnvironmentUniforms } from './environment';
+import { surfaceFragmentGlsl, surfaceVertexShader } from './surface_shader';
 
 export interface WaterUniforms {
   [name: string]: { value: unknown };
@@ -18,27 +19,12 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
   const material = new ShaderMaterial({
     uniforms: { ...environment, ...water },
     clipping: true,
-    vertexShader: /* glsl */ `
-      #include <clipping_planes_pars_vertex>
-      varying vec3 place;
-      varying vec3 outward;
-      void main() {
-        vec4 world = modelMatrix * vec4(position, 1.0);
-        place = world.xyz;
-        // Bricks are scaled alike on all axes.
-        outward = mat3(modelMatrix) * normal;
-        vec4 mvPosition = viewMatrix * world;
-        gl_Position = projectionMatrix * mvPosition;
-        #include <clipping_planes_vertex>
-      }`,
+    vertexShader: surfaceVertexShader(),
     fragmentShader: /* glsl */ `
       ${environmentGlsl}
-      #include <clipping_planes_pars_fragment>
+      ${surfaceFragmentGlsl}
       uniform sampler2D thickness;
       uniform vec2 screenSize;
-      uniform bool hasNormals;
-      varying vec3 place;
-      varying vec3 outward;
 
       const float indexRatio = 1.0 / 1.333;
       const float normalReflectance = 0.02;
@@ -55,9 +41,8 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
 
       void main() {
         #include <clipping_planes_fragment>
-        vec3 v = normalize(cameraPosition - place);
-        vec3 n = normalize(hasNormals ? outward : cross(dFdx(place), dFdy(place)));
-        if (dot(n, v) < 0.0) n = normalize(n - 1.02 * dot(n, v) * v);
+        vec3 v = toEye();
+        vec3 n = facingNormal(v);
         float facing = clamp(dot(n, v), 0.0, 1.0);
         float fresnel = normalReflectance + (1.0 - normalReflectance) * pow(1.0 - facing, 5.0);
 

@@ -86,6 +86,17 @@ function nameAttribute(
   data[at + 4] = id;
 }
 
+/** One triangle of level 1, without normals. */
+export const flat: BrickOptions = {
+  positions: [
+    [1, 1, 1],
+    [9, 1, 2],
+    [1, 9, 3],
+  ],
+  triangles: [[0, 1, 2]],
+  levels: [1],
+};
+
 const step = 64;
 
 /** A closed tetrahedron inside one base cell (4 cells of 64 steps a side); corner: that cell's, in base cells. */
