@@ -1,0 +1,177 @@
+"""A connection to one server."""
+
+from __future__ import annotations
+
+import os
+from functools import partial
+from typing import Any, AsyncIterator, Optional, Sequence, Union
+
+from . import _meniscus
+from .background import in_background
+from .frame import Frame, ParticleFrame
+from .information import RecordingInfo, ServerInfo, SessionInfo
+from .options import Wishes, names_text, option_texts, wishes_text
+from .session import Session, open_particle_watcher, open_stream, open_watcher, session_info
+from .stream import Stream
+from .watcher import ParticleWatcher, RecordingReader, Watcher
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+class Client:
+    """A connection to a meniscusd. Several threads may use it at once; what it opens lives on without it.
+
+    address: "HOST:PORT", "HOST" for port 50051, or "unix:PATH"; IPv6 stands in brackets. TLS wants ``tls_ca`` (PEM
+    file), mutual TLS ``tls_cert`` and ``tls_key``, too; ``tls_server_name`` is the name in the server's certificate,
+    by default the host. ``token`` is sent with every call, to other machines only by TLS or with ``insecure=True``.
+    ``timeout``: seconds for which a host may not answer. ``wait``: seconds for a server that is still starting.
+
+    Raises ServerError (unavailable) if the server is not there, InvalidInput for a wrong address or option. Ctrl-C ends
+    whatever waits.
+    """
+
+    def __init__(
+        self,
+        address: str,
+        *,
+        tls_ca: Optional[Path] = None,
+        tls_cert: Optional[Path] = None,
+        tls_key: Optional[Path] = None,
+        tls_server_name: Optional[str] = None,
+        token: Optional[str] = None,
+        insecure: bool = False,
+        timeout: float = 10.0,
+        wait: float = 0.0,
+    ) -> None:
+        self.address = address
+        options = {
+            "tls_ca": tls_ca,
+            "tls_cert": tls_cert,
+            "tls_key": tls_key,
+            "tls_server_name": tls_server_name,
+            "token": token,
+            "insecure": insecure,
+            "timeout": timeout,
+            "wait": wait,
+        }
+        self._raw = _meniscus.Client(address, option_texts(options))
+
+    def info(self) -> ServerInfo:
+        """The server's version, backend and limits."""
+        return ServerInfo(**self._raw.info())
+
+    def serving(self) -> bool:
+        """Whether the server takes calls: False once it shuts down."""
+        return self._raw.serving()
+
+    def session(
+        self, particle_radius: float, *, attributes: Union[str, Sequence[str]] = "all", **options: Any
+    ) -> Session:
+        """Opens a session that ends with the object returned, unless it was there before.
+
+        The keywords are the settings, as Reconstructor has them, and those of the session: ``name`` (what people call
+        it), ``id`` (a UUID: joins the session if it is there with equal settings; None: a new one), ``up_axis`` ("x",
+        "y" or "z"), ``length_unit`` (such as "m"), ``ephemeral`` (True: the server ends the session some seconds after
+        its stream, so that a process that is killed leaves nothing behind; False: it may rest).
+        """
+        texts = option_texts({"particle_radius": particle_radius, **options})
+        if "id" in texts:
+            texts["session"] = texts.pop("id")
+        texts["attribute"] = names_text(attributes)
+        return Session(self._raw.open_session(texts))
+
+    def sessions(self) -> list[SessionInfo]:
+        """Those of the server that this client may see."""
+        return [session_info(told) for told in self._raw.sessions()]
+
+    def session_info(self, session_id: str) -> SessionInfo:
+        """Raises ServerError (not_found) if there is none."""
+        return session_info(self._raw.session_info(session_id))
+
+    def delete_session(self, session_id: str) -> None:
+        """Ends a session, whoever made it."""
+        self._raw.delete_session(session_id)
+
+    def stream(self, session_id: str, **options: Any) -> Stream:
+        """Opens the stream of a session that is there.
+
+        meshes          True: they come back; False: their figures alone
+        normal_bits     8: 2 to 16, 0 for none
+        attributes      "all", names, or names with bits as in {"velocity": 12, "age": 0}: those that the meshes have
+        attribute_bits  8: float32 are rounded to one of 2^bits values over the frame's range, 1 to 16; 0: exact
+        spray           False: whether the particles that the surface leaves out come beside it
+        waiting_limit   0: received frames that wait at most, beyond which push() waits; 0: no limit
+        policy          "every-frame": push() waits; "latest": the newest one replaces the one that waits;
+                        "every-nth": the first of every ``nth`` is reconstructed
+        reconnect       0: seconds for which the server may be out of reach; nothing is lost meanwhile
+        route_check     2: seconds between looks for the session's server behind a proxy, with ``reconnect``
+        on_reconnect    told of each attempt (attempt, connected, reason, seconds left), until close()
+        """
+        return open_stream(partial(self._raw.stream, session_id), **options)
+
+    def watch(self, session_id: str, **options: Any) -> Watcher:
+        """Receives the meshes of somebody's session, always the newest.
+
+        max_level         3: finest level of grid, 1 to 3; below 3 the surface is coarser, and as closed
+        normal_bits       8: 2 to 16, 0 for none
+        position_bits     None: as reconstructed; else vertices lie on multiples of cell_size / 2^position_bits
+        attributes        as those of stream(), with attribute_bits
+        region            None; or ((x0, y0, z0), (x1, y1, z1)): only bricks that touch it
+        spray             False: whether the particles that the surface leaves out come beside it
+        bytes_per_second  0: no limit; else frames are skipped to keep it
+        viewpoint         None; or (x, y, z): nearest bricks are sent first
+        reconnect, route_check, on_reconnect  as those of stream()
+        """
+        return open_watcher(partial(self._raw.watch, session_id), **options)
+
+    def watch_particles(self, session_id: str, **options: Any) -> ParticleWatcher:
+        """Receives the particles of somebody's session, always the newest. ``max_particles`` (0: all): of a frame with
+        more, only every k-th is sent. ``reconnect``, ``route_check``, ``on_reconnect`` as those of stream()."""
+        return open_particle_watcher(partial(self._raw.watch_particles, session_id), **options)
+
+    async def awatch(self, session_id: str, **options: Any) -> AsyncIterator[Frame]:
+        """``async for frame in client.awatch(session_id, max_level=2)``: as watch()."""
+        with await in_background(partial(self.watch, session_id, **options)) as watcher:
+            async for frame in watcher:
+                yield frame
+
+    async def awatch_particles(self, session_id: str, **options: Any) -> AsyncIterator[ParticleFrame]:
+        """As watch_particles(), for asyncio."""
+        with await in_background(partial(self.watch_particles, session_id, **options)) as watcher:
+            async for frame in watcher:
+                yield frame
+
+    def snapshot(self, session_id: str, *, attributes: Wishes = "all", **options: Any) -> Optional[Frame]:
+        """The session's newest mesh; None if no frame has come yet. Keywords: ``max_level``, ``normal_bits``,
+        ``position_bits``, ``attributes`` and ``attribute_bits``, as those of watch()."""
+        texts = option_texts(options)
+        texts["attribute"] = wishes_text(attributes)
+        raw = self._raw.snapshot(session_id, texts)
+        return None if raw is None else Frame(raw)
+
+    def recordings(self) -> list[RecordingInfo]:
+        """What the server has recorded, the newest first. Raises ServerError (unimplemented) if it records nothing."""
+        return [RecordingInfo(**told) for told in self._raw.recordings()]
+
+    def read_recording(
+        self, session_id: str, number: int, *, position: int = 0, count: int = 0, spray: bool = False
+    ) -> RecordingReader:
+        """Reads frames of a recording in order: ``count`` at most (0: all) from the place ``position`` on."""
+        return RecordingReader(self._raw.read_recording(session_id, number, position, count, spray))
+
+    def delete_recording(self, session_id: str, number: int) -> None:
+        """Deletes the recording's file. Raises ServerError (failed_precondition) while it is written or read."""
+        self._raw.delete_recording(session_id, number)
+
+    def close(self) -> None:
+        """Ends the connection; the end of a ``with`` block calls it. What was opened lives on."""
+        self._raw.close()
+
+    def __enter__(self) -> Client:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<meniscus.Client {self.address}>"

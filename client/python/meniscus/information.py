@@ -1,0 +1,63 @@
+"""What a server tells of itself, of its sessions and of its recordings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any, Mapping, Optional
+
+from .statistics import Statistics
+
+
+@dataclass(frozen=True)
+class ServerInfo:
+    """A server, and the limits that it keeps."""
+
+    version: str
+    backend: str  #: "cpu" or "cuda"
+    device: str
+    backend_reason: str
+    threads: int
+    limits: Mapping[str, float]  #: by name, as in "max_particles_per_frame"; 0: none
+
+
+@dataclass(frozen=True)
+class SessionInfo:
+    """A session, and what it is doing."""
+
+    id: str
+    owner: str  #: who made it; "" where nobody is asked
+    settings: Mapping[str, Any]  #: with the defaults in force
+    name: str
+    up_axis: str  #: "x", "y", "z" or "unspecified"
+    length_unit: str  #: such as "m"; "": not said
+    ephemeral: bool
+    created_at: datetime  #: UTC
+    uploading: bool
+    watchers: int
+    waits_for: str  #: "nothing", "device", "bytes_in_flight" or "something_else"
+    waits_for_session: str
+    frames: int
+    frames_dropped: int
+    frames_skipped: int
+    last_frame_index: Optional[int]
+    last_frame: Optional[Statistics]
+
+
+@dataclass(frozen=True)
+class RecordingInfo:
+    """Frames of a session that the server has kept."""
+
+    session_id: str
+    number: int  #: of the session's recordings, from 1
+    owner: str
+    name: str  #: of the session, and the two that follow
+    up_axis: str
+    length_unit: str
+    started_at: datetime  #: UTC
+    frames: int  #: those with a mesh, here and below
+    first_frame_index: Optional[int]
+    last_frame_index: Optional[int]
+    bytes: int
+    being_written: bool
+    damaged: bool  #: behind the last of these frames

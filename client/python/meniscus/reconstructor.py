@@ -1,0 +1,126 @@
+"""Surfaces in this process, without a server."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any, Mapping, Optional, Sequence, Union
+
+from . import _meniscus, arrays
+from .errors import SurfaceWarning
+from .mesh import DeviceMesh, Mesh
+from .options import names_text, option_texts
+from .statistics import Statistics
+
+
+class Reconstructor:
+    """Reconstructs the surfaces of frames, one after the other, and keeps its buffers between them.
+
+    ``particle_radius`` is in world units, all other lengths are in particle radii. Keywords are the settings:
+
+    preset              "smooth" (the defaults), "paper" or "splashsurf"; single ones override it
+    cell_size           0.5: edge of a finest cell
+    iso                 0.6: field value at the surface
+    field               "smooth", "color" or "density"
+    smoothness          6, with "smooth": the widest support, 5, 6 or 7
+    spray               "keep", "discard" or "points": what becomes of particles without company, with "smooth"
+    smoothing_length    2.0, with "color" and "density"
+    mode                "adaptive" or "uniform"
+    criterion           "curvature" or "count"
+    tolerance           0.15, with "curvature": how far the surface may depart from the finest one, in finest cells
+    count_threshold     1, with "count"
+    edge_points         "interpolate" or "bisect"
+    bisection_steps     5, with "bisect"
+    normals             True
+    domain              None: no limit; or ((x0, y0, z0), (x1, y1, z1)), world units: crops the surface
+    attributes          "all", which is every array that the first frame brings, or names
+
+    and how it is computed: ``backend`` ("auto", "cpu", "cuda"), ``threads`` (0: one for each processor),
+    ``memory_limit`` (bytes, 0: none), ``device`` (index of the GPU), ``device_memory_limit``.
+
+    Raises InvalidInput for settings that are out of range or not known. Calls of several threads take turns. The
+    interpreter's lock is not held while a surface is computed, and Ctrl-C ends the computation.
+    """
+
+    def __init__(
+        self, particle_radius: float, *, attributes: Union[str, Sequence[str]] = "all", **options: Any
+    ) -> None:
+        texts = option_texts({"particle_radius": particle_radius, **options})
+        texts["attribute"] = names_text(attributes)
+        self._raw = _meniscus.Reconstructor(texts)
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """All settings by name, with the defaults in force."""
+        return self._raw.settings()
+
+    @property
+    def backend(self) -> str:
+        """ "cpu" or "cuda"."""
+        return self._raw.backend
+
+    def reconstruct(
+        self, positions: Any, *, levels: Any = None, attributes: Optional[Mapping[str, Any]] = None
+    ) -> Mesh:
+        """The surface of a frame.
+
+        positions: (N, 3), world units, float32 or float64 (rounded to float32), or whatever numpy makes that of: an
+        object with ``__array__``, or with DLPack on the CPU. levels: None, or (N,), 0 (finest) to 3: particles of
+        level k have 2^k times the radius. attributes: arrays by name, (N,), (N, 3) or (N, 4) of float32 or uint8, or
+        (N,) of int32 or uint32, which are ids: never averaged. On the backend "cuda" all of them may lie on the GPU
+        instead (``__cuda_array_interface__``).
+
+        Raises InvalidInput, LimitExceeded or DeviceError; the Reconstructor remains usable. What looks like a mistake
+        is a SurfaceWarning.
+        """
+        return self._reconstruct(positions, levels, attributes)
+
+    def reconstruct_on_device(
+        self, positions: Any, *, levels: Any = None, attributes: Optional[Mapping[str, Any]] = None
+    ) -> DeviceMesh:
+        """As reconstruct(), but the mesh stays on the GPU. Raises InvalidInput on the backend "cpu"."""
+        if arrays.is_on_gpu(positions):
+            raw, figures = self._raw.device_mesh_from_device(*arrays.device_frame(positions, levels, attributes))
+        else:
+            raw, figures = self._raw.device_mesh(*arrays.frame(positions, levels, attributes))
+        return DeviceMesh(raw, _told(figures, callers=2))
+
+    def coarser(self, max_level: int) -> Mesh:
+        """The surface of the last frame once more, with no cell finer than ``max_level``, 1 to 3: fewer triangles, as
+        closed. Nothing is sampled again."""
+        return Mesh(self._raw.coarser(max_level))
+
+    def release_memory(self) -> None:
+        """Gives the buffers back; the next frame takes them again."""
+        self._raw.release_memory()
+
+    def _reconstruct(self, positions: Any, levels: Any, attributes: Optional[Mapping[str, Any]]) -> Mesh:
+        if arrays.is_on_gpu(positions):
+            raw, figures = self._raw.reconstruct_from_device(*arrays.device_frame(positions, levels, attributes))
+        else:
+            raw, figures = self._raw.reconstruct(*arrays.frame(positions, levels, attributes))
+        return Mesh(raw, _told(figures, callers=3))
+
+
+def reconstruct(
+    positions: Any,
+    particle_radius: float,
+    *,
+    levels: Any = None,
+    attributes: Optional[Mapping[str, Any]] = None,
+    **options: Any,
+) -> Mesh:
+    """The surface of one frame of particles, computed in this process.
+
+    The arrays are those of Reconstructor.reconstruct(), and the further keywords are those of Reconstructor: the
+    settings and where to compute. Every attribute that is given becomes one of the mesh. For several frames, a
+    Reconstructor that is kept is faster.
+    """
+    return Reconstructor(particle_radius, **options)._reconstruct(positions, levels, attributes)
+
+
+def _told(figures: Mapping[str, Any], callers: int) -> Statistics:
+    """callers: functions from this one up to the one of the user's, at whose line the warnings are told."""
+    statistics = Statistics.of(figures)
+    for warning in statistics.warnings:
+        warnings.warn(warning.text, SurfaceWarning, stacklevel=callers + 1)
+    return statistics

@@ -1,0 +1,97 @@
+"""A simulator's stream: particle frames out, meshes in."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import deque
+from concurrent.futures import wait
+from typing import Any, Mapping, Optional
+
+from . import _meniscus, arrays
+from .background import Worker
+from .frame import Frame
+from .receiving import Frames
+
+
+class Stream(Frames[Frame]):
+    """Uploads frames and receives their meshes, in order; from Session.stream() or Client.stream().
+
+    At the end of a ``with`` block the stream is finished and waits until the server has answered all frames; those
+    that were not taken yet are still given by ready(). After an exception it is cancelled.
+
+    Received frames wait, encoded, until they are taken: take them, or open the stream with ``meshes=False``.
+    """
+
+    def __init__(self, raw: _meniscus.Stream, meshes: bool) -> None:
+        super().__init__(raw, lambda frame: Frame(frame, meshes))
+        self._raw = raw
+        self._pushes = Worker("meniscus-push")
+
+    def push(
+        self,
+        positions: Any,
+        *,
+        levels: Any = None,
+        attributes: Optional[Mapping[str, Any]] = None,
+        time: float = 0.0,
+        index: Optional[int] = None,
+    ) -> int:
+        """Sends one frame, copied; waits while the server does not take more. Returns the frame's index.
+
+        The arrays are those of Reconstructor.reconstruct(). ``time`` is the simulation's. ``index`` is greater than
+        the one before; None: by one, from 0. Raises InvalidInput for arrays that are wrong, and the frame is then not
+        pushed; InvalidInput, LimitExceeded or ServerError for what the server has refused. Ctrl-C in a wait cancels
+        the stream.
+        """
+        return self._raw.push(*arrays.frame(positions, levels, attributes), index, time)
+
+    def try_push(
+        self,
+        positions: Any,
+        *,
+        levels: Any = None,
+        attributes: Optional[Mapping[str, Any]] = None,
+        time: float = 0.0,
+        index: Optional[int] = None,
+    ) -> bool:
+        """As push() where that would not wait; otherwise False, and nothing was taken, neither the frame nor its
+        index."""
+        return self._raw.try_push(*arrays.frame(positions, levels, attributes), index, time)
+
+    async def apush(self, positions: Any, **arguments: Any) -> int:
+        """push() for asyncio, one after the other. A task that is cancelled while it waits has pushed the frame all
+        the same; until then the arrays must stay as they are."""
+        return await asyncio.wrap_future(self._pushes.call(lambda: self.push(positions, **arguments)))
+
+    def finish(self) -> None:
+        """No more frames will be pushed: ``for frame in stream`` ends after the last one."""
+        self._raw.finish()
+
+    @property
+    def dropped(self) -> int:
+        """Frames that the policy has left out so far."""
+        return self._raw.dropped()
+
+    def close(self) -> None:
+        """Cancels what is in flight."""
+        super().close()
+        self._pushes.stop()
+
+    def __exit__(self, *raised: object) -> None:
+        try:
+            if raised[0] is None:
+                self.finish()
+                self._wait_for_answers()
+        finally:
+            self.close()
+
+    def _wait_for_answers(self) -> None:
+        """They can be taken later."""
+        answers: deque[Frame] = deque()
+        try:
+            if self._receiving is not None:
+                wait([self._receiving])  # a task that was cancelled has left it; its frame comes before the others
+            answers.extend(self)
+        finally:
+            answers.extend(self._received)
+            self._received = answers

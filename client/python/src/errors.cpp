@@ -1,0 +1,50 @@
+#include "meniscus/client/errors.hpp"
+
+#include <string>
+
+#include "bindings.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/names.hpp"
+#include "process.hpp"
+#include "text_out.hpp"
+
+namespace py = pybind11;
+
+namespace meniscus::python {
+namespace {
+
+/// An error of meniscus/errors.py, made of its arguments.
+template <class... Arguments>
+void raise(const char* name, const std::exception& error, Arguments&&... further) {
+    const py::object type = py::module_::import("meniscus.errors").attr(name);
+    const py::object raised = type(text_out(error.what()), std::forward<Arguments>(further)...);
+    PyErr_SetObject(type.ptr(), raised.ptr());
+}
+
+void translate(std::exception_ptr thrown) {
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const InvalidInput& error) {
+        raise("InvalidInput", error);
+    } catch (const LimitExceeded& error) {
+        raise("LimitExceeded", error);
+    } catch (const DeviceError& error) {
+        raise("DeviceError", error, error.device());
+    } catch (const client::ServerError& error) {
+        raise("ServerError", error, name_of(error.code()), error.status());
+    } catch (const ForkedError& error) {
+        raise("ForkedError", error);
+    } catch (const py::builtin_exception&) {
+        throw;  // pybind11's own
+    } catch (const std::runtime_error& error) {
+        raise("Error", error);  // a full disk, no more threads
+    }
+}
+
+}  // namespace
+
+void bind_errors(py::module_& /*module*/) {
+    py::register_local_exception_translator(&translate);
+}
+
+}  // namespace meniscus::python

@@ -1,0 +1,81 @@
+"""The examples that the documents name, each as a user runs it, against a real server."""
+
+import ast
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+import numpy as np
+
+repository = pathlib.Path(__file__).parents[3]
+examples = repository / "client" / "python" / "examples"
+
+
+def lines_of(example, *arguments, **options):
+    """What the example prints. Warnings are errors."""
+    command = [sys.executable, "-B", "-W", "error", examples / example, *map(str, arguments)]
+    ran = subprocess.run(command, capture_output=True, text=True, timeout=120, **options)
+    assert (ran.returncode, ran.stderr) == (0, "")
+    return ran.stdout.splitlines()
+
+
+def test_the_toy_simulator_gets_a_surface_for_each_frame(server):
+    lines = lines_of("numpy_simulator.py", server.address)
+    frames = [re.fullmatch(r"frame (\d+): (\d+) triangles, volume ([\d.]+)", line).groups() for line in lines]
+    assert [int(index) for index, _, _ in frames] == list(range(100))
+    assert all(int(triangles) > 100 for _, triangles, _ in frames)
+    assert 0.4 < float(frames[0][2]) < 0.6  # of 4096 particles of 5 cm
+
+
+def test_the_loop_with_a_callback_takes_or_leaves_every_step(server, tmp_path):
+    *steps, counts, last = lines_of("callback_loop.py", server.address, tmp_path / "last.npz")
+    left_out, dropped = map(int, re.fullmatch(r"(\d+) steps were left out, (\d+) dropped", counts).groups())
+    indices = [int(re.fullmatch(r"step (\d+): [1-9]\d+ triangles", step).group(1)) for step in steps]
+    assert indices == sorted(set(indices))
+    assert len(indices) + left_out + dropped == 200
+    assert "velocity" in last
+    assert len(np.load(tmp_path / "last.npz")["velocity"]) > 100
+
+
+def test_the_notebook_runs_without_jupyter(server, monkeypatch, tmp_path):
+    """Its cells one after the other, without the plot and the frame, which need matplotlib and a browser."""
+    monkeypatch.setenv("SERVER", server.address)
+    monkeypatch.chdir(tmp_path)
+    cells = json.loads((examples / "live_plot.ipynb").read_text())["cells"]
+    code = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+    assert all(cell["outputs"] == [] for cell in cells if cell["cell_type"] == "code"), "kept with outputs"
+    names = {}
+    for cell in code:
+        for statement in ast.parse(cell).body:
+            text = ast.unparse(statement)
+            if not re.search(r"matplotlib|IPython|IFrame|\b(figure|axis)\b", text):
+                exec(compile(text, "live_plot.ipynb", "exec"), names)
+    assert len(names["frames"]) == 100
+    assert (tmp_path / "live_plot.glb").read_bytes().startswith(b"glTF")
+    names["session"].end()
+
+
+def snippets(document):
+    return re.findall(r"^```python\n(.*?)^```", document.read_text(), re.MULTILINE | re.DOTALL)
+
+
+def test_every_snippet_of_the_documents_is_python():
+    found = 0
+    for document in ("README.md", "client/README.md", "client/python/README.md"):
+        for snippet in snippets(repository / document):
+            # "async for" stands alone there.
+            compile(snippet, document, "exec", flags=ast.PyCF_ALLOW_TOP_LEVEL_AWAIT)
+            found += 1
+    assert found > 5
+
+
+def test_the_first_snippets_of_the_page_do_what_they_say(server, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    in_process, _, through_a_server, *_ = snippets(repository / "client" / "python" / "README.md")
+    names = {}
+    exec(in_process, names)
+    assert (tmp_path / "water.glb").stat().st_size > 1000
+    exec(through_a_server.replace("127.0.0.1:50051", server.address), names)
+    assert names["frame"].index == 99

@@ -1,0 +1,16 @@
+"""What a line of the tables is."""
+
+from dataclasses import dataclass
+from typing import Any, Callable
+
+
+@dataclass(frozen=True)
+class Wrong:
+    name: str
+    call: Callable[[Any], Any]  #: of the object that is to refuse
+    error: Any  #: a class, or several
+    words: tuple  #: regular expressions, each of which is found in the message
+
+
+def wrong(name, call, error, *words):
+    return Wrong(name, call, error, words)
