@@ -1,0 +1,111 @@
+"""Operators of live sessions."""
+
+import bpy
+
+from . import live_objects, package, status
+from .operators import new_object
+from .session_list import SessionList
+from .worker import error_text
+
+
+def _is_live(context):
+    obj = context.object
+    return obj is not None and obj.type == "MESH" and obj.meniscus.kind == "LIVE"
+
+
+class AddLive(bpy.types.Operator):
+    """Add an object that follows a live session of a meniscusd"""
+
+    bl_idname = "meniscus.add_live"
+    bl_label = "Meniscus Live Session"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        new_object(context, "Live Session", "LIVE")
+        return {"FINISHED"}
+
+
+class Connect(bpy.types.Operator):
+    """Follow the session: the object shows its newest frame"""
+
+    bl_idname = "meniscus.connect"
+    bl_label = "Connect"
+
+    @classmethod
+    def poll(cls, context):
+        return _is_live(context)
+
+    def execute(self, context):
+        obj = context.object
+        try:
+            live_objects.connect(obj)
+        except (package.PackageMissing, OSError) as error:
+            status.tell(obj.name, error_text(error), "ERROR")
+            self.report({"ERROR"}, error_text(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class Disconnect(bpy.types.Operator):
+    """Follow the session no longer; the last surface stays"""
+
+    bl_idname = "meniscus.disconnect"
+    bl_label = "Disconnect"
+
+    @classmethod
+    def poll(cls, context):
+        return _is_live(context) and live_objects.follower_of(context.object) is not None
+
+    def execute(self, context):
+        live_objects.disconnect(context.object)
+        return {"FINISHED"}
+
+
+class ListSessions(bpy.types.Operator):
+    """Ask the server for its sessions, to choose one of them"""
+
+    bl_idname = "meniscus.list_sessions"
+    bl_label = "List Sessions"
+
+    @classmethod
+    def poll(cls, context):
+        return _is_live(context)
+
+    def execute(self, context):
+        obj = context.object
+        try:
+            asked = SessionList(live_objects.client_opener(obj.meniscus.live))
+        except (package.PackageMissing, OSError) as error:
+            status.tell(obj.name, error_text(error), "ERROR")
+            self.report({"ERROR"}, error_text(error))
+            return {"CANCELLED"}
+        name = obj.name
+        status.tell(name, "asking for sessions")
+
+        def show():
+            if not asked.done:
+                return 0.1
+            _show_sessions(name, asked)
+            return None
+
+        if bpy.app.background:
+            asked.wait()
+            show()
+        else:
+            bpy.app.timers.register(show)
+        return {"FINISHED"}
+
+
+def _show_sessions(name, asked):
+    listed = bpy.context.window_manager.meniscus_sessions
+    listed.clear()
+    for key, text in asked.entries():
+        entry = listed.add()
+        entry.name, entry.told = key, text
+    if asked.error:
+        status.tell(name, asked.error, "ERROR", aloud=bpy.app.background)
+    else:
+        status.tell(name, "; ".join(entry.told for entry in listed) or "the server has no session")
+
+
+CLASSES = (AddLive, Connect, Disconnect, ListSessions)
