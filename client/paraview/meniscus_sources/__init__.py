@@ -1,0 +1,1 @@
+"""The sources of the plugin meniscus_paraview.py."""
