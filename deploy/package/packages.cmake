@@ -1,6 +1,9 @@
-# Four Debian packages, one for each component: cpack -G DEB.
+# Debian packages, one for each component: cpack -G DEB.
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL server client library development)
+if(MENISCUS_WITH_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_VERBATIM_VARIABLES ON)
@@ -70,5 +73,21 @@ meniscus::client, and of the reconstruction, meniscus::core; and examples.")
 # And what find_package(Meniscus) looks for.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libmeniscus0 (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), libgrpc++-dev, protobuf-compiler-grpc, libprotobuf-dev, protobuf-compiler, libdraco-dev, libssl-dev, libtbb-dev")
+
+if(MENISCUS_WITH_PYTHON)
+  debian_package(python python3-meniscus python "surfaces of simulated fluid particles: Python package
+Meniscus turns frames of SPH particles into adaptive, closed surfaces, on a
+server or in a simulation's own process.
+.
+This package has the module meniscus for Python: numpy arrays of particles in,
+numpy arrays of meshes out, in process and through a server, with examples.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  # The extension is compiled for one minor version of Python.
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "meniscusd")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${control}/python/postinst ${control}/python/prerm)
+endif()
 
 include(CPack)

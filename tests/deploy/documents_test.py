@@ -72,7 +72,7 @@ class Documents(unittest.TestCase):
 
     def test_every_room_has_a_page_that_the_front_page_links(self):
         front = (REPOSITORY / "README.md").read_text()
-        for room in ("core", "proto", "server", "client", "client/web", "deploy", "tests"):
+        for room in ("core", "proto", "server", "client", "client/python", "client/web", "deploy", "tests"):
             self.assertIn(f"({room}/README.md)", front)
 
 

@@ -1,6 +1,6 @@
 """The packages that CPack makes of a build. Needs no root; installs nothing.
 
-Usage: packages_test.py BUILD CMAKE VERSION"""
+Usage: packages_test.py BUILD CMAKE VERSION WITH-PYTHON (ON or OFF)"""
 
 import re
 import subprocess
@@ -9,10 +9,13 @@ import tempfile
 import unittest
 from pathlib import Path
 
-*_, BUILD, CMAKE, VERSION = sys.argv
+*_, BUILD, CMAKE, VERSION, WITH_PYTHON = sys.argv
 del sys.argv[1:]
 CPACK = Path(CMAKE).with_name("cpack")
-NAMES = {"meniscusd", "meniscus", "libmeniscus0", "libmeniscus-dev"}
+NAMES = {"meniscusd", "meniscus", "libmeniscus0", "libmeniscus-dev"} | (
+    {"python3-meniscus"} if WITH_PYTHON == "ON" else set()
+)
+REPOSITORY = Path(__file__).parents[3]
 
 
 def output_of(*command):
@@ -45,11 +48,11 @@ class Packages(unittest.TestCase):
             if path.startswith("/usr/bin/") and mode[0] == "-"
         }
 
-    def test_are_four(self):
+    def test_are_those_that_the_build_has(self):
         self.assertEqual(set(self.files), NAMES)
 
     def test_have_the_projects_version_and_so_has_the_changelog(self):
-        changelog = (Path(__file__).parents[3] / "deploy" / "package" / "changelog").read_text()
+        changelog = (REPOSITORY / "deploy" / "package" / "changelog").read_text()
         self.assertTrue(changelog.startswith(f"meniscus ({VERSION}-1) "), changelog.splitlines()[0])
         for package in NAMES:
             self.assertEqual(self.fields(package)["Version"], f"{VERSION}-1")
@@ -65,14 +68,14 @@ class Packages(unittest.TestCase):
             self.assertEqual(fields["Architecture"], output_of("dpkg", "--print-architecture").strip())
 
     def test_need_the_libraries_behind_their_programs(self):
-        for package in ("meniscusd", "meniscus", "libmeniscus0"):
+        for package in NAMES - {"libmeniscus-dev"}:
             for library in ("libc6", "libgrpc++", "libdraco", "libtbb"):
                 self.assertRegex(self.fields(package)["Depends"], rf"(^|, ){re.escape(library)}", package)
 
     def test_have_the_programs_each_with_its_page(self):
         self.assertEqual(self.programs("meniscusd"), {"/usr/bin/meniscusd"})
         self.assertEqual(self.programs("meniscus"), {"/usr/bin/meniscus", "/usr/bin/meniscus-load"})
-        for package in ("libmeniscus0", "libmeniscus-dev"):
+        for package in NAMES - {"meniscusd", "meniscus"}:
             self.assertEqual(self.programs(package), set())
         for package in NAMES:
             paths = self.contents(package).keys()
@@ -142,6 +145,27 @@ class Packages(unittest.TestCase):
         shlibs = Path(self.folder, "library", "shlibs").read_text()
         self.assertRegex(shlibs, rf"(?m)^libmeniscus 0 libmeniscus0 \(>= {re.escape(VERSION)}")
         self.assertIn("ldconfig", Path(self.folder, "library", "triggers").read_text())
+
+    @unittest.skipUnless(WITH_PYTHON == "ON", "built without Python")
+    def test_have_the_python_package_where_its_python_looks(self):
+        folder = "/usr/lib/python3/dist-packages/meniscus/"
+        paths = self.contents("python3-meniscus").keys()
+        packed = {path.removeprefix(folder) for path in paths if path.startswith(folder)} - {""}
+        extensions = {name for name in packed if name.endswith(".so")}
+        self.assertEqual(len(extensions), 1, packed)
+        modules = REPOSITORY / "client" / "python" / "meniscus"
+        self.assertEqual(packed - extensions, {path.name for path in modules.iterdir() if path.is_file()})
+        python = re.fullmatch(r"_meniscus\.cpython-3(\d+)-.*\.so", extensions.pop())
+        depends = self.fields("python3-meniscus")["Depends"].split(", ")
+        minor = int(python.group(1))
+        for needed in (f"python3 (>= 3.{minor})", f"python3 (<< 3.{minor + 1})", "python3-numpy"):
+            self.assertIn(needed, depends)
+        output_of("dpkg-deb", "--control", str(self.files["python3-meniscus"]), f"{self.folder}/python")
+        for script, program in (("postinst", "py3compile"), ("prerm", "py3clean")):
+            self.assertIn(f"{program} -p python3-meniscus", Path(self.folder, "python", script).read_text())
+        examples = {path.name for path in (REPOSITORY / "client" / "python" / "examples").iterdir() if path.is_file()}
+        folder = "/usr/share/doc/python3-meniscus/examples/"
+        self.assertEqual({path.removeprefix(folder) for path in paths if path.startswith(folder)} - {""}, examples)
 
 
 class Install(unittest.TestCase):
