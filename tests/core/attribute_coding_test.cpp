@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "meniscus/meniscus.hpp"
+#include "support/damaged_bricks.hpp"
 #include "support/mesh_attributes.hpp"
 #include "support/particles.hpp"
 
@@ -362,7 +363,7 @@ TEST(AttributeBricks, AreRefusedOrDecodedToSomeMeshWhenDamaged) {
     const CodingOptions options = options_for(sample(), test::wish_for_all(sample(), 8));
     const EncodedBrick whole = encode_brick(sample(), sample().bricks.size() - 1, options);
     int refused = 0;
-    const auto attempt = [&](const EncodedBrick& damaged) {
+    for (const EncodedBrick& damaged : test::damaged(whole, 300))
         refused += refusal_of([&] {
                        const DecodedBrick decoded = decode_brick(damaged, sample().offset_bits, options.attributes);
                        ASSERT_EQ(decoded.attributes.size(), options.attributes.size());
@@ -371,19 +372,6 @@ TEST(AttributeBricks, AreRefusedOrDecodedToSomeMeshWhenDamaged) {
                    }).empty()
                        ? 0
                        : 1;
-    };
-    for (std::size_t size = 0; size < whole.data.size(); size += 1 + size / 16) {
-        EncodedBrick cut = whole;
-        cut.data.resize(size);
-        attempt(cut);
-    }
-    std::mt19937 random(5);
-    std::uniform_int_distribution<std::size_t> place(0, whole.data.size() - 1);
-    for (int i = 0; i < 300; ++i) {
-        EncodedBrick flipped = whole;
-        for (int k = 0; k <= i % 3; ++k) flipped.data[place(random)] ^= static_cast<std::byte>(1U << (random() % 8));
-        attempt(flipped);
-    }
     EXPECT_GT(refused, 20);
 }
 

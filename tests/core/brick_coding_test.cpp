@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "codec/round_position.hpp"
 #include "meniscus/meniscus.hpp"
+#include "support/damaged_bricks.hpp"
 #include "support/mesh_check.hpp"
 #include "support/particles.hpp"
 
@@ -148,7 +148,7 @@ TEST(BrickCoding, RefusesADamagedBrickOrDecodesSomeMesh) {
     const Mesh mesh = test::reconstruct(test::default_settings(), test::splash(63, 6).frame());
     const EncodedBrick whole = encode_brick(mesh, 0);
     int refused = 0;
-    const auto attempt = [&](const EncodedBrick& damaged) {
+    for (const EncodedBrick& damaged : test::damaged(whole, 2000)) {
         try {
             const DecodedBrick decoded = decode_brick(damaged, mesh.offset_bits);
             for (const Triangle& t : decoded.triangles)
@@ -156,18 +156,6 @@ TEST(BrickCoding, RefusesADamagedBrickOrDecodesSomeMesh) {
         } catch (const InvalidInput&) {
             ++refused;
         }
-    };
-    for (std::size_t size = 0; size < whole.data.size(); size += 1 + size / 16) {
-        EncodedBrick cut = whole;
-        cut.data.resize(size);
-        attempt(cut);
-    }
-    std::mt19937 random(5);
-    std::uniform_int_distribution<std::size_t> place(0, whole.data.size() - 1);
-    for (int i = 0; i < 2000; ++i) {
-        EncodedBrick flipped = whole;
-        for (int k = 0; k <= i % 3; ++k) flipped.data[place(random)] ^= static_cast<std::byte>(1U << (random() % 8));
-        attempt(flipped);
     }
     EXPECT_GT(refused, 20);
     EncodedBrick lying = whole;
