@@ -128,12 +128,13 @@ TEST_F(RecordedSession, KeepsItsNameAndIsReplayedUnderItOrAnother) {
     EXPECT_EQ(Recording(recorded).description().up_axis, client::UpAxis::z);
     const auto replayed_as = [&](std::vector<std::string> more) {
         const std::string session = client::new_session_id();
-        RunningServer other(recorded_in(folder("replayed")));
-        std::vector<std::string> arguments{"replay",    recorded.string(), "--server", other.server.address(),
-                                           "--session", session,           "--speed",  "max"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        EXPECT_EQ(meniscus(arguments), 0);
-        other.server.shutdown();
+        {
+            RunningServer other(recorded_in(folder("replayed")));
+            std::vector<std::string> arguments{"replay",    recorded.string(), "--server", other.server.address(),
+                                               "--session", session,           "--speed",  "max"};
+            arguments.insert(arguments.end(), more.begin(), more.end());
+            EXPECT_EQ(meniscus(arguments), 0);
+        }  // and its recording is whole
         return Recording(directory_ / "replayed" / session / "000001.recording").description();
     };
     EXPECT_EQ(replayed_as({}).name, named.name);
