@@ -3,14 +3,15 @@
 import bpy
 
 from . import live_objects, package, status
-from .operators import new_object
+from .operators import cancelled, is_active, new_object
 from .session_list import SessionList
 from .worker import error_text
 
 
-def _is_live(context):
-    obj = context.object
-    return obj is not None and obj.type == "MESH" and obj.meniscus.kind == "LIVE"
+def _not_connected(operator, obj, error):
+    text = error_text(error)
+    status.tell(obj.name, text, "ERROR")
+    return cancelled(operator, text)
 
 
 class AddLive(bpy.types.Operator):
@@ -33,16 +34,14 @@ class Connect(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return _is_live(context)
+        return is_active(context, "LIVE")
 
     def execute(self, context):
         obj = context.object
         try:
             live_objects.connect(obj)
         except (package.PackageMissing, OSError) as error:
-            status.tell(obj.name, error_text(error), "ERROR")
-            self.report({"ERROR"}, error_text(error))
-            return {"CANCELLED"}
+            return _not_connected(self, obj, error)
         return {"FINISHED"}
 
 
@@ -54,7 +53,7 @@ class Disconnect(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return _is_live(context) and live_objects.follower_of(context.object) is not None
+        return is_active(context, "LIVE") and live_objects.follower_of(context.object) is not None
 
     def execute(self, context):
         live_objects.disconnect(context.object)
@@ -69,16 +68,14 @@ class ListSessions(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return _is_live(context)
+        return is_active(context, "LIVE")
 
     def execute(self, context):
         obj = context.object
         try:
             asked = SessionList(live_objects.client_opener(obj.meniscus.live))
         except (package.PackageMissing, OSError) as error:
-            status.tell(obj.name, error_text(error), "ERROR")
-            self.report({"ERROR"}, error_text(error))
-            return {"CANCELLED"}
+            return _not_connected(self, obj, error)
         name = obj.name
         status.tell(name, "asking for sessions")
 

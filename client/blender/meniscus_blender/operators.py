@@ -27,9 +27,16 @@ def new_object(context, name, kind):
     return obj
 
 
-def _active(context, kind):
+def is_active(context, kind):
+    """Whether the active object is one of this kind."""
     obj = context.object
     return obj is not None and obj.type == "MESH" and obj.meniscus.kind == kind
+
+
+def cancelled(operator, error):
+    """Reports the error, and is what execute() returns then."""
+    operator.report({"ERROR"}, str(error))
+    return {"CANCELLED"}
 
 
 class ImportSequence(bpy.types.Operator, ImportHelper):
@@ -66,20 +73,17 @@ class ImportSequence(bpy.types.Operator, ImportHelper):
         chosen = [os.path.join(self.directory, file.name) for file in self.files if file.name] or [self.filepath]
         path = bpy.path.abspath(chosen[0])
         if not os.path.isfile(path):
-            self.report({"ERROR"}, f"{path} is not there")
-            return {"CANCELLED"}
+            return cancelled(self, f"{path} is not there")
         try:
             pattern = sequence.pattern_of(path) if self.whole_sequence or len(chosen) > 1 else path
             found = sequence.files(pattern) if "{}" in os.path.basename(pattern) else {}
         except sequence.SequenceError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            return cancelled(self, error)
         if len(chosen) > 1:
             names = {os.path.basename(file) for file in chosen}
             found = {number: file for number, file in found.items() if os.path.basename(file) in names}
             if len(found) != len(names):
-                self.report({"ERROR"}, "the names of the chosen files must differ in one number alone")
-                return {"CANCELLED"}
+                return cancelled(self, "the names of the chosen files must differ in one number alone")
         name = os.path.basename(pattern).split(".")[0].replace("{}", "").strip("_-. ") or "Particles"
         obj = new_object(context, name, "SEQUENCE")
         settings = obj.meniscus.sequence
@@ -110,18 +114,16 @@ class RescanFiles(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return _active(context, "SEQUENCE")
+        return is_active(context, "SEQUENCE")
 
     def execute(self, context):
         settings = context.object.meniscus.sequence
         try:
             found = sequence.files(bpy.path.abspath(settings.pattern))
         except sequence.SequenceError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            return cancelled(self, error)
         if not found:
-            self.report({"ERROR"}, f"no file matches {settings.pattern}")
-            return {"CANCELLED"}
+            return cancelled(self, f"no file matches {settings.pattern}")
         sequence_objects.set_files(settings, found)
         sequence_objects.update(context.object, context.scene.frame_current, waits=bpy.app.background)
         self.report({"INFO"}, f"{len(found)} files")
@@ -138,7 +140,7 @@ class FillCache(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return _active(context, "SEQUENCE") and services.worker is not None
+        return is_active(context, "SEQUENCE") and services.worker is not None
 
     def execute(self, context):
         obj = context.object
@@ -147,8 +149,7 @@ class FillCache(bpy.types.Operator):
             services.worker.wait()
             filling = services.worker.filling(obj.name)
             if filling.failed:
-                self.report({"ERROR"}, f"{filling.failed} of {filling.total} frames failed: {filling.error}")
-                return {"CANCELLED"}
+                return cancelled(self, f"{filling.failed} of {filling.total} frames failed: {filling.error}")
         return {"FINISHED"}
 
 
@@ -174,7 +175,7 @@ class UseFittingRadius(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return _active(context, "SEQUENCE")
+        return is_active(context, "SEQUENCE")
 
     def execute(self, context):
         context.object.meniscus.sequence.particle_radius = float(f"{self.radius:.3g}")
@@ -208,8 +209,7 @@ class InstallWheel(bpy.types.Operator, ImportHelper):
             wheel.install(self.filepath, folder)
             library = package.load_anew(folder)
         except (wheel.WheelError, package.PackageMissing, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            return cancelled(self, error)
         told = "start Blender anew to use it" if was_there else f"it is meniscus {library.__version__}"
         self.report({"INFO"}, f"the wheel is installed in {folder}: {told}")
         return {"FINISHED"}

@@ -16,6 +16,20 @@ class _Panel:
     bl_category = "Meniscus"
 
 
+class _ObjectPanel(_Panel):
+    """Of an active object of one kind, with properties in two columns."""
+
+    @classmethod
+    def poll(cls, context):
+        return _kind(context) == cls.kind
+
+    def properties_layout(self):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        return layout
+
+
 def _kind(context):
     obj = context.object
     return obj.meniscus.kind if obj is not None and obj.type == "MESH" else "NONE"
@@ -46,18 +60,13 @@ def _draw_status(layout, obj):
             layout.operator("meniscus.use_fitting_radius", text=text).radius = told.fitting_radius
 
 
-class MENISCUS_PT_sequence(_Panel, bpy.types.Panel):
+class MENISCUS_PT_sequence(_ObjectPanel, bpy.types.Panel):
     bl_label = "Sequence"
     bl_parent_id = "MENISCUS_PT_main"
-
-    @classmethod
-    def poll(cls, context):
-        return _kind(context) == "SEQUENCE"
+    kind = "SEQUENCE"
 
     def draw(self, context):
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        layout = self.properties_layout()
         settings = context.object.meniscus.sequence
         layout.prop(settings, "pattern")
         if "{}" in settings.pattern:
@@ -83,17 +92,12 @@ def _draw_look(layout, obj):
     column.prop(obj.meniscus, "normals")
 
 
-class _QualityPanel(_Panel):
+class _QualityPanel(_ObjectPanel):
+    kind = "SEQUENCE"
     bl_parent_id = "MENISCUS_PT_sequence"
 
-    @classmethod
-    def poll(cls, context):
-        return _kind(context) == "SEQUENCE"
-
     def draw(self, context):
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        layout = self.properties_layout()
         settings = context.object.meniscus.sequence
         quality = getattr(settings, self.quality)
         layout.prop(quality, "cell_size")
@@ -131,18 +135,13 @@ def _draw_filling(layout, name):
         draw_text(layout, f"{filling.failed} failed: {filling.error}", "ERROR")
 
 
-class MENISCUS_PT_live(_Panel, bpy.types.Panel):
+class MENISCUS_PT_live(_ObjectPanel, bpy.types.Panel):
     bl_label = "Live Session"
     bl_parent_id = "MENISCUS_PT_main"
-
-    @classmethod
-    def poll(cls, context):
-        return _kind(context) == "LIVE"
+    kind = "LIVE"
 
     def draw(self, context):
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        layout = self.properties_layout()
         settings = context.object.meniscus.live
         is_connected = live_objects.follower_of(context.object) is not None
         column = layout.column(align=True)
@@ -160,19 +159,14 @@ class MENISCUS_PT_live(_Panel, bpy.types.Panel):
             layout.operator("meniscus.connect", icon="LINKED")
 
 
-class MENISCUS_PT_security(_Panel, bpy.types.Panel):
+class MENISCUS_PT_security(_ObjectPanel, bpy.types.Panel):
     bl_label = "Token and TLS"
     bl_parent_id = "MENISCUS_PT_live"
     bl_options = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context):
-        return _kind(context) == "LIVE"
+    kind = "LIVE"
 
     def draw(self, context):
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        layout = self.properties_layout()
         layout.enabled = live_objects.follower_of(context.object) is None
         for name in ("token", "token_file", "tls_ca", "tls_cert", "tls_key", "insecure"):
             layout.prop(context.object.meniscus.live, name)
