@@ -92,6 +92,20 @@ std::string shape_text(const std::vector<std::size_t>& shape) {
     return out + (shape.size() == 1 ? ",)" : ")");
 }
 
+std::string_view npy_name_of(ElementType type) {
+    switch (type) {
+        case ElementType::float32:
+            return "<f4";
+        case ElementType::uint8:
+            return "|u1";
+        case ElementType::int32:
+            return "<i4";
+        case ElementType::uint32:
+            return "<u4";
+    }
+    return {};
+}
+
 void set_npy_type(NpyArray& array, std::string_view name) {
     if (name.starts_with('>')) array.order = std::endian::big;
     if (!name.empty() && (name[0] == '<' || name[0] == '>' || name[0] == '|' || name[0] == '=')) name.remove_prefix(1);

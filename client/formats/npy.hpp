@@ -9,6 +9,7 @@
 
 #include "formats/byte_cursor.hpp"
 #include "formats/scalar.hpp"
+#include "meniscus/element_type.hpp"
 
 namespace meniscus::formats {
 
@@ -35,6 +36,9 @@ struct NpyArray {
 
 /// "(3, 4)"
 std::string shape_text(const std::vector<std::size_t>& shape);
+
+/// As numpy names the type of an array, little-endian: "<f4".
+std::string_view npy_name_of(ElementType type);
 
 /// The type and the byte order, or why its values cannot be read. name: as numpy names the type, "<f4".
 void set_npy_type(NpyArray& array, std::string_view name);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "bindings.hpp"
+#include "formats/npy.hpp"
 #include "meniscus/error.hpp"
 #include "process.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 constexpr std::string_view attribute_prefix = "attribute ";
 
 /// columns: 0 for an array of one dimension.
-py::dict interface(const void* data, const char* type, std::size_t rows, std::size_t columns) {
+py::dict interface(const void* data, std::string_view type, std::size_t rows, std::size_t columns) {
     py::dict out;
     out["shape"] = columns == 0 ? py::make_tuple(rows) : py::make_tuple(rows, columns);
     out["typestr"] = type;
@@ -26,20 +27,6 @@ py::dict interface(const void* data, const char* type, std::size_t rows, std::si
     out["stream"] = py::none();  // complete on every stream
     out["version"] = 3;
     return out;
-}
-
-const char* typestr_of(ElementType type) {
-    switch (type) {
-        case ElementType::float32:
-            return "<f4";
-        case ElementType::uint8:
-            return "|u1";
-        case ElementType::int32:
-            return "<i4";
-        case ElementType::uint32:
-            return "<u4";
-    }
-    return "";
 }
 
 py::tuple names_of(const DeviceMesh& mesh) {
@@ -69,7 +56,7 @@ py::dict interface_of(const DeviceMesh& mesh, const std::string& name) {
     }
     for (const DeviceMeshAttribute& attribute : mesh.attributes)
         if (name == std::string(attribute_prefix) + attribute.name)
-            return interface(attribute.data, typestr_of(attribute.type), mesh.vertex_count,
+            return interface(attribute.data, formats::npy_name_of(attribute.type), mesh.vertex_count,
                              attribute.components == 1 ? 0 : attribute.components);
     throw InvalidInput("this mesh has no " + name + ": its attributes are " +
                        std::string(py::str(py::repr(names_of(mesh)))));
