@@ -12,11 +12,9 @@
 namespace meniscus {
 namespace {
 
-/// From here on the nearest float32 is infinity: half a unit in the last place above the greatest one.
-constexpr double float32_end = 0x1.ffffffp127;
-
-bool is_float32(double value) {
-    return std::abs(value) < float32_end;  // also false for a NaN
+/// False for a NaN, and for what a float64 beyond float32's range becomes, which is an infinity.
+bool is_position(float value) {
+    return std::abs(value) <= std::numeric_limits<float>::max();
 }
 
 std::size_t particles_in(std::size_t numbers) {
@@ -57,21 +55,32 @@ std::array<Number, 3> numbers_at(const std::byte* place) {
     throw InvalidInput(what.str());
 }
 
+/// Of numbers next to each other. Returns whether float32 holds all of them. Without a branch, for vectors of them.
+template <class Number, std::size_t count>
+bool copy_row(const std::byte* row, std::span<float, count> out) {
+    unsigned misfits = 0;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        Number number;
+        std::memcpy(&number, row + i * sizeof number, sizeof number);
+        out[i] = static_cast<float>(number);
+        misfits |= static_cast<unsigned>(!is_position(out[i]));
+    }
+    return misfits == 0;
+}
+
 template <class Number>
 void copy_numbers(const std::byte* first, std::size_t stride, std::span<float> positions) {
     bool all_fit = true;
-    for (std::size_t i = 0; i < positions.size() / 3; ++i) {
-        const std::array<Number, 3> position = numbers_at<Number>(first + i * stride);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            all_fit &= is_float32(position[axis]);
-            positions[3 * i + axis] = static_cast<float>(position[axis]);
-        }
-    }
+    if (stride == 3 * sizeof(Number))
+        all_fit = copy_row<Number>(first, positions);
+    else
+        for (std::size_t i = 0; i < positions.size() / 3; ++i)
+            all_fit &= copy_row<Number>(first + i * stride, positions.subspan(3 * i).first<3>());
     if (all_fit) return;
     for (std::size_t i = 0; i < positions.size() / 3; ++i) {
         const std::array<Number, 3> position = numbers_at<Number>(first + i * stride);
         for (std::size_t axis = 0; axis < 3; ++axis)
-            if (!is_float32(position[axis])) refuse(i, axis, position[axis]);
+            if (!is_position(static_cast<float>(position[axis]))) refuse(i, axis, position[axis]);
     }
 }
 
