@@ -30,14 +30,13 @@ public:
     virtual float greatest_sample() = 0;
     /// As reconstruct(), but the mesh stays where it is until the next call. Of its attributes only the data are told.
     virtual DeviceMesh reconstruct_on_device(const PlacedFrame&, Statistics&) {
-        throw InvalidInput("the CPU backend has no mesh on a GPU: use reconstruct(), or Backend::cuda");
+        throw InvalidInput("the CPU backend has no mesh on a GPU: use reconstruct(), or the backend cuda");
     }
     /// validate() for a frame whose lengths are valid and whose arrays are device pointers, once what is on `stream`
     /// (a cudaStream_t) is done. Changes nothing. The frame may then be reconstructed.
     virtual ParticlesByLevel validate_on_device(const ParticleFrame&, void* /*stream*/, const Settings&) {
         throw InvalidInput(
-            "the CPU backend takes no particles from a GPU: copy them to a ParticleFrame, or use "
-            "Backend::cuda");
+            "the CPU backend takes no particles from a GPU: copy them to host memory, or use the backend cuda");
     }
     /// After that: the numbers of the frame's arrays, which can be attributes. Throws InvalidInput, with the words of
     /// numbers_in_host_memory(), for a value that is not finite.
