@@ -163,6 +163,8 @@ class Packages(unittest.TestCase):
         output_of("dpkg-deb", "--control", str(self.files["python3-meniscus"]), f"{self.folder}/python")
         for script, program in (("postinst", "py3compile"), ("prerm", "py3clean")):
             self.assertIn(f"{program} -p python3-meniscus", Path(self.folder, "python", script).read_text())
+        for what in ("blender/meniscus_blender.zip", "paraview/load_meniscus.py", "paraview/meniscus_paraview.py"):
+            self.assertIn("/usr/share/meniscus/" + what, paths)
         examples = {path.name for path in (REPOSITORY / "client" / "python" / "examples").iterdir() if path.is_file()}
         folder = "/usr/share/doc/python3-meniscus/examples/"
         self.assertEqual({path.removeprefix(folder) for path in paths if path.startswith(folder)} - {""}, examples)
