@@ -1,4 +1,4 @@
-// What becomes of a mesh before it is written.
+// What becomes of a mesh before it is written, and while it is.
 #pragma once
 
 #include <optional>
@@ -13,13 +13,15 @@ class App;
 
 namespace meniscus::cli {
 
-/// The flags --mesh-aabb and --quads, and what --origin asks of the mesh.
+/// The flags --mesh-aabb, --quads and --compress, and what --origin asks of the mesh.
 struct MeshEdits {
     std::optional<editing::Origin> origin;  ///< positions are relative to it until they are written
     std::optional<Box> box;                 ///< triangles without a corner in it are left out
     bool quads = false;                     ///< pairs of triangles are merged
+    bool compress = false;                  ///< the file is written smaller, by the way that its format has
 
     void add_to(CLI::App& command);
+    /// Whether the mesh is another one afterwards.
     bool any() const { return origin || box || quads; }
     /// Throws InvalidInput if files of this format cannot hold the result: to be called before long work.
     void require(formats::MeshFormat format) const;

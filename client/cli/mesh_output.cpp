@@ -47,7 +47,8 @@ void check_spray(const Settings& settings) {
                            "', and must be '" + std::string(name_of(Spray::points)) + "'");
 }
 
-MeshOutput::MeshOutput(const Surface& surface, MeshFormat format, const MeshEdits& edits, bool check) {
+MeshOutput::MeshOutput(const Surface& surface, MeshFormat format, const MeshEdits& edits, bool check)
+    : compress_(edits.compress) {
     if (format == MeshFormat::bricks) bricks_ = surface.encoded();
     if (format == MeshFormat::bricks && !check) return;
     content_.emplace(surface.mesh(), format);
@@ -61,7 +62,7 @@ MeshOutput::MeshOutput(const Surface& surface, MeshFormat format, const MeshEdit
 
 void MeshOutput::write(const std::filesystem::path& path, std::optional<double> time) const {
     if (bricks_) return formats::write_bricks(path, *bricks_);
-    content_->write(path, time);
+    content_->write(path, time, compress_);
 }
 
 formats::TriangleMesh MeshOutput::form() const {

@@ -47,6 +47,7 @@ private:
     std::optional<formats::MeshContent> content_;
     std::optional<client::ReceivedFrame> bricks_;  ///< for a file of bricks
     std::optional<compare::Defects> defects_;
+    bool compress_ = false;
 };
 
 /// Both at once.

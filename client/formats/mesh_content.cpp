@@ -25,10 +25,10 @@ TriangleMesh& MeshContent::triangles() {
     return *triangles_;
 }
 
-void MeshContent::write(const std::filesystem::path& path, std::optional<double> time) const {
+void MeshContent::write(const std::filesystem::path& path, std::optional<double> time, bool compress) const {
     if (!triangles_) return format_ == MeshFormat::obj ? write_obj(path, ordered_) : write_ply(path, ordered_);
     if (format_ == MeshFormat::usda) return write_usda(path, *triangles_, time);
-    write_mesh(path, *triangles_, format_);
+    write_mesh(path, *triangles_, format_, compress);
 }
 
 TriangleMesh MeshContent::form() const {

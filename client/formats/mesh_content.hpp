@@ -18,8 +18,9 @@ public:
     MeshContent(const Mesh& mesh, MeshFormat format);
     /// To be changed: what is written from then on.
     TriangleMesh& triangles();
-    /// time: the time code of a USD file of a sequence. Throws as write_mesh() does.
-    void write(const std::filesystem::path& path, std::optional<double> time = std::nullopt) const;
+    /// time: the time code of a USD file of a sequence. compress: as write_mesh(). Throws as write_mesh() does.
+    void write(const std::filesystem::path& path, std::optional<double> time = std::nullopt,
+               bool compress = false) const;
     /// What the mesh has beside positions and triangles, without values: for the stage of a sequence of USD files.
     TriangleMesh form() const;
 

@@ -50,8 +50,8 @@ TriangleMesh read_mesh_vtp(const std::string& name, std::string_view bytes, cons
 TriangleMesh read_mesh_npz(const std::string& name, std::string_view bytes, const ReadLimits& limits);
 
 /// Writes atomically. Positions are float32, or float64 where `wide`. Throws InvalidInput if the path cannot be
-/// written, and for bricks, which encode_frame() makes of a Mesh alone.
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, MeshFormat format);
+/// written, and for bricks, which encode_frame() makes of a Mesh alone. compress: smaller, where is_compressible().
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, MeshFormat format, bool compress = false);
 
 /// The writers behind it, all of them atomic; those of a Mesh write the same bytes.
 ///

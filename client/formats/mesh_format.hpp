@@ -45,6 +45,11 @@ std::span<const std::string_view> mesh_extensions();
 /// The names of the formats that are read.
 std::span<const std::string_view> read_mesh_formats();
 
+/// glTF by Draco, which rounds positions to 2^16 steps over the mesh; VTK's XML by zlib.
+constexpr bool is_compressible(MeshFormat format) {
+    return format == MeshFormat::glb || format == MeshFormat::vtp;
+}
+
 /// The format that the extension names. Throws InvalidInput for any other extension.
 MeshFormat mesh_format_of(const std::filesystem::path& path);
 

@@ -223,7 +223,7 @@ void write_obj(const std::filesystem::path& path, const TriangleMesh& mesh) {
     write_obj_of(path, mesh);
 }
 
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, MeshFormat format) {
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, MeshFormat format, bool compress) {
     switch (format) {
         case MeshFormat::ply:
             return write_ply(path, mesh);
@@ -235,11 +235,11 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, Mes
         case MeshFormat::vtk:
             return write_mesh_vtk(path, mesh);
         case MeshFormat::vtp:
-            return write_mesh_vtp(path, mesh);
+            return write_mesh_vtp(path, mesh, compress ? VtpCompression::zlib : VtpCompression::none);
         case MeshFormat::npz:
             return write_mesh_npz(path, mesh);
         case MeshFormat::glb:
-            return write_glb(path, mesh);
+            return write_glb(path, mesh, compress ? GlbCoding::draco : GlbCoding::plain);
         case MeshFormat::usda:
             return write_usda(path, mesh);
     }

@@ -426,6 +426,26 @@ TEST_F(Boxes, QuadsAreWrittenInTheFormatsThatHaveThem) {
     EXPECT_GT(quads, plain.triangles.size() / 8);
 }
 
+TEST_F(Boxes, CompressedFilesAreSmallerAndHoldTheSame) {
+    for (const char* name : {"m.ply", "m.obj", "m.vtk", "m.npz", "m.bricks", "m.usda"})
+        expect_refused({"reconstruct", in_, "-o", path(name), "-r", "0.5", "--compress"},
+                       {"--compress", "glb or vtp, not"});
+    for (const std::string format : {"glb", "vtp"}) {
+        ASSERT_EQ(run_meniscus({"reconstruct", in_, "-o", path("plain." + format), "-r", "0.5"}).exit_code, 0);
+        ASSERT_EQ(
+            run_meniscus({"reconstruct", in_, "-o", path("small." + format), "-r", "0.5", "--compress"}).exit_code, 0);
+        EXPECT_LT(std::filesystem::file_size(path("small." + format)),
+                  std::filesystem::file_size(path("plain." + format)) * 3 / 4)
+            << format;
+    }
+    const formats::TriangleMesh plain = formats::read_mesh(path("plain.vtp"));
+    const formats::TriangleMesh small = formats::read_mesh(path("small.vtp"));
+    EXPECT_EQ(small.positions, plain.positions);
+    EXPECT_EQ(small.triangles, plain.triangles);
+    EXPECT_EQ(small.levels, plain.levels);
+    EXPECT_NE(formats::read_file(path("small.glb")).find("KHR_draco_mesh_compression"), std::string::npos);
+}
+
 TEST_F(Boxes, ChecksNameEachKindOfDefect) {
     ASSERT_EQ(run_meniscus(reconstruct({"--check"})).exit_code, 0);
     const ProcessResult good = run_meniscus({"check", out_});
