@@ -77,9 +77,12 @@ def test_a_loop_over_a_watcher(session, positions):
             for frame in watcher:
                 taken.append(frame.index)
         stream.push(positions)
-        # The loop may begin anew.
-        assert next(iter(watcher)).index == 1
-    assert taken == [0]
+        # The loop may begin anew. The first frame comes before Ctrl-C, or after it, or is passed over for the second.
+        for frame in watcher:
+            taken.append(frame.index)
+            if frame.index == 1:
+                break
+    assert taken in ([0, 1], [1])
 
 
 def test_a_push_that_waits(own_server, positions):
