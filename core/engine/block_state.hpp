@@ -46,27 +46,27 @@ struct BlockState {
     A<std::uint64_t> base_deep;    ///< see BaseVertexSets
     A<std::uint64_t> at_least[4];  ///< see LevelSets; by level, from 1
 
-    /// Calls visit(array) for all that have an element for every block.
+    /// Calls visit(name, array) for all that have an element for every block.
     template <class Visit>
     void for_each_block_array(const Visit& visit) {
-        visit(brick);
-        visit(place);
-        visit(level);
-        visit(sampled);
-        visit(inside);
-        visit(wanted_points);
-        visit(first_sample);
-        visit(edges);
-        visit(first_vertex);
-        visit(particle_counts);
-        visit(reaches);
-        visit(bends);
+        visit("brick", brick);
+        visit("place", place);
+        visit("level", level);
+        visit("sampled", sampled);
+        visit("inside", inside);
+        visit("wanted_points", wanted_points);
+        visit("first_sample", first_sample);
+        visit("edges", edges);
+        visit("first_vertex", first_vertex);
+        visit("particle_counts", particle_counts);
+        visit("reaches", reaches);
+        visit("bends", bends);
     }
-    /// Calls visit(array) for all that have an element for every word of Brick::occupied.
+    /// Calls visit(name, array) for all that have an element for every word of Brick::occupied.
     template <class Visit>
     void for_each_set(const Visit& visit) {
-        visit(base_deep);
-        for (int level_index = 1; level_index <= 3; ++level_index) visit(at_least[level_index]);
+        visit("base_deep", base_deep);
+        for (int level_index = 1; level_index <= 3; ++level_index) visit("at_least", at_least[level_index]);
     }
 };
 

@@ -76,6 +76,7 @@ void FrameRun::run(const PlacedFrame& placed) {
     sets_.take(state_);
     for (;;) {
         if (stop_.is_raised()) throw Stopped();
+        poison();
         clock_.start(stream_.get());
         upload_.start(placed, state_, stream_.get());
         CapturedRun& captured = current_graph();
@@ -86,6 +87,7 @@ void FrameRun::run(const PlacedFrame& placed) {
         else
             enqueue(false);
         stream_.synchronize();
+        require_whole_guards();
         if (counts().stop == Stop::none) break;
         require_no_refusal();
         make_more_room();
@@ -97,6 +99,7 @@ void FrameRun::run(const PlacedFrame& placed) {
 void FrameRun::emit_capped(int max_level, bool first) {
     sets_.take(state_);
     for (;; first = false) {
+        sets_.poison(state_);
         cap_levels(state_, max_level, first, launcher_);
         with_kernel(state_.settings, [&]<class Kernel>() {
             SurfaceSteps<ParticleField<Kernel>> steps(state_, {}, launcher_);
@@ -105,10 +108,21 @@ void FrameRun::emit_capped(int max_level, bool first) {
         });
         fetch_counts();
         stream_.synchronize();
+        require_whole_guards();
         if (counts().stop == Stop::none) break;
         require_no_refusal();
         make_more_room();
     }
+}
+
+void FrameRun::poison() {
+    memory_.poison(state_.arrays());
+    sets_.poison(state_);
+}
+
+void FrameRun::require_whole_guards() {
+    memory_.require_whole_guards(state_.arrays());
+    sets_.require_whole_guards(state_);
 }
 
 void FrameRun::require_no_refusal() const {
@@ -207,8 +221,7 @@ bool FrameRun::make_room(const Needed& needed, std::uint64_t payload_bytes, cons
         std::max({room.particles, room[Resource::reached_bricks], room[Resource::bricks], room[Resource::blocks]}) + 1;
     state_.scratch_bytes =
         scratch_bytes(room.particles, state_.payload_bytes != 0, room[Resource::reached_bricks], sums);
-    sets_.with_room([&] { memory_.assign(state_.lay_out(nullptr)); });
-    state_.lay_out(memory_.get());
+    sets_.with_room([&] { memory_.assign(state_.arrays()); });
     state_.upload_tables(stream_.get());
     return true;
 }

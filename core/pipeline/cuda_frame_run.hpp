@@ -1,12 +1,12 @@
 // A frame's run on the GPU: upload, kernels, counts; again with more room until everything fits; as a graph once it
 // does.
 //
-// All arrays lie in one piece of device memory, laid out for capacities that grow when a frame needs more; then the
-// frame runs once more. Counts stay on the device: kernels loop over as many elements as they find there, from launches
-// sized by capacities. Sweeps that end when nothing changes end on the device (steps/adjust_levels/sweeps.hpp). So the
-// host waits once a frame, for the counts. Once a frame has passed without growth, its chain of kernels is captured as
-// a graph, which later frames replay until something grows. A first frame runs several times: each run ends where an
-// array is too small, and what comes after it is only known to the next.
+// All arrays lie in device memory for capacities that grow when a frame needs more; then the frame runs once more.
+// Counts stay on the device: kernels loop over as many elements as they find there, from launches sized by capacities.
+// Sweeps that end when nothing changes end on the device (steps/adjust_levels/sweeps.hpp). So the host waits once a
+// frame, for the counts. Once a frame has passed without growth, its chain of kernels is captured as a graph, which
+// later frames replay until something grows. A first frame runs several times: each run ends where an array is too
+// small, and what comes after it is only known to the next.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 #include <memory>
 #include <optional>
 
-#include "engine/cuda/device_memory.hpp"
+#include "engine/cuda/array_memory.hpp"
 #include "engine/cuda/event_clock.hpp"
 #include "engine/cuda/graph.hpp"
 #include "engine/cuda/launch.hpp"
@@ -82,6 +82,9 @@ private:
     /// stays.
     void make_more_room();
     void require_indexable_counts() const;
+    /// See ArrayMemory: before a run, and after it.
+    void poison();
+    void require_whole_guards();
     /// Throws for the reason for which the last run has stopped, unless that is too little room.
     void require_no_refusal() const;
 
@@ -94,7 +97,7 @@ private:
     Stream stream_;
     std::optional<ParticleCheck> particle_check_;  ///< from the first frame on that comes from the device
     std::shared_ptr<MemoryAccount> account_, device_account_;
-    DeviceMemory memory_;
+    ArrayMemory memory_;
     State state_;
     Launcher launcher_;
     EventClock clock_;

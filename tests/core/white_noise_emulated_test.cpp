@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "engine/cuda/device_memory.hpp"
+#include "engine/cuda/array_memory.hpp"
 #include "mesh/volume.hpp"
 #include "pipeline/cuda_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
@@ -106,10 +106,8 @@ public:
         state_.capacity.of[static_cast<std::size_t>(cuda::Resource::bricks)] = 1;
         state_.capacity.of[static_cast<std::size_t>(cuda::Resource::blocks)] = 4096;
         state_.scratch_bytes = cuda::scratch_bytes(room, false, room, room);
-        memory_.assign(state_.lay_out(nullptr));
-        state_.lay_out(memory_.get());
-        mesh_memory_.assign(state_.lay_out_mesh(nullptr));
-        state_.lay_out_mesh(mesh_memory_.get());
+        memory_.assign(state_.arrays());
+        mesh_memory_.assign(state_.mesh_arrays());
         state_.upload_tables(stream_.get());
     }
 
@@ -147,7 +145,7 @@ public:
 
 private:
     cuda::Stream stream_;
-    cuda::DeviceMemory memory_, mesh_memory_;
+    cuda::ArrayMemory memory_, mesh_memory_;
     cuda::State state_;
     std::uint64_t sixfold_volume_ = 0;
 };

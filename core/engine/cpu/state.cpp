@@ -6,8 +6,9 @@ namespace meniscus::cpu {
 State::State(const std::shared_ptr<MemoryAccount>& account, Workers& own_workers, const LatticeSettings& own_settings)
     : workers(own_workers), settings(own_settings), grid(account) {
     const auto charge = [&]<class T>(Array<T>& array) { array = make_array<T>(account); };
-    for_each_block_array(charge);
-    for_each_set(charge);
+    const auto charge_named = [&](const char*, auto& array) { charge(array); };
+    for_each_block_array(charge_named);
+    for_each_set(charge_named);
     charge(samples);
     charge(slots);
     charge(mixed_cells);

@@ -1,8 +1,11 @@
-// A piece of device memory, allocated and freed in the order of its stream, charged to an account.
+// Pieces of device memory, allocated and freed together in the order of their stream, charged to an account.
 #pragma once
 
 #include <cstddef>
 #include <memory>
+#include <numeric>
+#include <span>
+#include <vector>
 
 #include "engine/cuda/stream.hpp"
 #include "meniscus/memory.hpp"
@@ -27,37 +30,43 @@ public:
     DeviceMemory(const DeviceMemory&) = delete;
     DeviceMemory& operator=(const DeviceMemory&) = delete;
 
-    /// Makes room for this many bytes, all zero; what was there is lost. Throws LimitExceeded before anything is
+    /// Makes room for pieces of these many bytes; what was there is lost. Throws LimitExceeded before anything is
     /// allocated if the account would pass its limit.
-    void assign(std::size_t bytes) {
+    void assign(std::span<const std::size_t> sizes) {
         release();
-        // Else the old piece would still be there, uncounted, beside the new one.
+        // Else the old pieces would still be there, uncounted, beside the new ones.
         check(cudaStreamSynchronize(stream_), "cudaStreamSynchronize");
+        const std::size_t bytes = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
         account_->charge(bytes);
-        const cudaError_t status = cudaMallocFromPoolAsync(&memory_, bytes, pool_, stream_);
-        if (status != cudaSuccess) {
-            memory_ = nullptr;
-            account_->release(bytes);
-            check(status, "cudaMallocFromPoolAsync");
-        }
         bytes_ = bytes;
-        check(cudaMemsetAsync(memory_, 0, bytes, stream_), "cudaMemsetAsync");
+        for (const std::size_t size : sizes) {
+            void* piece = nullptr;
+            const cudaError_t status = cudaMallocFromPoolAsync(&piece, size, pool_, stream_);
+            if (status != cudaSuccess) release();
+            check(status, "cudaMallocFromPoolAsync");
+            pieces_.push_back(static_cast<std::byte*>(piece));
+        }
+    }
+    /// The same for one piece, all zero.
+    void assign(std::size_t bytes) {
+        assign(std::span(&bytes, 1));
+        check(cudaMemsetAsync(get(), 0, bytes, stream_), "cudaMemsetAsync");
     }
     void release() {
-        if (memory_ == nullptr) return;
-        cudaFreeAsync(memory_, stream_);
+        for (std::byte* const piece : pieces_) cudaFreeAsync(piece, stream_);
+        pieces_.clear();
         account_->release(bytes_);
-        memory_ = nullptr;
         bytes_ = 0;
     }
-    std::byte* get() const { return static_cast<std::byte*>(memory_); }
+    std::byte* get(std::size_t piece = 0) const { return pieces_.empty() ? nullptr : pieces_[piece]; }
+    /// Of all pieces.
     std::size_t bytes() const { return bytes_; }
 
 private:
     cudaStream_t stream_;
     std::shared_ptr<MemoryAccount> account_;
     cudaMemPool_t pool_ = nullptr;
-    void* memory_ = nullptr;
+    std::vector<std::byte*> pieces_;
     std::size_t bytes_ = 0;
 };
 

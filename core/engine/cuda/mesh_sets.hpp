@@ -43,13 +43,19 @@ public:
 
     /// Gives the current set the state's capacities.
     void fit(State& state) {
-        DeviceMemory& memory = storage_->sets[current_];
-        if (const std::size_t bytes = state.lay_out_mesh(nullptr); memory.bytes() != bytes) {
+        ArrayMemory& memory = storage_->sets[current_];
+        if (memory.bytes() != memory.bytes_for(state.mesh_arrays())) {
             ++versions_[current_];
-            memory.assign(bytes);
+            memory.assign(state.mesh_arrays());
             storage_->stream.synchronize();
         }
-        state.lay_out_mesh(memory.get());
+        memory.place(state.mesh_arrays());
+    }
+
+    /// See ArrayMemory: of the current set, before a mesh is made in it and after that.
+    void poison(State& state) { storage_->sets[current_].poison(state.mesh_arrays()); }
+    void require_whole_guards(State& state) const {
+        storage_->sets[current_].require_whole_guards(state.mesh_arrays());
     }
 
     /// After the capacities have changed: a second set may have room now.

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <optional>
 
-#include "engine/cuda/device_memory.hpp"
+#include "engine/cuda/array_memory.hpp"
 #include "engine/cuda/download.hpp"
 #include "engine/cuda/errors.hpp"
 #include "engine/cuda/stream.hpp"
@@ -38,7 +38,7 @@ struct MeshStorage {
     std::mutex copying;                   ///< one copies at a time
     Download download;                    ///< its pinned memory outlives the stream, whose end waits for the copies
     Stream stream;
-    std::array<DeviceMemory, 2> sets;  ///< see State::for_each_mesh_array()
+    std::array<ArrayMemory, 2> sets;  ///< see State::mesh_arrays()
 };
 
 }  // namespace meniscus::cuda

@@ -84,20 +84,6 @@ struct Counts {
     MENISCUS_HD bool has_level(unsigned k) const { return first_particle_brick[k + 1] != first_particle_brick[k]; }
 };
 
-/// Places arrays one after the other.
-struct Layout {
-    std::byte* memory;  ///< none: only counts
-    std::size_t bytes = 0;
-
-    template <class T>
-    void operator()(T*& array, std::uint64_t elements) {
-        constexpr std::size_t alignment = 256;
-        bytes = (bytes + alignment - 1) / alignment * alignment;
-        array = memory == nullptr ? nullptr : reinterpret_cast<T*>(memory + bytes);
-        bytes += static_cast<std::size_t>(elements) * sizeof(T);
-    }
-};
-
 template <class T>
 using Pointer = T*;
 
@@ -166,75 +152,71 @@ struct State : BlockState<Pointer> {
 
     explicit State(const LatticeSettings& lattice_settings) : BlockState{}, settings(lattice_settings) {}
 
-    /// Gives take(pointer, number of elements) every array but the mesh's.
+    /// Calls take(name, pointer, number of elements) for every array but the mesh's.
     template <class Take>
     void for_each_array(Take& take) {
         const std::uint64_t n = capacity.particles;
         const std::uint64_t brick_count = capacity[Resource::bricks];
         const std::uint64_t blocks = capacity[Resource::blocks];
-        take(input, 1);
-        take(counts, 1);
-        take(cube_table, cube_case_count);
-        take(crack_table, crack_case_count);
-        take(scratch, scratch_bytes);
-        take(upload, 13 * n + payload_bytes);
-        take(keys, n);
-        take(unsorted_keys, n);
-        take(sources, payload_bytes != 0 ? n : 0);
-        take(sources_room, payload_bytes != 0 ? n : 0);
-        take(numbers, attributes.groups() * n);
-        take(starts, n);
-        take(particles, n);
-        take(sums, n);
-        take(falls, settings.has_own_supports ? n : 0);
-        take(spray_before, settings.lists_spray ? n : 0);
-        take(spray, settings.lists_spray ? n : 0);
-        take(first_particle, n + 1);
-        take(particle_bricks, capacity[Resource::particle_bricks]);
-        take(particle_brick_keys, capacity[Resource::particle_bricks]);
-        take(reached_keys, capacity[Resource::reached_bricks]);
-        take(unsorted_reached_keys, capacity[Resource::reached_bricks]);
-        take(first_of_key, capacity[Resource::reached_bricks] + 1);
-        take(bricks, brick_count);
-        take(brick_keys, brick_count);
-        take(neighbors, brick_count);
-        take(members_before, brick_count + 1);
-        take(base_inside, brick_count * Brick::words);
-        take(raised, brick_count * Brick::words);
-        for_each_set([&](auto*& set) { take(set, brick_count * Brick::words); });
-        for_each_block_array([&](auto*& array) { take(array, blocks + 1); });
-        take(wanted_level, blocks);
-        take(corner_points, blocks);
-        take(old_first_sample, blocks);
-        take(triangles_before, blocks + 1);
-        take(chosen, blocks);
-        take(band_cells, blocks);
-        take(cracked_cells, blocks);
-        take(samples, capacity[Resource::samples]);
+        take("input", input, 1);
+        take("counts", counts, 1);
+        take("cube_table", cube_table, cube_case_count);
+        take("crack_table", crack_table, crack_case_count);
+        take("scratch", scratch, scratch_bytes);
+        take("upload", upload, 13 * n + payload_bytes);
+        take("keys", keys, n);
+        take("unsorted_keys", unsorted_keys, n);
+        take("sources", sources, payload_bytes != 0 ? n : 0);
+        take("sources_room", sources_room, payload_bytes != 0 ? n : 0);
+        take("numbers", numbers, attributes.groups() * n);
+        take("starts", starts, n);
+        take("particles", particles, n);
+        take("sums", sums, n);
+        take("falls", falls, settings.has_own_supports ? n : 0);
+        take("spray_before", spray_before, settings.lists_spray ? n : 0);
+        take("spray", spray, settings.lists_spray ? n : 0);
+        take("first_particle", first_particle, n + 1);
+        take("particle_bricks", particle_bricks, capacity[Resource::particle_bricks]);
+        take("particle_brick_keys", particle_brick_keys, capacity[Resource::particle_bricks]);
+        take("reached_keys", reached_keys, capacity[Resource::reached_bricks]);
+        take("unsorted_reached_keys", unsorted_reached_keys, capacity[Resource::reached_bricks]);
+        take("first_of_key", first_of_key, capacity[Resource::reached_bricks] + 1);
+        take("bricks", bricks, brick_count);
+        take("brick_keys", brick_keys, brick_count);
+        take("neighbors", neighbors, brick_count);
+        take("members_before", members_before, brick_count + 1);
+        take("base_inside", base_inside, brick_count * Brick::words);
+        take("raised", raised, brick_count * Brick::words);
+        for_each_set([&](const char* name, auto*& set) { take(name, set, brick_count * Brick::words); });
+        for_each_block_array([&](const char* name, auto*& array) { take(name, array, blocks + 1); });
+        take("wanted_level", wanted_level, blocks);
+        take("corner_points", corner_points, blocks);
+        take("old_first_sample", old_first_sample, blocks);
+        take("triangles_before", triangles_before, blocks + 1);
+        take("chosen", chosen, blocks);
+        take("band_cells", band_cells, blocks);
+        take("cracked_cells", cracked_cells, blocks);
+        take("samples", samples, capacity[Resource::samples]);
     }
     template <class Take>
     void for_each_mesh_array(Take& take) {
-        take(mesh_bricks, capacity[Resource::bricks]);
-        take(vertices, capacity[Resource::vertices]);
-        take(normals, settings.has_normals ? capacity[Resource::vertices] : 0);
-        take(triangles, capacity[Resource::triangles]);
+        take("mesh_bricks", mesh_bricks, capacity[Resource::bricks]);
+        take("vertices", vertices, capacity[Resource::vertices]);
+        take("normals", normals, settings.has_normals ? capacity[Resource::vertices] : 0);
+        take("triangles", triangles, capacity[Resource::triangles]);
         for (std::uint32_t a = 0; a < attributes.arrays; ++a)
-            take(vertex_attributes[a], attributes.vertex_bytes[a] * capacity[Resource::vertices]);
+            take("vertex_attributes", vertex_attributes[a], attributes.vertex_bytes[a] * capacity[Resource::vertices]);
     }
 
-    /// Gives every array its place from `memory` on (none: only counts); returns the bytes that all of them take.
-    std::size_t lay_out(std::byte* memory) {
-        Layout layout{memory};
-        for_each_array(layout);
-        return layout.bytes;
+    /// As ArrayMemory takes them.
+    auto arrays() {
+        return [this](auto& take) { for_each_array(take); };
     }
-    std::size_t lay_out_mesh(std::byte* memory) {
-        Layout layout{memory};
-        for_each_mesh_array(layout);
-        return layout.bytes;
+    auto mesh_arrays() {
+        return [this](auto& take) { for_each_mesh_array(take); };
     }
 
-    /// After lay_out().
+    /// After the arrays have their places.
     void upload_tables(cudaStream_t stream) const {
         check(cudaMemcpyAsync(const_cast<CubeCase*>(cube_table), meniscus::cube_table.data(), sizeof(CubeTable),
                               cudaMemcpyHostToDevice, stream),

@@ -1,0 +1,17 @@
+// How the backend runs where faults are looked for: chosen by the environment, for a GPU and for tests without one.
+#pragma once
+
+#include <cstdint>
+
+namespace meniscus::cuda {
+
+/// Where the arrays of a reconstruction lie in device memory. MENISCUS_DEVICE_ARRAYS names one.
+enum class ArrayPlacement : std::uint8_t {
+    together,  ///< in one allocation: the default
+    guarded,   ///< each in its own, between guards that are looked at after every frame; poisoned before every frame
+    separate,  ///< each in its own and never written but by kernels and copies, for tools that watch memory
+};
+/// Throws InvalidInput for a name that is none of these.
+ArrayPlacement array_placement();
+
+}  // namespace meniscus::cuda
