@@ -48,7 +48,7 @@ FrameRun::FrameRun(const LatticeSettings& settings, const BackendOptions& option
       state_(settings) {
     int processors = 0;
     check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device_), "cudaDeviceGetAttribute");
-    launcher_ = {stream_.get(), 8 * static_cast<unsigned>(processors)};
+    launcher_ = {stream_.get(), 8 * static_cast<unsigned>(std::max(1, processors))};
     host_counts_.reserve(sizeof(Counts));
     state_.settings.work_limit = options.work_limit;
     state_.stop_word = stop_.word();
@@ -80,7 +80,7 @@ void FrameRun::run(const PlacedFrame& placed) {
         clock_.start(stream_.get());
         upload_.start(placed, state_, stream_.get());
         CapturedRun& captured = current_graph();
-        if (!grown && settled_ && !captured.graph.is_captured())
+        if (uses_graphs_ && !grown && settled_ && !captured.graph.is_captured())
             captured.graph.capture(stream_.get(), [&] { enqueue(true); });
         if (captured.graph.is_captured())
             captured.graph.launch(stream_.get());

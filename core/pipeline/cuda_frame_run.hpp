@@ -101,6 +101,7 @@ private:
     State state_;
     Launcher launcher_;
     EventClock clock_;
+    bool uses_graphs_ = uses_graphs();
     std::array<CapturedRun, 2> graphs_;  ///< one for each set of mesh arrays
     std::uint64_t particles_ = 0;        ///< of the last frame
     bool settled_ = false;               ///< whether the last frame needed no more room

@@ -175,7 +175,7 @@ TEST(CudaSequencesEmulated, GiveTheCpusMeshesWhereMemoryIsShort) {
     int meshes = 0;
     for (unsigned seed = 1; seed <= 5; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
-        Sequence sequence(seed, seed * std::size_t{400'000});
+        Sequence sequence(seed, 500'000 + seed * std::size_t{400'000});  // half a megabyte: guards around arrays
         sequence.run(scenes, 15);
         refusals += sequence.refusals();
         meshes += sequence.meshes();

@@ -20,4 +20,14 @@ ArrayPlacement array_placement() {
                        "\", must be together, guarded or separate; leave the variable unset for the fastest");
 }
 
+bool uses_graphs() {
+    constexpr const char* variable = "MENISCUS_NO_GRAPH";
+    const char* const given = std::getenv(variable);
+    const std::string_view value = given == nullptr ? "" : given;
+    if (value.empty() || value == "0") return true;
+    if (value == "1") return false;
+    throw InvalidInput(std::string(variable) + " is \"" + std::string(value) +
+                       "\", must be 1 (frames run without graphs) or 0");
+}
+
 }  // namespace meniscus::cuda

@@ -14,4 +14,8 @@ enum class ArrayPlacement : std::uint8_t {
 /// Throws InvalidInput for a name that is none of these.
 ArrayPlacement array_placement();
 
+/// Whether frames that have passed without growth are replayed as graphs: not where MENISCUS_NO_GRAPH is 1. Throws
+/// InvalidInput for what is neither 0 nor 1.
+bool uses_graphs();
+
 }  // namespace meniscus::cuda

@@ -35,8 +35,9 @@ struct Launcher {
         check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "cudaDeviceGetAttribute");
         check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&a_processor, kernel, static_cast<int>(block_threads), 0),
               "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
-        const std::uint64_t blocks = std::clamp<std::uint64_t>((elements + block_threads - 1) / block_threads, 1,
-                                                               static_cast<std::uint64_t>(processors * a_processor));
+        // None would fit: one is tried, and CUDA names what it lacks.
+        const std::uint64_t most = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(processors * a_processor));
+        const std::uint64_t blocks = std::clamp<std::uint64_t>((elements + block_threads - 1) / block_threads, 1, most);
         launch(static_cast<unsigned>(blocks), true, kernel, arguments...);
     }
 

@@ -7,27 +7,10 @@
 
 namespace meniscus::cuda {
 
-class Stream {
-public:
-    Stream() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "cudaStreamCreateWithFlags"); }
-    ~Stream() {
-        // What still runs may use memory that is freed next.
-        cudaStreamSynchronize(stream_);
-        cudaStreamDestroy(stream_);
-    }
-    Stream(const Stream&) = delete;
-    Stream& operator=(const Stream&) = delete;
-
-    cudaStream_t get() const { return stream_; }
-    void synchronize() { check(cudaStreamSynchronize(stream_), "cudaStreamSynchronize"); }
-
-private:
-    cudaStream_t stream_ = nullptr;
-};
-
+/// Whoever waits for it sleeps rather than to keep a core busy, which others need for encoding.
 class Event {
 public:
-    Event() { check(cudaEventCreate(&event_), "cudaEventCreate"); }
+    Event() { check(cudaEventCreateWithFlags(&event_, cudaEventBlockingSync), "cudaEventCreateWithFlags"); }
     ~Event() { cudaEventDestroy(event_); }
     Event(const Event&) = delete;
     Event& operator=(const Event&) = delete;
@@ -42,15 +25,41 @@ public:
     void wait() { check(cudaEventSynchronize(event_), "cudaEventSynchronize"); }
     /// What is put on the stream from now on waits for the event.
     void hold_up(cudaStream_t stream) const { check(cudaStreamWaitEvent(stream, event_, 0), "cudaStreamWaitEvent"); }
-    /// Both must have happened.
+    /// Both must have happened. 0 where CUDA cannot tell: a time that is missing is no reason to fail a frame.
     double seconds_since(const Event& start) const {
         float milliseconds = 0.0F;
-        check(cudaEventElapsedTime(&milliseconds, start.event_, event_), "cudaEventElapsedTime");
+        if (cudaEventElapsedTime(&milliseconds, start.event_, event_) != cudaSuccess) {
+            cudaGetLastError();  // else the next call in this thread would be taken for the one that failed
+            return 0.0;
+        }
         return static_cast<double>(milliseconds) * 1e-3;
     }
 
 private:
     cudaEvent_t event_ = nullptr;
+};
+
+class Stream {
+public:
+    Stream() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "cudaStreamCreateWithFlags"); }
+    ~Stream() {
+        // What still runs may use memory that is freed next.
+        cudaStreamSynchronize(stream_);
+        cudaStreamDestroy(stream_);
+    }
+    Stream(const Stream&) = delete;
+    Stream& operator=(const Stream&) = delete;
+
+    cudaStream_t get() const { return stream_; }
+    /// Waits for all that is on the stream; the thread sleeps meanwhile.
+    void synchronize() {
+        all_.record(stream_);
+        all_.wait();
+    }
+
+private:
+    cudaStream_t stream_ = nullptr;
+    Event all_;
 };
 
 }  // namespace meniscus::cuda

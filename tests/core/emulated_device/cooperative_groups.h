@@ -5,7 +5,9 @@
 
 namespace cooperative_groups {
 struct Grid {
-    void sync() const { emulated_device::wait_for_grid(); }
+    void sync(const emulated_device::Place& place = emulated_device::Place::current()) const {
+        emulated_device::wait_for_grid(place);
+    }
 };
 inline Grid this_grid() {
     return {};

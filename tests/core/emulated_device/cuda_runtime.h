@@ -1,20 +1,24 @@
 // A device in software, so that the CUDA backend's kernels run where there is no GPU: this stands in for CUDA's own
 // header when they are compiled as C++. Every thread of a block is a fiber; fibers change where threads wait for each
-// other, in an order of chance; blocks run one after the other, but for cooperative kernels, which get a single one.
-// Work waits in its stream until the host waits for it, so that whoever does not wait meets old bytes. It shows what a
-// kernel computes; not races of memory, nor speed.
+// other, in an order of chance. Blocks begin in an order of chance, too: two at once, and all at once in a cooperative
+// grid. Work waits in its stream until the host waits for it, so that whoever does not wait meets old bytes. It shows
+// what a kernel computes, and waits that do not fit together; not races within a warp's step, nor speed.
+//
+// Shared memory is declared as `__shared__ type name;` in one line, of which the build makes a call of
+// emulated_device::shared() (tests/core/CMakeLists.txt): C++ has no storage that belongs to a block.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <source_location>
+#include <type_traits>
 
 #define __global__
 #define __device__
 #define __host__
 #define __grid_constant__
 #define __launch_bounds__(...)
-#define __shared__ static
 
 struct float4 {
     float x, y, z, w;
@@ -32,25 +36,43 @@ struct Index {
 };
 extern Index thread_index, block_index, block_size, grid_size;
 
-/// Waits for all threads of the warp, block or grid. `place` must be the same in all of them.
-void wait_for_warp(int place);
-void wait_for_block();
-void wait_for_grid();
-/// Lets every lane see what the lanes of its warp have given, once all have.
-const std::uint64_t* exchange(std::uint64_t value, int place);
+/// What the lanes of a warp, or the threads of a block or grid, wait for together.
+enum class Meeting : std::uint8_t { sync_warp, ballot, shuffle, shuffle_up, shuffle_xor, sync_block, sync_grid };
+using Place = std::source_location;
+
+/// Waits for all threads of the block or grid, which must come to the same place.
+void wait_for_block(const Place& place);
+void wait_for_grid(const Place& place);
+/// Lets every lane see what the lanes of its warp have given, once all have that the mask names: to the same meeting at
+/// the same place, by the same mask.
+const std::uint64_t* exchange(std::uint64_t value, unsigned mask, Meeting meeting, const Place& place);
+
+/// Memory of the running block, the same for all that ask in one line; rubbish when the block begins.
+void* shared_memory(std::size_t bytes, std::size_t alignment, unsigned line);
+template <class T>
+T& shared(const Place& place = Place::current()) {
+    static_assert(std::is_trivially_default_constructible_v<std::remove_all_extents_t<T>>);
+    return *static_cast<T*>(shared_memory(sizeof(T), alignof(T), place.line()));
+}
 
 /// Into the stream, or the graph that it is being captured into.
 void submit(cudaStream_t stream, const std::function<void()>& work);
 /// Called, if there, whenever a thread asks the clock.
 extern std::function<void()> on_clock;
-void run_kernel(unsigned blocks, unsigned threads, const std::function<void()>& kernel);
+void run_kernel(unsigned blocks, unsigned threads, bool cooperative, const std::function<void()>& kernel);
+/// Of the shuffles that choose what comes next; the same seed gives the same order.
+void seed_order(unsigned seed);
+
+/// What the device has.
+inline constexpr unsigned processors = 1;
+inline constexpr unsigned blocks_of_processor = 4;
 
 template <class T>
-T shuffled(T value, unsigned from, int place) {
+T shuffled(T value, unsigned from, unsigned mask, Meeting meeting, const Place& place) {
     std::uint64_t bits = 0;
     static_assert(sizeof(T) <= sizeof(bits));
     __builtin_memcpy(&bits, &value, sizeof(T));
-    bits = exchange(bits, place)[from];
+    bits = exchange(bits, mask, meeting, place)[from];
     __builtin_memcpy(&value, &bits, sizeof(T));
     return value;
 }
@@ -71,30 +93,39 @@ inline long long clock64() {
 inline int __popc(unsigned bits) {
     return __builtin_popcount(bits);
 }
-inline void __syncthreads() {
-    emulated_device::wait_for_block();
+inline void __syncthreads(const emulated_device::Place& place = emulated_device::Place::current()) {
+    emulated_device::wait_for_block(place);
 }
-inline void __syncwarp(int place = __builtin_LINE()) {
-    emulated_device::wait_for_warp(place);
+inline void __syncwarp(unsigned mask = ~0U, const emulated_device::Place& place = emulated_device::Place::current()) {
+    emulated_device::exchange(0, mask, emulated_device::Meeting::sync_warp, place);
 }
-inline unsigned __ballot_sync(unsigned, int predicate, int place = __builtin_LINE()) {
-    const std::uint64_t* given = emulated_device::exchange(predicate != 0, place);
+inline unsigned __ballot_sync(unsigned mask, int predicate,
+                              const emulated_device::Place& place = emulated_device::Place::current()) {
+    const std::uint64_t* given =
+        emulated_device::exchange(predicate != 0, mask, emulated_device::Meeting::ballot, place);
     unsigned result = 0;
-    for (unsigned lane = 0; lane < 32; ++lane) result |= static_cast<unsigned>(given[lane]) << lane;
+    for (unsigned lane = 0; lane < 32; ++lane)
+        if ((mask >> lane & 1) != 0) result |= static_cast<unsigned>(given[lane]) << lane;
     return result;
 }
 template <class T>
-T __shfl_sync(unsigned, T value, int lane, int place = __builtin_LINE()) {
-    return emulated_device::shuffled(value, static_cast<unsigned>(lane), place);
+T __shfl_sync(unsigned mask, T value, int lane,
+              const emulated_device::Place& place = emulated_device::Place::current()) {
+    return emulated_device::shuffled(value, static_cast<unsigned>(lane) % 32, mask, emulated_device::Meeting::shuffle,
+                                     place);
 }
 template <class T>
-T __shfl_up_sync(unsigned, T value, unsigned distance, int place = __builtin_LINE()) {
+T __shfl_up_sync(unsigned mask, T value, unsigned distance,
+                 const emulated_device::Place& place = emulated_device::Place::current()) {
     const unsigned lane = threadIdx.x % 32;
-    return emulated_device::shuffled(value, lane >= distance ? lane - distance : lane, place);
+    return emulated_device::shuffled(value, lane >= distance ? lane - distance : lane, mask,
+                                     emulated_device::Meeting::shuffle_up, place);
 }
 template <class T>
-T __shfl_xor_sync(unsigned, T value, int mask, int place = __builtin_LINE()) {
-    return emulated_device::shuffled(value, (threadIdx.x % 32) ^ static_cast<unsigned>(mask), place);
+T __shfl_xor_sync(unsigned mask, T value, int with,
+                  const emulated_device::Place& place = emulated_device::Place::current()) {
+    return emulated_device::shuffled(value, (threadIdx.x % 32) ^ static_cast<unsigned>(with), mask,
+                                     emulated_device::Meeting::shuffle_xor, place);
 }
 inline unsigned __float_as_uint(float value) {
     return __builtin_bit_cast(unsigned, value);
@@ -120,7 +151,15 @@ T atomicOr(T* at, T value) {
 
 // ---- the part of the runtime that the backend uses ------------------------------------------------------------------
 
-enum cudaError_t { cudaSuccess, cudaErrorMemoryAllocation, cudaErrorLaunchFailure };
+enum cudaError_t {
+    cudaSuccess,
+    cudaErrorMemoryAllocation,
+    cudaErrorLaunchFailure,
+    cudaErrorInvalidValue,
+    cudaErrorInvalidConfiguration,
+    cudaErrorCooperativeLaunchTooLarge,
+    cudaErrorStreamCaptureUnsupported,  ///< what would wait or allocate while this thread captures a graph
+};
 namespace emulated_device {
 /// Called, if there, before every copy to the host, by whoever asks for that; what it answers is the copy's status.
 extern std::function<cudaError_t()> before_copy_to_host;
@@ -139,6 +178,8 @@ enum cudaMemLocationType { cudaMemLocationTypeDevice };
 enum cudaLaunchAttributeID { cudaLaunchAttributeCooperative };
 constexpr unsigned cudaStreamNonBlocking = 1;
 constexpr unsigned cudaEventRecordExternal = 1;
+constexpr unsigned cudaEventBlockingSync = 1;
+constexpr unsigned cudaEventDisableTiming = 2;
 constexpr unsigned cudaHostRegisterMapped = 2;
 constexpr unsigned long long cudaEnableDefault = 0;
 
@@ -185,7 +226,7 @@ cudaError_t cudaGraphInstantiate(cudaGraphExec_t*, cudaGraph_t, unsigned long lo
 cudaError_t cudaGraphLaunch(cudaGraphExec_t, cudaStream_t);
 cudaError_t cudaGraphDestroy(cudaGraph_t);
 cudaError_t cudaGraphExecDestroy(cudaGraphExec_t);
-cudaError_t cudaEventCreate(cudaEvent_t*);
+cudaError_t cudaEventCreateWithFlags(cudaEvent_t*, unsigned);
 cudaError_t cudaEventDestroy(cudaEvent_t);
 cudaError_t cudaEventRecord(cudaEvent_t, cudaStream_t);
 cudaError_t cudaEventRecordWithFlags(cudaEvent_t, cudaStream_t, unsigned);
@@ -207,7 +248,7 @@ cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaM
 
 template <class Kernel>
 cudaError_t cudaOccupancyMaxActiveBlocksPerMultiprocessor(int* blocks, Kernel, int, std::size_t) {
-    *blocks = 1;
+    *blocks = emulated_device::blocks_of_processor;
     return cudaSuccess;
 }
 template <class... Parameters, class... Arguments>
@@ -215,7 +256,12 @@ cudaError_t cudaLaunchKernelEx(const cudaLaunchConfig_t* configuration, void (*k
                                const Arguments&... arguments) {
     const unsigned blocks = configuration->gridDim.x;
     const unsigned threads = configuration->blockDim.x;
-    emulated_device::submit(configuration->stream,
-                            [=] { emulated_device::run_kernel(blocks, threads, [=] { kernel(arguments...); }); });
+    const bool cooperative = configuration->numAttrs != 0 && configuration->attrs->val.cooperative != 0;
+    if (blocks == 0 || threads == 0 || threads > 1024 || threads % 32 != 0) return cudaErrorInvalidConfiguration;
+    if (cooperative && blocks > emulated_device::processors * emulated_device::blocks_of_processor)
+        return cudaErrorCooperativeLaunchTooLarge;
+    emulated_device::submit(configuration->stream, [=] {
+        emulated_device::run_kernel(blocks, threads, cooperative, [=] { kernel(arguments...); });
+    });
     return cudaSuccess;
 }

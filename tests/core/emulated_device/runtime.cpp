@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cuda_runtime.h"
+#include "events_and_graphs.hpp"
 
 struct EmulatedGraph {
     std::vector<std::function<void()>> work;
@@ -26,6 +27,9 @@ struct EmulatedEvent {
 };
 
 namespace {
+/// Whether this thread captures a graph, which forbids it to wait or to allocate.
+thread_local bool captures = false;
+
 std::mutex device;  // its threads are one set of fibers: it works for one thread of the host at a time
 
 /// Pieces of device memory: begin to size.
@@ -54,6 +58,8 @@ void run_until(EmulatedStream& stream, std::size_t count) {
 }  // namespace
 
 std::function<cudaError_t()> emulated_device::before_copy_to_host;
+std::size_t emulated_device::graph_launches = 0;
+cudaError_t emulated_device::elapsed_time_status = cudaSuccess;
 
 void emulated_device::submit(cudaStream_t stream, const std::function<void()>& work) {
     if (stream->capturing != nullptr)
@@ -63,7 +69,23 @@ void emulated_device::submit(cudaStream_t stream, const std::function<void()>& w
 }
 
 const char* cudaGetErrorString(cudaError_t status) {
-    return status == cudaErrorMemoryAllocation ? "out of memory" : "launch failure";
+    switch (status) {
+        case cudaSuccess:
+            return "no error";
+        case cudaErrorMemoryAllocation:
+            return "out of memory";
+        case cudaErrorLaunchFailure:
+            return "launch failure";
+        case cudaErrorInvalidValue:
+            return "invalid argument";
+        case cudaErrorInvalidConfiguration:
+            return "invalid configuration argument";
+        case cudaErrorCooperativeLaunchTooLarge:
+            return "too many blocks in cooperative launch";
+        case cudaErrorStreamCaptureUnsupported:
+            return "operation not permitted when stream is capturing";
+    }
+    return "unknown error";
 }
 cudaError_t cudaGetLastError() {
     return cudaSuccess;
@@ -79,13 +101,14 @@ cudaError_t cudaGetDriverEntryPointByVersion(const char*, void**, unsigned, unsi
     return cudaSuccess;
 }
 cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr, int) {
-    return *value = 1, cudaSuccess;
+    return *value = emulated_device::processors, cudaSuccess;
 }
 
 cudaError_t cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned) {
     return *stream = new EmulatedStream, cudaSuccess;
 }
 cudaError_t cudaStreamSynchronize(cudaStream_t stream) {
+    if (captures) return cudaErrorStreamCaptureUnsupported;
     const std::lock_guard lock(device);
     run_until(*stream, stream->submitted);
     return cudaSuccess;
@@ -102,11 +125,13 @@ cudaError_t cudaStreamDestroy(cudaStream_t stream) {
     return cudaSuccess;
 }
 cudaError_t cudaStreamBeginCapture(cudaStream_t stream, cudaStreamCaptureMode) {
+    captures = true;
     return stream->capturing = new EmulatedGraph, cudaSuccess;
 }
 cudaError_t cudaStreamEndCapture(cudaStream_t stream, cudaGraph_t* graph) {
     *graph = stream->capturing;
     stream->capturing = nullptr;
+    captures = false;
     return cudaSuccess;
 }
 cudaError_t cudaGraphInstantiate(cudaGraphExec_t* executable, cudaGraph_t graph, unsigned long long) {
@@ -114,6 +139,7 @@ cudaError_t cudaGraphInstantiate(cudaGraphExec_t* executable, cudaGraph_t graph,
     return *executable = graph, cudaSuccess;
 }
 cudaError_t cudaGraphLaunch(cudaGraphExec_t graph, cudaStream_t stream) {
+    ++emulated_device::graph_launches;
     for (const auto& work : graph->work) enqueue(*stream, work);
     return cudaSuccess;
 }
@@ -124,7 +150,7 @@ cudaError_t cudaGraphExecDestroy(cudaGraphExec_t graph) {
     return release(graph);
 }
 
-cudaError_t cudaEventCreate(cudaEvent_t* event) {
+cudaError_t cudaEventCreateWithFlags(cudaEvent_t* event, unsigned) {
     return *event = new EmulatedEvent, cudaSuccess;
 }
 cudaError_t cudaEventDestroy(cudaEvent_t event) {
@@ -140,12 +166,13 @@ cudaError_t cudaEventRecordWithFlags(cudaEvent_t, cudaStream_t, unsigned) {
     return cudaSuccess;
 }
 cudaError_t cudaEventSynchronize(cudaEvent_t event) {
+    if (captures) return cudaErrorStreamCaptureUnsupported;
     const std::lock_guard lock(device);
     if (event->stream != nullptr) run_until(*event->stream, event->after);
     return cudaSuccess;
 }
 cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t, cudaEvent_t) {
-    return *milliseconds = 0.0F, cudaSuccess;
+    return *milliseconds = 0.0F, emulated_device::elapsed_time_status;
 }
 
 cudaError_t cudaMemPoolCreate(cudaMemPool_t*, const cudaMemPoolProps*) {
@@ -163,6 +190,7 @@ cudaError_t cudaMallocFromPoolAsync(void** memory, std::size_t bytes, cudaMemPoo
     return status;
 }
 cudaError_t cudaFreeAsync(void* memory, cudaStream_t stream) {
+    if (captures) return cudaErrorStreamCaptureUnsupported;
     {
         const std::lock_guard lock(pieces_mutex);
         pieces.erase(static_cast<const std::byte*>(memory));
@@ -182,6 +210,7 @@ cudaError_t cudaPointerGetAttributes(cudaPointerAttributes* attributes, const vo
     return cudaSuccess;
 }
 cudaError_t cudaMallocHost(void** memory, std::size_t bytes) {
+    if (captures) return cudaErrorStreamCaptureUnsupported;
     *memory = std::aligned_alloc(256, (bytes + 255) / 256 * 256);
     return *memory != nullptr ? cudaSuccess : cudaErrorMemoryAllocation;
 }
