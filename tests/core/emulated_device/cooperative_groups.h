@@ -5,7 +5,7 @@
 
 namespace cooperative_groups {
 struct Grid {
-    void sync(const emulated_device::Place& place = emulated_device::Place::current()) const {
+    void sync(emulated_device::Place place = emulated_device::Place::current()) const {
         emulated_device::wait_for_grid(place);
     }
 };

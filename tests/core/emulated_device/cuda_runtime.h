@@ -41,16 +41,16 @@ enum class Meeting : std::uint8_t { sync_warp, ballot, shuffle, shuffle_up, shuf
 using Place = std::source_location;
 
 /// Waits for all threads of the block or grid, which must come to the same place.
-void wait_for_block(const Place& place);
-void wait_for_grid(const Place& place);
+void wait_for_block(Place place);
+void wait_for_grid(Place place);
 /// Lets every lane see what the lanes of its warp have given, once all have that the mask names: to the same meeting at
 /// the same place, by the same mask.
-const std::uint64_t* exchange(std::uint64_t value, unsigned mask, Meeting meeting, const Place& place);
+const std::uint64_t* exchange(std::uint64_t value, unsigned mask, Meeting meeting, Place place);
 
 /// Memory of the running block, the same for all that ask in one line; rubbish when the block begins.
 void* shared_memory(std::size_t bytes, std::size_t alignment, unsigned line);
 template <class T>
-T& shared(const Place& place = Place::current()) {
+T& shared(Place place = Place::current()) {
     static_assert(std::is_trivially_default_constructible_v<std::remove_all_extents_t<T>>);
     return *static_cast<T*>(shared_memory(sizeof(T), alignof(T), place.line()));
 }
@@ -68,7 +68,7 @@ inline constexpr unsigned processors = 1;
 inline constexpr unsigned blocks_of_processor = 4;
 
 template <class T>
-T shuffled(T value, unsigned from, unsigned mask, Meeting meeting, const Place& place) {
+T shuffled(T value, unsigned from, unsigned mask, Meeting meeting, Place place) {
     std::uint64_t bits = 0;
     static_assert(sizeof(T) <= sizeof(bits));
     __builtin_memcpy(&bits, &value, sizeof(T));
@@ -93,14 +93,14 @@ inline long long clock64() {
 inline int __popc(unsigned bits) {
     return __builtin_popcount(bits);
 }
-inline void __syncthreads(const emulated_device::Place& place = emulated_device::Place::current()) {
+inline void __syncthreads(emulated_device::Place place = emulated_device::Place::current()) {
     emulated_device::wait_for_block(place);
 }
-inline void __syncwarp(unsigned mask = ~0U, const emulated_device::Place& place = emulated_device::Place::current()) {
+inline void __syncwarp(unsigned mask = ~0U, emulated_device::Place place = emulated_device::Place::current()) {
     emulated_device::exchange(0, mask, emulated_device::Meeting::sync_warp, place);
 }
 inline unsigned __ballot_sync(unsigned mask, int predicate,
-                              const emulated_device::Place& place = emulated_device::Place::current()) {
+                              emulated_device::Place place = emulated_device::Place::current()) {
     const std::uint64_t* given =
         emulated_device::exchange(predicate != 0, mask, emulated_device::Meeting::ballot, place);
     unsigned result = 0;
@@ -109,21 +109,19 @@ inline unsigned __ballot_sync(unsigned mask, int predicate,
     return result;
 }
 template <class T>
-T __shfl_sync(unsigned mask, T value, int lane,
-              const emulated_device::Place& place = emulated_device::Place::current()) {
+T __shfl_sync(unsigned mask, T value, int lane, emulated_device::Place place = emulated_device::Place::current()) {
     return emulated_device::shuffled(value, static_cast<unsigned>(lane) % 32, mask, emulated_device::Meeting::shuffle,
                                      place);
 }
 template <class T>
 T __shfl_up_sync(unsigned mask, T value, unsigned distance,
-                 const emulated_device::Place& place = emulated_device::Place::current()) {
+                 emulated_device::Place place = emulated_device::Place::current()) {
     const unsigned lane = threadIdx.x % 32;
     return emulated_device::shuffled(value, lane >= distance ? lane - distance : lane, mask,
                                      emulated_device::Meeting::shuffle_up, place);
 }
 template <class T>
-T __shfl_xor_sync(unsigned mask, T value, int with,
-                  const emulated_device::Place& place = emulated_device::Place::current()) {
+T __shfl_xor_sync(unsigned mask, T value, int with, emulated_device::Place place = emulated_device::Place::current()) {
     return emulated_device::shuffled(value, (threadIdx.x % 32) ^ static_cast<unsigned>(with), mask,
                                      emulated_device::Meeting::shuffle_xor, place);
 }
