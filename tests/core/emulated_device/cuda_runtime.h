@@ -4,8 +4,8 @@
 // grid. Work waits in its stream until the host waits for it, so that whoever does not wait meets old bytes. It shows
 // what a kernel computes, and waits that do not fit together; not races within a warp's step, nor speed.
 //
-// Shared memory is declared as `__shared__ type name;` in one line, of which the build makes a call of
-// emulated_device::shared() (tests/core/CMakeLists.txt): C++ has no storage that belongs to a block.
+// What is compiled are copies: of `__shared__ type name;` the build makes a call of emulated_device::shared()
+// (copy_source.cmake), and a test can put faults in force in them (faults.cmake).
 #pragma once
 
 #include <cstddef>
@@ -13,6 +13,8 @@
 #include <functional>
 #include <source_location>
 #include <type_traits>
+
+#include "faults.hpp"
 
 #define __global__
 #define __device__

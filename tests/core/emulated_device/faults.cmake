@@ -1,0 +1,62 @@
+# The faults that a test can put in force (faults.hpp), as changes of single places in copies of core's sources:
+# plant(fault file right wrong). `right` stands once in the file, else the build fails. FAULTY(name) says whether the fault
+# is in force.
+
+# Each vertex lies where the next one of its block would.
+plant(index_off_by_one steps/place_vertices/place_vertices.cu
+  [=[Vertex v(edges, i < count ? i : count - 1);]=]
+  [=[Vertex v(edges, std::min(i + (FAULTY(index_off_by_one) ? 1 : 0), count - 1));]=])
+
+# Marks of a brick are read before all warps have made theirs.
+plant(missing_barrier steps/register_particles/register_particles.cu
+  [=[add_of_lanes(&marked_in_brick, marked);
+        __syncthreads();]=]
+  [=[add_of_lanes(&marked_in_brick, marked);
+        if (!FAULTY(missing_barrier)) __syncthreads();]=])
+
+# A ballot does not name the warp's last lane.
+plant(wrong_mask engine/cuda/candidates.hpp
+  [=[__ballot_sync(all_lanes, near ? 1 : 0);]=]
+  [=[__ballot_sync(FAULTY(wrong_mask) ? all_lanes >> 1 : all_lanes, near ? 1 : 0);]=])
+
+# The normal of each block's last vertex is what lies in memory.
+plant(unset_word steps/place_vertices/place_vertices.cu
+  [=[if (i < count) f.normals[number] =]=]
+  [=[if (i < count - (FAULTY(unset_word) ? 1 : 0)) f.normals[number] =]=])
+
+# The sum of counts of vertices goes on one behind the array.
+plant(guard_overrun steps/place_vertices/place_vertices.cu
+  [=[state.first_vertex, blocks + 1, launch.stream);]=]
+  [=[state.first_vertex, blocks + (FAULTY(guard_overrun) ? 2 : 1), launch.stream);]=])
+
+# Spray is given to the caller before it has come down.
+plant(missing_wait pipeline/cuda_frame_run.cu
+  [=[stream_.get()),
+          "cudaMemcpyAsync");
+    stream_.synchronize();]=]
+  [=[stream_.get()),
+          "cudaMemcpyAsync");
+    if (!FAULTY(missing_wait)) stream_.synchronize();]=])
+
+# A cooperative grid has a block more than run at once.
+plant(wrong_block_count engine/cuda/launch.hpp
+  [=[launch(static_cast<unsigned>(blocks), true, kernel, arguments...);]=]
+  [=[launch(static_cast<unsigned>(FAULTY(wrong_block_count) ? most + 1 : blocks), true, kernel, arguments...);]=])
+
+# What blocks but the grid's first have changed in a sweep is not told to the others.
+plant(lost_flag steps/adjust_levels/sweeps.hpp
+  [=[if (changed) atomicOr(]=]
+  [=[if (changed && !(FAULTY(lost_flag) && blockIdx.x != 0)) atomicOr(]=])
+
+# Triangles of a cell lie in the order in which its lanes come by.
+plant(unstable_order steps/emit_triangles/emit_triangles.cu
+  [=[Triangle* out = f.triangles + next + sum_of_lanes_below(pattern.triangles, all);]=]
+  [=[Triangle* out = f.triangles + next + sum_of_lanes_below(pattern.triangles, all);
+            if (FAULTY(unstable_order))
+                out = f.triangles + f.counts->first_triangle[level - 1] +
+                      atomicAdd(&f.triangles_before[block].of[level - 1], std::uint32_t{pattern.triangles});]=])
+
+# The largest sums are forgotten where scratch memory is measured.
+plant(scratch_too_small engine/cuda/scans.cu
+  [=[scan_bytes<LevelCounts>(sums)});]=]
+  [=[FAULTY(scratch_too_small) ? 0 : scan_bytes<LevelCounts>(sums)});]=])
