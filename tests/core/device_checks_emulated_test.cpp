@@ -84,7 +84,7 @@ void read_shared_memory(unsigned* out) {
     word = 0;
 }
 void overrun_shared_memory() {
-    auto& words = emulated_device::shared<unsigned[32]>();
+    unsigned* const words = emulated_device::shared<unsigned[32]>();
     words[(threadIdx.x < 32 ? 0 : 1) + cuda::lane_index()] = 1;
 }
 

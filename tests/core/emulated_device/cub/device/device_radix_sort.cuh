@@ -74,7 +74,7 @@ private:
         std::vector<T> sorted(order.size());
         for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = from[order[i]];
         std::copy(sorted.begin(), sorted.end(), changes ? other : from);
-        std::memset(static_cast<void*>(changes ? from : other), 0x5A, order.size() * sizeof(T));
+        std::fill_n(reinterpret_cast<std::byte*>(changes ? from : other), order.size() * sizeof(T), std::byte{0x5A});
     }
 };
 
