@@ -110,10 +110,15 @@ void ParticleCheck::require_on_device(const void* array, const std::string& name
         throw InvalidInput(where + "on CUDA device " + std::to_string(attributes.device) + advice);
 }
 
+void ParticleCheck::wait() {
+    found_.record(launch_.stream);
+    found_.wait();
+}
+
 float ParticleCheck::value_at(const float* on_device) {
     check(cudaMemcpyAsync(on_host_.get(), on_device, sizeof(float), cudaMemcpyDeviceToHost, launch_.stream),
           "cudaMemcpyAsync");
-    check(cudaStreamSynchronize(launch_.stream), "cudaStreamSynchronize");
+    wait();
     return *reinterpret_cast<const float*>(on_host_.get());
 }
 
@@ -135,7 +140,7 @@ ParticlesByLevel ParticleCheck::require_valid(const ParticleFrame& frame, cudaSt
             rounded_down(farthest_coordinate(settings)), on_device);
     check(cudaMemcpyAsync(on_host_.get(), on_device, sizeof(ParticleFindings), cudaMemcpyDeviceToHost, launch_.stream),
           "cudaMemcpyAsync");
-    check(cudaStreamSynchronize(launch_.stream), "cudaStreamSynchronize");
+    wait();
 
     const ParticleFindings found = *reinterpret_cast<const ParticleFindings*>(on_host_.get());
     if (has_levels) {
@@ -157,7 +162,7 @@ ValueFindings ParticleCheck::look_at(const ParticleArray& array, std::uint32_t p
             particles, static_cast<unsigned>(array.components), on_device);
     check(cudaMemcpyAsync(on_host_.get(), on_device, sizeof(ValueFindings), cudaMemcpyDeviceToHost, launch_.stream),
           "cudaMemcpyAsync");
-    check(cudaStreamSynchronize(launch_.stream), "cudaStreamSynchronize");
+    wait();
     return *reinterpret_cast<const ValueFindings*>(on_host_.get());
 }
 

@@ -47,11 +47,14 @@ private:
     ValueFindings look_at(const ParticleArray& array, std::uint32_t particles);
     void require_on_device(const void* array, const std::string& name) const;
     float value_at(const float* on_device);
+    /// For what the device has found.
+    void wait();
 
     int device_;
     Launcher launch_;
     PinnedMemory on_host_;
     Event made_;
+    Event found_;
     DeviceMemory on_device_;
 };
 
