@@ -12,8 +12,10 @@
 #include "backend_options.hpp"
 #include "benchmarks.hpp"
 #include "device_peaks.hpp"
+#include "formats/particle_writer.hpp"
 #include "formats/particles.hpp"
 #include "machine_peaks.hpp"
+#include "meniscus/error.hpp"
 #include "neighbors.hpp"
 #include "report.hpp"
 #include "warm_runs.hpp"
@@ -22,22 +24,27 @@
 namespace meniscus::benchmarks {
 namespace {
 
-struct ScalingOptions {
-    std::size_t max_particles = 1024 * basin_particles;
-    std::size_t max_particles_fine = 256 * basin_particles;
-    BackendOptions backend = one_cpu_thread;
-    std::optional<double> tolerance;
-    RepeatLimits limits;
-    std::string out = "tests/benchmarks/results";
-    std::string frame;  ///< a file, in place of generated water
-    double particle_radius = 0.025;
-};
-
 /// From one size to the next.
 constexpr std::size_t growth = 4;
 /// Cell sizes in radii.
 constexpr double coarse = 1.0;
 constexpr double fine = 0.5;
+
+struct ScalingOptions {
+    std::size_t min_particles = basin_particles;
+    std::size_t max_particles = 1024 * basin_particles;
+    std::size_t max_particles_fine = 256 * basin_particles;
+    std::vector<Field> fields{Settings{}.field};
+    std::vector<double> cell_sizes{coarse, fine};  ///< in radii
+    BackendOptions backend = one_cpu_thread;
+    std::optional<double> tolerance;
+    RepeatLimits limits;
+    std::string out = "tests/benchmarks/results";
+    std::string frame;        ///< a file, in place of generated water
+    std::string write_water;  ///< a file for the water, in place of measurements
+    double particle_radius = 0.025;
+};
+
 /// Vector instructions for one particle's share in the field at a point. Color: distance 7, kernel 10, sum 1. Smooth:
 /// squared distance 6, kernel 3, sum 1.
 double instructions_per_kernel(const Settings& settings) {
@@ -80,13 +87,15 @@ void add_floor(Row& row, const Statistics& s, const Settings& settings, const Ne
     row["particles_in_support_of_particle"] = neighbors.of_particle;
     row["particles_in_support_of_vertex"] = neighbors.of_vertex;
     row["kernel_evaluations"] = kernels;
+    row["instructions_per_kernel"] = instructions_per_kernel(settings);
     row["share_of_multiply_add_peak"] = kernel_seconds / reconstruction_seconds(s);
     row["share_of_copy_bandwidth"] = copy_seconds / reconstruction_seconds(s);
 }
 
-Row measure(const ScalingOptions& options, const std::string& scene, const std::vector<float>& positions,
+Row measure(const ScalingOptions& options, const std::string& scene, const std::vector<float>& positions, Field field,
             double cell_size, Mode mode, const MachinePeaks& peaks) {
     Settings settings;
+    settings.field = field;
     settings.particle_radius = options.particle_radius;
     settings.cell_size = cell_size;
     settings.mode = mode;
@@ -100,8 +109,10 @@ Row measure(const ScalingOptions& options, const std::string& scene, const std::
 
     Row row;
     row["water"] = scene;
+    row["field"] = name_of(field);
     row["cell_size"] = cell_size;
     row["mode"] = name_of(mode);
+    row["tolerance"] = tolerance(settings);
     row["particles"] = s.particles;
     row["warm_runs"] = runs.count;
     row["first_seconds"] = runs.first.total_seconds;
@@ -115,11 +126,12 @@ Row measure(const ScalingOptions& options, const std::string& scene, const std::
 }
 
 void print(const Row& row) {
-    std::cout << std::left << std::setw(10) << row["water"].get<std::string>() << std::setw(5)
-              << row["cell_size"].get<double>() << std::setw(9) << row["mode"].get<std::string>() << std::right
-              << std::setw(10) << row["particles"].get<std::uint64_t>() << std::fixed << std::setprecision(3)
-              << std::setw(10) << row["seconds_per_million_particles"].get<double>() << std::setprecision(2)
-              << std::setw(8) << row["first_over_warm"].get<double>() << std::setprecision(0) << std::setw(10)
+    std::cout << std::left << std::setw(10) << row["water"].get<std::string>() << std::setw(8)
+              << row["field"].get<std::string>() << std::setw(5) << row["cell_size"].get<double>() << std::setw(9)
+              << row["mode"].get<std::string>() << std::right << std::setw(10) << row["particles"].get<std::uint64_t>()
+              << std::fixed << std::setprecision(3) << std::setw(10)
+              << row["seconds_per_million_particles"].get<double>() << std::setprecision(2) << std::setw(8)
+              << row["first_over_warm"].get<double>() << std::setprecision(0) << std::setw(10)
               << row["bytes_per_particle"].get<double>() << std::setw(10) << row["bytes_per_triangle"].get<double>()
               << std::setw(8) << row["allocations"].get<std::uint64_t>() << std::setprecision(3) << std::setw(8)
               << row["share_of_multiply_add_peak"].get<double>() << std::setw(8)
@@ -131,8 +143,8 @@ Rows compare_sizes(const Rows& rows) {
     Rows out = Rows::array();
     for (const Row& largest : rows) {
         const auto same_series = [&](const Row& row) {
-            return row["water"] == largest["water"] && row["cell_size"] == largest["cell_size"] &&
-                   row["mode"] == largest["mode"];
+            return row["water"] == largest["water"] && row["field"] == largest["field"] &&
+                   row["cell_size"] == largest["cell_size"] && row["mode"] == largest["mode"];
         };
         const auto is_larger = [&](const Row& row) {
             return same_series(row) && row["particles"] > largest["particles"];
@@ -141,6 +153,7 @@ Rows compare_sizes(const Rows& rows) {
         const Row& smallest = *std::find_if(rows.begin(), rows.end(), same_series);
         const auto ratio = [&](const char* name) { return largest[name].get<double>() / smallest[name].get<double>(); };
         out.push_back({{"water", largest["water"]},
+                       {"field", largest["field"]},
                        {"cell_size", largest["cell_size"]},
                        {"mode", largest["mode"]},
                        {"particles_smallest", smallest["particles"]},
@@ -152,42 +165,57 @@ Rows compare_sizes(const Rows& rows) {
 }
 
 void print_comparison(const Row& row) {
-    std::cout << std::left << std::setw(10) << row["water"].get<std::string>() << std::setw(5)
-              << row["cell_size"].get<double>() << std::setw(9) << row["mode"].get<std::string>() << std::right
-              << std::fixed << std::setprecision(2) << std::setw(8) << row["time_per_particle_ratio"].get<double>()
-              << std::setw(8) << row["memory_per_particle_ratio"].get<double>() << std::defaultfloat << '\n';
+    std::cout << std::left << std::setw(10) << row["water"].get<std::string>() << std::setw(8)
+              << row["field"].get<std::string>() << std::setw(5) << row["cell_size"].get<double>() << std::setw(9)
+              << row["mode"].get<std::string>() << std::right << std::fixed << std::setprecision(2) << std::setw(8)
+              << row["time_per_particle_ratio"].get<double>() << std::setw(8)
+              << row["memory_per_particle_ratio"].get<double>() << std::defaultfloat << '\n';
+}
+
+void write_water(const ScalingOptions& options) {
+    const std::vector<float> positions =
+        make_water(WaterKind::splashing, options.max_particles, static_cast<float>(options.particle_radius));
+    ParticleFrame frame;
+    frame.positions = positions;
+    formats::write_particles(options.write_water, frame, formats::ParticleFormat::vtk);
 }
 
 void run_scaling(const ScalingOptions& options) {
+    if (options.min_particles > options.max_particles)
+        throw InvalidInput("--min-particles is " + std::to_string(options.min_particles) +
+                           ", must be at most --max-particles, " + std::to_string(options.max_particles));
     nlohmann::ordered_json summary;
     summary["runs"] = "warm medians; first: a new reconstructor's first frame";
     add_backend(summary, options.backend);
-    summary["tolerance"] = options.tolerance.value_or(tolerance(Settings{}));
     const bool on_device = summary["backend"] == "cuda";
     const MachinePeaks peaks = on_device ? measure_device_peaks() : measure_peaks();
     summary["peaks_of"] = on_device ? "the device" : "one core";
     summary["multiply_adds_per_second"] = peaks.multiply_adds_per_second;
     summary["copied_bytes_per_second"] = peaks.copied_bytes_per_second;
-    summary["instructions_per_kernel"] = instructions_per_kernel(Settings{});
     std::cout << "multiply-add peak " << 1e-9 * peaks.multiply_adds_per_second << " G/s, copy bandwidth "
               << 1e-9 * peaks.copied_bytes_per_second << " GB/s, of " << summary["peaks_of"].get<std::string>() << '\n'
-              << "water     c    mode      particles s/million   first  B/part.  B/triang.  allocs   mul-add   copy\n";
+              << "water     field   c    mode      particles s/million   first  B/part.  B/triang.  allocs   mul-add   "
+                 "copy\n";
     Rows rows = Rows::array();
+    // Written after each row: a run that is cut short leaves what it has measured.
+    const auto add = [&](Row row) {
+        rows.push_back(std::move(row));
+        write_report(options.out, "scaling", summary, rows);
+        print(rows.back());
+    };
     const auto measure_scene = [&](const std::string& scene, const std::vector<float>& positions) {
-        for (const double cell_size : {coarse, fine}) {
-            if (cell_size == fine && positions.size() / 3 > options.max_particles_fine) continue;
-            for (const Mode mode : {Mode::uniform, Mode::adaptive}) {
-                rows.push_back(measure(options, scene, positions, cell_size, mode, peaks));
-                print(rows.back());
+        for (const Field field : options.fields)
+            for (const double cell_size : options.cell_sizes) {
+                if (cell_size <= fine && positions.size() / 3 > options.max_particles_fine) continue;
+                for (const Mode mode : {Mode::uniform, Mode::adaptive})
+                    add(measure(options, scene, positions, field, cell_size, mode, peaks));
             }
-        }
     };
     if (!options.frame.empty()) {
         measure_scene(std::filesystem::path(options.frame).stem(), formats::read_particles(options.frame).positions);
-        write_report(options.out, "scaling", summary, rows);
         return;
     }
-    for (std::size_t particles = basin_particles; particles <= options.max_particles; particles *= growth)
+    for (std::size_t particles = options.min_particles; particles <= options.max_particles; particles *= growth)
         for (const WaterKind kind : choices<WaterKind>)
             measure_scene(std::string(name_of(kind)),
                           make_water(kind, particles, static_cast<float>(options.particle_radius)));
@@ -205,10 +233,25 @@ void add_scaling(CLI::App& app) {
     CLI::App& command = *app.add_subcommand(
         "scaling", "Time and memory from 16 thousand to 16 million particles, and the distance from the floor");
     const CLI::Range at_least_one_basin(basin_particles, std::size_t{1} << 32U);
+    command.add_option("--min-particles", options->min_particles, "Smallest scene; the next one has 4 times as many")
+        ->check(at_least_one_basin)
+        ->capture_default_str();
     command.add_option("--max-particles", options->max_particles, "Largest scene")
         ->check(at_least_one_basin)
         ->capture_default_str();
     command.add_option("--max-particles-fine", options->max_particles_fine, "Largest scene at cell size 0.5")
+        ->capture_default_str();
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--fields",
+            [options](const std::vector<std::string>& names) {
+                options->fields.clear();
+                for (const std::string& name : names) options->fields.push_back(by_name<Field>(name, "field"));
+            },
+            "Any of " + listed(names<Field>))
+        ->default_str(std::string(name_of(Settings{}.field)));
+    command.add_option("--cell-sizes", options->cell_sizes, "In particle radii")
+        ->check(CLI::PositiveNumber)
         ->capture_default_str();
     add_backend_options(command, options->backend);
     command.add_option("--tolerance", options->tolerance, "Of the curvature criterion, in cells")
@@ -225,7 +268,9 @@ void add_scaling(CLI::App& app) {
     command.add_option("--particle-radius", options->particle_radius, "World units")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    command.callback([options] { run_scaling(*options); });
+    command.add_option("--write-water", options->write_water,
+                       "File (VTK) for the splashing water of the largest scene; then nothing is measured");
+    command.callback([options] { options->write_water.empty() ? run_scaling(*options) : write_water(*options); });
 }
 
 }  // namespace meniscus::benchmarks

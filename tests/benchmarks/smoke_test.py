@@ -10,7 +10,10 @@ from pathlib import Path
 
 RUNS = {
     "experiment": (["--frames", "3", "--particles", "500"], 6),
-    "scaling": (["--max-particles", "20000", "--repeats", "1", "--seconds-per-case", "1"], 8),
+    "scaling": (
+        ["--max-particles", "20000", "--fields", "smooth", "color", "--cell-sizes", "1", "--repeats", "1"],
+        8,
+    ),
     "encoding": (["--particles", "16000", "--cell-size", "1.0", "--repeats", "1"], 16),
 }
 
@@ -35,28 +38,46 @@ def check_goals(bench):
             return json.loads((folder / "goals.json").read_text())
 
         check(
-            [(g["measured"], g["holds"]) for g in goals()] == [(None, None)] * 6,
+            [(g["measured"], g["holds"]) for g in goals()] == [(None, None)] * 8,
             "goals: something is measured without results",
         )
-        cases = (("splashing", "adaptive"), ("splashing", "uniform"), ("calm", "adaptive"), ("calm", "uniform"))
+        cases = (
+            ("splashing", "smooth", "uniform"),
+            ("splashing", "smooth", "adaptive"),
+            ("splashing", "color", "uniform"),
+            ("splashing", "color", "adaptive"),
+            ("calm", "smooth", "uniform"),
+            ("calm", "smooth", "adaptive"),
+        )
         scaling = [
             {
                 "water": water,
+                "field": field,
                 "mode": mode,
                 "cell_size": 1.0,
                 "particles": 64 * 16000,
-                "reconstruction_seconds": 0.001 * (5 + 20 * i),
+                "reconstruction_seconds": 0.001 * (10 + i),
                 "device_peak_bytes": 100 * (i + 1),
             }
-            for i, (water, mode) in enumerate(cases)
+            for i, (water, field, mode) in enumerate(cases)
         ]
         experiment = [{"mode": "adaptive", "reconstruction_seconds": s} for s in (0.0007, 0.0001, 0.0004)]
         for backend in ("cpu", "cuda"):
             for name, rows in (("scaling", scaling), ("experiment", experiment)):
                 (folder / f"{name}.json").write_text(json.dumps({"backend": backend, "rows": rows}))
+            (folder / "splashsurf.json").write_text('{"seconds": 0.72}')
             found = [(g["measured"] and round(g["measured"], 3), g["holds"]) for g in goals()]
-            expected = [(5.0, True), (25.0, False), (0.4, True), (1.444, False), (0.75, False), (None, None)]
-            check(found == (expected if backend == "cuda" else [(None, None)] * 6), f"goals: {backend} gives {found}")
+            expected = [
+                (10.0, True),
+                (11.0, False),
+                (12.0, False),
+                (13.0, False),
+                (0.4, True),
+                (0.933, False),
+                (1.2, False),
+                (60.0, True),
+            ]
+            check(found == (expected if backend == "cuda" else [(None, None)] * 8), f"goals: {backend} gives {found}")
 
 
 def check_service(bench, meniscusd, folder):
@@ -132,6 +153,10 @@ def main():
         subprocess.run([bench, "encoding", "--water", "ice"], capture_output=True).returncode == 2,
         "wrong input is refused",
     )
+    none = subprocess.run(
+        [bench, "scaling", "--min-particles", "64000", "--max-particles", "16000"], capture_output=True, text=True
+    )
+    check(none.returncode == 2 and "64000" in none.stderr, f"scaling: sizes without any between them give {none}")
     for name in ("experiment", "scaling"):
         refused = subprocess.run([bench, name, "--backend", "abacus"], capture_output=True, text=True)
         check(refused.returncode == 2 and "abacus" in refused.stderr, f"{name}: a wrong backend is refused by its name")

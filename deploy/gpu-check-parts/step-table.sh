@@ -1,0 +1,31 @@
+# shellcheck shell=bash disable=SC2034,SC2154  # the parts share variables
+# The steps, the most valuable first: name, group, seconds that it may take, what it does. The groups are three visits to a
+# GPU: `first` asks whether it is right and how fast, `where` where the time goes, `beside` how it compares.
+step_table=(
+  "tests|first|75|cuda_test; a skipped test counts as failed"
+  "same|first|60|CPU = CUDA by memory comparison, 16 k to 1 M particles"
+  "exact|first|10|roots, quotients, sorts and sums against the host's"
+  "times|first|40|a million particles, c = 1.0: rows of the goals, beside predictions"
+  "kernels|first|50|each kernel of a frame of a million particles, beside predictions"
+  "profile|first|45|Nsight Compute on three kernels; not run where ncu is not installed"
+  "same-large|first|45|CPU = CUDA for 4 M particles"
+  "memcheck|first|45|compute-sanitizer on one small test, an allocation for each array"
+  "racecheck|first|45|compute-sanitizer on one small test"
+  "synccheck|first|35|compute-sanitizer on one small test"
+  "same-threads|first|30|CPU = CUDA for four threads, each with grids that fill the GPU"
+  "kernels-more|where|90|kernels at c = 0.5, for calm water, for 16 k and 4 M particles"
+  "profile-more|where|120|Nsight Compute on the kernels that take most, c = 1.0 and 0.5"
+  "code|where|30|machine code and resources of all kernels; not run where cuobjdump is not installed"
+  "experiment|where|120|the paper's dam break, 60 frames of it: a row of the goals"
+  "scaling|where|120|16 k to 4 M particles: time, memory, distance from the floor"
+  "same-huge|where|120|CPU = CUDA for 16 M particles"
+  "guarded|beside|120|cuda_test with guarded and poisoned arrays"
+  "no-graph|beside|60|cuda_test without CUDA graphs"
+  "cpu|beside|90|the CPU backend on all processors of this machine"
+  "encoding|beside|60|Draco on one thread of this machine"
+  "splashsurf|beside|90|splashsurf on all processors: a row of the goals; not run where it is not installed"
+  "service|beside|60|meniscusd on the GPU under four simulators"
+  "thousand-frames|beside|60|1,000 frames without growth of device memory"
+  "hashes|beside|300|mesh_sha256 of CPU and GPU for frames of the demo, with every setting"
+  "sanitizers|beside|600|compute-sanitizer's four tools over all tests for small frames"
+)
