@@ -17,7 +17,12 @@ add_row() {
 
 # write_results RESULT
 write_results() {
-  local name separator='' written_tables=''
+  local name each separator='' written_tables='' written_steps=''
+  for each in "${steps[@]}"; do
+    written_steps+="$separator"$'\n'"    $each"
+    separator=,
+  done
+  separator=
   for name in "${table_order[@]}"; do
     written_tables+="$separator"$'\n'"    \"$name\": [${tables[$name]}"$'\n'"    ]"
     separator=,
@@ -26,14 +31,15 @@ write_results() {
 {
   "result": "$1",
   "version": $version,
-  "commit": $(json_string "$commit"),
+  "commit": $commit_json,
   "started": "$started",
   "machine": $machine,
   "device": $device,
   "gpus": $gpus,
   "gpus_after": $gpus_after,
   "seconds_allowed": $seconds_in_all,
-  "steps": $(json_array "${steps[@]}"),
+  "steps": [$written_steps
+  ],
   "goals": $goals,
   "tables": {$written_tables
   }
@@ -45,11 +51,13 @@ JSON
 # left out (there was no time for it), not run (something that it needs is not there). FAILED may be
 # empty: 1 for what has failed.
 record() {
-  local seconds failures=$4
-  [ -n "$failures" ] || failures=$([ "$2" = failed ] && echo 1 || echo 0)
+  local seconds failures=$4 columns cells
+  [ -n "$failures" ] || { if [ "$2" = failed ]; then failures=1; else failures=0; fi; }
   printf -v seconds '%d.%03d' $(($6 / 1000)) $(($6 % 1000))
-  steps+=("$(json_object step "\"$step\"" name "$(json_string "$1")" result "\"$2\"" passed "$3" failed "$failures" skipped "$5" \
-    seconds "$seconds" command "$(json_string "${7//"$here/"/}")" detail "$(json_string "$8")")")
+  columns=(step name result passed failed skipped seconds command detail)
+  cells=("$step" "$1" "$2" "$3" "$failures" "$5" "$seconds" "${7//"$here/"/}" "$8")
+  json_row ''
+  steps+=("$answer")
   printf '%-8s %s: %s passed, %s failed, %s skipped, %s s%s\n' "$2" "$1" "$3" "$failures" "$5" "$seconds" "${8:+ ($8)}"
   case $2 in
   failed) worst=failed ;;

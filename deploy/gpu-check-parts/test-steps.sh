@@ -110,8 +110,8 @@ count_comparison() {
       flags+=" ${flag#*=} $answer" case_name+=" $answer"
     done
     cell run
-    [[ $answer != thread* ]] || flags+=' --threads 4'
-    # Its first run and its replays are one case.
+    if [[ $answer = thread* ]]; then flags+=' --threads 4'; else flags+=' --threads 1'; fi
+    # Its frames are one case.
     [[ " ${different_cases[*]} " == *"$particles|$flags|"* ]] || different_cases+=("$particles|$flags|$case_name $answer")
     ;;
   esac
@@ -153,10 +153,10 @@ compare_meshes() {
 }
 
 step_tests() { run_tests tests '-*ThousandFrames*'; }
-step_same() { compare_meshes same --particles 16000 256000 1024000; }
-step_same-large() { compare_meshes same-large --particles 4096000 --cell-sizes 1 --fields smooth --replays 1; }
-step_same-huge() { compare_meshes same-huge --particles 16384000 --cell-sizes 1 --fields smooth --waters splashing --replays 1; }
-step_same-threads() { compare_meshes same-threads --particles 256000 --cell-sizes 1 --fields smooth --modes adaptive --threads 4; }
+step_same() { compare_meshes same --particles 16000 256000 1024000 --threads 1; }
+step_same-large() { compare_meshes same-large --particles 4096000 --cell-sizes 1 --fields smooth --replays 1 --threads 1; }
+step_same-huge() { compare_meshes same-huge --particles 16384000 --cell-sizes 1 --fields smooth --waters splashing --replays 1 --threads 1; }
+step_same-threads() { compare_meshes same-threads --particles 256000 --cell-sizes 1 --fields smooth --modes adaptive --replays 0 --threads 4; }
 step_guarded() { run_tests guarded '-*ThousandFrames*:*StageOfAWarmFrame*' env MENISCUS_DEVICE_ARRAYS=guarded; }
 step_no-graph() { run_tests no-graph '-*ThousandFrames*' env MENISCUS_NO_GRAPH=1; }
 step_thousand-frames() { run_tests thousand-frames '*ThousandFrames*'; }
@@ -169,7 +169,7 @@ count_check() {
 step_exact() {
   local passed=0 failed=0 skipped=0 verdict=failed detail='' log=$out/exact.log
   seconds_left "$step_end"
-  local command=("$bin/meniscus-bench" exact --budget "$((answer > 2 ? answer - 2 : answer))" --out "$out/exact")
+  local command=("$bin/meniscus-bench" exact --out "$out/exact")
   follow exact '' "$out/exact/exact.csv" count_check
   run "$log" "$answer" see_row "${command[@]}"
   take_rows

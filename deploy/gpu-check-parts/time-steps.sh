@@ -85,12 +85,12 @@ add_launch() {
   cell kernel
   kernel=$answer
   cell median_us
-  [ -n "$answer" ] || return 0
+  [[ $answer =~ ^[0-9] ]] || return 0 # gaps may be negative
   micro "$answer"
   microseconds=$answer
   launches[$kernel]=$((${launches[$kernel]:-0} + microseconds))
   cell model_us
-  if [ -n "$answer" ]; then
+  if [[ $answer =~ ^[0-9] ]]; then
     micro "$answer"
     modelled[$kernel]=$((${modelled[$kernel]:-0} + answer))
   fi

@@ -34,7 +34,7 @@ case $command in
     {
       echo '{ "frames": ['
       for ((i = 0; i <= last; ++i)); do
-        hash=$(printf '%064x' "$i")
+        printf -v hash '%064x' "$i"
         if [ "$backend" = cuda ]; then
           [ "${FAKE_WRONG_FRAME:-}" != "$i$mode" ] || hash=${hash//0/f}
           backend=${FAKE_BACKEND:-cuda}
@@ -84,13 +84,13 @@ case $name in
     ;;
   same)
     row particles,water,field,mode,cell_size,run,result,seconds,different,first_difference
-    row "$particles,calm,smooth,uniform,1,first,same,0.5,0,"
+    row "$particles,calm,smooth,uniform,1,frame 1,same,0.5,0,"
     hang
     result=${FAKE_MESHES:-same}
     # What only happens with graphs.
     [ "$graph$result" != 1different ] || result=same
-    row "$particles,splashing,smooth,uniform,1,first,$result,0.5,0,vertex 7"
-    row "$particles,splashing,smooth,uniform,1,replay 1,$result,0.5,0,vertex 7"
+    row "$particles,splashing,smooth,uniform,1,frame 1,$result,0.5,0,vertex 7"
+    row "$particles,splashing,smooth,uniform,1,frame 4 (graph),$result,0.5,0,vertex 7"
     [ "$result" != different ] || exit 1
     ;;
   exact)
@@ -105,6 +105,7 @@ case $name in
     row '1,"sample_list<4, false>",10,256,0,80,0,500,490'
     row "2,emit_cells,10,256,0,80,0,${FAKE_EMIT:-1500},1400"
     row ',frame,,,,,,5600,5500'
+    row ',gaps,,,,,,-3.5,-3'
     ;;
   *)
     row water,field,cell_size,mode,particles,reconstruction_seconds
