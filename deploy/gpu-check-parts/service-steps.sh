@@ -10,7 +10,7 @@ step_service() {
       return
     }
   done
-  local command=("$bin/meniscus-load" --server "$address" --simulators 4 --particles 64000 --seconds 20 --rate 50 --json "$out/service.json")
+  local command=("$bin/meniscus-load" --server "$address" --simulators 4 --particles 16000 --seconds 20 --rate 20 --json "$out/service.json")
   seconds_left "$step_end"
   exec {output}< <(exec timeout --kill-after=15 "$answer" "$bin/meniscusd" --listen "$address" --backend cuda 2>&1)
   server=$!

@@ -143,20 +143,21 @@ compare_meshes() {
   else
     verdict=passed
   fi
+  [ "$verdict" != failed ] || [ "$failed" -gt 0 ] || failed=1
   record "$name" "$verdict" "$passed" "$failed" "$skipped" "$milliseconds" "${command[*]}" "$detail"
   for entry in "${different_cases[@]:0:failed_cases_again}"; do
     IFS='|' read -r particles flags case_name <<<"$entry"
     read -r -a words <<<"$flags --out $work/again"
     case_again "$case_name" "$bin/meniscus-bench" same --particles "$particles" "${words[@]}" -- \
-      "$bin/meniscus-bench" same --particles 16000 "${words[@]}"
+      "$bin/meniscus-bench" same --particles $((million / 64)) "${words[@]}"
   done
 }
 
 step_tests() { run_tests tests '-*ThousandFrames*'; }
-step_same() { compare_meshes same --particles 16000 256000 1024000 --threads 1; }
-step_same-large() { compare_meshes same-large --particles 4096000 --cell-sizes 1 --fields smooth --replays 1 --threads 1; }
-step_same-huge() { compare_meshes same-huge --particles 16384000 --cell-sizes 1 --fields smooth --waters splashing --replays 1 --threads 1; }
-step_same-threads() { compare_meshes same-threads --particles 256000 --cell-sizes 1 --fields smooth --modes adaptive --replays 0 --threads 4; }
+step_same() { compare_meshes same --particles $((million / 64)) $((million / 4)) "$million" --threads 1; }
+step_same-large() { compare_meshes same-large --particles $((4 * million)) --cell-sizes 1 --fields smooth --replays 1 --threads 1; }
+step_same-huge() { compare_meshes same-huge --particles $((16 * million)) --cell-sizes 1 --fields smooth --waters splashing --replays 1 --threads 1; }
+step_same-threads() { compare_meshes same-threads --particles $((million / 4)) --cell-sizes 1 --fields smooth --modes adaptive --replays 0 --threads 4; }
 step_guarded() { run_tests guarded '-*ThousandFrames*:*StageOfAWarmFrame*' env MENISCUS_DEVICE_ARRAYS=guarded; }
 step_no-graph() { run_tests no-graph '-*ThousandFrames*' env MENISCUS_NO_GRAPH=1; }
 step_thousand-frames() { run_tests thousand-frames '*ThousandFrames*'; }
@@ -182,6 +183,7 @@ step_exact() {
   else
     verdict=passed
   fi
+  [ "$verdict" != failed ] || [ "$failed" -gt 0 ] || failed=1
   record exact "$verdict" "$passed" "$failed" "$skipped" "$milliseconds" "${command[*]}" "$detail"
 }
 

@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC2034,SC2154  # the parts share variables
 # Steps that measure, beside what was predicted.
 
-million=1024000
+# million: the particles of the frames that are timed, a million but for --particles.
 
 # ---- Whole frames
 
@@ -54,7 +54,7 @@ judge_goals() {
 }
 
 step_times() {
-  measure times compare_frame scaling --backend cuda --min-particles $million --max-particles $million --fields smooth color \
+  measure times compare_frame scaling --backend cuda --min-particles "$million" --max-particles "$million" --fields smooth color \
     --cell-sizes 1 --repeats 20 --seconds-per-case 2
   judge_goals "$out/measured"
 }
@@ -66,7 +66,7 @@ step_scaling() {
 }
 step_cpu() {
   local measured_in=$out/measured-cpu
-  measure cpu ignore_row scaling --backend cpu --threads 0 --min-particles $million --max-particles $million \
+  measure cpu ignore_row scaling --backend cpu --threads 0 --min-particles "$million" --max-particles "$million" \
     --fields smooth color --cell-sizes 1 --seconds-per-case 5
 }
 
@@ -75,7 +75,7 @@ step_experiment() {
   judge_goals "$out/measured"
 }
 
-step_encoding() { measure encoding ignore_row encoding --particles $million --cell-size 1 --speed 10 --repeats 1; }
+step_encoding() { measure encoding ignore_row encoding --particles "$million" --cell-size 1 --speed 10 --repeats 1; }
 
 # ---- Kernels
 
@@ -134,16 +134,16 @@ measure_kernels() {
 step_kernels() {
   local field mode
   for field in smooth color; do
-    for mode in uniform adaptive; do measure_kernels $million splashing 1 $field $mode; done
+    for mode in uniform adaptive; do measure_kernels "$million" splashing 1 $field $mode; done
   done
 }
 
 step_kernels-more() {
   local field mode
   for mode in uniform adaptive; do
-    measure_kernels $million splashing 0.5 smooth $mode
-    measure_kernels 16000 splashing 1 smooth $mode
-    measure_kernels $million calm 1 smooth $mode
+    measure_kernels "$million" splashing 0.5 smooth $mode
+    measure_kernels $((million / 64)) splashing 1 smooth $mode
+    measure_kernels "$million" calm 1 smooth $mode
     measure_kernels $((4 * million)) splashing 1 smooth $mode
   done
 }
