@@ -71,7 +71,7 @@ step_cpu() {
 }
 
 step_experiment() {
-  measure experiment ignore_row experiment --backend cuda --frames 60 --frame-seconds 0.04 --repeats 5
+  measure experiment ignore_row experiment --backend cuda --frames 30 --frame-seconds 0.08 --repeats 5
   judge_goals "$out/measured"
 }
 

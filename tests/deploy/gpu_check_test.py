@@ -158,7 +158,7 @@ shift 4
 """
 
 
-FIRST = ["tests", "same", "exact", "times"]
+FIRST = ["tests", "same", "exact", "times", "experiment"]
 FIRST += ["kernels"] * 4 + ["profile", "same-large", "memcheck", "racecheck", "synccheck", "same-threads"]
 
 
