@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/cuda/errors.hpp"
+#include "engine/cuda/launch_observer.hpp"
 
 namespace meniscus::cuda {
 
@@ -36,7 +37,10 @@ public:
         cudaGraphDestroy(chain);
         check(status, "cudaGraphInstantiate");
     }
-    void launch(cudaStream_t stream) { check(cudaGraphLaunch(graph_, stream), "cudaGraphLaunch"); }
+    void launch(cudaStream_t stream) {
+        const ObservedLaunch observed({.kind = LaunchKind::graph, .stream = stream});
+        check(cudaGraphLaunch(graph_, stream), "cudaGraphLaunch");
+    }
 
 private:
     cudaGraphExec_t graph_ = nullptr;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "engine/cuda/errors.hpp"
+#include "engine/cuda/launch_observer.hpp"
 
 namespace meniscus::cuda {
 
@@ -53,6 +54,10 @@ private:
         configuration.stream = stream;
         configuration.attrs = &attribute;
         configuration.numAttrs = together ? 1 : 0;
+        const ObservedLaunch observed({.stream = stream,
+                                       .kernel = reinterpret_cast<const void*>(kernel),
+                                       .blocks = blocks,
+                                       .is_cooperative = together});
         check(cudaLaunchKernelEx(&configuration, kernel, arguments...), "cudaLaunchKernelEx");
     }
 };

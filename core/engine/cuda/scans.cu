@@ -6,6 +6,8 @@
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
 
+#include "engine/cuda/launch_observer.hpp"
+
 namespace meniscus::cuda {
 namespace {
 
@@ -47,6 +49,13 @@ SortKey* sort_pairs(void* memory, std::size_t& bytes, SortKey* keys, SortKey* ro
     return key_buffers.Current();
 }
 
+Launch sum_of(std::uint64_t n, std::size_t bytes, cudaStream_t stream) {
+    return {.kind = LaunchKind::sum, .stream = stream, .elements = n, .element_bytes = bytes};
+}
+Launch sort_of(std::uint64_t n, std::size_t bytes, cudaStream_t stream) {
+    return {.kind = LaunchKind::sort, .stream = stream, .elements = n, .element_bytes = bytes};
+}
+
 template <class T>
 std::size_t scan_bytes(std::size_t n) {
     std::size_t bytes = 0;
@@ -71,29 +80,35 @@ std::size_t scratch_bytes(std::size_t particle_keys, bool has_values, std::size_
 }
 
 void exclusive_sum(const Scratch& scratch, std::uint32_t* values, std::size_t n, cudaStream_t stream) {
+    const ObservedLaunch observed(sum_of(n, sizeof(*values), stream));
     std::size_t bytes = scratch.bytes;
     scan(scratch.memory, bytes, values, n, stream);
 }
 void exclusive_sum(const Scratch& scratch, std::uint64_t* values, std::size_t n, cudaStream_t stream) {
+    const ObservedLaunch observed(sum_of(n, sizeof(*values), stream));
     std::size_t bytes = scratch.bytes;
     scan(scratch.memory, bytes, values, n, stream);
 }
 void exclusive_sum(const Scratch& scratch, LevelCounts* values, std::size_t n, cudaStream_t stream) {
+    const ObservedLaunch observed(sum_of(n, sizeof(*values), stream));
     std::size_t bytes = scratch.bytes;
     scan(scratch.memory, bytes, values, n, stream);
 }
 
 SortKey* sort(const Scratch& scratch, SortKey* keys, SortKey* room, std::size_t n, cudaStream_t stream) {
+    const ObservedLaunch observed(sort_of(n, sizeof(*keys), stream));
     std::size_t bytes = scratch.bytes;
     return sort_keys(scratch.memory, bytes, keys, room, n, stream);
 }
 SortKey* sort_with_values(const Scratch& scratch, SortKey* keys, SortKey* room, std::uint32_t* values,
                           std::uint32_t* values_room, std::size_t n, cudaStream_t stream) {
+    const ObservedLaunch observed(sort_of(n, sizeof(*keys) + sizeof(*values), stream));
     std::size_t bytes = scratch.bytes;
     return sort_pairs(scratch.memory, bytes, keys, room, values, values_room, n, stream);
 }
 std::uint64_t* sort(const Scratch& scratch, std::uint64_t* keys, std::uint64_t* room, std::size_t n,
                     cudaStream_t stream) {
+    const ObservedLaunch observed(sort_of(n, sizeof(*keys), stream));
     std::size_t bytes = scratch.bytes;
     return sort_keys(scratch.memory, bytes, keys, room, n, stream);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/mesh_difference.hpp"
+#include "kernel_times.hpp"
 #include "lab_options.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
@@ -73,6 +74,7 @@ bool try_case(const LabOptions& options, const std::vector<float>& positions, co
         std::printf(" %s %.3f", std::string(names<Stage>[i]).c_str(), times.steps[i]);
     std::printf("\n");
     if (difference.any()) std::printf("    %s\n", difference.first.c_str());
+    if (options.kernels) print_kernel_times(frame, settings, options.runs);
     std::fflush(stdout);
     return !difference.any();
 }

@@ -55,6 +55,8 @@ LabOptions read_lab_options(int argc, const char* const* argv) {
         rest = rest.subspan(1);
         if (flag == "--no-compare")
             options.compare = false;
+        else if (flag == "--kernels")
+            options.kernels = true;
         else if (flag == "--particles")
             options.particles = list<std::size_t>(
                 values_of(flag, rest), [&](const char* word) { return number(flag, word, basin_particles); });
@@ -79,9 +81,9 @@ LabOptions read_lab_options(int argc, const char* const* argv) {
 
 const char* lab_help() {
     return "kernel-lab [--particles N...] [--cell-sizes C...] [--fields F...] [--modes M...] [--waters W...]\n"
-           "           [--runs N] [--no-compare] [--backend cuda|cpu]\n"
-           "Compares the mesh of the GPU with that of the CPU, byte by byte, and times its steps. Exit codes: 0 all\n"
-           "the same, 1 a mesh differs, 2 wrong arguments, 77 there is no GPU.\n";
+           "           [--runs N] [--kernels] [--no-compare] [--backend cuda|cpu]\n"
+           "Compares the mesh of the GPU with that of the CPU, byte by byte, and times its steps; --kernels: and its\n"
+           "kernels. Exit codes: 0 all the same, 1 a mesh differs, 2 wrong arguments, 77 there is no GPU.\n";
 }
 
 }  // namespace meniscus::benchmarks

@@ -19,6 +19,7 @@ struct LabOptions {
     Backend backend = Backend::cuda;  ///< the one that is compared with the CPU and timed
     unsigned runs = 20;               ///< of a warm frame, of which the median counts
     bool compare = true;
+    bool kernels = false;  ///< also what each kernel takes
 };
 
 /// Throws InvalidInput for what is not known, with what is.

@@ -1,0 +1,53 @@
+// For programs that measure: sees every kernel, every call of CUB and every graph that one thread of the host puts on a
+// stream. Without an observer a launch costs one comparison more.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/cuda/errors.hpp"
+
+namespace meniscus::cuda {
+
+enum class LaunchKind : std::uint8_t { kernel, sum, sort, graph };
+
+/// A sum or a sort is a call of CUB, whose kernels are its own affair.
+struct Launch {
+    LaunchKind kind = LaunchKind::kernel;
+    cudaStream_t stream = nullptr;
+    const void* kernel = nullptr;
+    unsigned blocks = 0;
+    bool is_cooperative = false;
+    std::uint64_t elements = 0;     ///< of a sum or a sort
+    std::size_t element_bytes = 0;  ///< of a summand, or of a key with its value
+};
+
+class LaunchObserver {
+public:
+    virtual void before(const Launch& launch) = 0;
+    virtual void after(const Launch& launch) = 0;
+
+protected:
+    ~LaunchObserver() = default;
+};
+
+/// Of this thread.
+inline constinit thread_local LaunchObserver* launch_observer = nullptr;
+
+/// Around the calls that put a launch on its stream.
+class ObservedLaunch {
+public:
+    explicit ObservedLaunch(const Launch& launch) : launch_(launch) {
+        if (launch_observer != nullptr) launch_observer->before(launch_);
+    }
+    ~ObservedLaunch() {
+        if (launch_observer != nullptr) launch_observer->after(launch_);
+    }
+    ObservedLaunch(const ObservedLaunch&) = delete;
+    ObservedLaunch& operator=(const ObservedLaunch&) = delete;
+
+private:
+    Launch launch_;
+};
+
+}  // namespace meniscus::cuda
