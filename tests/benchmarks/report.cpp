@@ -3,9 +3,10 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <memory>
 #include <numeric>
-#include <sstream>
+#include <stdexcept>
 
 #include "formats/atomic_file.hpp"
 #include "meniscus/reconstructor.hpp"
@@ -29,29 +30,33 @@ std::string commit() {
     return out;
 }
 
-std::string to_csv(const Rows& rows) {
-    std::ostringstream out;
+std::string csv_header(const Row& row) {
+    std::string out;
+    for (const auto& column : row.items()) out += (out.empty() ? "" : ",") + column.key();
+    return out + '\n';
+}
+
+std::string csv_line(const Row& row) {
+    std::string out;
     const char* separator = "";
-    for (const auto& column : rows.at(0).items()) {
-        out << separator << column.key();
+    for (const auto& value : row) {
+        out += separator;
+        if (!value.is_null()) out += value.is_string() ? value.get<std::string>() : value.dump();
         separator = ",";
     }
-    out << '\n';
-    for (const Row& row : rows) {
-        separator = "";
-        for (const auto& value : row) {
-            out << separator << (value.is_string() ? value.get<std::string>() : value.dump());
-            separator = ",";
-        }
-        out << '\n';
-    }
-    return out.str();
+    return out + '\n';
+}
+
+std::string to_csv(const Rows& rows) {
+    std::string out = csv_header(rows.at(0));
+    for (const Row& row : rows) out += csv_line(row);
+    return out;
 }
 
 }  // namespace
 
-void remember_command(int argc, const char* const* argv) {
-    command_line = "meniscus-bench";
+void remember_command(const std::string& program, int argc, const char* const* argv) {
+    command_line = program;
     for (int i = 1; i < argc; ++i) {
         const std::filesystem::path argument(argv[i]);
         command_line += ' ';
@@ -80,6 +85,29 @@ void add_statistics(Row& row, const Statistics& s) {
     row["peak_bytes"] = s.peak_bytes;
     row["device_peak_bytes"] = s.device_peak_bytes;
     row["allocations"] = s.allocations;
+}
+
+GrowingTable::GrowingTable(const std::filesystem::path& directory, const std::string& name)
+    : directory_(directory), name_(name) {
+    formats::make_directory(directory);
+    csv_.open(directory / (name + ".csv"));
+    if (!csv_) throw std::runtime_error("cannot write " + (directory / (name + ".csv")).string());
+}
+
+void GrowingTable::add(const Row& row) {
+    if (rows_.empty()) write(csv_header(row));
+    rows_.push_back(row);
+    write(csv_line(row));
+}
+
+void GrowingTable::write(const std::string& line) {
+    csv_ << line << std::flush;
+    if (!csv_) throw std::runtime_error("cannot write to " + (directory_ / (name_ + ".csv")).string());
+    std::cout << line << std::flush;
+}
+
+void GrowingTable::finish(const nlohmann::ordered_json& summary) const {
+    if (!rows_.empty()) write_report(directory_, name_, summary, rows_);
 }
 
 void write_report(const std::filesystem::path& directory, const std::string& name,

@@ -29,4 +29,7 @@ inline constexpr std::size_t basin_particles = 16000;
 /// the same positions.
 std::vector<float> make_water(WaterKind kind, std::size_t particles, float particle_radius);
 
+/// The same from one particle on: fewer than a basin are those over a square corner of it, about as many.
+std::vector<float> make_any_water(WaterKind kind, std::size_t particles, float particle_radius);
+
 }  // namespace meniscus::benchmarks

@@ -209,7 +209,16 @@ struct cudaLaunchConfig_t {
     unsigned numAttrs;
 };
 
+/// Of a kernel; this device has no registers.
+struct cudaFuncAttributes {
+    int numRegs;
+    std::size_t sharedSizeBytes;
+};
+
 const char* cudaGetErrorString(cudaError_t);
+cudaError_t cudaFuncGetAttributes(cudaFuncAttributes*, const void* kernel);
+/// The mangled name; cudaErrorInvalidValue for what is no function of this program.
+cudaError_t cudaFuncGetName(const char** name, const void* kernel);
 cudaError_t cudaGetLastError();
 cudaError_t cudaGetDevice(int* device);
 cudaError_t cudaSetDevice(int device);

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""The commands for a GPU on the device in software: emulated_test.py MENISCUS_BENCH MENISCUS_BENCH_EMULATED."""
+
+import csv
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+
+def check(condition, what):
+    if not condition:
+        sys.exit(f"failed: {what}")
+
+
+def run(program, *words, expect=0):
+    done = subprocess.run([program, *map(str, words)], capture_output=True, text=True, check=False)
+    check(done.returncode == expect, f"{words} ends with {done.returncode}, should be {expect}:\n{done.stderr}")
+    return done
+
+
+def rows_of(folder, name):
+    with open(folder / f"{name}.csv", newline="", encoding="ascii") as file:
+        return list(csv.DictReader(file))
+
+
+def check_same(bench, folder):
+    done = run(bench, "same", "--particles", 300, "--cell-sizes", 1, "--fields", "smooth", "--modes", "adaptive", "--waters", "splashing",
+               "--replays", 2, "--threads", 2, "--out", folder)  # fmt: skip
+    rows = rows_of(folder, "same")
+    check(len(rows) == 5 + 2, f"same: {len(rows)} rows")
+    check(all(r["result"] == "same" and int(r["triangles"]) > 100 for r in rows), f"same: {rows}")
+    replayed = [r["run"] for r in rows if r["run"].endswith("(graph)")]
+    check(len(replayed) >= 2, f"same: frames that were replayed as graphs are {replayed}")
+    check(any(int(r["spray"]) > 0 for r in rows), "same: no case lists spray")
+    check(done.stdout.splitlines()[1].startswith("300,splashing,smooth,adaptive,1.0,frame 1,same"), done.stdout)
+
+    run(bench, "same", "--particles", 100, "--modes", "uniform", "--fields", "color", "--budget", 1e-6, "--threads", 1,
+        "--replays", 0, "--out", folder)  # fmt: skip
+    first, *rest = [r["result"] for r in rows_of(folder, "same") if r["run"] in ("all", "frame 1")]
+    check((first, set(rest)) == ("same", {"left_out"}), "same: the budget leaves out what comes after the first case")
+    for words, name in ((["--fields", "wool"], "wool"), (["--particles", "0"], "0")):
+        check(name in run(bench, "same", *words, "--out", folder, expect=2).stderr, f"same: {words} is not named")
+
+
+def check_exact(bench, folder):
+    run(bench, "exact", "--roots", 4096, "--quotients", 3000, "--elements", 4097, "--out", folder)
+    rows = rows_of(folder, "exact")
+    check(all(r["result"] == "same" for r in rows), f"exact: {rows}")
+    sizes = {r["n"] for r in rows if r["check"] == "sort of 16 bytes" and r["run"] == "replay"}
+    check(sizes == {"0", "1", "31", "256", "4097"}, f"exact: sorts of {sizes}")
+    checks = {r["check"] for r in rows}
+    check({"root", "reciprocal", "quotient", "fused", "sort_pairs", "sum of 16 bytes"} <= checks, f"exact: {checks}")
+    run(bench, "exact", "--roots", 3, "--out", folder, expect=2)
+
+
+def check_kernels(bench, folder):
+    run(bench, "kernels", "--particles", 300, "--mode", "adaptive", "--repeats", 2, "--out", folder)
+    rows = rows_of(folder, "kernels")
+    names = [r["kernel"] for r in rows]
+    for name in ("sample_list<ParticleField<Poly6>>", "balance_and_promote", "emit_cells"):
+        check(name in names, f"kernels: {name} is not among {names}")
+    check(any(n.startswith("CUB sort of ") for n in names), "kernels: no sort")
+    check(names[-4:] == ["launches", "frame", "graph", "gaps"], f"kernels: the sums are {names[-4:]}")
+    launches = [r for r in rows if r["blocks"]]
+    check(len(launches) > 30 and all(int(r["blocks"]) > 0 for r in launches), "kernels: a launch without blocks")
+    check({r["kernel"].split("<")[0] for r in launches if r["cooperative"] == "true"}
+          == {"balance_and_promote", "settle_band"}, "kernels: the cooperative ones")  # fmt: skip
+    report = json.loads((folder / "kernels.json").read_text())
+    check(report["commit"] and len(report["rows"]) == len(rows), "kernels: the JSON")
+
+
+def main():
+    bench, emulated = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        check_same(emulated, folder)
+        check_exact(emulated, folder)
+        check_kernels(emulated, folder)
+        if shutil.which("nvidia-smi"):
+            return
+        for command in ("same", "exact", "kernels"):
+            check("GPU" in run(bench, command, expect=77).stderr, f"{command}: says why it does not run")
+
+
+if __name__ == "__main__":
+    main()

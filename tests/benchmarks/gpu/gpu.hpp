@@ -1,0 +1,27 @@
+// What the commands that compare or measure a GPU share. The program on the software device (emulated_main.cpp) has the
+// same commands.
+#pragma once
+
+#include <stdexcept>
+
+namespace CLI {
+class App;
+}
+
+namespace meniscus::benchmarks {
+
+/// Exit code where there is no GPU.
+inline constexpr int no_gpu_exit_code = 77;
+
+class NoGpu : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Throws NoGpu if the first GPU cannot be used here.
+void require_gpu();
+
+void add_same(CLI::App& app);
+void add_exact(CLI::App& app);
+void add_kernels(CLI::App& app);
+
+}  // namespace meniscus::benchmarks

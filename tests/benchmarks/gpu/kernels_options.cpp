@@ -1,0 +1,54 @@
+#include "gpu/kernels_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "meniscus/reconstructor.hpp"
+
+namespace meniscus::benchmarks {
+
+void add_kernels_command(CLI::App& app, void (*run)(const KernelsOptions&)) {
+    auto options = std::make_shared<KernelsOptions>();
+    CLI::App& command = *app.add_subcommand(
+        "kernels", "Time, grid and registers of every launch of a warm frame on the GPU; exit code 77 without a GPU");
+    command.add_option("--particles", options->particles, "In basins of 16000, or fewer")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 32U))
+        ->capture_default_str();
+    command.add_option("--cell-size", options->cell_size, "In radii")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--field", options->field, listed(names<Field>))->capture_default_str();
+    command.add_option("--mode", options->mode, listed(names<Mode>))->capture_default_str();
+    command.add_option("--water", options->water, listed(names<WaterKind>))->capture_default_str();
+    command.add_option("--repeats", options->repeats, "Warm frames, of which the medians count")
+        ->check(CLI::Range(1U, 1000U))
+        ->capture_default_str();
+    command.add_option("--out", options->out, "Folder for the results")->capture_default_str();
+    command.callback([options, run] { run(*options); });
+}
+
+WarmFrame::WarmFrame(const KernelsOptions& options, std::size_t particles)
+    : positions_(make_any_water(by_name<WaterKind>(options.water, "water"), particles, 0.025F)) {
+    settings_.particle_radius = 0.025;
+    settings_.cell_size = options.cell_size;
+    settings_.mode = by_name<Mode>(options.mode, "mode");
+    settings_.field = by_name<Field>(options.field, "field");
+    backend_ = cuda::make_reconstruction(settings_, BackendOptions{}, std::make_shared<MemoryAccount>(),
+                                         std::make_shared<MemoryAccount>());
+}
+
+ParticleFrame WarmFrame::frame() const {
+    ParticleFrame frame;
+    frame.positions = positions_;
+    return frame;
+}
+
+void WarmFrame::reconstruct() {
+    Statistics statistics;
+    static_cast<void>(backend_->reconstruct_on_device(frame(), statistics));
+}
+
+void WarmFrame::warm_up() {
+    for (int i = 0; i < 4; ++i) reconstruct();
+}
+
+}  // namespace meniscus::benchmarks

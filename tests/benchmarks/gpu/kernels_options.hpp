@@ -1,0 +1,48 @@
+// The frame that `meniscus-bench kernels` takes apart.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipeline/backend.hpp"
+#include "water.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace meniscus::benchmarks {
+
+struct KernelsOptions {
+    std::size_t particles = 64 * basin_particles;
+    double cell_size = 1.0;
+    std::string field = "smooth";
+    std::string mode = "uniform";
+    std::string water = "splashing";
+    unsigned repeats = 20;
+    std::string out = "kernels-results";
+};
+
+/// The subcommand with all its flags; run is called for it.
+void add_kernels_command(CLI::App& app, void (*run)(const KernelsOptions&));
+
+/// A frame of generated water, again and again on the GPU.
+class WarmFrame {
+public:
+    WarmFrame(const KernelsOptions& options, std::size_t particles);
+    void reconstruct();
+    /// Until it launches the same again and again.
+    void warm_up();
+    std::size_t particles() const { return positions_.size() / 3; }
+
+private:
+    ParticleFrame frame() const;
+
+    std::vector<float> positions_;
+    Settings settings_;
+    std::unique_ptr<BackendReconstruction> backend_;
+};
+
+}  // namespace meniscus::benchmarks

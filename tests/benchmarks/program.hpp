@@ -1,0 +1,17 @@
+// What a program of benchmarks does with its arguments.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace meniscus::benchmarks {
+
+/// Runs the subcommand that is asked for, and returns the exit code: 0, 1 after a failure, 2 for wrong arguments, 77
+/// where there is no GPU for a command that needs one.
+int run_program(CLI::App& app, int argc, char** argv);
+
+/// Those of run_program().
+char* const* program_arguments();
+
+}  // namespace meniscus::benchmarks
