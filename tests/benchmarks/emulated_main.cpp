@@ -4,6 +4,7 @@
 
 #include "engine/cuda/device.hpp"
 #include "gpu/gpu.hpp"
+#include "model/model.hpp"
 #include "program.hpp"
 
 namespace meniscus::cuda {  // which has another name here (tests/core/CMakeLists.txt)
@@ -22,6 +23,6 @@ int main(int argc, char** argv) {
     CLI::App app("meniscus-bench's commands for a GPU, on the device in software", "meniscus-bench-emulated");
     meniscus::benchmarks::add_same(app);
     meniscus::benchmarks::add_exact(app);
-    meniscus::benchmarks::add_kernels(app);
+    meniscus::benchmarks::add_kernels(app, meniscus::benchmarks::run_model);
     return meniscus::benchmarks::run_program(app, argc, argv);
 }

@@ -17,6 +17,6 @@ int main(int argc, char** argv) {
     meniscus::benchmarks::add_quality(app);
     meniscus::benchmarks::add_same(app);
     meniscus::benchmarks::add_exact(app);
-    meniscus::benchmarks::add_kernels(app);
+    meniscus::benchmarks::add_kernels(app, meniscus::benchmarks::run_model_elsewhere);
     return meniscus::benchmarks::run_program(app, argc, argv);
 }

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "gpu/gpu.hpp"
+#include "gpu/kernels_options.hpp"
 
 namespace meniscus::benchmarks {
 namespace {
@@ -20,8 +21,13 @@ void add_same(CLI::App& app) {
 void add_exact(CLI::App& app) {
     add_absent(app, "exact", "What the backend takes for granted of a GPU: this build has no CUDA backend");
 }
-void add_kernels(CLI::App& app) {
-    add_absent(app, "kernels", "Time of every launch on the GPU: this build has no CUDA backend");
+void add_kernels(CLI::App& app, void (*run_model)(const KernelsOptions&)) {
+    static void (*model)(const KernelsOptions&) = nullptr;
+    model = run_model;
+    add_kernels_command(app, [](const KernelsOptions& options) {
+        if (options.is_model) return model(options);
+        require_gpu();
+    });
 }
 
 }  // namespace meniscus::benchmarks

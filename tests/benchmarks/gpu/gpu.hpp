@@ -22,6 +22,11 @@ void require_gpu();
 
 void add_same(CLI::App& app);
 void add_exact(CLI::App& app);
-void add_kernels(CLI::App& app);
+/// run_model: for --model.
+struct KernelsOptions;
+void add_kernels(CLI::App& app, void (*run_model)(const KernelsOptions&));
+/// Goes on as meniscus-bench-emulated, beside this program, with the same arguments: the model counts on the device in
+/// software. Throws std::runtime_error if that is not there.
+void run_model_elsewhere(const KernelsOptions& options);
 
 }  // namespace meniscus::benchmarks

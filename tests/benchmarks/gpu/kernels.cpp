@@ -139,8 +139,11 @@ void run_kernels(const KernelsOptions& options) {
 
 }  // namespace
 
-void add_kernels(CLI::App& app) {
+void add_kernels(CLI::App& app, void (*run_model)(const KernelsOptions&)) {
+    static void (*model)(const KernelsOptions&) = nullptr;
+    model = run_model;
     add_kernels_command(app, [](const KernelsOptions& options) {
+        if (options.is_model) return model(options);
         require_gpu();
         run_kernels(options);
     });

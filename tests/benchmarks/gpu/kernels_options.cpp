@@ -1,7 +1,9 @@
 #include "gpu/kernels_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <stdexcept>
 
+#include "gpu/mesh_difference.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::benchmarks {
@@ -9,7 +11,9 @@ namespace meniscus::benchmarks {
 void add_kernels_command(CLI::App& app, void (*run)(const KernelsOptions&)) {
     auto options = std::make_shared<KernelsOptions>();
     CLI::App& command = *app.add_subcommand(
-        "kernels", "Time, grid and registers of every launch of a warm frame on the GPU; exit code 77 without a GPU");
+        "kernels",
+        "Time, grid and registers of every launch of a warm frame on the GPU (exit code 77 without one), or with "
+        "--model the times that counts foretell, without a GPU");
     command.add_option("--particles", options->particles, "In basins of 16000, or fewer")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 32U))
         ->capture_default_str();
@@ -23,6 +27,20 @@ void add_kernels_command(CLI::App& app, void (*run)(const KernelsOptions&)) {
         ->check(CLI::Range(1U, 1000U))
         ->capture_default_str();
     command.add_option("--out", options->out, "Folder for the results")->capture_default_str();
+    CLI::Option* const model = command.add_flag(
+        "--model", options->is_model, "Foretell: run the kernels' PTX on the device in software, count, and price");
+    command.add_option("--ptx", options->ptx, "Folder that tests/benchmarks/kernel-ptx has written")
+        ->check(CLI::ExistingDirectory)
+        ->needs(model);
+    command.add_option("--gpu", options->gpu, "A row of tests/benchmarks/model/gpus.csv")
+        ->needs(model)
+        ->capture_default_str();
+    command
+        .add_option("--counted", options->counted,
+                    "Particles of the frame that is counted, of which the frame is so many times as much, on as many "
+                    "times the multiprocessors; 0: --particles")
+        ->needs(model)
+        ->capture_default_str();
     command.callback([options, run] { run(*options); });
 }
 
@@ -45,6 +63,18 @@ ParticleFrame WarmFrame::frame() const {
 void WarmFrame::reconstruct() {
     Statistics statistics;
     static_cast<void>(backend_->reconstruct_on_device(frame(), statistics));
+}
+
+void WarmFrame::reconstruct_as_the_cpu_does() {
+    Mesh expected;
+    Reconstructor(settings_, {.backend = Backend::cpu}).reconstruct(frame(), expected);
+    Mesh mesh;
+    mesh.cell_size = expected.cell_size;
+    mesh.offset_bits = expected.offset_bits;
+    Statistics statistics;
+    backend_->reconstruct(frame(), mesh, statistics).finish();
+    const MeshDifference difference = find_difference(expected, mesh);
+    if (difference.any()) throw std::runtime_error("the mesh is not the CPU's: " + difference.first);
 }
 
 void WarmFrame::warm_up() {

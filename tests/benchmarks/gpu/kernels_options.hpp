@@ -23,6 +23,11 @@ struct KernelsOptions {
     std::string water = "splashing";
     unsigned repeats = 20;
     std::string out = "kernels-results";
+    // Of the model:
+    bool is_model = false;
+    std::string ptx;           ///< folder that kernel-ptx has written
+    std::string gpu = "H200";  ///< a row of gpus.csv
+    std::size_t counted = 0;   ///< particles of the frame that is counted; 0: as many as there are
 };
 
 /// The subcommand with all its flags; run is called for it.
@@ -33,6 +38,9 @@ class WarmFrame {
 public:
     WarmFrame(const KernelsOptions& options, std::size_t particles);
     void reconstruct();
+    /// The same, with its mesh as the host gets it, which is held against the CPU's. Throws std::runtime_error where it
+    /// differs.
+    void reconstruct_as_the_cpu_does();
     /// Until it launches the same again and again.
     void warm_up();
     std::size_t particles() const { return positions_.size() / 3; }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <source_location>
+#include <tuple>
 #include <type_traits>
 
 #include "faults.hpp"
@@ -64,6 +65,15 @@ extern std::function<void()> on_clock;
 void run_kernel(unsigned blocks, unsigned threads, bool cooperative, const std::function<void()>& kernel);
 /// Of the shuffles that choose what comes next; the same seed gives the same order.
 void seed_order(unsigned seed);
+
+/// What runs kernels in place of this device's threads, if there: with the addresses of the arguments.
+struct KernelRunner {
+    std::function<void(const void* kernel, unsigned blocks, unsigned threads, bool cooperative, void* const* arguments)>
+        run;
+    unsigned processors = 1;                                     ///< as many as the backend is told of
+    std::function<int(const void* kernel)> blocks_of_processor;  ///< of cooperative grids
+};
+extern KernelRunner* runner;
 
 /// What the device has.
 inline constexpr unsigned processors = 1;
@@ -256,8 +266,10 @@ cudaError_t cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStre
 cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaMemcpyKind, cudaStream_t);
 
 template <class Kernel>
-cudaError_t cudaOccupancyMaxActiveBlocksPerMultiprocessor(int* blocks, Kernel, int, std::size_t) {
-    *blocks = emulated_device::blocks_of_processor;
+cudaError_t cudaOccupancyMaxActiveBlocksPerMultiprocessor(int* blocks, Kernel kernel, int, std::size_t) {
+    *blocks = emulated_device::runner == nullptr
+                  ? static_cast<int>(emulated_device::blocks_of_processor)
+                  : emulated_device::runner->blocks_of_processor(reinterpret_cast<const void*>(kernel));
     return cudaSuccess;
 }
 template <class... Parameters, class... Arguments>
@@ -267,6 +279,18 @@ cudaError_t cudaLaunchKernelEx(const cudaLaunchConfig_t* configuration, void (*k
     const unsigned threads = configuration->blockDim.x;
     const bool cooperative = configuration->numAttrs != 0 && configuration->attrs->val.cooperative != 0;
     if (blocks == 0 || threads == 0 || threads > 1024 || threads % 32 != 0) return cudaErrorInvalidConfiguration;
+    if (emulated_device::runner != nullptr) {
+        emulated_device::submit(configuration->stream, [=, values = std::tuple<Parameters...>(arguments...)]() mutable {
+            std::apply(
+                [&](auto&... value) {
+                    void* const addresses[] = {&value...};
+                    emulated_device::runner->run(reinterpret_cast<const void*>(kernel), blocks, threads, cooperative,
+                                                 addresses);
+                },
+                values);
+        });
+        return cudaSuccess;
+    }
     if (cooperative && blocks > emulated_device::processors * emulated_device::blocks_of_processor)
         return cudaErrorCooperativeLaunchTooLarge;
     emulated_device::submit(configuration->stream, [=] {

@@ -57,6 +57,7 @@ void run_until(EmulatedStream& stream, std::size_t count) {
 }
 }  // namespace
 
+emulated_device::KernelRunner* emulated_device::runner = nullptr;
 std::function<cudaError_t()> emulated_device::before_copy_to_host;
 std::size_t emulated_device::graph_launches = 0;
 cudaError_t emulated_device::elapsed_time_status = cudaSuccess;
@@ -101,7 +102,9 @@ cudaError_t cudaGetDriverEntryPointByVersion(const char*, void**, unsigned, unsi
     return cudaSuccess;
 }
 cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr, int) {
-    return *value = emulated_device::processors, cudaSuccess;
+    const unsigned processors =
+        emulated_device::runner != nullptr ? emulated_device::runner->processors : emulated_device::processors;
+    return *value = static_cast<int>(processors), cudaSuccess;
 }
 
 cudaError_t cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned) {
