@@ -12,6 +12,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
 #include "meniscus/reconstructor.hpp"
+#include "warm_runs.hpp"
 
 namespace meniscus::benchmarks {
 namespace {
@@ -23,12 +24,6 @@ struct Times {
     double frame = 0.0;
     std::array<double, stage_count> steps{};
 };
-
-double lower_median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// Medians of warm frames. On a GPU of the time between its events, without the mesh's way to the host.
 Times time_frames(Reconstructor& reconstructor, const ParticleFrame& frame, unsigned runs, Mesh& mesh) {
@@ -45,8 +40,8 @@ Times time_frames(Reconstructor& reconstructor, const ParticleFrame& frame, unsi
         frames.push_back(sum);
     }
     Times times;
-    times.frame = lower_median(frames);
-    for (std::size_t i = 0; i < stage_count; ++i) times.steps[i] = lower_median(steps[i]);
+    times.frame = median(frames);
+    for (std::size_t i = 0; i < stage_count; ++i) times.steps[i] = median(steps[i]);
     return times;
 }
 

@@ -10,6 +10,7 @@
 #include "gpu/kernel_names.hpp"
 #include "gpu/launch_times.hpp"
 #include "meniscus/reconstructor.hpp"
+#include "warm_runs.hpp"
 
 namespace meniscus::benchmarks {
 namespace {
@@ -22,12 +23,6 @@ struct KernelTime {
 std::string name_of(const cuda::Launch& launch) {
     if (launch.kind == cuda::LaunchKind::kernel) return kernel_name(launch.kernel);
     return launch.kind == cuda::LaunchKind::sort ? "sorts of CUB" : "sums of CUB";
-}
-
-double lower_median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 }  // namespace
@@ -53,7 +48,7 @@ void print_kernel_times(const ParticleFrame& frame, const Settings& settings, un
     std::vector<std::pair<double, std::string>> sorted;
     double sum = 0.0;
     for (auto& [name, kernel] : kernels) {
-        sorted.emplace_back(lower_median(kernel.frames), name);
+        sorted.emplace_back(median(kernel.frames), name);
         sum += sorted.back().first;
     }
     std::sort(sorted.rbegin(), sorted.rend());
