@@ -61,7 +61,7 @@ record() {
   printf '%-8s %s: %s passed, %s failed, %s skipped, %s s%s\n' "$2" "$1" "$3" "$failures" "$5" "$seconds" "${8:+ ($8)}"
   case $2 in
   failed) worst=failed ;;
-  'cut off' | 'left out') [ $worst = failed ] || worst='cut off' ;;
+  'cut off' | 'left out') [ "$worst" = failed ] || worst='cut off' ;;
   esac
   write_results incomplete
 }
