@@ -2,6 +2,7 @@
 # Commands with a limit of time, whose lines are looked at as they come.
 
 running=   # process id of the command that runs
+server=    # process id of the service beside it
 step_end=0 # when the step's time is up, microseconds
 all_end=0  # when all time is up
 

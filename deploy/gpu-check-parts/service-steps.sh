@@ -3,7 +3,7 @@
 
 # The server goes when the load generator has its figures.
 step_service() {
-  local program address=unix:$work/meniscusd line server output verdict=failed detail='' ready=no
+  local program address=unix:$work/meniscusd line output verdict=failed detail='' ready=no i
   for program in meniscusd meniscus-load; do
     [ -x "$bin/$program" ] || {
       record service "not run" 0 0 0 0 "bin/$program" "$program is not here"
@@ -11,8 +11,10 @@ step_service() {
     }
   done
   local command=("$bin/meniscus-load" --server "$address" --simulators 4 --particles 16000 --seconds 20 --rate 20 --json "$out/service.json")
+  : >"$out/meniscusd.log"
   seconds_left "$step_end"
-  exec {output}< <(exec timeout --kill-after=15 "$answer" "$bin/meniscusd" --listen "$address" --backend cuda 2>&1)
+  # 0 would be no limit to timeout.
+  exec {output}< <(exec timeout --kill-after=15 $((answer > 0 ? answer : 1)) "$bin/meniscusd" --listen "$address" --backend cuda 2>&1)
   server=$!
   milliseconds=0
   while IFS= read -r -u "$output" line; do
@@ -42,6 +44,12 @@ step_service() {
   fi
   kill "$server" 2>/dev/null
   exec {output}<&-
+  # What comes next has the GPU to itself.
+  for ((i = 0; i < 160; ++i)); do
+    kill -0 "$server" 2>/dev/null || break
+    sleep 0.1
+  done
+  server=
   record service "$verdict" 0 '' 0 "$milliseconds" "${command[*]}" "$detail"
 }
 
