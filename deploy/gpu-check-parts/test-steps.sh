@@ -171,7 +171,8 @@ count_check() {
 step_exact() {
   local passed=0 failed=0 skipped=0 verdict=failed detail='' log=$out/exact.log
   seconds_left "$step_end"
-  local command=("$bin/meniscus-bench" exact --out "$out/exact")
+  # The host's part of larger sorts, on one thread, takes longer than all roots.
+  local command=("$bin/meniscus-bench" exact --elements 1000000 --out "$out/exact")
   follow exact '' "$out/exact/exact.csv" count_check
   run "$log" "$answer" see_row "${command[@]}"
   take_rows
