@@ -25,7 +25,7 @@ struct Launch {
 class LaunchObserver {
 public:
     virtual void before(const Launch& launch) = 0;
-    virtual void after(const Launch& launch) = 0;
+    virtual void after(const Launch& launch) noexcept = 0;  ///< also of a launch that has failed
 
 protected:
     ~LaunchObserver() = default;

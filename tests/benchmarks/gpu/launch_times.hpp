@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <exception>
 #include <vector>
 
 #include "engine/cuda/launch_observer.hpp"
@@ -31,8 +32,13 @@ public:
         timed_[used_].launch = launch;
         timed_[used_].begin.record(launch.stream);
     }
-    void after(const cuda::Launch& launch) override {
-        if (is_wanted(launch)) timed_[used_++].end.record(launch.stream);
+    void after(const cuda::Launch& launch) noexcept override {
+        if (!is_wanted(launch)) return;
+        try {
+            timed_[used_++].end.record(launch.stream);
+        } catch (const std::exception&) {
+            // The device has failed, which the launch itself or whoever waits for it tells.
+        }
     }
 
     /// Forgets what was launched.

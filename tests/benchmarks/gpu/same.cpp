@@ -63,7 +63,7 @@ public:
     GraphCounter& operator=(const GraphCounter&) = delete;
 
     void before(const cuda::Launch& launch) override { count += launch.kind == cuda::LaunchKind::graph ? 1 : 0; }
-    void after(const cuda::Launch&) override {}
+    void after(const cuda::Launch&) noexcept override {}
 
     std::size_t count = 0;
 };

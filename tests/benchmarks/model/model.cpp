@@ -105,7 +105,7 @@ public:
     CountingDevice& operator=(const CountingDevice&) = delete;
 
     void before(const cuda::Launch& launch) override { launches_.push_back({launch, {}}); }
-    void after(const cuda::Launch&) override {}
+    void after(const cuda::Launch&) noexcept override {}
     /// A first frame runs until it has room, again and again from its first kernel on. The last run is a warm one's.
     void keep_last_run() {
         std::size_t begin = 0;
