@@ -37,6 +37,7 @@ public:
         // Else the old pieces would still be there, uncounted, beside the new ones.
         check(cudaStreamSynchronize(stream_), "cudaStreamSynchronize");
         const std::size_t bytes = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
+        pieces_.reserve(sizes.size());
         account_->charge(bytes);
         bytes_ = bytes;
         for (const std::size_t size : sizes) {
