@@ -148,11 +148,11 @@ step_kernels-more() {
   done
 }
 
-# profile NAME CELL_SIZE KERNELS: Nsight Compute on the first launches of the kernels that match.
+# profile NAME CELL_SIZE KERNELS: Nsight Compute on the first launches of the kernels that match, in a warm frame.
 profile() {
   local name=$1 ncu command log=$out/$1.log verdict=failed detail='' kernels rest=${3//[^|]/}
   kernels=$((2 * (${#rest} + 1)))
-  command=(--set full --clock-control none -k "regex:$3" -c "$kernels" --force-overwrite -o "$out/$name"
+  command=(--set full --clock-control none -k "regex:$3" -c "$kernels" --profile-from-start off --force-overwrite -o "$out/$name"
     "$bin/meniscus-bench" kernels --particles "$million" --cell-size "$2" --repeats 1 --out "$work/profile")
   if ! ncu=$(tool ncu); then
     record "$name" "not run" 0 0 0 0 "ncu ${command[*]}" "ncu is not installed"

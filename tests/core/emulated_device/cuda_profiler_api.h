@@ -1,0 +1,11 @@
+// The calls that tell a profiler when to look, for the device in software: it has none.
+#pragma once
+
+#include "cuda_runtime.h"
+
+inline cudaError_t cudaProfilerStart() {
+    return cudaSuccess;
+}
+inline cudaError_t cudaProfilerStop() {
+    return cudaSuccess;
+}
