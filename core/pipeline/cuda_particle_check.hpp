@@ -54,7 +54,7 @@ private:
     Launcher launch_;
     PinnedMemory on_host_;
     Event made_;
-    Event found_;
+    AwaitedEvent found_;
     DeviceMemory on_device_;
 };
 

@@ -166,7 +166,7 @@ TEST(DeviceChecksEmulated, ACooperativeGridMustFitTheDevice) {
 
 TEST(DeviceChecksEmulated, NothingWaitsOrAllocatesWhileAGraphIsCaptured) {
     cuda::Stream stream;
-    cuda::Event event;
+    cuda::AwaitedEvent event;
     void* memory = nullptr;
     cudaGraph_t graph = nullptr;
     ASSERT_EQ(cudaStreamBeginCapture(stream.get(), cudaStreamCaptureModeThreadLocal), cudaSuccess);

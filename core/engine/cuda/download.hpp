@@ -39,7 +39,7 @@ private:
     static constexpr std::size_t piece_bytes = std::size_t{4} << 20;
 
     struct Piece {
-        Event arrived;
+        AwaitedEvent arrived;
         std::byte* to = nullptr;
         std::size_t bytes = 0;
     };

@@ -7,10 +7,9 @@
 
 namespace meniscus::cuda {
 
-/// Whoever waits for it sleeps rather than to keep a core busy, which others need for encoding.
 class Event {
 public:
-    Event() { check(cudaEventCreateWithFlags(&event_, cudaEventBlockingSync), "cudaEventCreateWithFlags"); }
+    Event() : Event(cudaEventDefault) {}
     ~Event() { cudaEventDestroy(event_); }
     Event(const Event&) = delete;
     Event& operator=(const Event&) = delete;
@@ -22,7 +21,6 @@ public:
                        : cudaEventRecord(event_, stream),
               "cudaEventRecord");
     }
-    void wait() { check(cudaEventSynchronize(event_), "cudaEventSynchronize"); }
     /// What is put on the stream from now on waits for the event.
     void hold_up(cudaStream_t stream) const { check(cudaStreamWaitEvent(stream, event_, 0), "cudaStreamWaitEvent"); }
     /// Both must have happened. 0 where CUDA cannot tell: a time that is missing is no reason to fail a frame.
@@ -35,8 +33,18 @@ public:
         return static_cast<double>(milliseconds) * 1e-3;
     }
 
-private:
+protected:
+    explicit Event(unsigned flags) { check(cudaEventCreateWithFlags(&event_, flags), "cudaEventCreateWithFlags"); }
+
     cudaEvent_t event_ = nullptr;
+};
+
+/// Whoever waits for it sleeps rather than to keep a core busy, which others need for encoding. The GPU interrupts the
+/// host for it, waited for or not, so that events which measure alone are none.
+class AwaitedEvent : public Event {
+public:
+    AwaitedEvent() : Event(cudaEventBlockingSync) {}
+    void wait() { check(cudaEventSynchronize(event_), "cudaEventSynchronize"); }
 };
 
 class Stream {
@@ -59,7 +67,7 @@ public:
 
 private:
     cudaStream_t stream_ = nullptr;
-    Event all_;
+    AwaitedEvent all_;
 };
 
 }  // namespace meniscus::cuda

@@ -188,6 +188,7 @@ enum cudaMemLocationType { cudaMemLocationTypeDevice };
 enum cudaLaunchAttributeID { cudaLaunchAttributeCooperative };
 constexpr unsigned cudaStreamNonBlocking = 1;
 constexpr unsigned cudaEventRecordExternal = 1;
+constexpr unsigned cudaEventDefault = 0;
 constexpr unsigned cudaEventBlockingSync = 1;
 constexpr unsigned cudaEventDisableTiming = 2;
 constexpr unsigned cudaHostRegisterMapped = 2;
