@@ -77,10 +77,18 @@ case_again() {
 once_more() {
   local name=$1 way=$2 log detail='' result=failed
   shift 2
+  if [ "$again_milliseconds" -lt 1000 ]; then
+    add_row again "$(json_object case "$(json_string "$name")" way "\"$way\"" result '"not run"' \
+      detail '"a quarter of all time went by with what failed"')"
+    return
+  fi
   again_count=$((again_count + 1))
   log=$out/again-$again_count.log
   seconds_left "$all_end"
-  run "$log" $((answer < seconds_per_case_again ? answer : seconds_per_case_again)) ignore_line "$@"
+  [ "$answer" -lt "$seconds_per_case_again" ] || answer=$seconds_per_case_again
+  [ "$answer" -lt $((again_milliseconds / 1000)) ] || answer=$((again_milliseconds / 1000))
+  run "$log" "$answer" ignore_line "$@"
+  again_milliseconds=$((again_milliseconds - milliseconds))
   if [ "$exit_code" = 0 ]; then
     result=passed
   else
