@@ -25,6 +25,7 @@ measure() {
   log=$out/$step-$benchmark.log
   local command=("$bin/meniscus-bench" "$benchmark" "$@" --out "$folder")
   follow "$table" "\"step\": \"$step\"" "$folder/$benchmark.csv" "$on_row"
+  rm -f "$folder/$benchmark.json" # of an earlier run: no goal is judged by it
   seconds_left "$step_end"
   run "$log" "$answer" see_row env MENISCUS_COMMIT="$commit" "${command[@]}"
   take_rows
