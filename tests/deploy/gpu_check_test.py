@@ -440,6 +440,11 @@ class GpuCheck(unittest.TestCase):
         self.assertEqual([s["result"] for s in results["steps"]], ["passed", "cut off", "left out"])
         self.assertIn("exact", output)
 
+    def test_two_steps_for_which_there_is_no_time_are_told_without_an_error_of_bash(self):
+        code, output, _ = self.run_script("--only", "same", "--only", "exact", "--only", "times", "--budget", "1")
+        self.assertEqual(code, 3)
+        self.assertNotIn("gpu-check-parts", output)
+
     def test_a_run_that_is_killed_keeps_what_it_has(self):
         for sent, said in ((signal.SIGTERM, "interrupted"), (signal.SIGKILL, "incomplete")):
             shutil.rmtree(self.results, ignore_errors=True)
@@ -463,6 +468,12 @@ class GpuCheck(unittest.TestCase):
             self.assertIsNone(process.poll())
 
     # ---- Arguments
+
+    def test_results_that_cannot_be_written_end_it(self):
+        (self.results / "results.json.part").mkdir(parents=True)
+        code, output, _ = self.run_steps("exact")
+        self.assertEqual(code, 2)
+        self.assertNotIn("passed", output)
 
     def test_any_name_makes_valid_results(self):
         _, _, results = self.run_steps("tests", device='"\\\t\x01 é')
