@@ -133,8 +133,8 @@ public:
 
 private:
     void compare(const Case& chosen) {
-        // As long as the slowest so far, for its size.
-        if (!budget_.allows(seconds_per_size_ * chosen.size())) {
+        // As long as the slowest so far, for its size; the first is always compared.
+        if (seconds_per_size_ > 0.0 && !budget_.allows(seconds_per_size_ * chosen.size())) {
             ++left_out_;
             Row row = chosen.row("all");
             add_result(row, "left_out", 0.0, Mesh(), {});
