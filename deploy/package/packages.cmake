@@ -80,8 +80,8 @@ Meniscus turns frames of SPH particles into adaptive, closed surfaces, on a
 server or in a simulation's own process.
 .
 This package has the module meniscus for Python: numpy arrays of particles in,
-numpy arrays of meshes out, in process and through a server, with examples; an add-on for
-Blender, and a plugin for ParaView, which are built on it.")
+numpy arrays of meshes out, in process and through a server, with examples; an
+add-on for Blender; and a plugin for ParaView.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   # The extension is compiled for one minor version of Python.
   math(EXPR next_minor "${Python_VERSION_MINOR} + 1")

@@ -27,8 +27,8 @@ def rows_of(folder, name):
 
 
 def check_same(bench, folder):
-    done = run(bench, "same", "--particles", 300, "--cell-sizes", 1, "--fields", "smooth", "--modes", "adaptive", "--waters", "splashing",
-               "--replays", 2, "--threads", 2, "--out", folder)  # fmt: skip
+    done = run(bench, "same", "--particles", 300, "--cell-sizes", 1, "--fields", "smooth", "--modes", "adaptive",
+               "--waters", "splashing", "--replays", 2, "--threads", 2, "--out", folder)  # fmt: skip
     rows = rows_of(folder, "same")
     check(len(rows) == 5 + 2, f"same: {len(rows)} rows")
     check(all(r["result"] == "same" and int(r["triangles"]) > 100 for r in rows), f"same: {rows}")
