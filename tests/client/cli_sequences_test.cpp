@@ -1,7 +1,6 @@
 // meniscus reconstruct on sequences: several frames at a time, the bar, runs that were interrupted, boxes and checks.
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <pty.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,6 +15,7 @@
 
 #include "cli_fixture.hpp"
 #include "formats/mesh_file.hpp"
+#include "terminal_program.hpp"
 
 namespace meniscus::test {
 namespace {
@@ -88,21 +88,11 @@ TEST_F(Sequences, EndAtABadFrameWhichIsNamedWithAllBeforeItWhole) {
 /// The command line as a process that is still under way.
 class Running {
 public:
-    Running(std::vector<std::string> arguments, bool in_a_terminal) {
+    explicit Running(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), MENISCUS_CLI);
         std::vector<char*> argv;
         for (std::string& argument : arguments) argv.push_back(argument.data());
         argv.push_back(nullptr);
-        if (in_a_terminal) {
-            const winsize size{.ws_row = 10, .ws_col = 80, .ws_xpixel = 0, .ws_ypixel = 0};
-            pid_ = ::forkpty(&said_, nullptr, nullptr, &size);
-            if (pid_ == 0) {
-                ::setenv("TERM", "xterm", 1);
-                ::execv(MENISCUS_CLI, argv.data());
-                ::_exit(127);
-            }
-            return;
-        }
         std::array<int, 2> pipe{};
         EXPECT_EQ(::pipe2(pipe.data(), O_CLOEXEC), 0);
         posix_spawn_file_actions_t actions;
@@ -146,10 +136,15 @@ private:
     int said_ = -1;
 };
 
+TerminalProgram in_terminal(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), MENISCUS_CLI);
+    return {arguments, 10, 80};
+}
+
 TEST_F(Sequences, GoOnAfterTheyWereKilledAndEndWithTheSameFiles) {
     ASSERT_EQ(run_meniscus(sequence("whole", {"-q"})).exit_code, 0);
     {
-        Running running(sequence("killed", {"--jobs", "2"}), false);
+        Running running(sequence("killed", {"--jobs", "2"}));
         running.read_until("f_04.xyz: ");
         running.kill();
     }
@@ -185,9 +180,9 @@ TEST_F(Sequences, SkipFramesOnlyIfAllTheirFilesAreThere) {
 
 TEST_F(Sequences, ShowABarOnATerminalAndNowhereElse) {
     const auto in_a_terminal = [&](const std::vector<std::string>& more) {
-        Running running(sequence("bar", more), true);
-        const std::string said = running.read_until("never said");
-        EXPECT_EQ(running.wait(), 0) << said;
+        TerminalProgram program = in_terminal(sequence("bar", more));
+        const std::string said = program.read_to_its_end();
+        EXPECT_EQ(program.exit_code(), 0) << said;
         return said;
     };
     const std::string bar = in_a_terminal({});
@@ -208,9 +203,9 @@ TEST_F(Sequences, ShowABarOnATerminalAndNowhereElse) {
 
 TEST_F(Sequences, SayErrorsAndWarningsOnLinesOfTheirOwnBesideTheBar) {
     write(frame_name(5), "not twelve");
-    Running running(sequence("bar", {"--field", "color", "--iso", "3"}), true);
-    const std::string said = running.read_until("never said");
-    EXPECT_EQ(running.wait(), 2);
+    TerminalProgram program = in_terminal(sequence("bar", {"--field", "color", "--iso", "3"}));
+    const std::string said = program.read_to_its_end();
+    EXPECT_EQ(program.exit_code(), 2);
     EXPECT_NE(said.find("\r\x1b[Kmeniscus: warning: "), std::string::npos) << said;
     EXPECT_NE(said.find("\r\x1b[Kmeniscus: " + path(frame_name(5))), std::string::npos) << said;
 }

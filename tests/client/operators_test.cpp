@@ -1,8 +1,6 @@
 // meniscus info, sessions and top against a real server; top in a terminal.
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <pty.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <termios.h>
@@ -22,6 +20,7 @@
 #include "process.hpp"
 #include "sample_files.hpp"
 #include "server.hpp"
+#include "terminal_program.hpp"
 
 namespace meniscus::test {
 namespace {
@@ -145,53 +144,17 @@ TEST_F(Operators, GetOneTableOfTopWhereThereIsNoTerminal) {
 }
 
 /// meniscus top, and what it draws.
-class Top {
+class Top : public TerminalProgram {
 public:
-    explicit Top(const std::string& address) {
-        const winsize size{.ws_row = 10, .ws_col = 120, .ws_xpixel = 0, .ws_ypixel = 0};
-        pid_ = ::forkpty(&terminal_, nullptr, nullptr, &size);
-        if (pid_ == 0) {
-            ::execl(MENISCUS_CLI, MENISCUS_CLI, "top", "--server", address.c_str(), "--interval", "0.1", nullptr);
-            ::_exit(127);
-        }
-    }
-    ~Top() {
-        ::kill(pid_, SIGKILL);
-        ::close(terminal_);
-    }
-    Top(const Top&) = delete;
-    Top& operator=(const Top&) = delete;
+    explicit Top(const std::string& address)
+        : TerminalProgram({MENISCUS_CLI, "top", "--server", address, "--interval", "0.1"}, 10, 120) {}
 
-    /// What has been drawn when this text is there for the n-th time, or the process has ended.
-    std::string read_until(const std::string& text, int times) {
-        std::string all;
-        for (;;) {
-            int found = 0;
-            for (std::size_t at = all.find(text); at != std::string::npos; at = all.find(text, at + 1)) ++found;
-            pollfd watched{.fd = terminal_, .events = POLLIN, .revents = 0};
-            char bytes[4096];
-            if (found >= times || ::poll(&watched, 1, 30'000) <= 0) return all;
-            const ssize_t count = ::read(terminal_, bytes, sizeof bytes);
-            if (count <= 0) return all;
-            all.append(bytes, static_cast<std::size_t>(count));
-        }
-    }
-    void press(char key) const { EXPECT_EQ(::write(terminal_, &key, 1), 1); }
-    void signal(int number) const { ::kill(pid_, number); }
+    void press(char key) const { EXPECT_EQ(::write(terminal(), &key, 1), 1); }
     bool echoes() const {
         termios settings{};
-        ::tcgetattr(terminal_, &settings);
+        ::tcgetattr(terminal(), &settings);
         return (settings.c_lflag & ECHO) != 0;
     }
-    int exit_code() const {
-        int status = 0;
-        ::waitpid(pid_, &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    }
-
-private:
-    int terminal_ = -1;
-    pid_t pid_ = -1;
 };
 
 TEST_F(Operators, WatchTopUntilTheyLeaveAndFindTheTerminalAsItWas) {
@@ -203,7 +166,7 @@ TEST_F(Operators, WatchTopUntilTheyLeaveAndFindTheTerminalAsItWas) {
         // Lines are replaced in place: a screen that is cleared first would flicker.
         EXPECT_EQ(drawn.find("\x1b[2J"), std::string::npos);
         end(top);
-        const std::string rest = top.read_until("never drawn", 1);
+        const std::string rest = top.read_to_its_end();
         EXPECT_TRUE(rest.ends_with("\x1b[?25h\x1b[?1049l")) << "the first screen and its cursor are not back";
         EXPECT_EQ(top.exit_code(), 0);
     };
@@ -219,7 +182,7 @@ TEST_F(Operators, AreToldByTopThatTheServerHasGone) {
     const std::string drawn = top.read_until("is not available", 2);
     EXPECT_NE(drawn.find("is not available"), std::string::npos) << drawn;
     top.press('q');
-    top.read_until("never drawn", 1);
+    top.read_to_its_end();
     EXPECT_EQ(top.exit_code(), 0);
 }
 
