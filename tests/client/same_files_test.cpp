@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <random>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "formats/atomic_file.hpp"
@@ -55,7 +57,7 @@ protected:
         std::vector<std::string> here = flags;
         here.insert(here.end(), {"-o", path("here" + extension)});
         std::vector<std::string> there = flags;
-        there.insert(there.end(), {"-o", path("there" + extension), "--server", server.address()});
+        there.insert(there.end(), {"-o", path("there" + extension), "--server", server->address()});
         reconstruct(here);
         reconstruct(there);
         EXPECT_TRUE(bytes_of("here" + extension) == bytes_of("there" + extension));
@@ -71,7 +73,7 @@ protected:
 
     TemporaryDirectory directory;
     std::vector<float> positions;
-    server::Server server{options()};
+    std::optional<server::Server> server{std::in_place, options()};
 };
 
 TEST_F(SameFiles, ComeFromAServerAndFromALocalRun) {
@@ -110,7 +112,7 @@ TEST_F(SameFiles, HaveTheSameAttributesForTheSameBits) {
     for (const char* bits : {"0", "3", "8", "16"}) {
         SCOPED_TRACE(bits);
         write({"-o", path("here.ply"), "--attribute-bits", bits});
-        write({"-o", path("there.ply"), "--attribute-bits", bits, "--server", server.address()});
+        write({"-o", path("there.ply"), "--attribute-bits", bits, "--server", server->address()});
         EXPECT_TRUE(bytes_of("here.ply") == bytes_of("there.ply"));
         EXPECT_EQ(bytes_of("here.ply") == bytes_of("default.ply"), bits == std::string_view("0"));
         EXPECT_NE(bytes_of("here.ply").find("speed"), std::string::npos);
@@ -127,7 +129,7 @@ TEST_F(SameFiles, ComeWithTheSameSpray) {
                                            "points",
                                            "--normal-bits",
                                            "8"};
-        if (where == std::string_view("there")) arguments.insert(arguments.end(), {"--server", server.address()});
+        if (where == std::string_view("there")) arguments.insert(arguments.end(), {"--server", server->address()});
         reconstruct(arguments);
     }
     EXPECT_TRUE(bytes_of("here.ply") == bytes_of("there.ply"));
@@ -136,7 +138,7 @@ TEST_F(SameFiles, ComeWithTheSameSpray) {
 }
 
 TEST_F(SameFiles, ComeFromWatchersAndFromRecordings) {
-    client::Client client(server.address());
+    client::Client client(server->address());
     Settings settings;
     settings.particle_radius = 0.5;
     const std::string id = client::new_session_id();
@@ -147,7 +149,7 @@ TEST_F(SameFiles, ComeFromWatchersAndFromRecordings) {
     stream.push(frame, 0, 0.0);
     ASSERT_TRUE(stream.next());
     const ProcessResult watched =
-        run_process(MENISCUS_CLI, {"watch", id, "--server", server.address(), "-o", path("watched"), "--frames", "1",
+        run_process(MENISCUS_CLI, {"watch", id, "--server", server->address(), "-o", path("watched"), "--frames", "1",
                                    "--normal-bits", "10", "--quiet"});
     ASSERT_EQ(watched.exit_code, 0) << watched.err;
     EXPECT_EQ(watched.err, "");
@@ -157,7 +159,7 @@ TEST_F(SameFiles, ComeFromWatchersAndFromRecordings) {
     reconstruct({"--normal-bits", "10", "-o", path("10.ply")});
     EXPECT_TRUE(bytes_of("watched/frame_000000.ply") == bytes_of("10.ply"));
 
-    server.shutdown();  // and the recording is whole
+    server.reset();  // and the recording is whole
     const std::string recorded = path("recorded/" + id);
     const ProcessResult converted =
         run_process(MENISCUS_CLI, {"convert", recorded, "-o", path("converted"), "--quiet"});
