@@ -67,7 +67,9 @@ BackendDescription describe(const ServerOptions& options) {
         return describe_backend(choice);
     }
     for (const int device : options.devices) describe_backend(Backend::cuda, device);
-    const std::vector<cuda::Device> usable = cuda::devices(options.devices);
+    std::vector<cuda::Device> usable = cuda::devices(options.devices);
+    // Of several, each is started when a session goes there.
+    if (usable.size() == 1 && !cuda::answers(usable.front().index)) usable.clear();
     return describe_backend(choice, usable.empty() ? 0 : usable.front().index);
 }
 

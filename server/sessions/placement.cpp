@@ -1,16 +1,18 @@
 #include "sessions/placement.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "sessions/refusal.hpp"
 
 namespace meniscus::server {
 
-BackendOptions place_on(BackendOptions backend, std::span<const cuda::Device> devices) {
-    const auto freest = std::ranges::max_element(devices, {}, &cuda::Device::free_bytes);
-    if (freest != devices.end()) {
+BackendOptions place_on(BackendOptions backend, std::vector<cuda::Device> devices, const Answers& answers) {
+    std::ranges::stable_sort(devices, std::ranges::greater{}, &cuda::Device::free_bytes);
+    const auto place = std::ranges::find_if(devices, answers, &cuda::Device::index);
+    if (place != devices.end()) {
         backend.backend = Backend::cuda;
-        backend.device = freest->index;
+        backend.device = place->index;
         return backend;
     }
     if (backend.backend == Backend::cuda)

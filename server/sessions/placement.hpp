@@ -1,15 +1,19 @@
 // On which GPU a new session reconstructs.
 #pragma once
 
-#include <span>
+#include <functional>
+#include <vector>
 
 #include "meniscus/backend_options.hpp"
 #include "meniscus/devices.hpp"
 
 namespace meniscus::server {
 
-/// On the device with the most free memory, the first of equals. Without devices: on the CPU, where the backend may be
-/// chosen; where CUDA was asked for, throws Refusal.
-BackendOptions place_on(BackendOptions backend, std::span<const cuda::Device> devices);
+/// Whether CUDA works on a device, which may start it there.
+using Answers = std::function<bool(int device)>;
+
+/// On the device with the most free memory that answers, the first of equals; no other is asked. Without one: on the
+/// CPU, where the backend may be chosen; where CUDA was asked for, throws Refusal.
+BackendOptions place_on(BackendOptions backend, std::vector<cuda::Device> devices, const Answers& answers);
 
 }  // namespace meniscus::server

@@ -2,8 +2,10 @@
 #include "engine/cuda/device.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
+#include "engine/cuda/driver_memory.hpp"
 #include "engine/cuda/errors.hpp"
 #include "meniscus/error.hpp"
 
@@ -47,10 +49,24 @@ int capability(int device) {
            attribute(cudaDevAttrComputeCapabilityMinor, device);
 }
 
-Device describe(int index) {
-    const CurrentDevice current(index);
-    Device device{index, device_name(index), capability(index), 0, 0};
+/// By CUDA, which starts on the device if it has not yet.
+void read_memory(Device& device) {
+    const CurrentDevice current(device.index);
     check(cudaMemGetInfo(&device.free_bytes, &device.total_bytes), "cudaMemGetInfo");
+}
+
+Device describe(int index) {
+    cudaDeviceProp properties{};
+    check(cudaGetDeviceProperties(&properties, index), "cudaGetDeviceProperties");
+    Device device{index, properties.name, capability(index), 0, properties.totalGlobalMem};
+    char bus_id[32] = {};
+    check(cudaDeviceGetPCIBusId(bus_id, sizeof bus_id, index), "cudaDeviceGetPCIBusId");
+    const std::optional<DriverMemory> memory = is_started(index) ? std::nullopt : driver_memory(bus_id);
+    // A part of a GPU (MIG) has the whole one's place on the bus, and less memory.
+    if (memory && memory->total_bytes / 5 * 4 <= device.total_bytes)
+        device.free_bytes = std::min(memory->free_bytes, device.total_bytes);
+    else
+        read_memory(device);
     return device;
 }
 
@@ -65,10 +81,18 @@ std::vector<Device> devices(std::span<const int> among) {
         try {
             if (why_unavailable(i).empty()) result.push_back(describe(i));
         } catch (const std::runtime_error&) {
-            // Failed earlier in this process, or has no memory left to start on: the others may still do.
+            // Failed earlier in this process, or cannot be asked: the others may still do.
         }
     }
     return result;
+}
+
+bool answers(int device) try {
+    Device asked{.index = device, .name = {}};
+    read_memory(asked);
+    return true;
+} catch (const std::runtime_error&) {
+    return false;
 }
 
 std::string why_unavailable(int device) try {

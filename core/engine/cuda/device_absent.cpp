@@ -7,6 +7,10 @@ std::vector<Device> devices(std::span<const int>) {
     return {};
 }
 
+bool answers(int) {
+    return false;
+}
+
 std::string why_unavailable(int) {
     return "this build has no CUDA backend";
 }

@@ -6,10 +6,9 @@
 #include "meniscus/error.hpp"
 
 namespace meniscus::cuda {
-namespace {
 
-/// Whether this process has started CUDA on a device; only the driver's API tells.
 bool is_started(int device) {
+    // Only the driver's API tells.
     using StateOf = int (*)(int device, unsigned* flags, int* active);  // cuDevicePrimaryCtxGetState
     void* state_of = nullptr;
     cudaDriverEntryPointQueryResult found{};
@@ -19,8 +18,6 @@ bool is_started(int device) {
     if (state_of != nullptr) reinterpret_cast<StateOf>(state_of)(device, &flags, &active);
     return active != 0;
 }
-
-}  // namespace
 
 void check(cudaError_t status, const char* call) {
     if (status == cudaSuccess) return;

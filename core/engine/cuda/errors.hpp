@@ -8,6 +8,9 @@ namespace meniscus::cuda {
 /// Throws LimitExceeded if the device has no memory left, DeviceError for any other failure of the call named.
 void check(cudaError_t status, const char* call);
 
+/// Whether this process has started CUDA on a device.
+bool is_started(int device);
+
 /// Makes a device current in this thread, and the one before again at the end if CUDA runs there: else cudaSetDevice
 /// would start it, which takes some hundred megabytes of a GPU that this process may not even be meant to use.
 class CurrentDevice {
