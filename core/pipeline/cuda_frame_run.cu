@@ -5,8 +5,8 @@
 //   register     make_keys, sort, mark_starts, scan, store_particles, count_support_cells, measure_crowd;
 //                order_by_payload, store_numbers;
 //                list_reached_bricks, sort, mark_first_keys, scan, store_bricks, mark_reached_cells;
-//                scan, number_members, find_neighbors, make_blocks; measure_densities, divide_weights or
-//                count_particles
+//                scan, number_members, find_neighbors, find_each_near_brick, make_blocks; measure_densities,
+//                divide_weights or count_particles
 //   sample       sample_base
 //   split        collect_base_vertices, find_band, measure_listed, choose_levels, list_level_sets
 //   adjust       balance_and_promote                                        (cooperative)

@@ -17,6 +17,8 @@ void register_particles(State& state, bool has_payload, const Launcher& launch);
 void fit_supports(const State& state, const Launcher& launch);
 /// Divides the particles' weights by the density at their places: the color field.
 void divide_weights_by_density(const State& state, const Launcher& launch);
+/// Tells the state which bricks of particles are near each brick of base cells.
+void find_near_bricks(const State& state, const Launcher& launch);
 /// Numbers the members of the bricks, whose bits are set and counted in members_before; makes their blocks, none of
 /// them in the band.
 void store_blocks(const State& state, const Launcher& launch);

@@ -20,19 +20,27 @@ namespace {
 
 /// In the place of cuda::ParticleField.
 struct NoiseField {
-    struct Staging {};
+    struct Shared {};
     static constexpr bool has_own_supports = false;
 
     test::NoiseWorld world;
 
-    template <int G>
-    void values(const cuda::State&, const Int3& base_cell, const UnitBox&, Staging&, const float (&x)[G],
-                const float (&y)[G], const float (&z)[G], float (&value)[G]) const {
-        for (int g = 0; g < G; ++g) value[g] = test::noise_value(world, base_cell, x[g], y[g], z[g]);
-    }
-    Normal normal(const cuda::State&, const Int3&, const UnitBox&, Staging&, float, float, float) const {
-        const float none = std::nanf("");
-        return {none, none, none};
+    struct Near {
+        const test::NoiseWorld& world;
+        Int3 base_cell;
+
+        template <int G>
+        void values(const UnitBox&, const float (&x)[G], const float (&y)[G], const float (&z)[G],
+                    float (&value)[G]) const {
+            for (int g = 0; g < G; ++g) value[g] = test::noise_value(world, base_cell, x[g], y[g], z[g]);
+        }
+        Normal normal(const UnitBox&, float, float, float) const {
+            const float none = std::nanf("");
+            return {none, none, none};
+        }
+    };
+    Near near(const cuda::State&, std::uint32_t, const Int3& lowest, const UnitBox&, Shared&) const {
+        return {world, lowest};
     }
 };
 /// Which has none.

@@ -10,6 +10,7 @@
 
 #include "engine/block_state.hpp"
 #include "engine/cuda/capacities.hpp"
+#include "engine/cuda/near_bricks.hpp"
 #include "engine/cuda/scans.hpp"
 #include "field/lattice_settings.hpp"
 #include "lattice/blocks.hpp"
@@ -33,6 +34,9 @@ struct FrameInput {
     PayloadView payload;                   ///< device pointers
     AttributeNumbers attributes;
 };
+
+/// Words of a brick's set of clusters: 2 x 2 x 2 blocks each.
+inline constexpr int cluster_words = Brick::words / 4;
 
 /// Lists of blocks, filled in any order.
 enum class List : std::uint8_t {
@@ -129,9 +133,12 @@ struct State : BlockState<Pointer> {
     Brick* bricks = nullptr;
     std::uint64_t* brick_keys = nullptr;
     BrickNeighbors* neighbors = nullptr;
-    std::uint64_t* members_before = nullptr;  ///< and one past the last
-    std::uint64_t* base_inside = nullptr;     ///< a set of blocks, see BaseVertexSets
-    std::uint64_t* raised = nullptr;          ///< a set of cells too; empty between sweeps
+    NearBricks* near_bricks =
+        nullptr;  ///< of every level of particles, level after level; unset where a level has none
+    std::uint64_t* members_before = nullptr;   ///< and one past the last
+    std::uint64_t* base_inside = nullptr;      ///< a set of blocks, see BaseVertexSets
+    std::uint64_t* raised = nullptr;           ///< a set of cells too; empty between sweeps
+    std::uint32_t* marked_clusters = nullptr;  ///< see cluster.hpp; none between a list's making and its reading
 
     // Of every block.
     std::uint8_t* wanted_level = nullptr;       ///< by the split criterion
@@ -184,9 +191,11 @@ struct State : BlockState<Pointer> {
         take("bricks", bricks, brick_count);
         take("brick_keys", brick_keys, brick_count);
         take("neighbors", neighbors, brick_count);
+        take("near_bricks", near_bricks, particle_level_count * brick_count);
         take("members_before", members_before, brick_count + 1);
         take("base_inside", base_inside, brick_count * Brick::words);
         take("raised", raised, brick_count * Brick::words);
+        take("marked_clusters", marked_clusters, brick_count * cluster_words);
         for_each_set([&](const char* name, auto*& set) { take(name, set, brick_count * Brick::words); });
         for_each_block_array([&](const char* name, auto*& array) { take(name, array, blocks + 1); });
         take("wanted_level", wanted_level, blocks);

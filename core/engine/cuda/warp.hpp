@@ -59,6 +59,14 @@ __device__ inline std::uint32_t sum_of_lanes_below(std::uint32_t value, std::uin
     return sum - value;
 }
 
+/// The lane whose share element i is, where each lane's share begins with element `below`; i is less than the sum.
+__device__ inline unsigned lane_with(std::uint32_t i, std::uint32_t below) {
+    unsigned lane = 0;
+    for (unsigned step = warp_threads / 2; step > 0; step /= 2)
+        if (__shfl_sync(all_lanes, below, static_cast<int>(lane + step)) <= i) lane += step;
+    return lane;
+}
+
 /// Takes `count` places at the end of a list for every lane; returns the lane's first one. The order of warps is left
 /// to chance.
 template <class Counter>
@@ -77,6 +85,11 @@ __device__ inline void add_of_lanes(unsigned long long* counter, unsigned long l
     if (lane_index() == 0 && value != 0) atomicAdd(counter, value);
 }
 
+__device__ inline unsigned reduce_or(unsigned bits) {
+    for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2)
+        bits |= __shfl_xor_sync(all_lanes, bits, static_cast<int>(distance));
+    return bits;
+}
 __device__ inline float reduce_min(float value) {
     for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2) {
         const float other = __shfl_xor_sync(all_lanes, value, static_cast<int>(distance));

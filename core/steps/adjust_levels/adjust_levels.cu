@@ -14,6 +14,7 @@ __global__ void __launch_bounds__(block_threads) list_level_sets(const __grid_co
         const WordLevels cells(f.bricks[i / Brick::words], static_cast<int>(i % Brick::words), f.level);
         for (int level = 1; level <= 3; ++level) f.at_least[level][i] = cells.at_least[level];
         f.raised[i] = 0;
+        if (i % 4 == 0) f.marked_clusters[i / 4] = 0;
     });
 }
 

@@ -25,6 +25,9 @@ __global__ void __launch_bounds__(block_threads) cap_each(const __grid_constant_
         const std::uint8_t found = f.wanted_level[b];
         f.level[b] = found < cap ? found : cap;
     });
+    // Of vertices for which there was no room.
+    GridLoop{}.each(std::uint64_t{cluster_words} * f.count(Resource::bricks),
+                    [&](std::uint32_t i) { f.marked_clusters[i] = 0; });
 }
 
 }  // namespace

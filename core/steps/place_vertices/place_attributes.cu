@@ -1,12 +1,14 @@
-// Attributes of the vertices, once those have their places: a warp for every block with vertices. A kernel of its own,
-// so that those of frames without attributes keep their registers.
+// Attributes of the vertices, once those have their places: a warp for every cluster of blocks with vertices. A kernel
+// of its own, so that those of frames without attributes keep their registers.
 #include "engine/cuda/candidates.hpp"
 #include "engine/cuda/long_loop.hpp"
+#include "engine/cuda/near_particles.hpp"
 #include "engine/cuda/particle_field.hpp"
 #include "engine/cuda/warp.hpp"
 #include "field/cubic_spline.hpp"
 #include "field/poly6.hpp"
 #include "steps/cuda_steps.hpp"
+#include "steps/place_vertices/cluster_vertices.hpp"
 
 namespace meniscus::cuda {
 namespace {
@@ -19,12 +21,11 @@ struct VertexValues {
 
 /// Means of the first K numbers of a group at one point of every lane; not-a-numbers where the weight is 0.
 template <class Kernel, unsigned K>
-__device__ void find_means(const State& f, const Int3& base_cell, const UnitBox& box,
-                           ParticleStaging<Kernel, true>& staging, const float4* numbers,
+__device__ void find_means(const ClusterParticles<Kernel, true>& near, const UnitBox& box, const float4* numbers,
                            const AttributeNumber* of_group, float x, float y, float z, VertexValues& values) {
     float sum[K] = {};
     values.weight = 0.0F;
-    for_each_staged_candidate<Kernel>(f, base_cell_origin(base_cell), box, staging, [&](const OneCandidate& c) {
+    near.for_each_near(box, [&](const OneCandidate& c) {
         const float4 own = numbers[c.rank];
         const float of_particle[group_size_of_numbers] = {own.x, own.y, own.z, own.w};
         float none = 0.0F;
@@ -35,11 +36,10 @@ __device__ void find_means(const State& f, const Int3& base_cell, const UnitBox&
 
 /// Ids of the particle with the largest share at one point of every lane.
 template <class Kernel>
-__device__ void find_ids(const State& f, const Int3& base_cell, const UnitBox& box,
-                         ParticleStaging<Kernel, true>& staging, const float4* numbers, float x, float y, float z,
-                         VertexValues& values) {
+__device__ void find_ids(const ClusterParticles<Kernel, true>& near, const UnitBox& box, const float4* numbers, float x,
+                         float y, float z, VertexValues& values) {
     LargestShare largest;
-    for_each_staged_candidate<Kernel>(f, base_cell_origin(base_cell), box, staging, [&](const OneCandidate& c) {
+    near.for_each_near(box, [&](const OneCandidate& c) {
         const float4 own = numbers[c.rank];
         const float of_particle[group_size_of_numbers] = {own.x, own.y, own.z, own.w};
         largest.add(Kernel::of(c.view(), 0).share(x - c.particle.x, y - c.particle.y, z - c.particle.z), of_particle);
@@ -48,10 +48,14 @@ __device__ void find_ids(const State& f, const Int3& base_cell, const UnitBox& b
     for (unsigned k = 0; k < group_size_of_numbers; ++k) values.of[k] = AttributeNumber::as_float(largest.ids[k]);
 }
 
+/// Without a comma, which a declaration of shared memory may not have here.
+template <class Kernel>
+using SharedParticles = NearParticles<Kernel, true>;
+
 /// K: amounts in the group, or 0 for a group of ids.
 template <class Kernel, unsigned K>
 __global__ void __launch_bounds__(block_threads) place_group(const __grid_constant__ State f, unsigned group) {
-    __shared__ ParticleStaging<Kernel, true> staging[block_warps];
+    __shared__ SharedParticles<Kernel> shared[block_warps];
     const BlocksView blocks = f.blocks();
     const float units_per_step = static_cast<float>(units_per_cell >> f.settings.offset_bits);
     const int steps_per_base_cell = base_cell_size << f.settings.offset_bits;
@@ -62,30 +66,34 @@ __global__ void __launch_bounds__(block_threads) place_group(const __grid_consta
     LongLoop loop(f);
     each_by_warp(f.listed(List::vertices), [&](std::uint32_t entry) {
         if (!loop.goes_on_together()) return;
-        const std::uint32_t block = f.chosen[entry];
-        const Int3 at = blocks.coordinate(block);
-        const int count = f.edges[block].count();
-        for (int first = 0; first < count; first += static_cast<int>(warp_threads)) {
-            const int i = first + static_cast<int>(lane_index());
+        const ClusterVertices vertices(blocks, f.chosen[entry]);
+        const Int3 lowest = vertices.lowest;
+        const ClusterParticles<Kernel, true> near(f, vertices.cluster.brick, lowest, vertices.box,
+                                                  shared[warp_in_block()]);
+        const std::uint32_t count = vertices.count;
+        for (std::uint32_t first = 0; first < count; first += warp_threads) {
+            const std::uint32_t i = first + lane_index();
             // Lanes without a vertex repeat the last one.
-            const std::uint32_t vertex =
-                blocks.first_vertex[block] + static_cast<std::uint32_t>(i < count ? i : count - 1);
-            const LatticePosition p = f.vertices[vertex];
-            const float x = static_cast<float>(p[0] - at.x * steps_per_base_cell) * units_per_step;
-            const float y = static_cast<float>(p[1] - at.y * steps_per_base_cell) * units_per_step;
-            const float z = static_cast<float>(p[2] - at.z * steps_per_base_cell) * units_per_step;
+            const ClusterVertices::Place place = vertices.place(i < count ? i : count - 1);
+            const LatticePosition p = f.vertices[place.number];
+            const float x = static_cast<float>(p[0] - lowest.x * steps_per_base_cell) * units_per_step;
+            const float y = static_cast<float>(p[1] - lowest.y * steps_per_base_cell) * units_per_step;
+            const float z = static_cast<float>(p[2] - lowest.z * steps_per_base_cell) * units_per_step;
             const UnitBox box{{reduce_min(x), reduce_min(y), reduce_min(z)},
                               {reduce_max(x), reduce_max(y), reduce_max(z)}};
             VertexValues values{};
             if constexpr (K == 0)
-                find_ids<Kernel>(f, at, box, staging[warp_in_block()], numbers, x, y, z, values);
+                find_ids<Kernel>(near, box, numbers, x, y, z, values);
             else
-                find_means<Kernel, K>(f, at, box, staging[warp_in_block()], numbers, group_numbers, x, y, z, values);
+                find_means<Kernel, K>(near, box, numbers, group_numbers, x, y, z, values);
             if (i >= count) continue;
             if (!(values.weight > 0.0F)) {
-                NearestParticle nearest{x, y, z};
+                const Int3& step = place.step;
+                NearestParticle nearest{x - static_cast<float>(step.x * units_per_base_cell),
+                                        y - static_cast<float>(step.y * units_per_base_cell),
+                                        z - static_cast<float>(step.z * units_per_base_cell)};
                 for_each_candidate<Kernel>(
-                    f, base_cell_origin(at), {{0.0F, 0.0F, 0.0F}, {base_edge, base_edge, base_edge}},
+                    f, base_cell_origin(lowest + step), {{0.0F, 0.0F, 0.0F}, {base_edge, base_edge, base_edge}},
                     [&](const OneCandidate& c) {
                         nearest.consider(Kernel::of(c.view(), 0), c.particle.x, c.particle.y, c.particle.z, 0, c.rank);
                     });
@@ -97,7 +105,7 @@ __global__ void __launch_bounds__(block_threads) place_group(const __grid_consta
                         nearest.exists() ? group_numbers[k].alone(of_particle[k]) : group_numbers[k].nothing();
             }
             for (unsigned k = 0; k < count_of_numbers; ++k)
-                group_numbers[k].write(f.vertex_attributes[group_numbers[k].array], vertex, values.of + k, 1);
+                group_numbers[k].write(f.vertex_attributes[group_numbers[k].array], place.number, values.of + k, 1);
         }
     });
     if (group == 0) add_of_lanes(&f.counts->vertices_without_particles, lonely);

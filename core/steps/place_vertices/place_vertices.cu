@@ -1,10 +1,11 @@
-// Step 6 on the GPU: a warp for every block with vertices.
+// Step 6 on the GPU: a warp for every cluster of blocks with vertices.
 #include "steps/place_vertices/place_vertices.hpp"
 
 #include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/particle_field.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
+#include "steps/place_vertices/cluster_vertices.hpp"
 
 namespace meniscus::cuda {
 namespace {
@@ -24,8 +25,7 @@ __global__ void __launch_bounds__(block_threads) count_vertices(const __grid_con
             count = static_cast<std::uint32_t>(edges.count());
             f.first_vertex[b] = count;
         }
-        const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(List::vertices)], count != 0 ? 1 : 0);
-        if (count != 0) f.chosen[at] = b;
+        list_clusters(f, List::vertices, b, count != 0);
         total += count;
     });
     add_of_lanes(&f.counts->needed[static_cast<int>(Resource::vertices)], total);
@@ -65,11 +65,11 @@ struct Vertex {
 template <bool bisects, class Field>
 inline constexpr int blocks_of_placing = !bisects || !Field::has_own_supports ? 2 : 1;
 
-/// One warp for every block with vertices, one lane for every vertex.
+/// One warp for every cluster with vertices, one lane for every vertex.
 template <bool bisects, class Field>
 __global__ void __launch_bounds__(block_threads, blocks_of_placing<bisects, Field>)
     place_listed(const __grid_constant__ State f, const Field field) {
-    __shared__ typename Field::Staging staging[block_warps];
+    __shared__ typename Field::Shared shared[block_warps];
     const BlocksView blocks = f.blocks();
     const int bits = static_cast<int>(f.settings.offset_bits);
     const float iso = f.settings.iso;
@@ -78,45 +78,47 @@ __global__ void __launch_bounds__(block_threads, blocks_of_placing<bisects, Fiel
     LongLoop loop(f);
     each_by_warp(f.listed(List::vertices), [&](std::uint32_t entry) {
         if (!loop.goes_on_together()) return;
-        const std::uint32_t block = f.chosen[entry];
-        const EdgeMasks edges = blocks.edges[block];
-        const Int3 at = blocks.coordinate(block);
-        const int count = edges.count();
+        const ClusterVertices vertices(blocks, f.chosen[entry]);
+        vertices.cluster.unmark(f);
+        const std::uint32_t count = vertices.count;
         evaluations += static_cast<Counter>(count) * f.settings.bisection_steps;
-        for (int first = 0; first < count; first += static_cast<int>(warp_threads)) {
-            const int i = first + static_cast<int>(lane_index());
+        const auto near = field.near(f, vertices.cluster.brick, vertices.lowest, vertices.box, shared[warp_in_block()]);
+        for (std::uint32_t first = 0; first < count; first += warp_threads) {
+            const std::uint32_t i = first + lane_index();
             // Lanes without a vertex repeat the last one.
-            Vertex v(edges, i < count ? i : count - 1);
-            const bool low_inside = (blocks.inside[block] >> v.bit & 1) != 0;
-            const EdgeValues ends =
-                edge_values(SampledValues{blocks, block},
-                            SampledValues{blocks, blocks.neighbor(block, axis_offset(v.axis))}, v.axis, v.bit);
+            const ClusterVertices::Place place = vertices.place(i < count ? i : count - 1);
+            const EdgeMasks edges = blocks.edges[place.block];
+            Vertex v(edges, place.i);
+            const bool low_inside = (blocks.inside[place.block] >> v.bit & 1) != 0;
+            const bool leaves = point_coordinate(v.bit, v.axis) == base_cell_size - 1;
+            const EdgeValues ends = edge_values(
+                SampledValues{blocks, place.block},
+                SampledValues{blocks, leaves ? blocks.neighbor(place.block, axis_offset(v.axis)) : no_index}, v.axis,
+                v.bit);
             const bool cropped = f.settings.has_domain && ends.cropped(iso);
             float x = 0.0F, y = 0.0F, z = 0.0F;
             UnitBox box;
             const auto go_to = [&](float offset) {
                 v.offset = offset;
-                x = v.coordinate(0, units_per_step);
-                y = v.coordinate(1, units_per_step);
-                z = v.coordinate(2, units_per_step);
+                x = v.coordinate(0, units_per_step) + static_cast<float>(place.step.x * units_per_base_cell);
+                y = v.coordinate(1, units_per_step) + static_cast<float>(place.step.y * units_per_base_cell);
+                z = v.coordinate(2, units_per_step) + static_cast<float>(place.step.z * units_per_base_cell);
                 box = {{reduce_min(x), reduce_min(y), reduce_min(z)}, {reduce_max(x), reduce_max(y), reduce_max(z)}};
             };
             if constexpr (bisects) {
                 go_to(bisection_start(bits));
                 for (int step = first_bisection_step(bits); step >= 1; step /= 2) {
-                    const float px[1] = {x}, py[1] = {y}, pz[1] = {z};
                     float value[1];
-                    field.template values<1>(f, at, box, staging[warp_in_block()], px, py, pz, value);
+                    near.template values<1>(box, {x}, {y}, {z}, value);
                     go_to(bisected_offset(v.offset, step, value[0] > iso, low_inside));
                 }
             } else {
                 go_to(cropped ? cropped_offset(low_inside, bits) : interpolated_offset(ends.low, ends.high, iso, bits));
             }
-            const std::uint32_t number = blocks.first_vertex[block] + static_cast<std::uint32_t>(i);
-            if (i < count) f.vertices[number] = lattice_position(at, bits, x, y, z);
+            if (i < count) f.vertices[place.number] = lattice_position(vertices.lowest, bits, x, y, z);
             if (!f.settings.has_normals) continue;
-            const Normal normal = field.normal(f, at, box, staging[warp_in_block()], x, y, z);
-            if (i < count) f.normals[number] = outward_normal(normal, cropped, v.axis, low_inside);
+            const Normal normal = near.normal(box, x, y, z);
+            if (i < count) f.normals[place.number] = outward_normal(normal, cropped, v.axis, low_inside);
         }
     });
     if (bisects && lane_index() == 0 && evaluations != 0) atomicAdd(&f.counts->field_evaluations, evaluations);

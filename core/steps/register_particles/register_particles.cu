@@ -454,6 +454,7 @@ void store_blocks(const State& state, const Launcher& launch) {
     launch(bricks, block_threads, number_members, state);
     if (state.settings.work_limit != 0.0) launch(1, block_threads, stop_if_base_cells_are_too_much, state);
     launch(neighbor_slots * bricks, block_threads, find_neighbors, state);
+    find_near_bricks(state, launch);
     launch(Brick::words * bricks, block_threads, make_blocks, state);
 }
 

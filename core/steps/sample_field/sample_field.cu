@@ -1,6 +1,7 @@
-// Step 4 on the GPU: a warp for every block.
+// Step 4 on the GPU: a warp for every cluster of blocks.
 #include "steps/sample_field/sample_field.hpp"
 
+#include "engine/cuda/cluster.hpp"
 #include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/particle_field.hpp"
 #include "engine/cuda/warp.hpp"
@@ -10,8 +11,9 @@
 namespace meniscus::cuda {
 namespace {
 
-/// Blocks that gain points move to new room at the end of the samples; their old room stays unused until the next
-/// frame. wanted(block) is asked once for every block. Blocks for which there is no room are left out.
+/// Lists the clusters of blocks with wanted points that have no value. Blocks that gain points move to new room at the
+/// end of the samples; their old room stays unused until the next frame. wanted(block) is asked once for every block.
+/// Blocks for which there is no room are left out.
 template <class Wanted>
 __device__ void list_wanted_points(const State& f, List list, const Wanted& wanted) {
     const BlocksView blocks = f.blocks();
@@ -25,75 +27,83 @@ __device__ void list_wanted_points(const State& f, List list, const Wanted& want
         }
         const Counter first = take_places(&f.counts->needed[static_cast<int>(Resource::samples)], room);
         const bool fits = room != 0 && first + room <= f.capacity[Resource::samples];
-        const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(list)], fits ? 1 : 0);
-        if (!fits) return;
-        f.old_first_sample[b] = f.first_sample[b];
-        f.first_sample[b] = static_cast<std::uint32_t>(first);
-        f.chosen[at] = b;
+        if (fits) {
+            f.old_first_sample[b] = f.first_sample[b];
+            f.first_sample[b] = static_cast<std::uint32_t>(first);
+        } else if (room != 0) {
+            f.wanted_points[b] = blocks.sampled[b];
+        }
+        list_clusters(f, list, b, fits);
     });
 }
 
-/// Values of G points of a block for each lane; lanes without a point repeat another's.
-template <int G, class Field>
-__device__ void point_values(const State& f, const Field& field, const Int3& at, const UnitBox& box,
-                             const int (&bit)[G], typename Field::Staging& staging, float (&value)[G]) {
-    float x[G], y[G], z[G];
-    for (int g = 0; g < G; ++g) {
-        x[g] = static_cast<float>(point_coordinate(bit[g], 0) * units_per_cell);
-        y[g] = static_cast<float>(point_coordinate(bit[g], 1) * units_per_cell);
-        z[g] = static_cast<float>(point_coordinate(bit[g], 2) * units_per_cell);
-    }
-    field.template values<G>(f, at, box, staging, x, y, z, value);
-}
-
-/// Shared memory of a warp that samples a block.
+/// Shared memory of a warp that samples a cluster.
 template <class Field>
-struct BlockSampling {
-    typename Field::Staging staging;
-    float fresh[64];
+struct ClusterSampling {
+    typename Field::Shared near;
+    std::uint32_t bits[warp_threads];  ///< of a block's missing points, where they are few
 };
 
+/// The corner of a block of a cluster, in units from the cluster's.
+__device__ inline float corner_of_step(int step) {
+    return static_cast<float>(step * units_per_base_cell);
+}
+
 /// All lanes of a warp give values to a block's wanted points that have none; samples lie in the order of points, signs
-/// follow. Returns how many there were.
-template <class Field>
-__device__ int sample_block(const State& f, const Field& field, const BlocksView& blocks, std::uint32_t block,
-                            BlockSampling<Field>& shared) {
-    const int lane = static_cast<int>(lane_index());
-    const Int3 at = blocks.coordinate(block);
+/// follow. step: the block's offset in its cluster.
+template <class Field, class Near>
+__device__ void sample_block(const State& f, const Near& near, const BlocksView& blocks, std::uint32_t block,
+                             const Int3& step, ClusterSampling<Field>& shared) {
+    const unsigned lane = lane_index();
     const BlockMask known = blocks.sampled[block];
     const BlockMask missing = f.wanted_points[block] & ~known;
     const BlockMask sampled = known | missing;
-    const int count = popcount(missing);
+    const float corner[3] = {corner_of_step(step.x), corner_of_step(step.y), corner_of_step(step.z)};
     UnitBox box;
     for (int axis = 0; axis < 3; ++axis) {
-        const unsigned slabs = occupied_slabs(missing, axis);
-        box.low[axis] = static_cast<float>(lowest_bit(slabs) * units_per_cell);
-        box.high[axis] = static_cast<float>(highest_bit(slabs) * units_per_cell);
+        const BlockMask low = missing & low_face(axis);
+        box.low[axis] = corner[axis] + (low != 0 ? 0.0F : static_cast<float>(units_per_cell));
+        box.high[axis] = corner[axis] + (low == missing ? 0.0F : static_cast<float>(3 * units_per_cell));
     }
-    const auto bit_of = [&](int i) { return nth_bit(missing, i < count ? i : 0); };
-    if (count > static_cast<int>(warp_threads)) {
-        const int bits[2] = {bit_of(lane), bit_of(lane + 32)};
-        float sums[2];
-        point_values<2>(f, field, at, box, bits, shared.staging, sums);
-        shared.fresh[lane] = sums[0];
-        shared.fresh[lane + 32] = sums[1];
-    } else {
-        const int bits[1] = {bit_of(lane)};
-        float sums[1];
-        point_values<1>(f, field, at, box, bits, shared.staging, sums);
-        shared.fresh[lane] = sums[0];
+    const auto coordinate = [&](unsigned bit, int axis) {
+        return corner[axis] + static_cast<float>(point_coordinate(static_cast<int>(bit), axis) * units_per_cell);
+    };
+    const auto first_half = static_cast<unsigned>(missing);
+    const auto second_half = static_cast<unsigned>(missing >> 32);
+    const unsigned in_first_half = static_cast<unsigned>(__popc(first_half));
+    const unsigned count = in_first_half + static_cast<unsigned>(__popc(second_half));
+    const unsigned before = (1U << lane) - 1;
+    const unsigned place[2] = {static_cast<unsigned>(__popc(first_half & before)),
+                               in_first_half + static_cast<unsigned>(__popc(second_half & before))};
+    // All 64 points, which cost no more than those beyond 32; or one for each lane.
+    const bool are_many = count > warp_threads;
+    unsigned bit = lane;
+    if (!are_many) {
+        if ((first_half >> lane & 1) != 0) shared.bits[place[0]] = lane;
+        if ((second_half >> lane & 1) != 0) shared.bits[place[1]] = lane + warp_threads;
+        __syncwarp();
+        // Lanes without a point repeat the first.
+        bit = shared.bits[lane < count ? lane : 0];
+        // The next block's take the place of this one's.
+        __syncwarp();
     }
-    __syncwarp();
+    float fresh[2];  // of points `lane` and lane + 32
+    near.column(box, coordinate(bit, 0), coordinate(bit, 1), coordinate(bit, 2), static_cast<float>(2 * units_per_cell),
+                are_many, fresh);
+    if (!are_many) {
+        const float value = fresh[0];
+        for (int half = 0; half < 2; ++half)
+            fresh[half] = __shfl_sync(all_lanes, value, static_cast<int>(place[half] % warp_threads));
+    }
     const float* const old = f.samples + f.old_first_sample[block];
     float* const samples = f.samples + f.first_sample[block];
     BlockMask above = 0;
     for (int half = 0; half < 2; ++half) {
-        const int bit = lane + 32 * half;
+        const int bit = static_cast<int>(lane) + 32 * half;
         const BlockMask before = (BlockMask{1} << bit) - 1;
         bool is_above = false;
         if ((sampled >> bit & 1) != 0) {
-            const float value =
-                (known >> bit & 1) != 0 ? old[popcount(known & before)] : shared.fresh[popcount(missing & before)];
+            const float value = (known >> bit & 1) != 0 ? old[popcount(known & before)] : fresh[half];
             samples[popcount(sampled & before)] = value;
             is_above = value > f.settings.iso;
         }
@@ -101,25 +111,55 @@ __device__ int sample_block(const State& f, const Field& field, const BlocksView
     }
     if (lane == 0) {
         f.sampled[block] = sampled;
-        f.inside[block] =
-            f.settings.has_domain ? above & domain_points(at, f.settings.domain_low, f.settings.domain_high) : above;
+        f.inside[block] = f.settings.has_domain ? above & domain_points(blocks.coordinate(block), f.settings.domain_low,
+                                                                        f.settings.domain_high)
+                                                : above;
     }
-    // The next block's values take the place of this one's.
-    __syncwarp();
-    return count;
+}
+
+/// The box of the missing points of a cluster's blocks, of which each lane holds its own.
+__device__ inline UnitBox box_of_points(BlockMask missing, const Int3& step) {
+    // A set of coordinates, eight for an axis.
+    unsigned slabs = 0;
+    const int steps[3] = {step.x, step.y, step.z};
+    for (int axis = 0; axis < 3; ++axis) {
+        const BlockMask low = missing & low_face(axis);
+        const unsigned own = (low != 0 ? 1U : 0U) | (low != missing ? 0b1110U : 0U);
+        slabs |= own << (8 * axis + base_cell_size * steps[axis]);
+    }
+    slabs = reduce_or(slabs);
+    UnitBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+        const unsigned of_axis = slabs >> 8 * axis & 0xFF;
+        box.low[axis] = static_cast<float>(lowest_bit(of_axis) * units_per_cell);
+        box.high[axis] = static_cast<float>(highest_bit(of_axis) * units_per_cell);
+    }
+    return box;
 }
 
 template <class Field>
 __device__ void sample_listed(const State& f, const Field& field, List list,
-                              BlockSampling<Field> (&shared)[block_warps]) {
+                              ClusterSampling<Field> (&shared)[block_warps]) {
     const BlocksView blocks = f.blocks();
     Counter evaluations = 0;
     LongLoop loop(f);
     each_by_warp(f.listed(list), [&](std::uint32_t i) {
         if (!loop.goes_on_together()) return;
-        evaluations += static_cast<Counter>(sample_block(f, field, blocks, f.chosen[i], shared[warp_in_block()]));
+        const Cluster cluster(blocks, f.chosen[i]);
+        cluster.unmark(f);
+        const BlockMask missing =
+            cluster.block == no_index ? 0 : f.wanted_points[cluster.block] & ~blocks.sampled[cluster.block];
+        evaluations += static_cast<Counter>(popcount(missing));
+        ClusterSampling<Field>& own = shared[warp_in_block()];
+        const auto near = field.near(f, cluster.brick, cluster.coordinate(blocks),
+                                     box_of_points(missing, cluster_step(lane_index())), own.near);
+        for (unsigned left = __ballot_sync(all_lanes, missing != 0 ? 1 : 0); left != 0; left &= left - 1) {
+            const auto k = static_cast<unsigned>(lowest_bit(left));
+            sample_block(f, near, blocks, __shfl_sync(all_lanes, cluster.block, static_cast<int>(k)), cluster_step(k),
+                         own);
+        }
     });
-    if (lane_index() == 0 && evaluations != 0) atomicAdd(&f.counts->field_evaluations, evaluations);
+    add_of_lanes(&f.counts->field_evaluations, evaluations);
     if (blockIdx.x == 0 && threadIdx.x == 0)
         f.need(Resource::samples, f.counts->needed[static_cast<int>(Resource::samples)]);
 }
@@ -147,7 +187,7 @@ __global__ void __launch_bounds__(block_threads) list_half_edge_middles(const __
 template <class Field>
 __global__ void __launch_bounds__(block_threads, 2)
     sample_list(const __grid_constant__ State f, const Field field, List list) {
-    __shared__ BlockSampling<Field> shared[block_warps];
+    __shared__ ClusterSampling<Field> shared[block_warps];
     sample_listed(f, field, list, shared);
 }
 
@@ -155,7 +195,7 @@ __global__ void __launch_bounds__(block_threads, 2)
 /// finer neighbor's surface in a sliver, adjusts and samples, until there are none.
 template <Slivers slivers, class Field>
 __global__ void __launch_bounds__(block_threads, 2) settle_band(const __grid_constant__ State f, const Field field) {
-    __shared__ BlockSampling<Field> shared[block_warps];
+    __shared__ ClusterSampling<Field> shared[block_warps];
     Sweeps sweeps(f);
     for (;;) {
         const bool grown = sweeps.raise_blocks(

@@ -158,6 +158,12 @@ T atomicOr(T* at, T value) {
     *at |= value;
     return before;
 }
+template <class T>
+T atomicAnd(T* at, T value) {
+    const T before = *at;
+    *at &= value;
+    return before;
+}
 
 // ---- the part of the runtime that the backend uses ------------------------------------------------------------------
 

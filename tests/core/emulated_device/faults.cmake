@@ -4,8 +4,8 @@
 
 # Each vertex lies where the next one of its block would.
 plant(index_off_by_one steps/place_vertices/place_vertices.cu
-  [=[Vertex v(edges, i < count ? i : count - 1);]=]
-  [=[Vertex v(edges, std::min(i + (FAULTY(index_off_by_one) ? 1 : 0), count - 1));]=])
+  [=[Vertex v(edges, place.i);]=]
+  [=[Vertex v(edges, std::min(place.i + (FAULTY(index_off_by_one) ? 1 : 0), edges.count() - 1));]=])
 
 # Marks of a brick are read before all warps have made theirs.
 plant(missing_barrier steps/register_particles/register_particles.cu
@@ -15,14 +15,14 @@ plant(missing_barrier steps/register_particles/register_particles.cu
         if (!FAULTY(missing_barrier)) __syncthreads();]=])
 
 # A ballot does not name the warp's last lane.
-plant(wrong_mask engine/cuda/candidates.hpp
+plant(wrong_mask engine/cuda/near_particles.hpp
   [=[__ballot_sync(all_lanes, near ? 1 : 0);]=]
   [=[__ballot_sync(FAULTY(wrong_mask) ? all_lanes >> 1 : all_lanes, near ? 1 : 0);]=])
 
-# The normal of each block's last vertex is what lies in memory.
+# The normal of each cluster's last vertex is what lies in memory.
 plant(unset_word steps/place_vertices/place_vertices.cu
-  [=[if (i < count) f.normals[number] =]=]
-  [=[if (i < count - (FAULTY(unset_word) ? 1 : 0)) f.normals[number] =]=])
+  [=[if (i < count) f.normals[place.number] =]=]
+  [=[if (i < count - (FAULTY(unset_word) ? 1 : 0)) f.normals[place.number] =]=])
 
 # The sum of counts of vertices goes on one behind the array.
 plant(guard_overrun steps/place_vertices/place_vertices.cu

@@ -1,0 +1,143 @@
+// The particles near a box, 32 at a time: the lanes of a warp look up rows of support cells side by side, and share out
+// evenly what lies in them.
+#pragma once
+
+#include "engine/cuda/candidates.hpp"
+#include "engine/cuda/near_bricks.hpp"
+#include "engine/cuda/warp.hpp"
+
+namespace meniscus::cuda {
+
+/// The support cells near a box as rows along x, each within one brick, in the order of their particles. The box is at
+/// most two base cells wide, so that at most five support cells a side are near it, in at most two bricks a side.
+class RowsNear {
+public:
+    /// A row's particles, and what their coordinates lack.
+    struct Run {
+        std::uint32_t begin = 0, end = 0;
+        unsigned brick = 0;  ///< among the eight at the lowest one, for shift()
+    };
+
+    /// All lanes of a warp call it. The box lies in the brick of base cells that `near` belongs to.
+    __device__ RowsNear(const ParticleSetView& set, const NearBricks& near, const Units3& origin, const UnitBox& box)
+        : set_(set) {
+        const unsigned lane = lane_index();
+        // A lane for each of six bounds: quotients are dear.
+        const unsigned axis = lane % 4;
+        const bool is_high = (lane & 4) != 0;
+        const auto of_axis = [axis](auto x, auto y, auto z) { return axis == 0 ? x : axis == 1 ? y : z; };
+        const float bound =
+            is_high ? of_axis(box.high[0], box.high[1], box.high[2]) : of_axis(box.low[0], box.low[1], box.low[2]);
+        // See ParticleSetView::for_each_run_near().
+        const int reached =
+            is_high ? static_cast<int>(ceilf(bound + set.support)) - 1 : static_cast<int>(floorf(bound - set.support));
+        const auto cell =
+            static_cast<std::int32_t>(floor_div(of_axis(origin.x, origin.y, origin.z) + reached, set.cell_units));
+        const auto from = [cell](int with) { return __shfl_sync(all_lanes, cell, with); };
+        low_ = {from(0), from(1), from(2)};
+        const Int3 high{from(4), from(5), from(6)};
+        size_ = high - low_ + Int3{1, 1, 1};
+        first_ = {before_border(low_.x, size_.x), before_border(low_.y, size_.y), before_border(low_.z, size_.z)};
+        const Int3 lowest = brick_of(low_);
+        const Int3 step{static_cast<int>(lane & 1), static_cast<int>(lane >> 1 & 1), static_cast<int>(lane >> 2 & 1)};
+        const bool is_met = lane < 8 && (step.x == 0 || first_.x < size_.x) && (step.y == 0 || first_.y < size_.y) &&
+                            (step.z == 0 || first_.z < size_.z);
+        brick_of_lane_ = is_met ? near.at(lowest + step) : no_index;
+        const std::int64_t edge = set.cell_units * brick_size;
+        edge_ = static_cast<float>(edge);
+        shift_[0] = static_cast<float>(lowest.x * edge - origin.x);
+        shift_[1] = static_cast<float>(lowest.y * edge - origin.y);
+        shift_[2] = static_cast<float>(lowest.z * edge - origin.z);
+    }
+
+    __device__ unsigned count() const {
+        return static_cast<unsigned>(size_.z * size_.y * (first_.x < size_.x ? 2 : 1));
+    }
+    /// Of row i; all lanes of a warp call it. Without particles where there is no such row.
+    __device__ Run run(unsigned i) const {
+        Run run;
+        // Bricks come one after another, z first, and in each its rows.
+        int left = static_cast<int>(i);
+        const auto step_over = [&](int first, int all, int rows) {
+            const bool beyond = left >= first * rows;
+            if (beyond) left -= first * rows;
+            return beyond ? Part{1, first, all - first} : Part{0, 0, first};
+        };
+        const int across = first_.x < size_.x ? 2 : 1;
+        const Part z = step_over(first_.z, size_.z, size_.y * across);
+        const Part y = step_over(first_.y, size_.y, z.size * across);
+        const int rows = z.size * y.size;
+        const int x = left >= rows ? 1 : 0;
+        if (x != 0) left -= rows;
+        run.brick = static_cast<unsigned>((x | y.brick << 1 | z.brick << 2) & 7);
+        const std::uint32_t index = __shfl_sync(all_lanes, brick_of_lane_, static_cast<int>(run.brick));
+        if (i >= count() || index == no_index) return run;
+        const auto slice = static_cast<int>(static_cast<unsigned>(left) / static_cast<unsigned>(y.size));
+        const Brick& brick = set_.cells.bricks[index];
+        const int first_cell = x != 0 ? 0 : low_.x & brick_axis_mask;
+        const int cells = x != 0 ? size_.x - first_.x : first_.x;
+        const int cell = first_cell |
+                         ((low_.y + y.begin + left - slice * y.size) & brick_axis_mask) << brick_axis_shift |
+                         ((low_.z + z.begin + slice) & brick_axis_mask) << (2 * brick_axis_shift);
+        const std::uint64_t occupied = brick.occupied[cell >> 6];
+        const auto members = static_cast<unsigned>(occupied >> (cell & 63)) & ((1U << cells) - 1);
+        if (members == 0) return run;
+        const std::uint32_t number =
+            brick.first + brick.rank[cell >> 6] +
+            static_cast<std::uint32_t>(popcount(occupied & ((std::uint64_t{1} << (cell & 63)) - 1)));
+        run.begin = set_.first[number];
+        run.end = set_.first[number + static_cast<std::uint32_t>(__popc(members))];
+        return run;
+    }
+    /// What the coordinates of particles in a run's brick lack to be relative to the origin. Whole multiples of 16
+    /// units: no sum is rounded.
+    __device__ float shift(unsigned brick, int axis) const {
+        return (brick >> axis & 1) != 0 ? shift_[axis] + edge_ : shift_[axis];
+    }
+
+private:
+    /// What of the rows along an axis lies in one brick.
+    struct Part {
+        int brick, begin, size;
+    };
+    __device__ static int before_border(int low, int size) {
+        const int first = brick_size - (low & brick_axis_mask);
+        return first < size ? first : size;
+    }
+
+    const ParticleSetView& set_;
+    Int3 low_;    ///< lowest cell
+    Int3 size_;   ///< cells a side
+    Int3 first_;  ///< of these, those in the lowest brick
+    std::uint32_t brick_of_lane_ = no_index;
+    float edge_ = 0.0F;  ///< of a brick, units
+    float shift_[3] = {};
+};
+
+/// Calls visit(OneCandidate, whether there is one) in all lanes for the particles of these rows, neighboring ones in
+/// neighboring lanes, in their order.
+template <class Kernel, class Visit>
+__device__ void for_each_window(const LevelParticles<Kernel>& level, const RowsNear& rows, const Visit& visit) {
+    const unsigned lane = lane_index();
+    const unsigned count = rows.count();
+    for (unsigned first_row = 0; first_row < count; first_row += warp_threads) {
+        const RowsNear::Run run = rows.run(first_row + lane);
+        std::uint32_t total = 0;
+        const std::uint32_t below = sum_of_lanes_below(run.end - run.begin, total);
+        const auto fetch = [&](std::uint32_t i, OneCandidate& c) {
+            const unsigned from = lane_with(i, below);
+            const std::uint32_t rank = __shfl_sync(all_lanes, run.begin - below, static_cast<int>(from)) + i;
+            const unsigned brick = __shfl_sync(all_lanes, run.brick, static_cast<int>(from));
+            const float shift[3] = {rows.shift(brick, 0), rows.shift(brick, 1), rows.shift(brick, 2)};
+            c = i < total ? level.candidate(rank, shift) : OneCandidate{};
+        };
+        // Two windows' loads are under way at once.
+        for (std::uint32_t start = 0; start < total; start += 2 * warp_threads) {
+            OneCandidate c[2];
+            for (unsigned w = 0; w < 2; ++w) fetch(start + w * warp_threads + lane, c[w]);
+            for (unsigned w = 0; w < 2; ++w) visit(c[w], start + w * warp_threads + lane < total);
+        }
+    }
+}
+
+}  // namespace meniscus::cuda

@@ -1,0 +1,56 @@
+// Clusters of 2 x 2 x 2 blocks, which share the particles near them: a warp takes one at a time.
+#pragma once
+
+#include "engine/cuda/state.hpp"
+#include "engine/cuda/warp.hpp"
+
+namespace meniscus::cuda {
+
+inline constexpr unsigned cluster_blocks = 8;
+inline constexpr int cluster_size = 2;  ///< blocks a side
+
+/// The offset of a cluster's block from its lowest one, x running first.
+__device__ inline Int3 cluster_step(unsigned i) {
+    return {static_cast<int>(i & 1), static_cast<int>(i >> 1 & 1), static_cast<int>(i >> 2 & 1)};
+}
+
+/// Puts the clusters of some blocks on a list, each by one of its blocks. All lanes of a warp call it; chosen: whether
+/// this lane's block is. A block is chosen once.
+__device__ inline void list_clusters(const State& f, List list, std::uint32_t block, bool chosen) {
+    bool is_first = false;
+    if (chosen) {
+        const unsigned place = f.place[block];
+        const unsigned cluster = (place >> 1 & 7) | (place >> 5 & 7) << 3 | (place >> 9 & 7) << 6;
+        const std::uint32_t mark = 1U << cluster % 32;
+        std::uint32_t* const word = &f.marked_clusters[std::uint64_t{cluster_words} * f.brick[block] + cluster / 32];
+        is_first = (atomicOr(word, mark) & mark) == 0;
+    }
+    const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(list)], is_first ? 1 : 0);
+    if (is_first) f.chosen[at] = block;
+}
+
+/// A cluster as a warp sees it.
+struct Cluster {
+    std::uint32_t brick;
+    Int3 corner;          ///< of its lowest block, in the brick
+    std::uint32_t block;  ///< this lane's, of the first eight: no_index for the others, and where none is stored
+
+    /// The one that holds a block.
+    __device__ Cluster(const BlocksView& blocks, std::uint32_t member) : brick(blocks.brick[member]) {
+        const Int3 place = place_in_brick(blocks.place[member]);
+        corner = {place.x & ~1, place.y & ~1, place.z & ~1};
+        const Brick& of = blocks.grid.bricks[brick];
+        const int own = index_in_brick(corner + cluster_step(lane_index()));
+        block = lane_index() < cluster_blocks && of.holds(own) ? of.number(own) : no_index;
+    }
+    __device__ Int3 coordinate(const BlocksView& blocks) const { return blocks.grid.bricks[brick].corner() + corner; }
+    /// Takes the mark of its list away: once for a cluster that was listed.
+    __device__ void unmark(const State& f) const {
+        const int cluster = corner.x >> 1 | corner.y >> 1 << 3 | corner.z >> 1 << 6;
+        if (lane_index() == 0)
+            atomicAnd(&f.marked_clusters[std::uint64_t{cluster_words} * brick + static_cast<unsigned>(cluster / 32)],
+                      ~(1U << cluster % 32));
+    }
+};
+
+}  // namespace meniscus::cuda

@@ -1,0 +1,182 @@
+// The particles near a cluster, in the shared memory of the warp that has it, and those of them near each of its parts:
+// in the order of summation. What lies beyond its support adds exactly zero, so that each way to leave it out gives the
+// same sums.
+#pragma once
+
+#include "engine/cuda/candidate_windows.hpp"
+#include "engine/cuda/candidates.hpp"
+#include "engine/cuda/state.hpp"
+#include "engine/cuda/warp.hpp"
+
+namespace meniscus::cuda {
+
+/// Whether particles may reach a box.
+template <class Kernel>
+class BoxTest {
+public:
+    __device__ BoxTest(const UnitBox& box, float reach) : reach2_(reach * reach) {
+        for (int axis = 0; axis < 3; ++axis) {
+            middle_[axis] = 0.5F * (box.low[axis] + box.high[axis]);
+            half_[axis] = 0.5F * (box.high[axis] - box.low[axis]);
+        }
+    }
+    __device__ bool operator()(const float4& p, float fall) const {
+        const float x = gap(p.x, 0), y = gap(p.y, 1), z = gap(p.z, 2);
+        const float d2 = fma(x, x, fma(y, y, z * z));
+        // A little farther than its own support, since distances are rounded.
+        return Kernel::has_own_support ? fall * d2 <= p.w * 1.0001F : d2 <= reach2_;
+    }
+
+private:
+    __device__ float gap(float v, int axis) const { return max(fabsf(v - middle_[axis]) - half_[axis], 0.0F); }
+
+    float middle_[3], half_[3];
+    float reach2_;
+};
+
+/// A list of particles of one level in shared memory. has_ranks: whether OneCandidate::rank is told.
+template <class Kernel, bool has_ranks, unsigned size>
+struct ParticleList {
+    alignas(16) float4 particles[size];
+    alignas(16) float falls[Kernel::has_own_support ? size : 4];
+    std::uint32_t ranks[has_ranks ? size : 1];
+
+    __device__ float fall(unsigned i) const { return Kernel::has_own_support ? falls[i] : 0.0F; }
+    __device__ std::uint32_t rank(unsigned i) const { return has_ranks ? ranks[i] : 0; }
+    __device__ void set(unsigned i, const float4& particle, float fall, std::uint32_t rank) {
+        particles[i] = particle;
+        if constexpr (Kernel::has_own_support) falls[i] = fall;
+        if constexpr (has_ranks) ranks[i] = rank;
+    }
+};
+
+/// Shared memory of one warp.
+template <class Kernel, bool has_ranks = false>
+class NearParticles {
+public:
+    /// Takes in the particles near a box (units from `origin`) in the brick of base cells `brick`, but for the first
+    /// `skipped` of them. Returns how many there are, which may be more than skipped + room.
+    __device__ unsigned gather(const State& f, std::uint32_t brick, const Units3& origin, const UnitBox& box,
+                               unsigned skipped) {
+        const unsigned lane = lane_index();
+        __syncwarp();
+        unsigned found = 0;
+#pragma unroll 1
+        for (unsigned k = 0; k < particle_level_count; ++k) {
+            const LevelParticles<Kernel> level(f, k);
+            if (level.set.cells.brick_count != 0) {
+                const RowsNear rows(level.set, f.near_bricks[std::uint64_t{particle_level_count} * brick + k], origin,
+                                    box);
+                const BoxTest<Kernel> test(box, level.set.reach());
+                for_each_window(level, rows, [&](const OneCandidate& c, bool exists) {
+                    const bool reaches = exists && test(c.particle, c.fall);
+                    const unsigned all = __ballot_sync(all_lanes, reaches ? 1 : 0);
+                    const unsigned at = found + static_cast<unsigned>(__popc(all & ((1U << lane) - 1))) - skipped;
+                    if (reaches && at < room) all_.set(at, c.particle, c.fall, c.rank);
+                    found += static_cast<unsigned>(__popc(all));
+                });
+            }
+            if (lane == 0) end_[k] = found < skipped ? 0 : found - skipped < room ? found - skipped : room;
+        }
+        __syncwarp();
+        return found;
+    }
+
+    /// Calls visit(OneCandidate) in all lanes for each of those taken in that is near a box within that of gather().
+    template <class Visit>
+    __device__ void for_each_near(const State& f, const UnitBox& box, const Visit& visit) {
+        const unsigned lane = lane_index();
+        unsigned begin = 0;
+#pragma unroll 1
+        for (unsigned k = 0; k < particle_level_count; ++k) {
+            const unsigned end = end_[k];
+            if (begin == end) continue;
+            const float support = f.settings.support[k];
+            const float inverse_support = f.settings.inverse_support[k];
+            const BoxTest<Kernel> test(box, support + 1.0F);
+            while (begin < end) {
+                unsigned chosen = 0;
+                for (; begin < end && chosen <= most_chosen - warp_threads; begin += warp_threads) {
+                    const unsigned i = begin + lane;
+                    float4 particle{};
+                    float fall = 0.0F;
+                    bool near = false;
+                    if (i < end) {
+                        particle = all_.particles[i];
+                        fall = all_.fall(i);
+                        near = test(particle, fall);
+                    }
+                    const unsigned all_near = __ballot_sync(all_lanes, near ? 1 : 0);
+                    if (near)
+                        chosen_.set(chosen + static_cast<unsigned>(__popc(all_near & ((1U << lane) - 1))), particle,
+                                    fall, all_.rank(i));
+                    chosen += static_cast<unsigned>(__popc(all_near));
+                }
+                // Those that add nothing make up the last group.
+                if (lane < group - 1) chosen_.set(chosen + lane, {0.0F, 0.0F, 0.0F, 0.0F}, 1.0F, 0);
+                __syncwarp();
+                for (unsigned j = 0; j < chosen; j += group) {
+                    OneCandidate c[group];
+                    for (unsigned g = 0; g < group; ++g)
+                        c[g] = {chosen_.particles[j + g], chosen_.fall(j + g), support, inverse_support,
+                                chosen_.rank(j + g)};
+                    for (unsigned g = 0; g < group; ++g) visit(c[g]);
+                }
+                __syncwarp();
+            }
+            begin = end;
+        }
+    }
+
+    static constexpr unsigned room = has_ranks ? 128 : 192;
+
+private:
+    static constexpr unsigned most_chosen = 96;
+    /// Candidates whose loads are under way at once. With ranks they are visited one by one: numbers of attributes may
+    /// be such that zero times one is not zero.
+    static constexpr unsigned group = has_ranks ? 1 : 4;
+
+    ParticleList<Kernel, has_ranks, room> all_;
+    ParticleList<Kernel, has_ranks, most_chosen + group> chosen_;
+    std::uint32_t end_[particle_level_count];  ///< of each level's in all_
+};
+
+/// A warp's particles near the parts of a cluster: all at once where they fit, else part by part and a piece at a time.
+template <class Kernel, bool has_ranks = false>
+class ClusterParticles {
+public:
+    /// box: holds all parts; units from the corner of base cell `origin`.
+    __device__ ClusterParticles(const State& f, std::uint32_t brick, const Int3& origin, const UnitBox& box,
+                                NearParticles<Kernel, has_ranks>& shared)
+        : f_(f), brick_(brick), origin_(base_cell_origin(origin)), shared_(shared) {
+        all_fit_ = shared.gather(f, brick, origin_, box, 0) <= shared.room;
+    }
+    /// Calls visit(OneCandidate) for all near a part's box.
+    template <class Visit>
+    __device__ void for_each_near(const UnitBox& box, const Visit& visit) const {
+        for_each_piece(box, [&] { shared_.for_each_near(f_, box, visit); });
+    }
+    /// Calls visit() for each piece of those near a part's box that `shared` holds at a time.
+    template <class Visit>
+    __device__ void for_each_piece(const UnitBox& box, const Visit& visit) const {
+        unsigned found = 0;
+        unsigned skipped = 0;
+        do {
+            if (!all_fit_) found = shared_.gather(f_, brick_, origin_, box, skipped);
+            visit();
+            skipped += shared_.room;
+        } while (skipped < found);
+    }
+
+    __device__ const State& state() const { return f_; }
+    __device__ NearParticles<Kernel, has_ranks>& piece() const { return shared_; }
+
+private:
+    const State& f_;
+    std::uint32_t brick_;
+    Units3 origin_;
+    NearParticles<Kernel, has_ranks>& shared_;
+    bool all_fit_ = false;
+};
+
+}  // namespace meniscus::cuda

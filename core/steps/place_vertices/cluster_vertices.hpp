@@ -1,0 +1,56 @@
+// The vertices of a cluster of blocks one after another, so that those of several blocks fill a warp.
+#pragma once
+
+#include "engine/cuda/cluster.hpp"
+#include "engine/cuda/warp.hpp"
+
+namespace meniscus::cuda {
+
+class ClusterVertices {
+public:
+    /// Where a vertex belongs.
+    struct Place {
+        Int3 step;  ///< of its block in the cluster
+        std::uint32_t block;
+        int i;                 ///< among its block's
+        std::uint32_t number;  ///< among all
+    };
+
+    /// Of the cluster that holds a block; all lanes of a warp call it.
+    __device__ ClusterVertices(const BlocksView& blocks, std::uint32_t member)
+        : cluster(blocks, member), lowest(cluster.coordinate(blocks)) {
+        std::uint32_t own = 0;
+        if (cluster.block != no_index) {
+            own = static_cast<std::uint32_t>(blocks.edges[cluster.block].count());
+            first_ = blocks.first_vertex[cluster.block];
+        }
+        below_ = sum_of_lanes_below(own, count);
+        const Int3 step = cluster_step(lane_index());
+        // By axis: whether there are vertices in the lower half, and in the upper.
+        const unsigned halves = reduce_or(own == 0 ? 0 : 1U << step.x | 4U << step.y | 16U << step.z);
+        for (int axis = 0; axis < 3; ++axis) {
+            box.low[axis] = (halves >> 2 * axis & 1) != 0 ? 0.0F : base_edge;
+            box.high[axis] = (halves >> 2 * axis & 2) != 0 ? 2.0F * base_edge : base_edge;
+        }
+    }
+    /// Of vertex i < count; all lanes of a warp call it.
+    __device__ Place place(std::uint32_t i) const {
+        const unsigned owner = lane_with(i, below_);
+        const auto from = [owner](std::uint32_t value) {
+            return __shfl_sync(all_lanes, value, static_cast<int>(owner));
+        };
+        const std::uint32_t in_block = i - from(below_);
+        return {cluster_step(owner), from(cluster.block), static_cast<int>(in_block), from(first_) + in_block};
+    }
+
+    Cluster cluster;
+    Int3 lowest;  ///< base cell
+    std::uint32_t count = 0;
+    UnitBox box;  ///< of the blocks with vertices, units from the lowest's corner
+
+private:
+    std::uint32_t below_ = 0;  ///< vertices in the blocks of lower lanes
+    std::uint32_t first_ = 0;  ///< of this lane's block
+};
+
+}  // namespace meniscus::cuda

@@ -1,0 +1,32 @@
+// Step 1 on the GPU: where the particles near every brick of base cells lie.
+#include "engine/cuda/near_bricks.hpp"
+
+#include "engine/cuda/warp.hpp"
+#include "steps/cuda_steps.hpp"
+
+namespace meniscus::cuda {
+namespace {
+
+__global__ void __launch_bounds__(block_threads) find_each_near_brick(const __grid_constant__ State f) {
+    constexpr std::uint32_t of_brick = particle_level_count * NearBricks::slots;
+    GridLoop{}.each(std::uint64_t{of_brick} * f.count(Resource::bricks), [&](std::uint32_t i) {
+        const std::uint32_t b = i / of_brick;
+        const unsigned level = i % of_brick / NearBricks::slots;
+        const int slot = static_cast<int>(i % NearBricks::slots);
+        NearBricks& near = f.near_bricks[std::uint64_t{particle_level_count} * b + level];
+        const ParticleSetView set = f.set(level);
+        if (set.cells.brick_count == 0) return;
+        const Int3 lowest = NearBricks::lowest_near(set, f.bricks[b]);
+        if (slot == 0) near.lowest = lowest;
+        near.brick[slot] = set.cells.find(lowest + NearBricks::offset(slot));
+    });
+}
+
+}  // namespace
+
+void find_near_bricks(const State& state, const Launcher& launch) {
+    launch(particle_level_count * NearBricks::slots * state.capacity[Resource::bricks], block_threads,
+           find_each_near_brick, state);
+}
+
+}  // namespace meniscus::cuda
