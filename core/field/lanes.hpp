@@ -32,6 +32,10 @@ template <int N>
 float reduce_max(Lanes<N> a) {
     return -reduce_min(Lanes<N>(0.0F) - a);
 }
+template <int N>
+Lanes<N> magnitude(Lanes<N> a) {
+    return max(a, Lanes<N>(0.0F) - a);
+}
 
 #endif
 
@@ -57,6 +61,13 @@ MENISCUS_HD inline float trunc(float a) {
     return truncf(a);
 #else
     return __builtin_truncf(a);
+#endif
+}
+MENISCUS_HD inline float magnitude(float a) {
+#ifdef __CUDA_ARCH__
+    return fabsf(a);
+#else
+    return __builtin_fabsf(a);
 #endif
 }
 /// The set of one lane, or none.

@@ -42,7 +42,7 @@ MENISCUS_HD inline void sum_grid_values(const CandidateView& c, F x, const F (&y
 /// kernel at its distance from the box. `closest`: see the kernel's add_bound().
 template <class Kernel, class F>
 MENISCUS_HD inline void sum_bounds(const CandidateView& c, F x, F y, F z, float half, F& sum, F& closest) {
-    const auto gap = [half](F d) { return max(max(d - F(half), F(-half) - d), F(0.0F)); };
+    const auto gap = [half](F d) { return max(magnitude(d) - F(half), F(0.0F)); };
     for (std::size_t j = 0; j < c.count; ++j)
         Kernel::of(c, j).add_bound(sum, closest, gap(x - F(c.x[j])), gap(y - F(c.y[j])), gap(z - F(c.z[j])), c.support);
 }
