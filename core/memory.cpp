@@ -58,8 +58,9 @@ void MemoryAccount::release(std::size_t bytes) noexcept {
 }
 
 void* allocate_aligned(std::size_t bytes) noexcept {
-    constexpr std::size_t line = 64, page = std::size_t{2} << 20;
-    const std::size_t alignment = bytes < 2 * page ? line : page;
+    constexpr std::size_t line = 64, small_page = 4096, page = std::size_t{2} << 20;
+    const std::size_t least_alignment = bytes < PagePinning::least_bytes ? line : small_page;
+    const std::size_t alignment = bytes < 2 * page ? least_alignment : page;
     void* const memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
     // Large arrays are read in the order of blocks, which jumps: huge pages spare them the misses in the page tables.
     // Advice only: where the kernel has none, nothing is lost. Whole pages alone, since the tail's may never be

@@ -12,6 +12,7 @@
 #include "attribute_choice.hpp"
 #include "engine/cuda/device.hpp"
 #include "instruction_set.hpp"
+#include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/memory.hpp"
 #include "particles/placed_frame.hpp"
@@ -81,13 +82,18 @@ public:
         : settings_(checked(settings)),
           attributes_(settings),
           options_(options),
-          account_(std::make_shared<MemoryAccount>(options.memory_limit, "in memory", options.shared_memory)),
           device_account_(std::make_shared<MemoryAccount>(options.device_memory_limit, "on the GPU",
                                                           options.shared_device_memory)) {
         if (options.threads > max_threads)
             throw InvalidInput("the threads are " + std::to_string(options.threads) + ", must be at most " +
                                std::to_string(max_threads));
         options_.backend = describe_backend(options.backend, options.device).backend;
+        if (options_.backend == Backend::cpu)
+            options_.pinning = nullptr;
+        else if (options_.pinning == nullptr)
+            options_.pinning = cuda::page_pinning(options.device);
+        account_ =
+            std::make_shared<MemoryAccount>(options.memory_limit, "in memory", options.shared_memory, options_.pinning);
         make_backend();
     }
 

@@ -74,6 +74,16 @@ void FrameRun::run(const PlacedFrame& placed) {
     const AttributeShape shape = particles_ == 0 ? state_.attributes : placed.attributes.shape;
     bool grown = make_room({}, payload_bytes, shape);
     sets_.take(state_);
+    try {
+        run_until_it_fits(placed, grown);
+    } catch (...) {
+        // The caller's arrays go back, and may be on their way to the device still.
+        stream_.settle();
+        throw;
+    }
+}
+
+void FrameRun::run_until_it_fits(const PlacedFrame& placed, bool grown) {
     for (;;) {
         if (stop_.is_raised()) throw Stopped();
         poison();

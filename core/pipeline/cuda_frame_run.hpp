@@ -69,6 +69,8 @@ private:
         std::uint64_t mesh_version = 0;  ///< of the mesh arrays that it was captured for
     };
 
+    /// grown: whether arrays have moved since the frame before.
+    void run_until_it_fits(const PlacedFrame& particles, bool grown);
     /// Puts a frame's kernels on the stream, behind the upload. captured: into a graph.
     void enqueue(bool captured);
     void fetch_counts();

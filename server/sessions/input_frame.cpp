@@ -12,6 +12,7 @@ void InputFrame::allocate(std::size_t size) {
     shown_in_run.reset();
     keep_arrays({});
     if (bytes.capacity() < size) {
+        pinned_.drop();
         // A fresh array: growing the old one would hold both for a moment, and copy what nobody needs.
         Array<std::byte>(bytes.get_allocator()).swap(bytes);
         bytes.reserve(size);

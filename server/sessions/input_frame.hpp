@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "meniscus/particle_frame.hpp"
 #include "sessions/limits/bytes_in_flight.hpp"
 #include "sessions/limits/retained_memory.hpp"
+#include "sessions/pinned_bytes.hpp"
 
 namespace meniscus::server {
 
@@ -27,26 +29,31 @@ struct InputFrame {
         std::size_t offset = 0;  ///< in `bytes`, behind positions and levels; a multiple of size_of(type)
     };
 
-    /// memory: counts what stays here between two frames; may be none.
+    /// memory: counts what stays here between two frames; may be none. pinning: see pin(); may be none.
     explicit InputFrame(const std::shared_ptr<MemoryAccount>& account,
                         std::shared_ptr<BytesInFlight> all_sessions = std::make_shared<BytesInFlight>(),
                         std::shared_ptr<SessionInFlight> session = std::make_shared<SessionInFlight>(),
-                        std::shared_ptr<SharedMemory> memory = nullptr)
+                        std::shared_ptr<SharedMemory> memory = nullptr, std::shared_ptr<PagePinning> pinning = nullptr)
         : bytes(AccountAllocator<std::byte>(account)),
           in_flight_(std::move(all_sessions), std::move(session)),
-          retained_(std::move(memory)) {}
+          retained_(std::move(memory)),
+          pinned_(std::move(pinning)) {}
 
     /// Makes `bytes` of this size, which are announced for flight; keeps its memory if that suffices. Throws
     /// LimitExceeded or std::bad_alloc.
     void allocate(std::size_t size);
     /// See FrameInFlight.
     bool book(std::size_t arrived, std::function<void()> booked) { return in_flight_.book(arrived, std::move(booked)); }
+    /// Lets the GPU that reconstructs the frame fetch its bytes by itself, once all have arrived; and those of the
+    /// frames that follow in this memory.
+    void pin() noexcept { pinned_.hold(std::span(bytes.data(), bytes.capacity())); }
     /// Its bytes are no longer in flight. Its memory stays for the next frame, if there is room for it.
     void land() noexcept {
         in_flight_.release();
         if (!retained_.hold(bytes.capacity())) free_memory();
     }
     void free_memory() noexcept {
+        pinned_.drop();
         Array<std::byte>(bytes.get_allocator()).swap(bytes);
         particle_count = 0;
         keep_arrays({});
@@ -61,6 +68,8 @@ struct InputFrame {
         quantized = other.quantized;
         has_levels = other.has_levels;
         quantization_box = other.quantization_box;
+        pinned_.drop();
+        other.pinned_.drop();
         // Its allocator stays, with its account.
         Array<std::byte> taken(other.bytes.get_allocator());
         taken.swap(other.bytes);
@@ -94,6 +103,7 @@ private:
     std::vector<ParticleArray> array_views_;  ///< of them
     FrameInFlight in_flight_;
     RetainedMemory retained_;
+    PinnedBytes pinned_;  ///< ends before `bytes`
 };
 
 }  // namespace meniscus::server

@@ -5,9 +5,11 @@
 namespace meniscus::server {
 
 InputSlots::InputSlots(const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<BytesInFlight>& in_flight,
-                       const std::shared_ptr<SessionInFlight>& session, const std::shared_ptr<SharedMemory>& memory)
-    : inputs_{InputFrame(account, in_flight, session, memory), InputFrame(account, in_flight, session, memory),
-              InputFrame(account, in_flight, session, memory)} {
+                       const std::shared_ptr<SessionInFlight>& session, const std::shared_ptr<SharedMemory>& memory,
+                       const std::shared_ptr<PagePinning>& pinning)
+    : inputs_{InputFrame(account, in_flight, session, memory, pinning),
+              InputFrame(account, in_flight, session, memory, pinning),
+              InputFrame(account, in_flight, session, memory, pinning)} {
     for (std::size_t i = 0; i + 1 < inputs_.size(); ++i) free_.give(inputs_[i]);
 }
 

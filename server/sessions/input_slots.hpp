@@ -16,8 +16,10 @@ namespace meniscus::server {
 class InputSlots {
 public:
     /// session: its part of the bytes in flight. memory: counts what the slots keep between two frames; may be none.
+    /// pinning: see InputFrame::pin(); may be none.
     InputSlots(const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<BytesInFlight>& in_flight,
-               const std::shared_ptr<SessionInFlight>& session, const std::shared_ptr<SharedMemory>& memory = nullptr);
+               const std::shared_ptr<SessionInFlight>& session, const std::shared_ptr<SharedMemory>& memory = nullptr,
+               const std::shared_ptr<PagePinning>& pinning = nullptr);
 
     /// Calls the waiter once a slot is free, at once or from the thread that gives one back.
     void request(SlotPool<InputFrame>::Waiter waiter) { free_.request(std::move(waiter)); }

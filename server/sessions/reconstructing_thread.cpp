@@ -107,7 +107,8 @@ bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn)
 }
 
 void ReconstructingThread::reconstruct(const Received& received, ReconstructedFrame& frame) {
-    const InputFrame& input = *received.input;
+    InputFrame& input = *received.input;
+    input.pin();
     const bool had_surface = std::exchange(has_surface_, false);
     try {
         Reconstructed reconstructed = functions_.reconstruct(input.view(), frame.mesh);

@@ -61,7 +61,7 @@ Session::Session(SessionIdentity identity, const Settings& settings, const Limit
       in_flight_(
           std::make_shared<SessionInFlight>(SessionInFlight{.name = account() ? account()->in_flight() : nullptr})),
       inputs_(std::make_shared<MemoryAccount>(limits.bytes_per_session), context_.shared.bytes_in_flight, in_flight_,
-              context_.shared.memory),
+              context_.shared.memory, context_.shared.pinning),
       frame_stop_(functions.stop, context_.shared.deadlines, limits.frame_time),
       frame_rate_(limits.frames_per_second),
       encoding_(context_, watchers_,

@@ -42,6 +42,12 @@ std::string place_name(const BackendOptions& backend) {
     return backend.backend == Backend::cuda ? fmt::format("GPU {}", backend.device) : "the CPU";
 }
 
+std::shared_ptr<PagePinning> log_refusal_of_pinning(int device) {
+    return cuda::page_pinning(device, [device](const std::string& reason) {
+        spdlog::warn("GPU {} copies more slowly: memory cannot be pinned for it ({})", device, reason);
+    });
+}
+
 }  // namespace
 
 ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOptions& backend) {
@@ -116,6 +122,9 @@ SessionRegistry::Created SessionRegistry::create(const std::string& id, const Se
         auto& device = device_memory_[backend.device];
         if (!device) device = shared_memory(limits_.total_device_bytes);
         backend.shared_device_memory = device;
+        auto& pinning = pinning_[backend.device];
+        if (!pinning) pinning = log_refusal_of_pinning(backend.device);
+        backend.pinning = pinning;
     }
     const SessionIdentity identity{.id = id, .owner = creator.name, .account = creator.account, .kind = kind};
     auto session = std::make_shared<Session>(identity, settings, limits_, make_reconstruct_(settings, backend),
@@ -242,6 +251,7 @@ SharedResources SessionRegistry::shared_on(const BackendOptions& place) {
             .metrics = metrics_,
             .turns = turns,
             .memory = memory_,
+            .pinning = place.pinning,
             .bytes_in_flight = bytes_in_flight_,
             .deadlines = deadlines_};
 }

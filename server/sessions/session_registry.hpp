@@ -134,6 +134,7 @@ private:
     std::map<std::string, std::shared_ptr<Session>> sessions_;
     std::map<int, std::shared_ptr<Turns>> turns_;                 ///< by device
     std::map<int, std::shared_ptr<SharedMemory>> device_memory_;  ///< by device
+    std::map<int, std::shared_ptr<PagePinning>> pinning_;         ///< by device
     bool draining_ = false;
 
     // Joins the threads of sessions that were removed, so that no gRPC thread has to wait for a reconstruction.

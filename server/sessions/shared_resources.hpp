@@ -18,6 +18,8 @@ struct SharedResources {
     std::shared_ptr<Turns> turns = std::make_shared<Turns>();  ///< on the device that the session reconstructs on
     /// Of all sessions' reconstructions, of what they encode in, and of what they keep of frames; may be none.
     std::shared_ptr<SharedMemory> memory{};
+    /// Of what the device that the session reconstructs on copies from and to; none: it copies nothing by itself.
+    std::shared_ptr<PagePinning> pinning{};
     std::shared_ptr<BytesInFlight> bytes_in_flight = std::make_shared<BytesInFlight>();
     std::shared_ptr<Deadlines> deadlines = std::make_shared<Deadlines>();  ///< of frames on the device
 };

@@ -11,6 +11,10 @@ bool answers(int) {
     return false;
 }
 
+std::shared_ptr<PagePinning> page_pinning(int, std::function<void(const std::string& reason)>) {
+    return nullptr;
+}
+
 std::string why_unavailable(int) {
     return "this build has no CUDA backend";
 }

@@ -1,5 +1,5 @@
-// Finished arrays on their way from the device, through two pieces of pinned memory: one fills while the other is
-// emptied.
+// Finished arrays on their way from the device: straight to where they belong if that is pinned, else through two
+// pieces of pinned memory, of which one fills while the other is emptied.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include "engine/cuda/pinned_memory.hpp"
 #include "engine/cuda/stream.hpp"
@@ -23,16 +24,23 @@ public:
     template <class T>
     void fetch(const T* from, std::size_t count, T* to, cudaStream_t stream) {
         const auto* bytes = reinterpret_cast<const std::byte*>(from);
+        if (is_pinned(to, count * sizeof(T))) {
+            straight_ = true;
+            check(cudaMemcpyAsync(to, from, count * sizeof(T), cudaMemcpyDeviceToHost, stream), "cudaMemcpyAsync");
+            return;
+        }
         for (std::size_t at = 0; at < count * sizeof(T); at += piece_bytes)
             fetch_piece(bytes + at, std::min(piece_bytes, count * sizeof(T) - at),
                         reinterpret_cast<std::byte*>(to) + at, stream);
     }
-    void finish() {
+    void finish(Stream& stream) {
         for (std::size_t i = 0; i < pieces_.size(); ++i) empty(i);
+        if (std::exchange(straight_, false)) stream.synchronize();
     }
-    /// After a failure: copies under way are not delivered.
-    void forget() {
+    /// After a failure: pieces under way are not delivered, and nothing is written to the caller's memory from here on.
+    void forget(Stream& stream) noexcept {
         for (Piece& piece : pieces_) piece.bytes = 0;
+        if (std::exchange(straight_, false)) stream.settle();
     }
 
 private:
@@ -66,6 +74,7 @@ private:
     PinnedMemory staging_;
     std::array<Piece, 2> pieces_;
     std::size_t next_ = 0;
+    bool straight_ = false;  ///< whether copies to the caller's memory may be under way
 };
 
 }  // namespace meniscus::cuda

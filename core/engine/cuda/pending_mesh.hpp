@@ -1,6 +1,7 @@
 // One mesh on its way to the host.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -45,8 +46,10 @@ public:
     bool is_done() const { return done_; }
 
 private:
-    /// Enough for a copy to be worth its launch, and few enough for the first brick to be there soon.
-    static constexpr std::size_t fetch_bytes = std::size_t{256} << 10;
+    /// Bytes of triangles in a step: few enough at first for the first brick to be there soon, then twice as many from
+    /// step to step, until the copies take much longer than the waits between them.
+    static constexpr std::size_t first_fetch_bytes = std::size_t{256} << 10;
+    static constexpr std::size_t most_fetch_bytes = std::size_t{4} << 20;
 
     /// Brings the vertices, and the triangles of this number of bricks, at most all. Other threads take their turns
     /// between the steps.
@@ -81,7 +84,7 @@ private:
     [[noreturn]] void fail(const std::exception_ptr& error) {
         error_ = error;
         arrived_ = 0;
-        storage_->download.forget();
+        storage_->download.forget(storage_->stream);
         done_ = true;
         std::rethrow_exception(error);
     }
@@ -93,14 +96,14 @@ private:
         for (std::size_t a = 0; a < to_.attributes.size() && !to_.vertices.empty(); ++a)
             fetch(static_cast<const std::byte*>(from_.attributes[a].data), to_.attributes[a].data.size(),
                   to_.attributes[a].data.data());
-        storage_->download.finish();
+        storage_->download.finish(storage_->stream);
         std::erase_if(to_.bricks, [](const MeshBrick& brick) { return brick.triangle_count() == 0; });
     }
 
     void fetch_bricks() {
         const std::size_t begin = arrived_;
         std::size_t end = begin;
-        for (std::size_t triangles = 0; end < to_.bricks.size() && triangles * sizeof(Triangle) < fetch_bytes; ++end)
+        for (std::size_t triangles = 0; end < to_.bricks.size() && triangles * sizeof(Triangle) < fetch_bytes_; ++end)
             triangles += to_.bricks[end].triangle_count();
         // Within a level, the triangles of successive bricks follow one another.
         for (std::size_t level = 0; level < triangle_level_count; ++level) {
@@ -108,8 +111,9 @@ private:
             const TriangleRange& last = to_.bricks[end - 1].ranges[level];
             fetch(from_.triangles + first, last.first + last.count - first, to_.triangles.data() + first);
         }
-        storage_->download.finish();
+        storage_->download.finish(storage_->stream);
         arrived_ = end;
+        fetch_bytes_ = std::min(2 * fetch_bytes_, most_fetch_bytes);
     }
 
     template <class T>
@@ -127,6 +131,7 @@ private:
     bool started_ = false;
     std::exception_ptr error_;
     double seconds_ = 0.0;
+    std::size_t fetch_bytes_ = first_fetch_bytes;
 };
 
 }  // namespace meniscus::cuda

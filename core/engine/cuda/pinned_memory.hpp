@@ -9,6 +9,19 @@
 
 namespace meniscus::cuda {
 
+/// Whether the device copies from and to this memory of a caller's by itself, while the host goes on. A range of which
+/// only a part is pinned is copied as well, and slowly.
+inline bool is_pinned(const void* begin, std::size_t bytes) {
+    const auto is_pinned_at = [](const std::byte* at) {
+        cudaPointerAttributes attributes{};
+        const cudaError_t status = cudaPointerGetAttributes(&attributes, at);
+        if (status != cudaSuccess) cudaGetLastError();
+        return status == cudaSuccess && attributes.type == cudaMemoryTypeHost;
+    };
+    const auto* const first = static_cast<const std::byte*>(begin);
+    return bytes != 0 && is_pinned_at(first) && is_pinned_at(first + (bytes - 1));
+}
+
 /// Nothing may be copying from or to it when it grows or ends.
 class PinnedMemory {
 public:

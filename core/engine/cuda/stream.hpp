@@ -65,6 +65,12 @@ public:
         all_.wait();
     }
 
+    /// The same after a failure, whose error is the one that counts.
+    void settle() noexcept {
+        cudaStreamSynchronize(stream_);
+        cudaGetLastError();
+    }
+
 private:
     cudaStream_t stream_ = nullptr;
     AwaitedEvent all_;

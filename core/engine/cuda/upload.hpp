@@ -1,4 +1,5 @@
-// A frame's particles on their way to the device, through pinned memory; or from another place on it.
+// A frame's particles on their way to the device: straight from where they are if that is pinned, else through memory
+// that is; or from another place on the device.
 #pragma once
 
 #include <algorithm>
@@ -19,19 +20,29 @@ public:
         input_.reserve(sizeof(FrameInput));
     }
 
-    /// The last upload must have ended. Positions travel as they are given, and are widened on the device.
+    /// The last upload must have ended. Positions travel as they are given, and are widened on the device. The frame's
+    /// arrays may be read until this one has ended.
     void start(const PlacedFrame& placed, const State& state, cudaStream_t stream) {
         const ParticleFrame& particles = placed.frame;
         const auto positions =
             particles.is_quantized() ? std::as_bytes(particles.quantized) : std::as_bytes(particles.positions);
         const auto levels = std::as_bytes(particles.levels);
-        std::size_t bytes = positions.size() + levels.size();
-        for (const ParticleArray& array : particles.arrays) bytes += array.data.size();
-        if (!placed.on_device) staging_.reserve(bytes);
+        const auto goes_straight = [&](std::span<const std::byte> array) {
+            return placed.on_device || is_pinned(array.data(), array.size());
+        };
+        std::size_t staged = 0;
+        const auto add_staged = [&](std::span<const std::byte> array) {
+            if (!goes_straight(array)) staged += array.size();
+        };
+        add_staged(positions);
+        add_staged(levels);
+        for (const ParticleArray& array : particles.arrays) add_staged(array.data);
+        staging_.reserve(staged);
         std::byte* staging = staging_.get();
+        const cudaMemcpyKind kind = placed.on_device ? cudaMemcpyDeviceToDevice : cudaMemcpyHostToDevice;
         const auto send_next = [&](std::span<const std::byte> from, std::byte* to) {
-            if (placed.on_device) {
-                copy(from, to, stream);
+            if (goes_straight(from)) {
+                copy(from, to, kind, stream);
                 return;
             }
             send(from, staging, to, stream);
@@ -61,9 +72,9 @@ public:
     }
 
 private:
-    static void copy(std::span<const std::byte> from, std::byte* to, cudaStream_t stream) {
+    static void copy(std::span<const std::byte> from, std::byte* to, cudaMemcpyKind kind, cudaStream_t stream) {
         if (from.empty()) return;
-        check(cudaMemcpyAsync(to, from.data(), from.size(), cudaMemcpyDeviceToDevice, stream), "cudaMemcpyAsync");
+        check(cudaMemcpyAsync(to, from.data(), from.size(), kind, stream), "cudaMemcpyAsync");
     }
     /// Piece by piece: the device fetches one while the next is being copied.
     static void send(std::span<const std::byte> from, std::byte* staging, std::byte* to, cudaStream_t stream) {

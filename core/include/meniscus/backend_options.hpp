@@ -43,6 +43,8 @@ struct BackendOptions {
     std::shared_ptr<const StopFlag> stop = {};             ///< ends a reconstruction with Stopped; none: nothing does
     std::shared_ptr<SharedMemory> shared_memory{};         ///< of all reconstructors; may be none
     std::shared_ptr<SharedMemory> shared_device_memory{};  ///< of all on that GPU; may be none
+    /// Of the arrays that meshes come down to from a GPU. None: a page_pinning() of the reconstructor's own.
+    std::shared_ptr<PagePinning> pinning{};
 };
 
 }  // namespace meniscus

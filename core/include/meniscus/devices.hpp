@@ -2,9 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "meniscus/memory.hpp"
 
 namespace meniscus::cuda {
 
@@ -26,5 +30,10 @@ std::vector<Device> devices(std::span<const int> among = {});
 
 /// Whether CUDA works on a device now. Starts it there.
 bool answers(int device);
+
+/// Pins memory for a GPU's copies, see ParticleFrame; starts CUDA on it at the first array. on_refusal: called once,
+/// with the reason, where memory cannot be pinned; may be empty, and throws nothing. In a build without CUDA it pins
+/// nothing.
+std::shared_ptr<PagePinning> page_pinning(int device, std::function<void(const std::string& reason)> on_refusal = {});
 
 }  // namespace meniscus::cuda

@@ -38,19 +38,40 @@ private:
     std::atomic<std::size_t> bytes_{0};
 };
 
+/// Keeps arrays where they are in the host's memory, so that a GPU copies from and to them by itself. Thread-safe.
+class PagePinning {
+public:
+    /// Arrays of fewer bytes are not worth it, and may share their pages with others; see allocate_aligned().
+    static constexpr std::size_t least_bytes = std::size_t{64} << 10;
+
+    virtual ~PagePinning() = default;
+    /// Memory that cannot be pinned stays as it is: it is only copied more slowly.
+    virtual void pin(void* begin, std::size_t bytes) noexcept = 0;
+    /// Before memory that was passed to pin() is freed, once nothing is copied from or to it.
+    virtual void unpin(void* begin) noexcept = 0;
+};
+
 /// Counts the bytes and the allocations of the arrays charged to it, and refuses an array that would pass its limit.
 /// Thread-safe.
 class MemoryAccount {
 public:
     /// limit: bytes, 0 for none. place: where the memory is, in words, for the message of a refusal. shared: charged,
-    /// too; may be none.
+    /// too; may be none. pinning: of large arrays; none: they are not pinned.
     explicit MemoryAccount(std::size_t limit = 0, const char* place = "in memory",
-                           std::shared_ptr<SharedMemory> shared = nullptr)
-        : limit_(limit), place_(place), shared_(std::move(shared)) {}
+                           std::shared_ptr<SharedMemory> shared = nullptr,
+                           std::shared_ptr<PagePinning> pinning = nullptr)
+        : limit_(limit), place_(place), shared_(std::move(shared)), pinning_(std::move(pinning)) {}
 
     /// Throws LimitExceeded, without charging, if the account would pass its limit, or the shared memory its own.
     void charge(std::size_t bytes);
     void release(std::size_t bytes) noexcept;
+    /// Of an array that is charged: after its allocation, and before it is freed.
+    void pin(void* array, std::size_t bytes) noexcept {
+        if (pinning_ && bytes >= PagePinning::least_bytes) pinning_->pin(array, bytes);
+    }
+    void unpin(void* array, std::size_t bytes) noexcept {
+        if (pinning_ && bytes >= PagePinning::least_bytes) pinning_->unpin(array);
+    }
 
     std::size_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
     std::size_t peak_bytes() const noexcept { return peak_.load(std::memory_order_relaxed); }
@@ -61,12 +82,13 @@ private:
     std::size_t limit_;
     const char* place_;
     std::shared_ptr<SharedMemory> shared_;
+    std::shared_ptr<PagePinning> pinning_;
     std::atomic<std::size_t> bytes_{0};
     std::atomic<std::size_t> peak_{0};
     std::atomic<std::uint64_t> allocations_{0};
 };
 
-/// Memory aligned to a cache line; null if no memory is left.
+/// Memory aligned to a cache line, from PagePinning::least_bytes on in pages of its own; null if no memory is left.
 void* allocate_aligned(std::size_t bytes) noexcept;
 void free_aligned(void* memory) noexcept;
 
@@ -92,9 +114,11 @@ public:
             if (account_) account_->release(bytes);
             throw std::bad_alloc();
         }
+        if (account_) account_->pin(memory, bytes);
         return static_cast<T*>(memory);
     }
     void deallocate(T* p, std::size_t n) noexcept {
+        if (account_) account_->unpin(p, n * sizeof(T));
         free_aligned(p);
         if (account_) account_->release(n * sizeof(T));
     }

@@ -27,7 +27,8 @@ struct ParticleArray {
     std::size_t element_bytes() const { return size_of(type) * components; }
 };
 
-/// Positions in one of two encodings; the other stays empty. Borrowed: the memory must outlive the call.
+/// Positions in one of two encodings; the other stays empty. Borrowed: the memory must outlive the call. Arrays in
+/// pinned memory (cuda::page_pinning(), or CUDA's own functions) go to a GPU without a copy on the way.
 struct ParticleFrame {
     std::span<const float> positions;          ///< x y z per particle, world units
     std::span<const std::uint16_t> quantized;  ///< x y z per particle: min + q (max - min) / 65535 of quantization_box

@@ -197,6 +197,7 @@ constexpr unsigned cudaEventRecordExternal = 1;
 constexpr unsigned cudaEventDefault = 0;
 constexpr unsigned cudaEventBlockingSync = 1;
 constexpr unsigned cudaEventDisableTiming = 2;
+constexpr unsigned cudaHostRegisterPortable = 1;
 constexpr unsigned cudaHostRegisterMapped = 2;
 constexpr unsigned long long cudaEnableDefault = 0;
 

@@ -10,6 +10,7 @@
 
 #include "cuda_runtime.h"
 #include "events_and_graphs.hpp"
+#include "host_copies.hpp"
 
 struct EmulatedGraph {
     std::vector<std::function<void()>> work;
@@ -32,9 +33,27 @@ thread_local bool captures = false;
 
 std::mutex device;  // its threads are one set of fibers: it works for one thread of the host at a time
 
-/// Pieces of device memory: begin to size.
+/// Of device memory, and of the host's that is pinned, by their begin.
+struct Piece {
+    std::size_t bytes;
+    cudaMemoryType type;
+};
 std::mutex pieces_mutex;
-std::map<const std::byte*, std::size_t> pieces;
+std::map<const std::byte*, Piece> pieces;
+
+void add_piece(void* memory, std::size_t bytes, cudaMemoryType type) {
+    const std::lock_guard lock(pieces_mutex);
+    pieces[static_cast<const std::byte*>(memory)] = {bytes, type};
+}
+bool remove_piece(void* memory) {
+    const std::lock_guard lock(pieces_mutex);
+    return pieces.erase(static_cast<const std::byte*>(memory)) != 0;
+}
+/// No byte more, so that the address sanitizer sees what is beside it.
+cudaError_t allocate(void** memory, std::size_t bytes) {
+    if (captures) return cudaErrorStreamCaptureUnsupported;
+    return posix_memalign(memory, 256, bytes) == 0 ? cudaSuccess : cudaErrorMemoryAllocation;
+}
 
 cudaError_t release(EmulatedGraph* graph) {
     if (--graph->owners == 0) delete graph;
@@ -61,6 +80,8 @@ emulated_device::KernelRunner* emulated_device::runner = nullptr;
 std::function<cudaError_t()> emulated_device::before_copy_to_host;
 std::size_t emulated_device::graph_launches = 0;
 cudaError_t emulated_device::elapsed_time_status = cudaSuccess;
+cudaError_t emulated_device::register_status = cudaSuccess;
+std::function<void(const void*, const void*, std::size_t, cudaMemcpyKind)> emulated_device::on_copy;
 
 void emulated_device::submit(cudaStream_t stream, const std::function<void()>& work) {
     if (stream->capturing != nullptr)
@@ -187,22 +208,16 @@ cudaError_t cudaMemPoolDestroy(cudaMemPool_t) {
     return cudaSuccess;
 }
 cudaError_t cudaMallocFromPoolAsync(void** memory, std::size_t bytes, cudaMemPool_t, cudaStream_t) {
-    const cudaError_t status = cudaMallocHost(memory, bytes);
-    if (status == cudaSuccess) {
-        const std::lock_guard lock(pieces_mutex);
-        pieces[static_cast<const std::byte*>(*memory)] = bytes;
-    }
+    const cudaError_t status = allocate(memory, bytes);
+    if (status == cudaSuccess) add_piece(*memory, bytes, cudaMemoryTypeDevice);
     return status;
 }
 cudaError_t cudaFreeAsync(void* memory, cudaStream_t stream) {
     if (captures) return cudaErrorStreamCaptureUnsupported;
-    {
-        const std::lock_guard lock(pieces_mutex);
-        pieces.erase(static_cast<const std::byte*>(memory));
-    }
+    remove_piece(memory);
     emulated_device::submit(stream, [=] {
         std::memset(memory, 0xDD, malloc_usable_size(memory));  // for whoever still reads it
-        cudaFreeHost(memory);
+        std::free(memory);
     });
     return cudaSuccess;
 }
@@ -210,25 +225,27 @@ cudaError_t cudaPointerGetAttributes(cudaPointerAttributes* attributes, const vo
     const auto* const at = static_cast<const std::byte*>(memory);
     const std::lock_guard lock(pieces_mutex);
     auto piece = pieces.upper_bound(at);
-    const bool is_inside = piece != pieces.begin() && at < std::prev(piece)->first + std::prev(piece)->second;
-    *attributes = {is_inside ? cudaMemoryTypeDevice : cudaMemoryTypeUnregistered, 0};
+    const bool is_inside = piece != pieces.begin() && at < std::prev(piece)->first + std::prev(piece)->second.bytes;
+    *attributes = {is_inside ? std::prev(piece)->second.type : cudaMemoryTypeUnregistered, 0};
     return cudaSuccess;
 }
 cudaError_t cudaMallocHost(void** memory, std::size_t bytes) {
-    if (captures) return cudaErrorStreamCaptureUnsupported;
-    // No byte more, so that the address sanitizer sees what is beside it.
-    return posix_memalign(memory, 256, bytes) == 0 ? cudaSuccess : cudaErrorMemoryAllocation;
+    const cudaError_t status = allocate(memory, bytes);
+    if (status == cudaSuccess) add_piece(*memory, bytes, cudaMemoryTypeHost);
+    return status;
 }
-cudaError_t cudaHostRegister(void*, std::size_t, unsigned) {
-    return cudaSuccess;
+cudaError_t cudaHostRegister(void* memory, std::size_t bytes, unsigned) {
+    if (emulated_device::register_status == cudaSuccess) add_piece(memory, bytes, cudaMemoryTypeHost);
+    return emulated_device::register_status;
 }
-cudaError_t cudaHostUnregister(void*) {
-    return cudaSuccess;
+cudaError_t cudaHostUnregister(void* memory) {
+    return remove_piece(memory) ? cudaSuccess : cudaErrorInvalidValue;
 }
 cudaError_t cudaHostGetDevicePointer(void** mapped, void* memory, unsigned) {
     return *mapped = memory, cudaSuccess;
 }
 cudaError_t cudaFreeHost(void* memory) {
+    remove_piece(memory);
     return std::free(memory), cudaSuccess;
 }
 cudaError_t cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStream_t stream) {
@@ -238,6 +255,7 @@ cudaError_t cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStre
 cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream) {
     if (kind == cudaMemcpyDeviceToHost && emulated_device::before_copy_to_host)
         if (const cudaError_t status = emulated_device::before_copy_to_host(); status != cudaSuccess) return status;
+    if (emulated_device::on_copy) emulated_device::on_copy(to, from, bytes, kind);
     emulated_device::submit(stream, [=] { std::memcpy(to, from, bytes); });
     return cudaSuccess;
 }

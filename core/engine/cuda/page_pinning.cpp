@@ -1,0 +1,57 @@
+// Pages of the host's memory that the GPU may copy from and to by itself.
+#include <atomic>
+#include <exception>
+#include <string>
+#include <utility>
+
+#include "engine/cuda/errors.hpp"
+#include "meniscus/devices.hpp"
+
+namespace meniscus::cuda {
+namespace {
+
+/// Registers memory that is there already, rather than to allocate other: where CUDA refuses, nothing else changes.
+class RegisteredPages final : public PagePinning {
+public:
+    RegisteredPages(int device, std::function<void(const std::string& reason)> on_refusal)
+        : device_(device), on_refusal_(std::move(on_refusal)) {}
+
+    void pin(void* begin, std::size_t bytes) noexcept override {
+        try {
+            const CurrentDevice current(device_);
+            const cudaError_t status = cudaHostRegister(begin, bytes, cudaHostRegisterPortable);
+            if (status == cudaSuccess) return;
+            cudaGetLastError();
+            refused(cudaGetErrorString(status));
+        } catch (const std::exception& error) {
+            refused(error.what());  // the frame that comes next meets the same, and tells
+        }
+    }
+    void unpin(void* begin) noexcept override {
+        try {
+            const CurrentDevice current(device_);
+            // Fails for memory that was refused, which is of no consequence.
+            cudaHostUnregister(begin);
+            cudaGetLastError();
+        } catch (const std::exception&) {
+            // The device is lost, and copies nothing any more.
+        }
+    }
+
+private:
+    void refused(const std::string& reason) {
+        if (on_refusal_ && !told_.exchange(true)) on_refusal_(reason);
+    }
+
+    const int device_;
+    const std::function<void(const std::string& reason)> on_refusal_;
+    std::atomic<bool> told_{false};
+};
+
+}  // namespace
+
+std::shared_ptr<PagePinning> page_pinning(int device, std::function<void(const std::string& reason)> on_refusal) {
+    return std::make_shared<RegisteredPages>(device, std::move(on_refusal));
+}
+
+}  // namespace meniscus::cuda

@@ -1,0 +1,149 @@
+// Arrays in pinned memory go to and from a GPU without a copy on the way; those that cannot be pinned go as before.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cuda_runtime.h"
+#include "host_copies.hpp"
+#include "meniscus/meniscus.hpp"
+#include "pipeline/backend.hpp"
+#include "support/particles.hpp"
+#include "support/same_bytes.hpp"
+
+namespace meniscus {
+namespace {
+
+/// A large enough mesh for its arrays to be pinned.
+Settings fine() {
+    Settings settings = test::default_settings();
+    settings.field = Field::color;
+    settings.cell_size = 0.2;
+    return settings;
+}
+
+template <class T>
+bool overlaps(const T& array, const void* begin, std::size_t bytes) {
+    const auto span = std::as_bytes(std::span(array));
+    const auto* const at = static_cast<const std::byte*>(begin);
+    return at < span.data() + span.size() && span.data() < at + bytes;
+}
+
+class PinnedArrays : public testing::Test {
+protected:
+    ~PinnedArrays() override {
+        emulated_device::on_copy = nullptr;
+        emulated_device::before_copy_to_host = nullptr;
+        emulated_device::register_status = cudaSuccess;
+    }
+
+    void reconstruct(const ParticleFrame& frame) {
+        Statistics statistics;
+        download = device->reconstruct(frame, mesh, statistics);
+    }
+    void expect_the_cpus_mesh() {
+        download.finish();
+        const Mesh expected = test::reconstruct(fine(), particles.frame());
+        EXPECT_TRUE(test::same_bytes(mesh.vertices, expected.vertices));
+        EXPECT_TRUE(test::same_bytes(mesh.normals, expected.normals));
+        EXPECT_TRUE(test::same_bytes(mesh.triangles, expected.triangles));
+        EXPECT_TRUE(test::same_bytes(mesh.bricks, expected.bricks));
+    }
+    /// Charged as a reconstructor's meshes are.
+    void adopt_mesh() {
+        mesh.vertices = Array<LatticePosition>(AccountAllocator<LatticePosition>(account));
+        mesh.normals = Array<Normal>(AccountAllocator<Normal>(account));
+        mesh.triangles = Array<Triangle>(AccountAllocator<Triangle>(account));
+        mesh.bricks = Array<MeshBrick>(AccountAllocator<MeshBrick>(account));
+    }
+
+    std::vector<std::string> refusals;
+    const std::shared_ptr<PagePinning> pinning =
+        cuda::page_pinning(0, [this](const std::string& reason) { refusals.push_back(reason); });
+    const std::shared_ptr<MemoryAccount> account = std::make_shared<MemoryAccount>(0, "in memory", nullptr, pinning);
+    const std::shared_ptr<MemoryAccount> device_account = std::make_shared<MemoryAccount>(0, "on the GPU");
+    std::unique_ptr<BackendReconstruction> device =
+        cuda::make_reconstruction(fine(), BackendOptions{}, account, device_account);
+    const test::Particles particles = test::splash(4, 7);
+    Mesh mesh;
+    MeshDownload download;  // ends before the mesh
+};
+
+TEST_F(PinnedArrays, AMeshComesDownToThemWithoutACopyOnTheWay) {
+    adopt_mesh();
+    std::size_t straight = 0;
+    for (int frame = 0; frame < 3; ++frame) {
+        reconstruct(particles.frame());
+        ASSERT_GE(mesh.triangles.size() * sizeof(Triangle), PagePinning::least_bytes);
+        straight = 0;
+        emulated_device::on_copy = [&](const void* to, const void*, std::size_t bytes, cudaMemcpyKind) {
+            if (overlaps(mesh.triangles, to, bytes) || overlaps(mesh.vertices, to, bytes)) straight += bytes;
+        };
+        expect_the_cpus_mesh();
+        emulated_device::on_copy = nullptr;
+        EXPECT_EQ(straight, mesh.triangles.size() * sizeof(Triangle) + mesh.vertices.size() * sizeof(LatticePosition));
+    }
+    EXPECT_TRUE(refusals.empty());
+}
+
+TEST_F(PinnedArrays, WhereMemoryCannotBePinnedTheMeshComesDownAsBeforeAndThatIsToldOnce) {
+    emulated_device::register_status = cudaErrorMemoryAllocation;
+    adopt_mesh();
+    for (int frame = 0; frame < 3; ++frame) {
+        reconstruct(particles.frame());
+        emulated_device::on_copy = [&](const void* to, const void*, std::size_t bytes, cudaMemcpyKind) {
+            EXPECT_FALSE(overlaps(mesh.triangles, to, bytes));
+        };
+        expect_the_cpus_mesh();
+        emulated_device::on_copy = nullptr;
+        mesh = {};
+        download = {};
+        adopt_mesh();
+    }
+    ASSERT_EQ(refusals.size(), 1U);
+    EXPECT_EQ(refusals[0], "out of memory");
+}
+
+TEST_F(PinnedArrays, NothingIsWrittenToAMeshAfterItsDownloadHasFailed) {
+    adopt_mesh();
+    reconstruct(particles.frame());
+    int copies = 0;
+    // The vertices are on their way by then.
+    emulated_device::before_copy_to_host = [&] { return ++copies == 3 ? cudaErrorLaunchFailure : cudaSuccess; };
+    EXPECT_THROW(download.start(), DeviceError);
+    emulated_device::before_copy_to_host = nullptr;
+    const LatticePosition mark{1, 2, 3};
+    std::fill(mesh.vertices.begin(), mesh.vertices.end(), mark);
+    device.reset();  // works off what is left on its streams
+    download = {};
+    EXPECT_TRUE(std::ranges::all_of(mesh.vertices, [&](const LatticePosition& v) { return v == mark; }));
+}
+
+TEST_F(PinnedArrays, ParticlesGoUpFromThemWithoutACopyOnTheWay) {
+    const ParticleFrame frame = particles.frame();
+    Array<float> positions{AccountAllocator<float>(std::make_shared<MemoryAccount>())};
+    positions.assign(frame.positions.begin(), frame.positions.end());
+    pinning->pin(positions.data(), positions.size() * sizeof(float));
+    ParticleFrame pinned = frame;
+    pinned.positions = positions;
+    for (const ParticleFrame& each : {pinned, frame}) {
+        bool straight = false;
+        emulated_device::on_copy = [&](const void*, const void* from, std::size_t bytes, cudaMemcpyKind kind) {
+            if (kind == cudaMemcpyHostToDevice && overlaps(each.positions, from, bytes)) straight = true;
+        };
+        reconstruct(each);
+        emulated_device::on_copy = nullptr;
+        EXPECT_EQ(straight, each.positions.data() == positions.data());
+        expect_the_cpus_mesh();
+    }
+    pinning->unpin(positions.data());
+}
+
+}  // namespace
+}  // namespace meniscus
