@@ -78,6 +78,13 @@ __device__ inline Counter take_places(Counter* counter, std::uint32_t count) {
     return __shfl_sync(all_lanes, first, 0) + below;
 }
 
+/// In all lanes.
+__device__ inline std::uint32_t sum_of_lanes(std::uint32_t value) {
+    for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2)
+        value += __shfl_xor_sync(all_lanes, value, static_cast<int>(distance));
+    return value;
+}
+
 /// Adds the lanes' values to a count.
 __device__ inline void add_of_lanes(unsigned long long* counter, unsigned long long value) {
     for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2)

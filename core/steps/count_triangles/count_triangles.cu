@@ -2,9 +2,9 @@
 #include "steps/count_triangles/count_triangles.hpp"
 
 #include "engine/cuda/warp.hpp"
+#include "steps/count_triangles/warp_signs.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/fill_cracks/fill_cracks.hpp"
-#include "steps/shared_closed_cell.hpp"
 
 namespace meniscus::cuda {
 namespace {
@@ -27,27 +27,40 @@ __global__ void __launch_bounds__(block_threads) list_band(const __grid_constant
             if (band_cells[l] != 0) atomicAdd(&f.counts->band_cells[l], band_cells[l]);
 }
 
-/// One warp for every cell of the band.
+/// One warp for every four cells of the band.
 __global__ void __launch_bounds__(block_threads) count_cells(const __grid_constant__ State f) {
+    __shared__ std::uint8_t triangles[cube_case_count];
+    __shared__ WarpSigns all_signs[block_warps];
+    __shared__ Counter total[3];
+    if (threadIdx.x < 3) total[threadIdx.x] = 0;
+    static_assert(block_threads == cube_case_count);
+    triangles[threadIdx.x] = f.cube_table[threadIdx.x].triangles;
+    __syncthreads();
+    WarpSigns& signs = all_signs[warp_in_block()];
     const BlocksView blocks = f.blocks();
-    Counter total[3] = {0, 0, 0};
-    each_by_warp(f.listed(List::band), [&](std::uint32_t i) {
-        const std::uint32_t block = f.band_cells[i];
-        const int level = blocks.level[block];
-        const int stride = level_stride(level);
-        const SubcellCorners corners = subcell_corners(blocks, block_of_lane(blocks, block), stride);
-        std::uint32_t own = 0;
-        for_each_subcell_together(corners, stride,
-                                  [&](int, int cube_case) { own += f.cube_table[cube_case].triangles; });
-        std::uint32_t count = 0;
-        sum_of_lanes_below(own, count);
-        if (lane_index() != 0) return;
-        f.triangles_before[block] = {{level == 1 ? count : 0, level == 2 ? count : 0, level == 3 ? count : 0, 0}};
-        for (int l = 1; l <= 3; ++l) total[l - 1] += level == l ? count : 0;
+    const std::uint32_t band = same_in_all_lanes(f.listed(List::band));
+    each_by_warp((band + closed_cells_a_warp - 1) / closed_cells_a_warp, [&](std::uint32_t group) {
+        const CellsOfLanes cells(blocks, f.band_cells, band, closed_cells_a_warp * group);
+        signs.put(blocks, cells);
+        __syncwarp();
+        // Two cells are counted in the halves of a word.
+        std::uint32_t count[closed_cells_a_warp / 2] = {};
+        for (unsigned c = 0; c < closed_cells_a_warp; ++c) {
+            const SubcellPair pair = signs.subcells_of_lane(c);
+            for (const std::uint32_t cube_case : pair.cube_case) count[c / 2] += triangles[cube_case] << (c % 2 * 16);
+        }
+        for (std::uint32_t& two : count) two = sum_of_lanes(two);
+        // The next cells take the place of these.
+        __syncwarp();
+        if (!cells.exists || lane_index() % 8 != 0) return;
+        const unsigned cell = lane_index() / 8;
+        const std::uint32_t own = (cell < 2 ? count[0] : count[1]) >> (cell % 2 * 16) & 0xFFFF;
+        f.triangles_before[cells.block] = {};
+        f.triangles_before[cells.block].of[cells.level - 1] = own;
+        atomicAdd(&total[cells.level - 1], Counter{own});
     });
-    if (lane_index() == 0)
-        for (int l = 0; l < 3; ++l)
-            if (total[l] != 0) atomicAdd(&f.counts->triangles[l], total[l]);
+    __syncthreads();
+    if (threadIdx.x < 3 && total[threadIdx.x] != 0) atomicAdd(&f.counts->triangles[threadIdx.x], total[threadIdx.x]);
 }
 
 __global__ void __launch_bounds__(block_threads, 3) count_cracks(const __grid_constant__ State f) {
@@ -100,7 +113,7 @@ __global__ void __launch_bounds__(block_threads) order_by_level_and_brick(const 
 void count_triangles(const State& state, const Launcher& launch) {
     const std::uint64_t blocks = state.capacity[Resource::blocks];
     launch(blocks, block_threads, list_band, state);
-    launch(blocks, block_warps, count_cells, state);
+    launch(blocks, block_warps * closed_cells_a_warp, count_cells, state);
     launch(blocks, block_threads, count_cracks, state);
     // Blocks are numbered brick by brick: one sum orders the mesh by brick and by cell within a brick, for all levels.
     exclusive_sum(state.scratch_memory(), state.triangles_before, blocks + 1, launch.stream);

@@ -1,48 +1,122 @@
-// Step 7 on the GPU.
+// Step 7 on the GPU: a warp lists the triangles of a few cells, then each lane writes one.
 #include "steps/emit_triangles/emit_triangles.hpp"
 
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
-#include "steps/shared_closed_cell.hpp"
+#include "steps/emit_triangles/vertex_counts.hpp"
 
 namespace meniscus::cuda {
 namespace {
 
-/// One warp for every cell of the band, one lane for every subcell.
-__global__ void __launch_bounds__(block_threads, 3) emit_cells(const __grid_constant__ State f) {
-    __shared__ ClosedCell shared[block_warps];
-    ClosedCell& cell = shared[warp_in_block()];
+/// A triangle to be written: its subcell's place (7 bits), its row of TriangleRows (11), its cell (2), and log2 of the
+/// cell's stride.
+using ListedTriangle = std::uint32_t;
+constexpr unsigned row_at = 7, cell_at = 18, stride_at = 20;
+static_assert(closed_cells_a_warp == 4);
+
+/// In shared memory, with room for the cells of nearly all frames. One cell has 64 * 5 triangles at most.
+struct WarpTriangles {
+    static constexpr unsigned room = 512;
+    ListedTriangle list[room];
+    std::uint32_t first[closed_cells_a_warp];  ///< where in the mesh the list's entry 0 lies, were it that cell's
+};
+
+/// What a lane has to list of a cell.
+struct TrianglesOfLane {
+    ListedTriangle first[2];  ///< of each of its subcells
+    unsigned count[2];
+
+    __device__ TrianglesOfLane(const TriangleRows& table, const SubcellPair& pair, unsigned cell,
+                               unsigned stride_shift) {
+        const unsigned place = SubcellPair::x() + points_a_side * (SubcellPair::y() + points_a_side * SubcellPair::z());
+        for (unsigned i = 0; i < 2; ++i) {
+            first[i] = (place + i) | TriangleRows::most * pair.cube_case[i] << row_at | cell << cell_at |
+                       stride_shift << stride_at;
+            count[i] = table.triangles[pair.cube_case[i]];
+        }
+    }
+    TrianglesOfLane() = default;
+    __device__ unsigned all() const { return count[0] + count[1]; }
+    /// Writes the list's entries from `out` on.
+    __device__ void list(ListedTriangle* out) const {
+        for (unsigned i = 0; i < 2; ++i) {
+            for (unsigned t = 0; t < TriangleRows::most; ++t)
+                if (t < count[i]) out[t] = first[i] + (t << row_at);
+            out += count[i];
+        }
+    }
+};
+
+/// One warp for every four cells of the band.
+__global__ void __launch_bounds__(block_threads, 4) emit_cells(const __grid_constant__ State f) {
+    __shared__ TriangleRows table;
+    __shared__ WarpSigns all_signs[block_warps];
+    __shared__ VertexCounts all_vertices[block_warps];
+    __shared__ WarpTriangles all_triangles[block_warps];
+    table.fill(f.cube_table);
+    __syncthreads();
+    WarpSigns& signs = all_signs[warp_in_block()];
+    VertexCounts& vertices = all_vertices[warp_in_block()];
+    WarpTriangles& triangles = all_triangles[warp_in_block()];
     const BlocksView blocks = f.blocks();
-    each_by_warp(f.listed(List::band), [&](std::uint32_t i) {
-        const std::uint32_t block = f.band_cells[i];
-        const int level = blocks.level[block];
-        const int stride = level_stride(level);
-        const std::uint32_t own = block_of_lane(blocks, block);
-        const SubcellCorners corners = subcell_corners(blocks, own, stride);
-        if (corners.mixed(stride) == 0) return;
-        if (lane_index() < 8) cell.block[lane_index()] = own;
+    const unsigned lane = lane_index();
+    const std::uint32_t band = same_in_all_lanes(f.listed(List::band));
+    each_by_warp((band + closed_cells_a_warp - 1) / closed_cells_a_warp, [&](std::uint32_t group) {
+        const CellsOfLanes cells(blocks, f.band_cells, band, closed_cells_a_warp * group);
+        signs.put(blocks, cells);
+        vertices.put(blocks, cells);
         __syncwarp();
-        const SubcellVertices vertex{blocks, cell, stride};
-        std::uint32_t next = f.counts->first_triangle[level - 1] + f.triangles_before[block].of[level - 1];
-        for_each_subcell_together(corners, stride, [&](int bit, int cube_case) {
-            const CubeCase& pattern = f.cube_table[cube_case];
+        TrianglesOfLane own[closed_cells_a_warp];
+        for (unsigned c = 0; c < closed_cells_a_warp; ++c)
+            own[c] = TrianglesOfLane(table, signs.subcells_of_lane(c), c, signs.stride_shift[c]);
+        // Two cells are counted in the halves of a word.
+        std::uint32_t below[closed_cells_a_warp];
+        std::uint32_t begin[closed_cells_a_warp + 1] = {};
+        for (unsigned c = 0; c < closed_cells_a_warp; c += 2) {
             std::uint32_t all = 0;
-            Triangle* out = f.triangles + next + sum_of_lanes_below(pattern.triangles, all);
-            for (int t = 0; t < pattern.triangles; ++t, ++out)
-                for (int corner = 0; corner < 3; ++corner)
-                    (*out)[static_cast<std::size_t>(corner)] =
-                        vertex(bit, pattern.edges[static_cast<std::size_t>(3 * t + corner)]);
-            next += all;
-        });
-        // The next cell takes the place of this one.
-        __syncwarp();
+            const std::uint32_t two = sum_of_lanes_below(own[c].all() | own[c + 1].all() << 16, all);
+            below[c] = two & 0xFFFF;
+            below[c + 1] = two >> 16;
+            begin[c + 1] = begin[c] + (all & 0xFFFF);
+            begin[c + 2] = begin[c + 1] + (all >> 16);
+        }
+        // One cell at a time where there is no room for all.
+        const bool together = begin[closed_cells_a_warp] <= WarpTriangles::room;
+        for (unsigned round = 0; round < (together ? 1 : closed_cells_a_warp); ++round) {
+            std::uint32_t listed = together ? begin[closed_cells_a_warp] : 0;
+            for (unsigned c = 0; c < closed_cells_a_warp; ++c) {
+                if (!together && c != round) continue;
+                if (!together) listed = begin[c + 1] - begin[c];
+                const std::uint32_t first = together ? begin[c] : 0;
+                own[c].list(triangles.list + first + below[c]);
+                if (lane == 8 * c && cells.exists)
+                    triangles.first[c] = f.counts->first_triangle[cells.level - 1] +
+                                         f.triangles_before[cells.block].of[cells.level - 1] - first;
+            }
+            __syncwarp();
+            for (unsigned t = lane; t < listed; t += warp_threads) {
+                const ListedTriangle entry = triangles.list[t];
+                const std::uint32_t row = table.row[entry >> row_at & ((1U << (cell_at - row_at)) - 1)];
+                const unsigned cell = entry >> cell_at & (closed_cells_a_warp - 1);
+                const unsigned stride_shift = entry >> stride_at;
+                const unsigned place = entry & ((1U << row_at) - 1);
+                Triangle& out = f.triangles[triangles.first[cell] + t];
+                for (unsigned k = 0; k < 3; ++k) {
+                    const std::uint32_t edge = row >> (10 * k);
+                    out[k] = vertices.vertex(table, signs, cell, place + ((edge & 31) << stride_shift), edge >> 5 & 3,
+                                             stride_shift);
+                }
+            }
+            // The next ones take the place of these.
+            __syncwarp();
+        }
     });
 }
 
 }  // namespace
 
 void emit_triangles(const State& state, const Launcher& launch) {
-    launch(state.capacity[Resource::blocks], block_warps, emit_cells, state);
+    launch(state.capacity[Resource::blocks], block_warps * closed_cells_a_warp, emit_cells, state);
 }
 
 }  // namespace meniscus::cuda

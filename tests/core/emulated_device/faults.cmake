@@ -50,11 +50,15 @@ plant(lost_flag steps/adjust_levels/sweeps.hpp
 
 # Triangles of a cell lie in the order in which its lanes come by.
 plant(unstable_order steps/emit_triangles/emit_triangles.cu
-  [=[Triangle* out = f.triangles + next + sum_of_lanes_below(pattern.triangles, all);]=]
-  [=[Triangle* out = f.triangles + next + sum_of_lanes_below(pattern.triangles, all);
-            if (FAULTY(unstable_order))
-                out = f.triangles + f.counts->first_triangle[level - 1] +
-                      atomicAdd(&f.triangles_before[block].of[level - 1], std::uint32_t{pattern.triangles});]=])
+  [=[own[c].list(triangles.list + first + below[c]);]=]
+  [=[if (FAULTY(unstable_order)) {
+                    std::uint32_t& come_by = triangles.list[WarpTriangles::room - 1];
+                    if (lane == 0) come_by = 0;
+                    __syncwarp();
+                    below[c] = atomicAdd(&come_by, std::uint32_t{own[c].all()});
+                    __syncwarp();
+                }
+                own[c].list(triangles.list + first + below[c]);]=])
 
 # The largest sums are forgotten where scratch memory is measured.
 plant(scratch_too_small engine/cuda/scans.cu
