@@ -7,37 +7,63 @@
 namespace meniscus::cuda {
 namespace {
 
-/// Calls visit(word's number, its members, bit, block) for the words of bricks with members, each by all lanes of a
-/// warp: half a word at a time, a lane for every bit. `block` is meaningful where the bit is a member.
+/// A word of a brick that all lanes of a warp look at: half a word at a time, a lane for every bit.
+struct WordOfLanes {
+    std::uint32_t number;   ///< among the words of all bricks
+    std::uint64_t members;  ///< of the brick
+    std::uint32_t first;    ///< number of the first of them, or of the next one after it
+
+    __device__ static int bit(int half) { return static_cast<int>(lane_index()) + 32 * half; }
+    __device__ bool holds(int bit) const { return (members >> bit & 1) != 0; }
+    /// Meaningful where the bit is a member.
+    __device__ std::uint32_t block(int bit) const {
+        return first + static_cast<std::uint32_t>(popcount(members & ((std::uint64_t{1} << bit) - 1)));
+    }
+};
+
+/// Calls visit(word) for the words of all bricks, each by all lanes of a warp.
 template <class Visit>
 __device__ void each_word_by_warp(const State& f, const Visit& visit) {
     each_by_warp(Brick::words * f.count(Resource::bricks), [&](std::uint32_t i) {
         const Brick& brick = f.bricks[i / Brick::words];
-        const int w = static_cast<int>(i % Brick::words);
-        const std::uint64_t members = brick.occupied[w];
-        for (int half = 0; half < 2; ++half) {
-            const int bit = static_cast<int>(lane_index()) + 32 * half;
-            const auto before = static_cast<std::uint32_t>(popcount(members & ((std::uint64_t{1} << bit) - 1)));
-            visit(i, members, bit, brick.first + brick.rank[w] + before);
-        }
+        const std::uint32_t w = i % Brick::words;
+        visit(WordOfLanes{i, brick.occupied[w], brick.first + brick.rank[w]});
     });
+}
+
+/// The same in all lanes: each looks up one corner in one set.
+__device__ CornerSets corner_sets_together(const BaseVertexSets& vertices, std::uint32_t brick, int w) {
+    const int i = static_cast<int>(lane_index());
+    const Int3 corner{i & 1, i >> 1 & 1, i >> 2 & 1};
+    const bool is_deep = (i & 8) != 0;
+    const CellSetView set{vertices.inside.grid, is_deep ? vertices.deep.words : vertices.inside.words};
+    // All are deep where none is not.
+    std::uint64_t any = set.moved(brick, w, corner) ^ (is_deep ? ~std::uint64_t{0} : 0);
+    for (int distance = 4; distance > 0; distance /= 2) any |= __shfl_xor_sync(all_lanes, any, distance);
+    CornerSets sets;
+    sets.any_inside = __shfl_sync(all_lanes, any, 0);
+    sets.all_deep = ~__shfl_sync(all_lanes, any, 8);
+    return sets;
 }
 
 /// All words: those without a member are neighbors of others.
 __global__ void __launch_bounds__(block_threads) collect_base_vertices(const __grid_constant__ State f) {
     const BlocksView blocks = f.blocks();
     const BandTest test{f.settings.iso, f.settings.deep_inside};
-    each_word_by_warp(f, [&](std::uint32_t word, std::uint64_t members, int bit, std::uint32_t block) {
-        const bool exists = (members >> bit & 1) != 0;
-        const bool inside = exists && (blocks.inside[block] & 1) != 0;
-        const bool deep = inside && test.is_deep(blocks.value(block, 0));
-        const std::uint32_t all_inside = __ballot_sync(all_lanes, inside ? 1 : 0);
-        const std::uint32_t all_deep = __ballot_sync(all_lanes, deep ? 1 : 0);
-        if (lane_index() != 0) return;
-        // The lower half of a word comes first in memory.
-        const std::uint64_t half = 2 * std::uint64_t{word} + (bit != 0 ? 1 : 0);
-        reinterpret_cast<std::uint32_t*>(f.base_inside)[half] = all_inside;
-        reinterpret_cast<std::uint32_t*>(f.base_deep)[half] = all_deep;
+    each_word_by_warp(f, [&](const WordOfLanes& word) {
+        for (int half = 0; half < 2; ++half) {
+            const int bit = WordOfLanes::bit(half);
+            const std::uint32_t block = word.block(bit);
+            const bool inside = word.holds(bit) && (blocks.inside[block] & 1) != 0;
+            const bool deep = inside && test.is_deep(blocks.value(block, 0));
+            const std::uint32_t all_inside = __ballot_sync(all_lanes, inside ? 1 : 0);
+            const std::uint32_t all_deep = __ballot_sync(all_lanes, deep ? 1 : 0);
+            if (lane_index() != 0) continue;
+            // The lower half of a word comes first in memory.
+            const std::uint64_t at = 2 * std::uint64_t{word.number} + static_cast<unsigned>(half);
+            reinterpret_cast<std::uint32_t*>(f.base_inside)[at] = all_inside;
+            reinterpret_cast<std::uint32_t*>(f.base_deep)[at] = all_deep;
+        }
     });
 }
 
@@ -45,16 +71,21 @@ __global__ void __launch_bounds__(block_threads) collect_base_vertices(const __g
 __global__ void __launch_bounds__(block_threads, 4) find_band(const __grid_constant__ State f, bool bends) {
     const BaseVertexSets vertices{{f.grid(), f.base_inside}, {f.grid(), f.base_deep}};
     const BandTest test{f.settings.iso, f.settings.deep_inside};
-    each_word_by_warp(f, [&](std::uint32_t word, std::uint64_t members, int bit, std::uint32_t block) {
-        if (members == 0) return;
-        const CornerSets corners(vertices, word / Brick::words, static_cast<int>(word % Brick::words));
-        const bool exists = (members >> bit & 1) != 0;
-        const bool in_band = exists && corners.may_hold_surface(bit, test, f.reaches[block].bound);
-        if (exists) f.level[block] = in_band ? 1 : 0;
-        if (!bends) return;
-        if (exists) f.bends[block] = {0.0F, 1};
-        const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(List::bends)], in_band ? 1 : 0);
-        if (in_band) f.chosen[at] = block;
+    each_word_by_warp(f, [&](const WordOfLanes& word) {
+        if (word.members == 0) return;
+        const CornerSets corners =
+            corner_sets_together(vertices, word.number / Brick::words, static_cast<int>(word.number % Brick::words));
+        for (int half = 0; half < 2; ++half) {
+            const int bit = WordOfLanes::bit(half);
+            const std::uint32_t block = word.block(bit);
+            const bool exists = word.holds(bit);
+            const bool in_band = exists && corners.may_hold_surface(bit, test, f.reaches[block].bound);
+            if (exists) f.level[block] = in_band ? 1 : 0;
+            if (!bends) continue;
+            if (exists) f.bends[block] = {0.0F, 1};
+            const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(List::bends)], in_band ? 1 : 0);
+            if (in_band) f.chosen[at] = block;
+        }
     });
 }
 

@@ -106,6 +106,7 @@ struct CornerSets {
     std::uint64_t any_inside = 0;
     std::uint64_t all_deep = ~std::uint64_t{0};
 
+    CornerSets() = default;
     MENISCUS_HD CornerSets(const BaseVertexSets& vertices, std::uint32_t brick, int w) {
         for (int i = 0; i < 8; ++i) {
             const Int3 corner{i & 1, i >> 1 & 1, i >> 2};
