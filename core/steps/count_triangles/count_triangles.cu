@@ -5,6 +5,7 @@
 #include "steps/count_triangles/warp_signs.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/fill_cracks/fill_cracks.hpp"
+#include "steps/fill_cracks/warp_cracks.hpp"
 
 namespace meniscus::cuda {
 namespace {
@@ -63,18 +64,52 @@ __global__ void __launch_bounds__(block_threads) count_cells(const __grid_consta
     if (threadIdx.x < 3 && total[threadIdx.x] != 0) atomicAdd(&f.counts->triangles[threadIdx.x], total[threadIdx.x]);
 }
 
-__global__ void __launch_bounds__(block_threads, 3) count_cracks(const __grid_constant__ State f) {
+/// A lane finds out whether a cell has a coarser neighbor; those that have go through the warp four at a time.
+__global__ void __launch_bounds__(block_threads) count_cracks(const __grid_constant__ State f) {
+    __shared__ ClosedPoints points;
+    __shared__ WarpSigns all_signs[block_warps];
+    __shared__ WarpCracks all_cracks[block_warps];
+    __shared__ std::uint32_t all_fine[block_warps][warp_threads];
+    const std::uint32_t* const of_level = f.counts->band_cells;
+    // Cells of one level have no cracks.
+    if ((of_level[0] != 0 ? 1 : 0) + (of_level[1] != 0 ? 1 : 0) + (of_level[2] != 0 ? 1 : 0) < 2) return;
+    points.fill();
+    __syncthreads();
+    WarpSigns& signs = all_signs[warp_in_block()];
+    WarpCracks& cracks = all_cracks[warp_in_block()];
+    std::uint32_t(&fine)[warp_threads] = all_fine[warp_in_block()];
     const BlocksView blocks = f.blocks();
     constexpr int crack = static_cast<int>(TriangleLevel::crack);
     Counter total = 0;
     GridLoop{}.each_together(f.listed(List::band), [&](std::uint32_t i, bool exists) {
         const std::uint32_t block = exists ? f.band_cells[i] : 0;
-        const std::uint32_t count = exists ? count_crack_triangles(blocks, block, f.crack_table) : 0;
-        const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(List::cracks)], count != 0 ? 1 : 0);
-        if (count == 0) return;
-        f.triangles_before[block].of[crack] = count;
-        f.cracked_cells[at] = block;
-        total += count;
+        const std::uint32_t listed = __ballot_sync(all_lanes, exists && has_coarser_neighbor(blocks, block) ? 1 : 0);
+        if ((listed >> lane_index() & 1) != 0) fine[__popc(listed & ((1U << lane_index()) - 1))] = block;
+        __syncwarp();
+        const auto n = static_cast<std::uint32_t>(__popc(listed));
+        for (std::uint32_t first = 0; first < n; first += closed_cells_a_warp) {
+            const CellsOfLanes cells(blocks, fine, n, first);
+            signs.put(blocks, cells);
+            const std::uint32_t faces = cracks.list(blocks, cells);
+            __syncwarp();
+            // A cell has six faces of four subfaces with up to eight triangles: a byte counts them.
+            std::uint32_t counts = 0;
+            cracks.for_each_subface_together(signs, faces, [&](const CrackSubface& subface) {
+                if (!subface.exists) return;
+                const std::uint32_t own = f.crack_table[subface.crack_case(points, signs)].triangles;
+                counts += own << (8 * subface.cell);
+            });
+            counts = sum_of_lanes(counts);
+            const std::uint32_t count = lane_index() % 8 == 0 ? counts >> lane_index() & 0xFF : 0;
+            const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(List::cracks)], count != 0 ? 1 : 0);
+            if (count != 0) {
+                f.triangles_before[cells.block].of[crack] = count;
+                f.cracked_cells[at] = cells.block;
+                total += count;
+            }
+        }
+        // The next cells take the place of these.
+        __syncwarp();
     });
     add_of_lanes(&f.counts->triangles[crack], total);
 }

@@ -16,6 +16,37 @@ inline constexpr unsigned closed_cells_a_warp = warp_threads / 8;  ///< each lan
 inline constexpr unsigned closed_half_words = 16;  ///< block dx + 2 dy + 4 dz has numbers 2 block and 2 block + 1
 inline constexpr int points_a_side = base_cell_size + 1;
 
+/// Where the points of a closed cell lie, by their places x + 5 y + 25 z. For a block of threads.
+struct ClosedPoints {
+    static constexpr int count = points_a_side * points_a_side * points_a_side;
+
+    struct alignas(8) Point {
+        std::uint32_t below;  ///< the bits below the point's own in its half word
+        std::uint32_t half;   ///< the number of that
+    };
+    Point point[count];
+
+    MENISCUS_HD static constexpr unsigned place(unsigned x, unsigned y, unsigned z) {
+        return x + points_a_side * (y + points_a_side * z);
+    }
+    /// The distance of the places of two points one apart along an axis.
+    MENISCUS_HD static constexpr unsigned step(unsigned axis) {
+        return axis == 0 ? place(1, 0, 0) : axis == 1 ? place(0, 1, 0) : place(0, 0, 1);
+    }
+    /// All threads of a block must call this, and wait for each other before any reads.
+    __device__ void fill() {
+        static_assert(block_threads >= count);
+        const int i = static_cast<int>(threadIdx.x);
+        if (i >= count) return;
+        const int x = i % points_a_side;
+        const int y = i / points_a_side % points_a_side;
+        const int z = i / (points_a_side * points_a_side);
+        const int bit = ClosedCell::bit(x, y, z);
+        const int block = x >> 2 | (y >> 2) << 1 | (z >> 2) << 2;
+        point[i] = {(1U << (bit & 31)) - 1, static_cast<std::uint32_t>(2 * block + (bit >> 5))};
+    }
+};
+
 /// The cells of a list that a warp works on, each known to eight lanes.
 struct CellsOfLanes {
     bool exists;          ///< whether there is a cell for this lane
@@ -42,6 +73,7 @@ struct SubcellPair {
     __device__ static unsigned x() { return 2 * (lane_index() & 1); }
     __device__ static unsigned y() { return lane_index() >> 1 & 3; }
     __device__ static unsigned z() { return lane_index() >> 3; }
+    __device__ static unsigned place() { return ClosedPoints::place(x(), y(), z()); }
 };
 
 struct WarpSigns {
@@ -66,6 +98,10 @@ struct WarpSigns {
         const std::uint32_t rows = (low | high << 16) >> SubcellPair::x();
         const bool has_first = (stride_points(static_cast<int>(stride)) >> (2 * lane_index()) & 1) != 0;
         return {{has_first ? cube_case(rows, stride) : 0, stride == 1 ? cube_case(rows >> 1, 1) : 0}};
+    }
+    __device__ bool is_inside(const ClosedPoints& points, unsigned cell, unsigned place) const {
+        const ClosedPoints::Point point = points.point[place];
+        return (inside[cell][point.half] & (point.below + 1)) != 0;
     }
 
 private:

@@ -28,9 +28,8 @@ struct TrianglesOfLane {
 
     __device__ TrianglesOfLane(const TriangleRows& table, const SubcellPair& pair, unsigned cell,
                                unsigned stride_shift) {
-        const unsigned place = SubcellPair::x() + points_a_side * (SubcellPair::y() + points_a_side * SubcellPair::z());
         for (unsigned i = 0; i < 2; ++i) {
-            first[i] = (place + i) | TriangleRows::most * pair.cube_case[i] << row_at | cell << cell_at |
+            first[i] = (SubcellPair::place() + i) | TriangleRows::most * pair.cube_case[i] << row_at | cell << cell_at |
                        stride_shift << stride_at;
             count[i] = table.triangles[pair.cube_case[i]];
         }
@@ -50,10 +49,12 @@ struct TrianglesOfLane {
 /// One warp for every four cells of the band.
 __global__ void __launch_bounds__(block_threads, 4) emit_cells(const __grid_constant__ State f) {
     __shared__ TriangleRows table;
+    __shared__ ClosedPoints points;
     __shared__ WarpSigns all_signs[block_warps];
     __shared__ VertexCounts all_vertices[block_warps];
     __shared__ WarpTriangles all_triangles[block_warps];
     table.fill(f.cube_table);
+    points.fill();
     __syncthreads();
     WarpSigns& signs = all_signs[warp_in_block()];
     VertexCounts& vertices = all_vertices[warp_in_block()];
@@ -103,7 +104,7 @@ __global__ void __launch_bounds__(block_threads, 4) emit_cells(const __grid_cons
                 Triangle& out = f.triangles[triangles.first[cell] + t];
                 for (unsigned k = 0; k < 3; ++k) {
                     const std::uint32_t edge = row >> (10 * k);
-                    out[k] = vertices.vertex(table, signs, cell, place + ((edge & 31) << stride_shift), edge >> 5 & 3,
+                    out[k] = vertices.vertex(points, signs, cell, place + ((edge & 31) << stride_shift), edge >> 5 & 3,
                                              stride_shift);
                 }
             }

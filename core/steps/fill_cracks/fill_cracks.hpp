@@ -21,6 +21,17 @@ struct CrackFace {
     int corner[3];  ///< lowest point, in the fine cell's closed coordinates
 };
 
+/// Whether beyond a face of a cell of the band lies a coarser one.
+MENISCUS_HD inline bool has_coarser_neighbor(const BlocksView& blocks, std::uint32_t block) {
+    const int level = blocks.level[block];
+    if (level == 1) return false;
+    for (int face = 0; face < 6; ++face) {
+        const int other = blocks.level_or_none(blocks.neighbor(block, axis_offset(face >> 1, 2 * (face & 1) - 1)));
+        if (other != 0 && other < level) return true;
+    }
+    return false;
+}
+
 /// Calls visit(face, crack case) for every subface of a fine cell that has a coarser neighbor beyond and sees both
 /// signs.
 template <class Visit>
