@@ -5,8 +5,10 @@
 #include <chrono>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "attribute_choice.hpp"
@@ -81,6 +83,7 @@ public:
     Impl(const Settings& settings, const BackendOptions& options)
         : settings_(checked(settings)),
           attributes_(settings),
+          attributes_to_send_(settings),
           options_(options),
           device_account_(std::make_shared<MemoryAccount>(options.device_memory_limit, "on the GPU",
                                                           options.shared_device_memory)) {
@@ -126,7 +129,7 @@ public:
         } catch (...) {
             mesh = {};
             has_surface_ = false;
-            backend_.reset();
+            drop_backend();
             throw;
         }
     }
@@ -144,9 +147,28 @@ public:
         return mesh;
     }
 
+    FrameUpload send_ahead(const ParticleFrame& frame) noexcept {
+        std::shared_ptr<FrameSender> sender;
+        {
+            const std::lock_guard lock(sender_mutex_);
+            sender = sender_;
+        }
+        if (sender == nullptr) return {};
+        try {
+            validate_lengths(frame);
+            const std::vector<ParticleArray> attributes = attributes_to_send_.of(frame);
+            ParticleFrame chosen = frame;
+            chosen.arrays = attributes;
+            if (const std::uint64_t number = sender->send(chosen); number != 0) return {std::move(sender), number};
+        } catch (const std::exception&) {
+            // Its reconstruction tells what is wrong with it.
+        }
+        return {};
+    }
+
     void release_memory() {
         has_surface_ = false;
-        backend_.reset();
+        drop_backend();
     }
 
     const Statistics& statistics() const { return statistics_; }
@@ -162,6 +184,15 @@ private:
         backend_ = options_.backend == Backend::cuda
                        ? cuda::make_reconstruction(settings_, options_, account_, device_account_)
                        : cpu::make_reconstruction(settings_, options_, account_);
+        set_sender(backend_->sender());
+    }
+    void drop_backend() {
+        set_sender(nullptr);
+        backend_.reset();
+    }
+    void set_sender(std::shared_ptr<FrameSender> sender) {
+        const std::lock_guard lock(sender_mutex_);
+        sender_.swap(sender);
     }
 
     struct ValidFrame {
@@ -192,7 +223,7 @@ private:
             throw;
         } catch (...) {
             forget_last_frame();
-            backend_.reset();
+            drop_backend();
             throw;
         }
         attributes_.keep(valid.attributes);
@@ -240,11 +271,11 @@ private:
         } catch (const Stopped&) {
             throw;  // giving back much memory would take long
         } catch (const Crowded& crowded) {
-            backend_.reset();
+            drop_backend();
             throw LimitExceeded(crowded.what() + fitting_radius_hint(frame.particles, settings_));
         } catch (...) {
             // The arrays may have grown up to the limit, or a device may have failed: the next frame begins afresh.
-            backend_.reset();
+            drop_backend();
             throw;
         }
         has_surface_ = true;
@@ -287,11 +318,14 @@ private:
 
     Settings settings_;
     AttributeChoice attributes_;
+    const AttributeChoice attributes_to_send_;  ///< does not change, as another thread may be at it
     BackendOptions options_;
     std::shared_ptr<MemoryAccount> account_;
     std::shared_ptr<MemoryAccount> device_account_;
     std::unique_ptr<BackendReconstruction> backend_;  ///< none after a failure
-    bool has_surface_ = false;                        ///< of the last frame, in the backend
+    std::mutex sender_mutex_;
+    std::shared_ptr<FrameSender> sender_;  ///< the backend's; with the mutex held
+    bool has_surface_ = false;             ///< of the last frame, in the backend
     Statistics statistics_;
 };
 
@@ -306,6 +340,9 @@ void Reconstructor::reconstruct(const ParticleFrame& frame, Mesh& mesh) {
 }
 MeshDownload Reconstructor::reconstruct_for_download(const ParticleFrame& frame, Mesh& mesh) {
     return impl_->reconstruct_for_download(frame, mesh);
+}
+FrameUpload Reconstructor::send_ahead(const ParticleFrame& frame) noexcept {
+    return impl_->send_ahead(frame);
 }
 void Reconstructor::emit_capped(int max_level, Mesh& mesh) {
     impl_->emit_capped(max_level, mesh);

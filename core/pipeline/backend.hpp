@@ -12,6 +12,7 @@
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
+#include "particles/frame_sender.hpp"
 #include "particles/placed_frame.hpp"
 
 namespace meniscus {
@@ -38,8 +39,10 @@ public:
         throw InvalidInput(
             "the CPU backend takes no particles from a GPU: copy them to host memory, or use the backend cuda");
     }
-    /// After that: the numbers of the frame's arrays, which can be attributes. Throws InvalidInput, with the words of
-    /// numbers_in_host_memory(), for a value that is not finite.
+    /// What sends frames ahead, which may outlive this one; none on the CPU, where there is nowhere to send them.
+    virtual std::shared_ptr<FrameSender> sender() { return nullptr; }
+    /// After validate_on_device(): the numbers of the frame's arrays, which can be attributes. Throws InvalidInput,
+    /// with the words of numbers_in_host_memory(), for a value that is not finite.
     virtual AttributeNumbers numbers_on_device(const ParticleFrame& frame) { return attribute_numbers(frame.arrays); }
 };
 

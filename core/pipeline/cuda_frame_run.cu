@@ -1,7 +1,11 @@
 // The kernels of a frame by steps:
 //
-//   Upload       pinned memory, or the caller's on the device -> upload, FrameInput    (outside of the graph: its size
-//                is the frame's)
+//   UploadAreas  the caller's arrays -> an area, on a stream of their own                        (of a frame that is
+//   sent
+//                ahead, while the one before is worked at)
+//   Upload       the caller's arrays -> an area, of any other frame; FrameInput               (outside of the graph:
+//   its
+//                size is the frame's)
 //   register     make_keys, sort, mark_starts, scan, store_particles, count_support_cells, measure_crowd;
 //                order_by_payload, store_numbers;
 //                list_reached_bricks, sort, mark_first_keys, scan, store_bricks, mark_reached_cells;
@@ -15,15 +19,17 @@
 //   place        count_vertices, scan, require_room, place_listed; place_group for each group of attributes' numbers
 //   emit, fill   emit_cells, fill_listed, add_volumes
 //   Counts       -> pinned memory; the host waits
-//   PendingMesh  the mesh -> pinned memory -> the caller's arrays           (when they ask for it, on a stream of its
+//   PendingMesh  the mesh -> the caller's arrays                            (when they ask for it, on a stream of its
 //   own)
 //
-// What overlaps: pieces of the upload with copying into pinned memory, pieces of the download with copying out of it, a
-// frame's download with the next one's kernels, and whole frames of different sessions, each on streams of its own.
+// Arrays of the caller's that are not pinned are copied through memory that is. What overlaps: a frame's kernels with
+// the next one's upload and with the download of the mesh before, pieces of a copy through pinned memory with copying
+// into it or out of it, and whole frames of different sessions, each on streams of its own.
 #include "pipeline/cuda_frame_run.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "engine/growth.hpp"
 #include "engine/index_limit.hpp"
@@ -35,11 +41,12 @@
 
 namespace meniscus::cuda {
 
-FrameRun::FrameRun(const LatticeSettings& settings, const BackendOptions& options, MeshSets& sets,
+FrameRun::FrameRun(const LatticeSettings& settings, const BackendOptions& options, MeshSets& sets, UploadAreas& areas,
                    const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account)
     : device_(options.device),
       stop_(options.stop),
       sets_(sets),
+      areas_(areas),
       upload_(account),
       host_counts_(account),
       account_(account),
@@ -72,23 +79,32 @@ void FrameRun::run(const PlacedFrame& placed) {
     particles_ = particles.count();
     // A frame without particles may lack the arrays that the next one brings again.
     const AttributeShape shape = particles_ == 0 ? state_.attributes : placed.attributes.shape;
-    bool grown = make_room({}, payload_bytes, shape);
-    sets_.take(state_);
+    const FrameArrays arrays = arrays_of(particles);
+    const std::uint64_t ahead = particles.sent != nullptr ? particles.sent->number_of(&areas_) : 0;
+    UploadAreas::Place place;
+    sets_.with_room([&] { place = areas_.take(arrays, ahead, stream_); });
     try {
-        run_until_it_fits(placed, grown);
+        const bool grown = make_room({}, payload_bytes, shape);
+        areas_.with_room([&] { sets_.take(state_); });
+        run_until_it_fits(placed, arrays, place, grown);
     } catch (...) {
         // The caller's arrays go back, and may be on their way to the device still.
         stream_.settle();
+        areas_.give_back();
         throw;
     }
+    areas_.give_back();
 }
 
-void FrameRun::run_until_it_fits(const PlacedFrame& placed, bool grown) {
+void FrameRun::run_until_it_fits(const PlacedFrame& placed, const FrameArrays& arrays, UploadAreas::Place place,
+                                 bool grown) {
     for (;;) {
         if (stop_.is_raised()) throw Stopped();
         poison();
         clock_.start(stream_.get());
-        upload_.start(placed, state_, stream_.get());
+        if (!std::exchange(place.is_filled, true))
+            upload_.send_particles(arrays, placed.on_device, place.begin, stream_.get());
+        upload_.send_input(placed, arrays, place.begin, state_, stream_.get());
         CapturedRun& captured = current_graph();
         if (uses_graphs_ && !grown && settled_ && !captured.graph.is_captured())
             captured.graph.capture(stream_.get(), [&] { enqueue(true); });
@@ -107,7 +123,7 @@ void FrameRun::run_until_it_fits(const PlacedFrame& placed, bool grown) {
 }
 
 void FrameRun::emit_capped(int max_level, bool first) {
-    sets_.take(state_);
+    areas_.with_room([&] { sets_.take(state_); });
     for (;; first = false) {
         sets_.poison(state_);
         cap_levels(state_, max_level, first, launcher_);
@@ -132,6 +148,7 @@ void FrameRun::poison() {
 
 void FrameRun::require_whole_guards() {
     memory_.require_whole_guards(state_.arrays());
+    areas_.require_whole_guards();
     sets_.require_whole_guards(state_);
 }
 
@@ -231,7 +248,7 @@ bool FrameRun::make_room(const Needed& needed, std::uint64_t payload_bytes, cons
         std::max({room.particles, room[Resource::reached_bricks], room[Resource::bricks], room[Resource::blocks]}) + 1;
     state_.scratch_bytes =
         scratch_bytes(room.particles, state_.payload_bytes != 0, room[Resource::reached_bricks], sums);
-    sets_.with_room([&] { memory_.assign(state_.arrays()); });
+    areas_.with_room([&] { sets_.with_room([&] { memory_.assign(state_.arrays()); }); });
     state_.upload_tables(stream_.get());
     return true;
 }
@@ -240,7 +257,7 @@ void FrameRun::make_more_room() {
     require_indexable_counts();
     if (!make_room(counts().needed, 0, state_.attributes))
         throw DeviceError("reconstruction", "the counts contradict each other", device_);
-    sets_.with_room([&] { sets_.fit(state_); });
+    areas_.with_room([&] { sets_.with_room([&] { sets_.fit(state_); }); });
 }
 
 void FrameRun::require_indexable_counts() const {

@@ -23,6 +23,7 @@
 #include "engine/cuda/pinned_memory.hpp"
 #include "engine/cuda/state.hpp"
 #include "engine/cuda/upload.hpp"
+#include "engine/cuda/upload_areas.hpp"
 #include "meniscus/backend_options.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "particles/placed_frame.hpp"
@@ -33,7 +34,7 @@ namespace meniscus::cuda {
 
 class FrameRun {
 public:
-    FrameRun(const LatticeSettings& settings, const BackendOptions& options, MeshSets& sets,
+    FrameRun(const LatticeSettings& settings, const BackendOptions& options, MeshSets& sets, UploadAreas& areas,
              const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account);
 
     /// A valid frame, up to its mesh on the device. Throws LimitExceeded for one that crowds or is too much work, and
@@ -70,7 +71,8 @@ private:
     };
 
     /// grown: whether arrays have moved since the frame before.
-    void run_until_it_fits(const PlacedFrame& particles, bool grown);
+    void run_until_it_fits(const PlacedFrame& particles, const FrameArrays& arrays, UploadAreas::Place place,
+                           bool grown);
     /// Puts a frame's kernels on the stream, behind the upload. captured: into a graph.
     void enqueue(bool captured);
     void fetch_counts();
@@ -93,6 +95,7 @@ private:
     int device_;
     MappedStop stop_;
     MeshSets& sets_;
+    UploadAreas& areas_;
     // A frame that failed may have left copies under way: pinned memory outlives the stream, whose end waits for them.
     Upload upload_;
     PinnedMemory host_counts_;

@@ -1,4 +1,5 @@
-// The CUDA backend: the runs of its frames (cuda_frame_run.hpp) and where their meshes lie (engine/cuda/mesh_sets.hpp).
+// The CUDA backend: the runs of its frames (cuda_frame_run.hpp) and where their particles
+// (engine/cuda/upload_areas.hpp) and meshes lie (engine/cuda/mesh_sets.hpp).
 #include <memory>
 #include <optional>
 
@@ -15,7 +16,8 @@ public:
                    const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account)
         : device_(options.device),
           sets_(device_, account, device_account),
-          run_(LatticeSettings(settings), options, sets_, account, device_account) {}
+          areas_(std::make_shared<UploadAreas>(device_, device_account)),
+          run_(LatticeSettings(settings), options, sets_, *areas_, account, device_account) {}
 
     ~Reconstruction() override {
         try {
@@ -24,6 +26,7 @@ public:
             return;  // The device is lost: there is nothing to free on it.
         }
         sets_.give_back(run_.stream());
+        areas_->close();
     }
 
     MeshDownload reconstruct(const PlacedFrame& particles, Mesh& mesh, Statistics& statistics) override {
@@ -67,6 +70,8 @@ public:
         return run_.find_numbers(frame);
     }
 
+    std::shared_ptr<FrameSender> sender() override { return areas_; }
+
     float greatest_sample() override {
         const CurrentDevice current(device_);
         return run_.greatest_sample();
@@ -100,6 +105,7 @@ private:
     int device_;
     std::optional<CurrentDevice> at_end_;  ///< while the members below end, in whatever thread
     MeshSets sets_;
+    std::shared_ptr<UploadAreas> areas_;  ///< until the last frame that was sent ahead is given up
     FrameRun run_;
     bool is_capped_ = false;  ///< whether a mesh of the last frame was emitted with capped levels
 };

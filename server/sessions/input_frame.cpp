@@ -7,6 +7,7 @@ namespace meniscus::server {
 static_assert(std::endian::native == std::endian::little, "the wire's numbers are used in place");
 
 void InputFrame::allocate(std::size_t size) {
+    sent_ = {};
     in_flight_.announce(size);
     retained_.drop();
     shown_in_run.reset();
@@ -50,6 +51,7 @@ ParticleFrame InputFrame::view() const {
     if (has_levels)
         frame.levels = {reinterpret_cast<const std::uint8_t*>(bytes.data()) + position_bytes, particle_count};
     frame.arrays = array_views_;
+    frame.sent = &sent_;
     return frame;
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "meniscus/frame_upload.hpp"
 #include "meniscus/memory.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "sessions/limits/bytes_in_flight.hpp"
@@ -47,12 +48,16 @@ struct InputFrame {
     /// Lets the GPU that reconstructs the frame fetch its bytes by itself, once all have arrived; and those of the
     /// frames that follow in this memory.
     void pin() noexcept { pinned_.hold(std::span(bytes.data(), bytes.capacity())); }
+    /// Sends the frame, which is complete, ahead of its reconstruction. send: see ReconstructFunctions::send_ahead.
+    void send_ahead(const std::function<FrameUpload(const ParticleFrame& frame)>& send) { sent_ = send(view()); }
     /// Its bytes are no longer in flight. Its memory stays for the next frame, if there is room for it.
     void land() noexcept {
+        sent_ = {};
         in_flight_.release();
         if (!retained_.hold(bytes.capacity())) free_memory();
     }
     void free_memory() noexcept {
+        sent_ = {};
         pinned_.drop();
         Array<std::byte>(bytes.get_allocator()).swap(bytes);
         particle_count = 0;
@@ -68,6 +73,7 @@ struct InputFrame {
         quantized = other.quantized;
         has_levels = other.has_levels;
         quantization_box = other.quantization_box;
+        sent_ = {};
         pinned_.drop();
         other.pinned_.drop();
         // Its allocator stays, with its account.
@@ -104,6 +110,7 @@ private:
     FrameInFlight in_flight_;
     RetainedMemory retained_;
     PinnedBytes pinned_;  ///< ends before `bytes`
+    FrameUpload sent_;    ///< ends before `pinned_`
 };
 
 }  // namespace meniscus::server

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "meniscus/frame_upload.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
 #include "meniscus/particle_frame.hpp"
@@ -31,6 +32,10 @@ struct ReconstructFunctions {
     std::function<void(int max_level, Mesh& mesh)> emit_capped{};
     /// Once it is raised, both throw Stopped soon. None: nothing stops them.
     std::shared_ptr<StopFlag> stop{};
+    /// Begins to copy a frame's particles to where they are reconstructed, see Reconstructor::send_ahead(). For any
+    /// thread, also while the others are called and when nobody calls them any more. None: there is nowhere to copy
+    /// them.
+    std::function<FrameUpload(const ParticleFrame& frame)> send_ahead{};
     /// Gives the buffers back until the next frame. May be none.
     std::function<void()> release_memory{};
 };

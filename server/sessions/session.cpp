@@ -62,6 +62,7 @@ Session::Session(SessionIdentity identity, const Settings& settings, const Limit
           std::make_shared<SessionInFlight>(SessionInFlight{.name = account() ? account()->in_flight() : nullptr})),
       inputs_(std::make_shared<MemoryAccount>(limits.bytes_per_session), context_.shared.bytes_in_flight, in_flight_,
               context_.shared.memory, context_.shared.pinning),
+      send_ahead_(functions.send_ahead),
       frame_stop_(functions.stop, context_.shared.deadlines, limits.frame_time),
       frame_rate_(limits.frames_per_second),
       encoding_(context_, watchers_,
@@ -158,6 +159,8 @@ void Session::admit_frame(std::uint64_t index) {
 
 void Session::submit(std::shared_ptr<Upload> upload, InputFrame& input) {
     std::vector<InputFrame*> unused;
+    // Nobody else sees the frame yet.
+    if (send_ahead_ && is_to_be_reconstructed(upload)) input.send_ahead(send_ahead_);
     {
         const std::lock_guard lock(mutex_);
         // Otherwise the session has ended the upload, or another stream has resumed its run and sends this frame too.
@@ -167,6 +170,12 @@ void Session::submit(std::shared_ptr<Upload> upload, InputFrame& input) {
             unused.push_back(&input);
     }
     for (InputFrame* each : unused) inputs_.give_back(*each);
+}
+
+bool Session::is_to_be_reconstructed(const std::shared_ptr<Upload>& upload) const {
+    const std::lock_guard lock(mutex_);
+    const UploadOptions& options = upload->options;
+    return upload_ == upload && (options.policy != UploadPolicy::every_nth || upload->submitted % options.nth == 0);
 }
 
 std::vector<InputFrame*> Session::enqueue(std::shared_ptr<Upload> upload, InputFrame& input) {

@@ -150,6 +150,8 @@ private:
     void set_upload(std::shared_ptr<Upload> upload);
     /// As the upload's policy says. Returns the inputs that are free again.
     std::vector<InputFrame*> enqueue(std::shared_ptr<Upload> upload, InputFrame& input);
+    /// Whether the frame that is submitted next will be, unless a newer one replaces it. Takes the lock.
+    bool is_to_be_reconstructed(const std::shared_ptr<Upload>& upload) const;
 
     // Called by the encoding thread.
 
@@ -169,6 +171,7 @@ private:
     InputSlots inputs_;
     FrameQueue received_;
     Watchers watchers_;
+    const std::function<FrameUpload(const ParticleFrame& frame)> send_ahead_;  ///< may be none
     FrameStop frame_stop_;
 
     mutable std::mutex mutex_;  ///< for what follows; taken before the lock of `watchers_`

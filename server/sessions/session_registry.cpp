@@ -62,6 +62,12 @@ ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOpt
                 },
             .emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); },
             .stop = stop,
+            .send_ahead =
+                [weak = std::weak_ptr(reconstructor)](const ParticleFrame& frame) {
+                    // A call may keep a session for longer than it keeps its buffers.
+                    const auto alive = weak.lock();
+                    return alive ? alive->send_ahead(frame) : FrameUpload();
+                },
             .release_memory = [reconstructor] { reconstructor->release_memory(); }};
 }
 

@@ -37,7 +37,9 @@ private:
     std::shared_ptr<MemoryAccount> account_ = std::make_shared<MemoryAccount>();
     std::shared_ptr<MemoryAccount> device_account_ = std::make_shared<MemoryAccount>();
     cuda::MeshSets sets_{0, account_, device_account_};
-    cuda::FrameRun run_{LatticeSettings(test::default_settings()), BackendOptions{}, sets_, account_, device_account_};
+    cuda::UploadAreas areas_{0, device_account_};
+    cuda::FrameRun run_{
+        LatticeSettings(test::default_settings()), BackendOptions{}, sets_, areas_, account_, device_account_};
 };
 
 /// The same on the CPU.

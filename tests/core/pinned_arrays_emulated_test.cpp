@@ -14,6 +14,7 @@
 #include "host_copies.hpp"
 #include "meniscus/meniscus.hpp"
 #include "pipeline/backend.hpp"
+#include "support/overlap.hpp"
 #include "support/particles.hpp"
 #include "support/same_bytes.hpp"
 
@@ -28,12 +29,7 @@ Settings fine() {
     return settings;
 }
 
-template <class T>
-bool overlaps(const T& array, const void* begin, std::size_t bytes) {
-    const auto span = std::as_bytes(std::span(array));
-    const auto* const at = static_cast<const std::byte*>(begin);
-    return at < span.data() + span.size() && span.data() < at + bytes;
-}
+using test::overlaps;
 
 class PinnedArrays : public testing::Test {
 protected:
@@ -84,6 +80,7 @@ TEST_F(PinnedArrays, AMeshComesDownToThemWithoutACopyOnTheWay) {
         straight = 0;
         emulated_device::on_copy = [&](const void* to, const void*, std::size_t bytes, cudaMemcpyKind) {
             if (overlaps(mesh.triangles, to, bytes) || overlaps(mesh.vertices, to, bytes)) straight += bytes;
+            return cudaSuccess;
         };
         expect_the_cpus_mesh();
         emulated_device::on_copy = nullptr;
@@ -99,6 +96,7 @@ TEST_F(PinnedArrays, WhereMemoryCannotBePinnedTheMeshComesDownAsBeforeAndThatIsT
         reconstruct(particles.frame());
         emulated_device::on_copy = [&](const void* to, const void*, std::size_t bytes, cudaMemcpyKind) {
             EXPECT_FALSE(overlaps(mesh.triangles, to, bytes));
+            return cudaSuccess;
         };
         expect_the_cpus_mesh();
         emulated_device::on_copy = nullptr;
@@ -136,6 +134,7 @@ TEST_F(PinnedArrays, ParticlesGoUpFromThemWithoutACopyOnTheWay) {
         bool straight = false;
         emulated_device::on_copy = [&](const void*, const void* from, std::size_t bytes, cudaMemcpyKind kind) {
             if (kind == cudaMemcpyHostToDevice && overlaps(each.positions, from, bytes)) straight = true;
+            return cudaSuccess;
         };
         reconstruct(each);
         emulated_device::on_copy = nullptr;

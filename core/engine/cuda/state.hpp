@@ -94,7 +94,7 @@ using Pointer = T*;
 struct State : BlockState<Pointer> {
     LatticeSettings settings;
     Capacities capacity;
-    std::uint64_t payload_bytes = 0;  ///< room in the upload for all arrays of a frame's payload
+    std::uint64_t payload_bytes = 0;  ///< of the frames' payloads: none of more has come
     AttributeShape attributes;
     FrameInput* input = nullptr;
     Counts* counts = nullptr;
@@ -105,7 +105,6 @@ struct State : BlockState<Pointer> {
     std::size_t scratch_bytes = 0;
 
     // Of every particle. Those of a level lie together, levels in ascending order; ParticleSetView explains the rest.
-    std::byte* upload = nullptr;  ///< 12 bytes for a position, one for a level; then payload_bytes
     SortKey* keys = nullptr;      ///< level, ParticleKey::cell, ParticleKey::place
     SortKey* unsorted_keys = nullptr;
     // Only where particles carry a payload:
@@ -170,7 +169,6 @@ struct State : BlockState<Pointer> {
         take("cube_table", cube_table, cube_case_count);
         take("crack_table", crack_table, crack_case_count);
         take("scratch", scratch, scratch_bytes);
-        take("upload", upload, 13 * n + payload_bytes);
         take("keys", keys, n);
         take("unsorted_keys", unsorted_keys, n);
         take("sources", sources, payload_bytes != 0 ? n : 0);
@@ -235,10 +233,6 @@ struct State : BlockState<Pointer> {
               "cudaMemcpyAsync");
     }
 
-    /// Where the positions' levels lie in the upload.
-    std::byte* upload_levels() const { return upload + 12 * capacity.particles; }
-    /// Where the payload's arrays lie there, one after the other.
-    std::byte* upload_payload() const { return upload + 13 * capacity.particles; }
     Scratch scratch_memory() const { return {scratch, scratch_bytes}; }
 
     __device__ bool goes_on() const { return counts->stop == Stop::none; }

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstring>
 #include <memory>
+#include <span>
 
 #include "engine/cuda/pinned_memory.hpp"
 #include "engine/cuda/state.hpp"
+#include "engine/cuda/upload_areas.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "particles/placed_frame.hpp"
 
@@ -20,52 +22,47 @@ public:
         input_.reserve(sizeof(FrameInput));
     }
 
-    /// The last upload must have ended. Positions travel as they are given, and are widened on the device. The frame's
-    /// arrays may be read until this one has ended.
-    void start(const PlacedFrame& placed, const State& state, cudaStream_t stream) {
-        const ParticleFrame& particles = placed.frame;
-        const auto positions =
-            particles.is_quantized() ? std::as_bytes(particles.quantized) : std::as_bytes(particles.positions);
-        const auto levels = std::as_bytes(particles.levels);
+    /// The last upload must have ended. Positions travel as they are given, and are widened on the device. The arrays
+    /// may be read until this upload has ended.
+    void send_particles(const FrameArrays& arrays, bool on_device, std::byte* area, cudaStream_t stream) {
         const auto goes_straight = [&](std::span<const std::byte> array) {
-            return placed.on_device || is_pinned(array.data(), array.size());
+            return on_device || is_pinned(array.data(), array.size());
         };
         std::size_t staged = 0;
-        const auto add_staged = [&](std::span<const std::byte> array) {
+        for (const auto& array : arrays)
             if (!goes_straight(array)) staged += array.size();
-        };
-        add_staged(positions);
-        add_staged(levels);
-        for (const ParticleArray& array : particles.arrays) add_staged(array.data);
         staging_.reserve(staged);
         std::byte* staging = staging_.get();
-        const cudaMemcpyKind kind = placed.on_device ? cudaMemcpyDeviceToDevice : cudaMemcpyHostToDevice;
-        const auto send_next = [&](std::span<const std::byte> from, std::byte* to) {
-            if (goes_straight(from)) {
-                copy(from, to, kind, stream);
-                return;
+        for (const auto& array : arrays) {
+            if (goes_straight(array)) {
+                copy(array, area, on_device ? cudaMemcpyDeviceToDevice : cudaMemcpyHostToDevice, stream);
+            } else {
+                send(array, staging, area, stream);
+                staging += array.size();
             }
-            send(from, staging, to, stream);
-            staging += from.size();
-        };
-        send_next(positions, state.upload);
-        send_next(levels, state.upload_levels());
+            area += room_for(array);
+        }
+    }
 
+    /// Tells the kernels of a frame whose arrays lie in this area, or are on their way.
+    void send_input(const PlacedFrame& placed, const FrameArrays& arrays, const std::byte* area, const State& state,
+                    cudaStream_t stream) {
+        const ParticleFrame& particles = placed.frame;
         auto& input = *new (input_.get()) FrameInput;
         input.particles = static_cast<std::uint32_t>(particles.count());
         input.positions = positions_view(particles, state.settings.units_per_length);
         if (particles.is_quantized())
-            input.positions.quantized = reinterpret_cast<const std::uint16_t*>(state.upload);
+            input.positions.quantized = reinterpret_cast<const std::uint16_t*>(area);
         else
-            input.positions.positions = reinterpret_cast<const float*>(state.upload);
-        if (!particles.levels.empty()) input.levels = reinterpret_cast<const std::uint8_t*>(state.upload_levels());
+            input.positions.positions = reinterpret_cast<const float*>(area);
+        area += room_for(arrays[0]);
+        if (!particles.levels.empty()) input.levels = reinterpret_cast<const std::uint8_t*>(area);
+        area += room_for(arrays[1]);
         input.attributes = placed.attributes;
         input.payload = payload_view(particles);
-        std::byte* to = state.upload_payload();
         for (std::size_t i = 0; i < particles.arrays.size(); ++i) {
-            send_next(particles.arrays[i].data, to);
-            input.payload.data[i] = to;
-            to += particles.arrays[i].data.size();
+            input.payload.data[i] = area;
+            area += room_for(particles.arrays[i].data);
         }
         check(cudaMemcpyAsync(state.input, &input, sizeof(FrameInput), cudaMemcpyHostToDevice, stream),
               "cudaMemcpyAsync");

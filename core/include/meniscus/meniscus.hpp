@@ -9,6 +9,7 @@
 #include "meniscus/device_particles.hpp"
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/frame_upload.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
 #include "meniscus/mesh_hash.hpp"

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "meniscus/element_type.hpp"
+#include "meniscus/frame_upload.hpp"
 #include "meniscus/settings.hpp"
 
 namespace meniscus {
@@ -37,6 +38,7 @@ struct ParticleFrame {
     /// Those that the settings name become attributes of the mesh's vertices, and order particles that lie at one place
     /// by their bytes; the surface does not depend on them. All others are passed over, whatever values they hold.
     std::span<const ParticleArray> arrays{};
+    const FrameUpload* sent = nullptr;  ///< of these very arrays, by the reconstructor that gets them; may be none
 
     bool is_quantized() const { return !quantized.empty(); }
     std::size_t count() const { return (is_quantized() ? quantized.size() : positions.size()) / 3; }

@@ -8,6 +8,7 @@
 #include "meniscus/backend_options.hpp"
 #include "meniscus/device_mesh.hpp"
 #include "meniscus/device_particles.hpp"
+#include "meniscus/frame_upload.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
 #include "meniscus/particle_frame.hpp"
@@ -17,7 +18,7 @@
 namespace meniscus {
 
 /// Reconstructs the surface of particle frames, one after the other, and keeps its buffers between them.
-/// One reconstructor is used by one thread at a time; several may live side by side.
+/// One reconstructor is used by one thread at a time, send_ahead() aside; several may live side by side.
 class Reconstructor {
 public:
     /// Throws InvalidInput for settings or a number of threads out of range, and for a backend or processor that cannot
@@ -39,6 +40,13 @@ public:
     /// may wait on the GPU: a third frame, or one for which the device's memory limit leaves no room for a second mesh,
     /// first downloads the earlier one.
     [[nodiscard]] MeshDownload reconstruct_for_download(const ParticleFrame& frame, Mesh& mesh);
+
+    /// Begins to copy the next frame's particles to the GPU while the frame before is reconstructed, by another thread
+    /// if need be: the only call for two threads at a time. ParticleFrame::sent then tells the reconstruction of it,
+    /// and nothing is copied there. Only a frame whose arrays all lie in pinned memory is sent, one at a time, and none
+    /// before a frame of its size; nowhere else than on a GPU. Where none is sent, the reconstruction does as it would
+    /// have: so the result need not be looked at.
+    [[nodiscard]] FrameUpload send_ahead(const ParticleFrame& frame) noexcept;
 
     /// As reconstruct(), but the mesh stays on the GPU. Throws InvalidInput on the CPU backend.
     DeviceMesh reconstruct_on_device(const ParticleFrame& frame);

@@ -8,8 +8,8 @@
 
 namespace emulated_device {
 
-/// Called, if there, for every copy as it is asked for.
-extern std::function<void(const void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind)> on_copy;
+/// Called, if there, for every copy as it is asked for; what it answers is the copy's status.
+extern std::function<cudaError_t(const void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind)> on_copy;
 /// What cudaHostRegister answers.
 extern cudaError_t register_status;
 

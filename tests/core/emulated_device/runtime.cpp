@@ -81,7 +81,7 @@ std::function<cudaError_t()> emulated_device::before_copy_to_host;
 std::size_t emulated_device::graph_launches = 0;
 cudaError_t emulated_device::elapsed_time_status = cudaSuccess;
 cudaError_t emulated_device::register_status = cudaSuccess;
-std::function<void(const void*, const void*, std::size_t, cudaMemcpyKind)> emulated_device::on_copy;
+std::function<cudaError_t(const void*, const void*, std::size_t, cudaMemcpyKind)> emulated_device::on_copy;
 
 void emulated_device::submit(cudaStream_t stream, const std::function<void()>& work) {
     if (stream->capturing != nullptr)
@@ -255,7 +255,9 @@ cudaError_t cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStre
 cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream) {
     if (kind == cudaMemcpyDeviceToHost && emulated_device::before_copy_to_host)
         if (const cudaError_t status = emulated_device::before_copy_to_host(); status != cudaSuccess) return status;
-    if (emulated_device::on_copy) emulated_device::on_copy(to, from, bytes, kind);
+    if (emulated_device::on_copy)
+        if (const cudaError_t status = emulated_device::on_copy(to, from, bytes, kind); status != cudaSuccess)
+            return status;
     emulated_device::submit(stream, [=] { std::memcpy(to, from, bytes); });
     return cudaSuccess;
 }

@@ -1,10 +1,15 @@
 // The memory that frames arrive in, for a device that fetches them by itself.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <semaphore>
+#include <thread>
 
 #include "sessions/input_frame.hpp"
 #include "simulator_player.hpp"
@@ -96,6 +101,118 @@ TEST_F(PinnedFrames, ASessionPinsItsBuffersAndGivesThemBack) {
         EXPECT_LE(pinning->calls(), 2) << "as many as slots";
     }
     EXPECT_EQ(pinning->now(), 0U);
+}
+
+/// A device to which frames are sent, and which tells what becomes of them.
+class Receiver final : public FrameUpload::Sender {
+public:
+    void withdraw(std::uint64_t number) noexcept override {
+        const std::lock_guard lock(mutex_);
+        ahead_.erase(number);
+    }
+    std::uint64_t send(const void* first) {
+        const std::lock_guard lock(mutex_);
+        ahead_.emplace(++sent_, first);
+        return sent_;
+    }
+    /// The frame's first byte, of one that is ahead still.
+    const void* take(std::uint64_t number) {
+        const std::lock_guard lock(mutex_);
+        const auto found = ahead_.find(number);
+        return found != ahead_.end() ? found->second : nullptr;
+    }
+    std::uint64_t sent() const {
+        const std::lock_guard lock(mutex_);
+        return sent_;
+    }
+    std::size_t ahead() const {
+        const std::lock_guard lock(mutex_);
+        return ahead_.size();
+    }
+
+private:
+    mutable std::mutex mutex_;
+    std::map<std::uint64_t, const void*> ahead_;
+    std::uint64_t sent_ = 0;
+};
+
+struct FramesSentAhead : testing::Test {
+    ~FramesSentAhead() override { gate.release(1000); }
+
+    std::function<FrameUpload(const ParticleFrame&)> send_ahead() {
+        return [receiver = receiver](const ParticleFrame& frame) {
+            return FrameUpload(receiver, receiver->send(frame.positions.data()));
+        };
+    }
+
+    const std::shared_ptr<Receiver> receiver = std::make_shared<Receiver>();
+    std::counting_semaphore<> gate{0};  ///< one reconstruction for each
+    std::atomic<int> begun{0};
+    std::atomic<int> as_sent{0};  ///< frames that were ahead when their reconstruction began
+    Session session{{.id = test::id},
+                    test::settings(),
+                    {},
+                    {.reconstruct =
+                         [this, cpu = test::reconstruct_on_the_cpu()](const ParticleFrame& frame, Mesh& mesh) {
+                             const void* const sent = receiver->take(frame.sent->number_of(receiver.get()));
+                             if (sent == frame.positions.data()) ++as_sent;
+                             ++begun;
+                             gate.acquire();
+                             return cpu(frame, mesh);
+                         },
+                     .send_ahead = send_ahead()},
+                    {.workers = std::make_shared<WorkerPool>(1)}};
+    const test::Particles particles = test::wave(4, 0.0);
+};
+
+TEST_F(FramesSentAhead, EachIsSentAsSoonAsItHasArrivedAndItsReconstructionIsToldOfIt) {
+    test::Simulator simulator(session, {});
+    simulator.send(0, particles);
+    while (begun == 0) std::this_thread::yield();
+    simulator.send(1, particles);
+    EXPECT_EQ(receiver->sent(), 2U) << "while the first is worked at";
+    gate.release(2);
+    simulator.end();
+    EXPECT_EQ(simulator.receive_all().size(), 2U);
+    EXPECT_EQ(as_sent, 2);
+    EXPECT_EQ(receiver->ahead(), 0U);
+}
+
+TEST_F(FramesSentAhead, AFrameThatIsReplacedIsWithdrawnBeforeItsMemoryIsWrittenAgain) {
+    test::Simulator simulator(session, {.policy = UploadPolicy::latest});
+    simulator.send(0, particles);
+    while (begun == 0) std::this_thread::yield();
+    for (std::uint64_t i = 1; i < 5; ++i) {
+        simulator.send(i, particles);
+        EXPECT_EQ(receiver->ahead(), 2U) << "the one that is worked at, and the one that waits";
+    }
+    gate.release(2);
+    simulator.end();
+    EXPECT_EQ(simulator.receive_story().size(), 5U);
+    EXPECT_EQ(as_sent, 2);
+    EXPECT_EQ(receiver->ahead(), 0U);
+}
+
+TEST_F(FramesSentAhead, OneThatIsNotToBeReconstructedIsNotSent) {
+    test::Simulator simulator(session, {.policy = UploadPolicy::every_nth, .nth = 3});
+    gate.release(3);
+    for (std::uint64_t i = 0; i < 8; ++i) simulator.send(i, particles);
+    simulator.end();
+    EXPECT_EQ(simulator.receive_story().size(), 8U);
+    EXPECT_EQ(receiver->sent(), 3U);
+    EXPECT_EQ(as_sent, 3);
+}
+
+TEST_F(FramesSentAhead, WhatWaitsInASessionThatEndsIsWithdrawn) {
+    test::Simulator simulator(session, {});
+    simulator.send(0, particles);
+    while (begun == 0) std::this_thread::yield();
+    simulator.send(1, particles);
+    session.close();
+    EXPECT_EQ(receiver->ahead(), 1U) << "the one that is worked at";
+    gate.release(1);
+    session.join();
+    EXPECT_EQ(receiver->ahead(), 0U);
 }
 
 }  // namespace
