@@ -1,14 +1,12 @@
 // The kernels of a frame by steps:
 //
-//   UploadAreas  the caller's arrays -> an area, on a stream of their own                        (of a frame that is
-//   sent
-//                ahead, while the one before is worked at)
-//   Upload       the caller's arrays -> an area, of any other frame; FrameInput               (outside of the graph:
-//   its
-//                size is the frame's)
-//   register     make_keys, sort, mark_starts, scan, store_particles, count_support_cells, measure_crowd;
-//                order_by_payload, store_numbers;
-//                list_reached_bricks, sort, mark_first_keys, scan, store_bricks, mark_reached_cells;
+//   UploadAreas  the caller's arrays -> an area, on a stream of their own, of a frame that is sent ahead, while the one
+//                before is worked at
+//   Upload       the caller's arrays -> an area, of any other frame; FrameInput  (outside of the graph: its size is the
+//                frame's)
+//   register     make_keys, store_key_part, sort, mark_starts, scan, store_support_cells, store_particles,
+//                stop_if_crowded; order_by_payload, store_numbers;
+//                list_reached_bricks, sort, mark_first_keys, scan, store_bricks, mark_reached_cells, count_members;
 //                scan, number_members, find_neighbors, find_each_near_brick, make_blocks; measure_densities,
 //                divide_weights or count_particles
 //   sample       sample_base
@@ -246,8 +244,7 @@ bool FrameRun::make_room(const Needed& needed, std::uint64_t payload_bytes, cons
     const Capacities& room = state_.capacity;
     const std::uint64_t sums =
         std::max({room.particles, room[Resource::reached_bricks], room[Resource::bricks], room[Resource::blocks]}) + 1;
-    state_.scratch_bytes =
-        scratch_bytes(room.particles, state_.payload_bytes != 0, room[Resource::reached_bricks], sums);
+    state_.scratch_bytes = scratch_bytes(room.particles, room[Resource::reached_bricks], sums);
     areas_.with_room([&] { sets_.with_room([&] { memory_.assign(state_.arrays()); }); });
     state_.upload_tables(stream_.get());
     return true;

@@ -13,12 +13,18 @@ namespace meniscus::cuda {
 /// Step 1: sorts the particles, and stores the base cells that they reach. Also tells the state which of its arrays
 /// hold the sorted keys. has_payload: whether State::sources is to tell where each particle came from.
 void register_particles(State& state, bool has_payload, const Launcher& launch);
+/// Its parts. Sorts the particles, and finds their support cells and the bricks of these.
+void sort_particles(State& state, bool has_payload, const Launcher& launch);
+/// Orders equal particles by their payload, and reads what vertices ask of them.
+void order_payload(const State& state, const Launcher& launch);
 /// Gives every particle a support that fits its neighborhood, and the volume that it stands for: the smooth field.
 void fit_supports(const State& state, const Launcher& launch);
 /// Divides the particles' weights by the density at their places: the color field.
 void divide_weights_by_density(const State& state, const Launcher& launch);
 /// Tells the state which bricks of particles are near each brick of base cells.
 void find_near_bricks(const State& state, const Launcher& launch);
+/// Marks the base cells that the particles reach in their bricks, which hold none so far; counts them.
+void store_reached_cells(const State& state, const Launcher& launch);
 /// Numbers the members of the bricks, whose bits are set and counted in members_before; makes their blocks, none of
 /// them in the band.
 void store_blocks(const State& state, const Launcher& launch);

@@ -1,6 +1,8 @@
 // The arithmetic of the CUDA backend's capacities, which needs no GPU.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/cuda/capacities.hpp"
 
 namespace meniscus::cuda {
@@ -17,7 +19,7 @@ TEST(CudaCapacities, BeginWithRoomForSomethingOfEverything) {
 
 TEST(CudaCapacities, WhatFitsDoesNotGrow) {
     Capacities capacities;
-    const Needed needed{1000, 2000, 3000, 4000, 5000, 6000, 7000};
+    const Needed needed{1000, 2000, 3000, 4000, 5000, 6000, 7000, 8000, 9000, 10000};
     EXPECT_TRUE(capacities.grow_to(100000, needed));
     const Capacities before = capacities;
     EXPECT_FALSE(capacities.grow_to(100000, needed));
@@ -27,7 +29,7 @@ TEST(CudaCapacities, WhatFitsDoesNotGrow) {
 
 TEST(CudaCapacities, OnlyWhatIsTooSmallGrowsAndNothingShrinks) {
     Capacities capacities;
-    capacities.grow_to(1000, Needed{1000, 1000, 1000, 1000, 1000, 1000, 1000});
+    capacities.grow_to(1000, Needed{1000, 1000, 1000, 1000, 1000, 1000, 1000, 1000, 1000, 1000});
     const Capacities before = capacities;
     Needed more{};
     more[static_cast<std::size_t>(Resource::samples)] = 1'000'000;
@@ -49,11 +51,31 @@ TEST(CudaCapacities, CountsBeyond32BitsAreKept) {
 TEST(CudaCapacities, RoomToSpareEndsWhereNumbersDo) {
     Capacities capacities;
     Needed needed{};
-    for (std::size_t r = 0; r < resource_count; ++r) needed[r] = too_many(static_cast<Resource>(r)) - 1;
+    for (std::size_t r = 0; r < resource_count; ++r)
+        needed[r] = std::min<std::uint64_t>(too_many(static_cast<Resource>(r)), no_index) - 1;
     EXPECT_TRUE(capacities.grow_to(0xFFFFFFF0ULL, needed));
     EXPECT_LT(capacities.particles, std::uint64_t{1} << 32);
-    for (const std::uint64_t capacity : capacities.of) EXPECT_LT(capacity, std::uint64_t{1} << 32);
+    for (std::size_t r = 0; r < resource_count; ++r)
+        if (too_many(static_cast<Resource>(r)) <= no_index) EXPECT_LT(capacities.of[r], std::uint64_t{1} << 32);
     EXPECT_LT(Brick::words * capacities[Resource::bricks], std::uint64_t{1} << 32) << "words are numbered too";
+}
+
+TEST(CudaCapacities, WholeKeysAreSortedWhereCellsAreFullOrBoxesAsLargeAsTheWorld) {
+    Capacities capacities;
+    Needed needed{};
+    capacities.grow_to(1'000'000, needed);
+    EXPECT_FALSE(capacities.orders_whole_keys());
+    needed[static_cast<std::size_t>(Resource::boxed_bricks)] = std::uint64_t{1} << 50;
+    capacities.grow_to(1'000'000, needed);
+    EXPECT_FALSE(capacities.orders_whole_keys()) << "62 bits and an eighth more";
+    Capacities far_apart = capacities;
+    needed[static_cast<std::size_t>(Resource::boxed_bricks)] = std::uint64_t{1} << 51;
+    far_apart.grow_to(1'000'000, needed);
+    EXPECT_TRUE(far_apart.orders_whole_keys());
+    Needed crowded{};
+    crowded[static_cast<std::size_t>(Resource::cell_particles)] = Capacities::most_counted_in_cell + 1;
+    capacities.grow_to(1'000'000, crowded);
+    EXPECT_TRUE(capacities.orders_whole_keys());
 }
 
 TEST(CudaCapacities, EveryBlockGetsRoomForASampleAtOnce) {

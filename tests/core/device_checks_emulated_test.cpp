@@ -181,7 +181,7 @@ TEST(DeviceChecksEmulated, NothingWaitsOrAllocatesWhileAGraphIsCaptured) {
 
 /// Scratch memory for n elements of anything.
 struct Scratch {
-    explicit Scratch(std::size_t n) : bytes(cuda::scratch_bytes(n, true, n, n)) {}
+    explicit Scratch(std::size_t n) : bytes(cuda::scratch_bytes(n, n, n)) {}
     cuda::Scratch less(std::size_t missing) { return {bytes.data(), bytes.size() - missing}; }
     std::vector<std::byte> bytes;
 };
@@ -194,7 +194,7 @@ TEST(DeviceChecksEmulated, ScansAndSortsAreThoseOfTheStandardLibrary) {
         std::vector<std::uint64_t> sums(n), keys(n), room(n), expected(n);
         for (std::size_t i = 0; i < n; ++i) sums[i] = keys[i] = i * 7919 % 257;
         cuda::exclusive_sum(scratch.less(0), sums.data(), n, stream.get());
-        const std::uint64_t* const sorted = cuda::sort(scratch.less(0), keys.data(), room.data(), n, stream.get());
+        const std::uint64_t* const sorted = cuda::sort(scratch.less(0), keys.data(), room.data(), n, 9, stream.get());
         expected = keys;
         std::sort(expected.begin(), expected.end());
         stream.synchronize();
@@ -210,20 +210,24 @@ TEST(DeviceChecksEmulated, PairsWithEqualKeysKeepTheirOrderWhicheverBufferHoldsT
     for (int call = 0; call < 4; ++call) {
         cuda::Stream stream;
         Scratch scratch(n);
-        std::vector<cuda::SortKey> keys(n), room(n);
+        std::vector<std::uint64_t> keys(n), room(n);
         std::vector<std::uint32_t> values(n), values_room(n);
+        constexpr unsigned bits = 42;
         for (std::size_t i = 0; i < n; ++i) {
-            keys[i] = static_cast<cuda::SortKey>(i % 3) << 100;
+            // What lies above the sorted bits would order them the other way round.
+            keys[i] = (i % 3) << (bits - 2) | (n - i) << bits;
             values[i] = static_cast<std::uint32_t>(i);
         }
-        const cuda::SortKey* const sorted = cuda::sort_with_values(scratch.less(0), keys.data(), room.data(),
-                                                                   values.data(), values_room.data(), n, stream.get());
-        held_by_room.insert(sorted == room.data());
+        const cuda::SortedPairs sorted = cuda::sort_with_values(
+            scratch.less(0), {keys.data(), values.data()}, {room.data(), values_room.data()}, n, bits, stream.get());
+        held_by_room.insert(sorted.keys == room.data());
+        EXPECT_EQ(sorted.keys == room.data(), sorted.values == values_room.data());
         stream.synchronize();
+        const auto key = [&](std::size_t i) { return sorted.keys[i] & ((std::uint64_t{1} << bits) - 1); };
         for (std::size_t i = 1; i < n; ++i) {
-            ASSERT_FALSE(sorted[i] < sorted[i - 1]);
-            if (sorted[i] == sorted[i - 1]) {
-                ASSERT_GT(values[i], values[i - 1]);
+            ASSERT_LE(key(i - 1), key(i));
+            if (key(i - 1) == key(i)) {
+                ASSERT_GT(sorted.values[i], sorted.values[i - 1]);
             }
         }
     }
@@ -234,11 +238,11 @@ TEST(DeviceChecksEmulated, ScratchMemoryThatIsTooSmallIsRefused) {
     constexpr std::size_t n = 10'000;
     cuda::Stream stream;
     Scratch scratch(n);
-    std::vector<cuda::SortKey> keys(n), room(n);
+    std::vector<std::uint64_t> keys(n), room(n);
     std::vector<std::uint32_t> values(n), values_room(n);
     const auto sort = [&](std::size_t missing) {
-        cuda::sort_with_values(scratch.less(missing), keys.data(), room.data(), values.data(), values_room.data(), n,
-                               stream.get());
+        cuda::sort_with_values(scratch.less(missing), {keys.data(), values.data()}, {room.data(), values_room.data()},
+                               n, 64, stream.get());
     };
     // Scans of counts by level take the most.
     std::vector<cuda::LevelCounts> counts(n);
@@ -246,7 +250,7 @@ TEST(DeviceChecksEmulated, ScratchMemoryThatIsTooSmallIsRefused) {
     EXPECT_THROW(cuda::exclusive_sum(scratch.less(1), counts.data(), n, stream.get()), DeviceError);
     EXPECT_NO_THROW(sort(0));
     EXPECT_THROW(sort(scratch.bytes.size() - 1024), DeviceError);
-    EXPECT_THROW(cuda::sort(scratch.less(0), keys.data(), keys.data() + 1, n - 1, stream.get()), DeviceError)
+    EXPECT_THROW(cuda::sort(scratch.less(0), keys.data(), keys.data() + 1, n - 1, 64, stream.get()), DeviceError)
         << "buffers that overlap";
     stream.synchronize();
 }

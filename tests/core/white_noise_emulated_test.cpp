@@ -113,7 +113,7 @@ public:
         state_.capacity.of.fill(room);
         state_.capacity.of[static_cast<std::size_t>(cuda::Resource::bricks)] = 1;
         state_.capacity.of[static_cast<std::size_t>(cuda::Resource::blocks)] = 4096;
-        state_.scratch_bytes = cuda::scratch_bytes(room, false, room, room);
+        state_.scratch_bytes = cuda::scratch_bytes(room, room, room);
         memory_.assign(state_.arrays());
         mesh_memory_.assign(state_.mesh_arrays());
         state_.upload_tables(stream_.get());

@@ -14,12 +14,24 @@ namespace meniscus::cuda {
 
 /// The kinds of elements that a frame may need more of than there is room for. Their numbers become known on the device
 /// alone, in this order.
-enum class Resource : std::uint8_t { particle_bricks, reached_bricks, bricks, blocks, samples, vertices, triangles };
-inline constexpr std::size_t resource_count = 7;
+enum class Resource : std::uint8_t {
+    boxed_bricks,    ///< bricks of support cells in the boxes around each level's particles; keys are numbers of these
+    reached_box,     ///< bricks of base cells in the box around all that particles may reach; the same for their keys
+    cell_particles,  ///< in the fullest support cell, where these are too many; see orders_whole_keys()
+    particle_bricks,
+    reached_bricks,
+    bricks,
+    blocks,
+    samples,
+    vertices,
+    triangles
+};
+inline constexpr std::size_t resource_count = 10;
 
 /// Elements are numbered with 32 bits, and so are the words of all bricks: a frame that needs as many or more is
-/// refused.
+/// refused. Boxes are no arrays, and may be as large as the world.
 MENISCUS_HD constexpr std::uint64_t too_many(Resource r) {
+    if (r == Resource::boxed_bricks || r == Resource::reached_box) return std::uint64_t{1} << 62;
     return r == Resource::bricks ? no_index / Brick::words : no_index;
 }
 
@@ -28,6 +40,14 @@ struct Capacities {
     std::array<std::uint64_t, resource_count> of{};
 
     MENISCUS_HD std::uint64_t operator[](Resource r) const { return of[static_cast<std::size_t>(r)]; }
+
+    /// Particles are sorted by support cell, and those of a cell find their places by counting. Where a cell holds more
+    /// than this many, or cells of the boxes are too many for a number of 64 bits, whole keys are sorted.
+    static constexpr std::uint64_t most_counted_in_cell = 256;
+    MENISCUS_HD bool orders_whole_keys() const {
+        return (*this)[Resource::cell_particles] > most_counted_in_cell ||
+               (*this)[Resource::boxed_bricks] > std::uint64_t{1} << (64 - brick_index_bits - 1);
+    }
 
     /// Grows to what is needed and an eighth more; returns whether there was too little.
     bool grow_to(std::uint64_t needed_particles, const unsigned long long (&needed)[resource_count]) {
@@ -40,11 +60,12 @@ struct Capacities {
         return grown;
     }
 
-    /// Whether all arrays have the same room, those of the mesh aside.
+    /// Whether all arrays have the same room, those of the mesh aside. The first three resources have none.
     bool same_but_for_mesh(const Capacities& other) const {
         static_assert(static_cast<std::size_t>(Resource::vertices) == resource_count - 2 &&
                       static_cast<std::size_t>(Resource::triangles) == resource_count - 1);
-        return particles == other.particles && std::equal(of.begin(), of.end() - 2, other.of.begin());
+        constexpr auto first = static_cast<std::ptrdiff_t>(Resource::particle_bricks);
+        return particles == other.particles && std::equal(of.begin() + first, of.end() - 2, other.of.begin() + first);
     }
 
 private:
@@ -57,7 +78,8 @@ private:
     }
     /// The eighth more ends where numbers do.
     static bool grow(std::uint64_t& capacity, std::uint64_t needed, std::uint64_t most) {
-        constexpr std::uint64_t least = 256;  // also of what is not needed at all, so that no array is empty
+        constexpr std::uint64_t least =
+            most_counted_in_cell;  // also of what is not needed at all, so that no array is empty
         if (capacity >= least && needed <= capacity) return false;
         capacity = std::max({least, needed, std::min(with_room_to_grow(needed), most)});
         return true;

@@ -20,6 +20,7 @@ struct Launch {
     bool is_cooperative = false;
     std::uint64_t elements = 0;     ///< of a sum or a sort
     std::size_t element_bytes = 0;  ///< of a summand, or of a key with its value
+    unsigned key_bits = 0;          ///< by which a sort orders
 };
 
 class LaunchObserver {

@@ -25,22 +25,25 @@ struct Scratch {
     std::size_t bytes = 0;
 };
 
-/// What any of the calls below needs for this many elements. has_values: whether particles' keys are sorted with
-/// values.
-std::size_t scratch_bytes(std::size_t particle_keys, bool has_values, std::size_t brick_keys, std::size_t sums);
+/// What any of the calls below needs for this many elements. particle_keys: with values; brick_keys: without.
+std::size_t scratch_bytes(std::size_t particle_keys, std::size_t brick_keys, std::size_t sums);
 
 /// Element i becomes the sum of the elements before it.
 void exclusive_sum(const Scratch& scratch, std::uint32_t* values, std::size_t n, cudaStream_t stream);
 void exclusive_sum(const Scratch& scratch, std::uint64_t* values, std::size_t n, cudaStream_t stream);
 void exclusive_sum(const Scratch& scratch, LevelCounts* values, std::size_t n, cudaStream_t stream);
 
-/// Sorts the keys in `keys`, with `room` for as many; returns which of the two holds them in the end.
-SortKey* sort(const Scratch& scratch, SortKey* keys, SortKey* room, std::size_t n, cudaStream_t stream);
-std::uint64_t* sort(const Scratch& scratch, std::uint64_t* keys, std::uint64_t* room, std::size_t n,
+/// Sorts the keys in `keys` by their lowest `bits`, with `room` for as many; returns which of the two holds them in the
+/// end.
+std::uint64_t* sort(const Scratch& scratch, std::uint64_t* keys, std::uint64_t* room, std::size_t n, unsigned bits,
                     cudaStream_t stream);
 
-/// The same with a value for each key; equal keys keep their order. `values` holds the values in the end.
-SortKey* sort_with_values(const Scratch& scratch, SortKey* keys, SortKey* room, std::uint32_t* values,
-                          std::uint32_t* values_room, std::size_t n, cudaStream_t stream);
+/// The same with a value for each key; equal keys keep their order.
+struct SortedPairs {
+    std::uint64_t* keys;
+    std::uint32_t* values;
+};
+SortedPairs sort_with_values(const Scratch& scratch, SortedPairs pairs, SortedPairs room, std::size_t n, unsigned bits,
+                             cudaStream_t stream);
 
 }  // namespace meniscus::cuda

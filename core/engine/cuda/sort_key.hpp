@@ -1,4 +1,4 @@
-// A particle's level and ParticleKey in one number that CUB sorts.
+// A particle's level and ParticleKey in one number.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,6 @@ namespace meniscus::cuda {
 inline constexpr int place_bits = 3 * place_axis_bits;
 inline constexpr int cell_bits = 3 * brick_axis_bits + brick_index_bits;
 static_assert(place_bits + cell_bits + 2 == 128);
-
-/// After every key of a particle, whose places in its cell do not use all bits.
-inline constexpr SortKey no_key = ~SortKey{0};
 
 __device__ inline SortKey sort_key(unsigned level, const ParticleKey& key) {
     return (SortKey{level} << cell_bits | key.cell) << place_bits | key.place;

@@ -17,6 +17,7 @@
 #include "lattice/level_sets.hpp"
 #include "meniscus/mesh.hpp"
 #include "particles/attributes.hpp"
+#include "particles/particle_key.hpp"
 #include "particles/particle_set.hpp"
 #include "particles/payload.hpp"
 #include "particles/positions.hpp"
@@ -62,8 +63,24 @@ enum class Stop : std::uint32_t {
     asked_for,  ///< by the host, see LongLoop
 };
 
+/// A box of bricks of support cells, whose coordinates begin at zero here: no particles where all is zero.
+struct BrickBox {
+    static constexpr std::uint32_t axis_end = 1U << brick_axis_bits;
+    std::uint32_t below[3];  ///< axis_end minus the lowest: atomicMax finds it
+    std::uint32_t end[3];    ///< one past the highest
+
+    MENISCUS_HD std::uint32_t low(int axis) const { return axis_end - below[axis]; }
+    MENISCUS_HD std::uint64_t size(int axis) const { return end[axis] + below[axis] - axis_end; }
+    MENISCUS_HD std::uint64_t volume() const { return end[0] == 0 ? 0 : size(0) * size(1) * size(2); }
+};
+
 /// Zero at a frame's begin.
 struct Counts {
+    BrickBox boxes[particle_level_count];
+    std::uint64_t boxed_before[particle_level_count];  ///< bricks in the boxes of the levels before
+    Int3 reached_low;                                  ///< of the box of bricks of base cells that particles may reach
+    std::uint32_t reached_size[3];
+    std::uint32_t boxed_blocks;  ///< of threads, whose particles the boxes hold
     Counter needed[resource_count];
     Counter field_evaluations;
     Counter triangles[triangle_level_count];
@@ -107,13 +124,14 @@ struct State : BlockState<Pointer> {
     // Of every particle. Those of a level lie together, levels in ascending order; ParticleSetView explains the rest.
     SortKey* keys = nullptr;      ///< level, ParticleKey::cell, ParticleKey::place
     SortKey* unsorted_keys = nullptr;
+    std::uint32_t* order = nullptr;  ///< indices in the frame, by support cell
+    std::uint32_t* order_room = nullptr;
     // Only where particles carry a payload:
-    std::uint32_t* sources =
-        nullptr;  ///< each sorted particle's index in the frame; stale after a frame without payload
-    std::uint32_t* sources_room = nullptr;
-    float4* numbers = nullptr;  ///< of every group of attributes' numbers, see AttributeNumber
+    std::uint32_t* sources = nullptr;  ///< each sorted particle's index in the frame
+    float4* numbers = nullptr;         ///< of every group of attributes' numbers, see AttributeNumber
 
-    std::uint64_t* starts = nullptr;  ///< support cells that begin before it, and in the upper half bricks of them
+    std::uint64_t* starts = nullptr;  ///< support cells that begin before it, and in the upper half bricks of them; and
+                                      ///< one past the last
     float4* particles = nullptr;      ///< position and weight
     float* sums = nullptr;            ///< one at each particle's place, while weights are found
     float* falls = nullptr;           ///< smooth field only, see Poly6
@@ -124,7 +142,8 @@ struct State : BlockState<Pointer> {
     Brick* particle_bricks = nullptr;
     std::uint64_t* particle_brick_keys = nullptr;
 
-    std::uint64_t* reached_keys = nullptr;  ///< bricks of base cells that support cells reach, repeated
+    std::uint64_t* reached_keys = nullptr;  ///< bricks of base cells that support cells reach, by their number in the
+                                            ///< box of all, repeated
     std::uint64_t* unsorted_reached_keys = nullptr;
     std::uint32_t* first_of_key = nullptr;  ///< different keys before each, and one past the last
 
@@ -171,10 +190,11 @@ struct State : BlockState<Pointer> {
         take("scratch", scratch, scratch_bytes);
         take("keys", keys, n);
         take("unsorted_keys", unsorted_keys, n);
+        take("order", order, n);
+        take("order_room", order_room, n);
         take("sources", sources, payload_bytes != 0 ? n : 0);
-        take("sources_room", sources_room, payload_bytes != 0 ? n : 0);
         take("numbers", numbers, attributes.groups() * n);
-        take("starts", starts, n);
+        take("starts", starts, n + 1);
         take("particles", particles, n);
         take("sums", sums, n);
         take("falls", falls, settings.has_own_supports ? n : 0);

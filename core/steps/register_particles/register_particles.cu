@@ -1,6 +1,7 @@
-// Step 1 on the GPU: particles are sorted as keys and read back from them.
+// Step 1 on the GPU.
 #include "steps/register_particles/register_particles.hpp"
 
+#include <bit>
 #include <utility>
 
 #include "engine/cuda/long_loop.hpp"
@@ -12,114 +13,6 @@
 
 namespace meniscus::cuda {
 namespace {
-
-__global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant__ State f, bool identified) {
-    const std::uint32_t n = f.input->particles;
-    GridLoop{}.each(f.capacity.particles, [&](std::uint32_t i) {
-        if (identified) f.sources[i] = i;
-        if (i >= n) {
-            f.unsorted_keys[i] = no_key;
-            return;
-        }
-        const unsigned level = f.input->levels == nullptr ? 0 : f.input->levels[i];
-        f.unsorted_keys[i] =
-            sort_key(level, meniscus::particle_key(f.input->positions.snapped(i), f.settings.cell_units[level]));
-    });
-}
-
-/// Sorts each run of equal keys by payload, one thread a run. Runs after stop_if_crowded, which bounds a run to about
-/// the root of 1024 n particles: a heap sort of these by one thread may still take long on a GPU.
-__global__ void __launch_bounds__(block_threads, 4) order_by_payload(const __grid_constant__ State f) {
-    const std::uint32_t n = f.particle_count();
-    LongLoop loop(f);
-    GridLoop{}.each(n, [&](std::uint32_t i) {
-        if (!loop.goes_on()) return;
-        const SortKey key = f.keys[i];
-        if (i > 0 && f.keys[i - 1] == key) return;
-        std::uint32_t end = i + 1;
-        while (end < n && f.keys[end] == key) ++end;
-        if (end > i + 1) sort_by_payload(f.input->payload, f.sources + i, end - i);
-    });
-}
-
-/// What vertices ask of the sorted particles.
-__global__ void __launch_bounds__(block_threads) store_numbers(const __grid_constant__ State f, unsigned group) {
-    const AttributeNumber* const numbers = f.input->attributes.group(group);
-    GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
-        float of_particle[group_size_of_numbers] = {};
-        for (unsigned k = 0; k < group_size_of_numbers; ++k)
-            if (k < f.attributes.count(group))
-                of_particle[k] = numbers[k].of_particle(f.input->payload.data[numbers[k].array], f.sources[i]);
-        f.numbers[group * f.capacity.particles + i] = {of_particle[0], of_particle[1], of_particle[2], of_particle[3]};
-    });
-}
-
-/// Whether a support cell, and whether a brick of them, begins with this particle.
-struct Begins {
-    bool cell, brick;
-    __device__ Begins(const SortKey* keys, std::uint32_t i)
-        : cell(i == 0 || keys[i] >> place_bits != keys[i - 1] >> place_bits),
-          brick(i == 0 ||
-                keys[i] >> (place_bits + brick_index_bits) != keys[i - 1] >> (place_bits + brick_index_bits)) {}
-};
-
-__global__ void __launch_bounds__(block_threads) mark_starts(const __grid_constant__ State f) {
-    const std::uint32_t n = f.input->particles;
-    GridLoop{}.each(n, [&](std::uint32_t i) {
-        const Begins begins(f.keys, i);
-        f.starts[i] = (begins.cell ? 1 : 0) | static_cast<std::uint64_t>(begins.brick ? 1 : 0) << 32;
-    });
-}
-
-__global__ void __launch_bounds__(block_threads) store_particles(const __grid_constant__ State f) {
-    const std::uint32_t n = f.input->particles;
-    const std::uint64_t most_bricks = f.capacity[Resource::particle_bricks];
-    GridLoop{}.each(n, [&](std::uint32_t i) {
-        const unsigned level = key_level(f.keys[i]);
-        const ParticleKey key = particle_key(f.keys[i]);
-        float4 p{0.0F, 0.0F, 0.0F, f.settings.weight};
-        key_position(key, f.settings.cell_units[level], p.x, p.y, p.z);
-        f.particles[i] = p;
-
-        const Begins begins(f.keys, i);
-        const std::uint32_t cell = static_cast<std::uint32_t>(f.starts[i]) + (begins.cell ? 1 : 0) - 1;
-        const std::uint32_t brick = static_cast<std::uint32_t>(f.starts[i] >> 32) + (begins.brick ? 1 : 0) - 1;
-        if (begins.cell) f.first_particle[cell] = i;
-        if (begins.cell && brick < most_bricks) {
-            const int index = key_index(key.cell);
-            atomicOr(reinterpret_cast<Counter*>(&f.particle_bricks[brick].occupied[index >> 6]),
-                     Counter{1} << (index & 63));
-        }
-        if (begins.brick && brick < most_bricks) {
-            f.particle_bricks[brick].coordinate = key_brick(key.cell);
-            f.particle_bricks[brick].first = cell;
-            f.particle_brick_keys[brick] = brick_key(key_brick(key.cell));
-        }
-        // A level's bricks begin where the level's particles do; levels without particles have none.
-        if (begins.brick)
-            for (unsigned k = i == 0 ? 0 : key_level(f.keys[i - 1]) + 1; k <= level; ++k)
-                f.counts->first_particle_brick[k] = brick;
-        if (i == n - 1) {
-            for (unsigned k = level + 1; k <= particle_level_count; ++k) f.counts->first_particle_brick[k] = brick + 1;
-            f.first_particle[cell + 1] = n;
-            f.counts->particle_cells = cell + 1;
-            f.need(Resource::particle_bricks, brick + 1);
-        }
-    });
-}
-
-__global__ void __launch_bounds__(block_threads) count_support_cells(const __grid_constant__ State f) {
-    GridLoop{}.each(f.count(Resource::particle_bricks), [&](std::uint32_t b) { f.particle_bricks[b].count(); });
-}
-
-__global__ void __launch_bounds__(block_threads) measure_crowd(const __grid_constant__ State f) {
-    Counter crowd = 0;
-    GridLoop{}.each_together(f.counts->particle_cells, [&](std::uint32_t cell, bool exists) {
-        const Counter particles = exists ? f.first_particle[cell + 1] - f.first_particle[cell] : 0;
-        crowd += particles * particles;
-    });
-    add_of_lanes(&f.counts->crowd, crowd);
-}
 
 /// One thread: a crowded frame ends here, before it takes long.
 __global__ void stop_if_crowded(const __grid_constant__ State f) {
@@ -202,6 +95,21 @@ __global__ void stop_if_base_cells_are_too_much(const __grid_constant__ State f)
         f.counts->stop = Stop::too_much_at_base_cells;
 }
 
+/// A brick's number in the box of all that may be reached, in the order of brick keys; and back.
+__device__ std::uint64_t boxed_brick(const State& f, const Int3& brick) {
+    const Int3 at = brick - f.counts->reached_low;
+    const std::uint32_t* const size = f.counts->reached_size;
+    return (std::uint64_t{static_cast<std::uint32_t>(at.z)} * size[1] + static_cast<std::uint32_t>(at.y)) * size[0] +
+           static_cast<std::uint32_t>(at.x);
+}
+__device__ Int3 coordinate_of_boxed(const State& f, std::uint64_t number) {
+    const std::uint32_t* const size = f.counts->reached_size;
+    const std::uint64_t row = number / size[0];
+    return f.counts->reached_low + Int3{static_cast<std::int32_t>(number % size[0]),
+                                        static_cast<std::int32_t>(row % size[1]),
+                                        static_cast<std::int32_t>(row / size[1])};
+}
+
 __global__ void __launch_bounds__(block_threads) list_reached_bricks(const __grid_constant__ State f) {
     const std::uint64_t room = f.capacity[Resource::reached_bricks];
     const auto reached_by = [&](std::uint32_t cell) {
@@ -209,7 +117,10 @@ __global__ void __launch_bounds__(block_threads) list_reached_bricks(const __gri
         const unsigned level = key_level(key);
         return reached_bricks(particle_key(key).cell, f.settings.cell_units[level], f.settings.support[level]);
     };
-    GridLoop{}.each_together(f.counts->particle_cells, [&](std::uint32_t cell, bool exists) {
+    // A stop for want of room keeps no one from listing, unless particles have not found their places.
+    const auto fullest = static_cast<int>(Resource::cell_particles);
+    const bool is_sorted = f.counts->needed[fullest] <= f.capacity[Resource::cell_particles];
+    GridLoop{}.each_together(is_sorted ? f.counts->particle_cells : 0, [&](std::uint32_t cell, bool exists) {
         ReachedBricks reached;
         std::uint32_t count = 0;
         if (exists) {
@@ -222,7 +133,8 @@ __global__ void __launch_bounds__(block_threads) list_reached_bricks(const __gri
         Int3 b;
         for (b.z = reached.low.z; b.z <= reached.high.z; ++b.z)
             for (b.y = reached.low.y; b.y <= reached.high.y; ++b.y)
-                for (b.x = reached.low.x; b.x <= reached.high.x; ++b.x) f.unsorted_reached_keys[at++] = brick_key(b);
+                for (b.x = reached.low.x; b.x <= reached.high.x; ++b.x)
+                    f.unsorted_reached_keys[at++] = boxed_brick(f, b);
     });
 }
 
@@ -247,112 +159,16 @@ __global__ void __launch_bounds__(block_threads) store_bricks(const __grid_const
     GridLoop{}.each(keys, [&](std::uint32_t i) {
         const std::uint32_t brick = f.first_of_key[i];
         if (is_first_of_key(f, i) && brick < f.capacity[Resource::bricks]) {
-            f.brick_keys[brick] = f.reached_keys[i];
-            f.bricks[brick].coordinate = brick_coordinate(f.reached_keys[i]);
+            const Int3 coordinate = coordinate_of_boxed(f, f.reached_keys[i]);
+            f.brick_keys[brick] = brick_key(coordinate);
+            f.bricks[brick].coordinate = coordinate;
+            f.bricks[brick].clear();
+            f.members_before[brick] = 0;
         }
     });
     if (blockIdx.x != 0 || threadIdx.x != 0) return;
     f.need(Resource::bricks, f.first_of_key[keys]);
     f.need(Resource::reached_bricks, f.counts->needed[static_cast<int>(Resource::reached_bricks)]);
-}
-
-/// Marks in shared memory, by many threads at once, in halves of words, which atomic operations are made for.
-struct SharedMarks {
-    unsigned* halves;
-    __device__ std::uint64_t word(int w) const {
-        return atomicOr(&halves[2 * w], 0U) | static_cast<std::uint64_t>(atomicOr(&halves[2 * w + 1], 0U)) << 32;
-    }
-    __device__ void add(int w, std::uint64_t cells) const {
-        const auto low = static_cast<unsigned>(cells);
-        const auto high = static_cast<unsigned>(cells >> 32);
-        if (low != 0) atomicOr(&halves[2 * w], low);
-        if (high != 0) atomicOr(&halves[2 * w + 1], high);
-    }
-};
-
-/// Marks the base cells of a brick that a particle reaches; returns ReachedBox::count().
-__device__ std::uint32_t mark_reached(const SharedMarks& marks, float x, float y, float z, float support) {
-    const float reach = support + 16.0F;
-    const ReachedBox box({x, y, z}, reach);
-    if (box.empty()) return 0;
-    // Most particles lie among others: rows that those have marked are passed over, four at a time.
-    const std::uint64_t widest = row_bits(box.low[0], box.high[0]) * first_of_rows;
-    for (int cz = box.low[2]; cz <= box.high[2]; ++cz) {
-        const float gap_z = gap_to_cells(z, static_cast<float>(cz));
-        for (int rows = box.low[1] & ~3; rows <= box.high[1]; rows += 4) {
-            const int w = rows >> 2 | cz << 2;
-            const std::uint64_t unmarked = widest & ~marks.word(w);
-            if (unmarked == 0) continue;
-            std::uint64_t reached = 0;
-            for (int cy = max(box.low[1], rows); cy <= min(box.high[1], rows + 3); ++cy) {
-                const int row = (cy & 3) << 4;
-                if (unmarked >> row << 48 == 0) continue;
-                const ReachedRows<float> cells(x, gap_to_cells(y, static_cast<float>(cy)), gap_z, reach);
-                if (cells.set != 0)
-                    reached |= row_bits(static_cast<int>(cells.first), static_cast<int>(cells.last)) << row;
-            }
-            marks.add(w, reached);
-        }
-    }
-    return box.count();
-}
-
-/// A block of threads for every brick: its warps share the runs of particles near it.
-__global__ void __launch_bounds__(block_threads, 2) mark_reached_cells(const __grid_constant__ State f) {
-    __shared__ unsigned halves[2 * Brick::words];
-    __shared__ Counter marked_in_brick;
-    __shared__ std::uint32_t bricks;
-    __shared__ bool goes_on;
-    const SharedMarks marks{halves};
-    // Another block may stop the frame meanwhile, which must not part the threads of this one.
-    if (threadIdx.x == 0) bricks = f.count(Resource::bricks);
-    __syncthreads();
-    constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
-    const auto size = static_cast<float>(edge);
-    LongLoop loop(f);
-    for (std::uint32_t b = blockIdx.x; b < bricks; b += gridDim.x) {
-        if (threadIdx.x < 2 * Brick::words) halves[threadIdx.x] = 0;
-        if (threadIdx.x == 0) {
-            marked_in_brick = 0;
-            goes_on = loop.goes_on();
-        }
-        __syncthreads();
-        if (!goes_on) return;
-        Counter marked = 0;
-        const Int3 at = f.bricks[b].coordinate;
-        const Units3 origin{at.x * edge, at.y * edge, at.z * edge};
-        unsigned run = 0;
-        for (unsigned k = 0; k < particle_level_count; ++k) {
-            const ParticleSetView set = f.set(k);
-            if (set.cells.brick_count == 0) continue;
-            NoBrickHints hints;
-            set.for_each_run_near(
-                origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}}, hints,
-                [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
-                    if (run++ % block_warps != warp_in_block()) return;
-                    for (std::uint32_t i = begin + lane_index(); i < end; i += warp_threads) {
-                        const float4 p = f.particles[i];
-                        marked +=
-                            mark_reached(marks, p.x + shift[0], p.y + shift[1], p.z + shift[2],
-                                         f.settings.has_own_supports ? Poly6{p.w, f.falls[i]}.support() : set.support);
-                    }
-                });
-        }
-        add_of_lanes(&marked_in_brick, marked);
-        __syncthreads();
-        if (threadIdx.x < Brick::words) {
-            const int w = static_cast<int>(threadIdx.x);
-            std::uint64_t cells = marks.word(w);
-            if (f.settings.has_domain && cells != 0)
-                cells &= word_in_domain(at, w, f.settings.domain_low, f.settings.domain_high);
-            f.bricks[b].occupied[w] = cells;
-        }
-        __syncthreads();
-        if (threadIdx.x != 0) continue;
-        const std::uint32_t members = f.bricks[b].count();
-        f.members_before[b] = members;
-        atomicAdd(&f.counts->pairs, Counter{pairs_in_brick(marked_in_brick, members, f.settings.has_domain)});
-    }
 }
 
 __global__ void __launch_bounds__(block_threads) number_members(const __grid_constant__ State f) {
@@ -406,44 +222,28 @@ __global__ void __launch_bounds__(block_threads) count_particles(const __grid_co
     });
 }
 
-void sort_particles(State& f, bool has_payload, const Launcher& launch) {
+void require_bearable_particles(const State& f, const Launcher& launch) {
     const std::uint64_t n = f.capacity.particles;
-    launch(n, block_threads, make_keys, f, has_payload);
-    const SortKey* const sorted = has_payload ? sort_with_values(f.scratch_memory(), f.unsorted_keys, f.keys, f.sources,
-                                                                 f.sources_room, n, launch.stream)
-                                              : sort(f.scratch_memory(), f.unsorted_keys, f.keys, n, launch.stream);
-    if (sorted != f.keys) std::swap(f.keys, f.unsorted_keys);
-    launch(n, block_threads, mark_starts, f);
-    exclusive_sum(f.scratch_memory(), f.starts, n, launch.stream);
-    check(cudaMemsetAsync(f.particle_bricks, 0, f.capacity[Resource::particle_bricks] * sizeof(Brick), launch.stream),
-          "cudaMemsetAsync");
-    launch(n, block_threads, store_particles, f);
-    launch(f.capacity[Resource::particle_bricks], block_threads, count_support_cells, f);
     if (f.settings.work_limit != 0.0) {
         const std::uint64_t probes = probe_count(n);
         launch(probes, block_threads, seed_probes, f);
         launch(probes, block_warps, count_neighbors, f);
         launch(1, block_threads, stop_if_sums_are_too_much, f);
     }
-    launch(n, block_threads, measure_crowd, f);
     launch(1, block_threads, stop_if_crowded, f);
-    if (!has_payload) return;
-    launch(n, block_threads, order_by_payload, f);
-    for (unsigned group = 0; group < f.attributes.groups(); ++group) launch(n, block_threads, store_numbers, f, group);
 }
 
 void store_reached_bricks(State& f, const Launcher& launch) {
     const std::uint64_t keys = f.capacity[Resource::reached_bricks];
-    const std::uint64_t bricks = f.capacity[Resource::bricks];
     check(cudaMemsetAsync(f.unsorted_reached_keys, 0xFF, keys * sizeof(std::uint64_t), launch.stream),
           "cudaMemsetAsync");
     launch(f.capacity.particles, block_threads, list_reached_bricks, f);
-    if (sort(f.scratch_memory(), f.unsorted_reached_keys, f.reached_keys, keys, launch.stream) != f.reached_keys)
+    const auto bits = static_cast<unsigned>(std::bit_width(f.capacity[Resource::reached_box] - 1));
+    if (sort(f.scratch_memory(), f.unsorted_reached_keys, f.reached_keys, keys, bits, launch.stream) != f.reached_keys)
         std::swap(f.reached_keys, f.unsorted_reached_keys);
     launch(keys, block_threads, mark_first_keys, f);
     exclusive_sum(f.scratch_memory(), f.first_of_key, keys + 1, launch.stream);
     launch(keys, block_threads, store_bricks, f);
-    launch(bricks, 1, mark_reached_cells, f);
 }
 
 }  // namespace
@@ -460,8 +260,11 @@ void store_blocks(const State& state, const Launcher& launch) {
 
 void register_particles(State& state, bool has_payload, const Launcher& launch) {
     sort_particles(state, has_payload, launch);
+    require_bearable_particles(state, launch);
+    if (has_payload) order_payload(state, launch);
     if (state.settings.has_own_supports) fit_supports(state, launch);
     store_reached_bricks(state, launch);
+    store_reached_cells(state, launch);
     store_blocks(state, launch);
     if (state.settings.counts_particles) launch(state.capacity.particles, block_threads, count_particles, state);
     if (state.settings.divides_by_density) divide_weights_by_density(state, launch);

@@ -15,14 +15,9 @@ namespace meniscus::benchmarks {
 namespace {
 
 using cuda::LevelCounts;
-using cuda::SortKey;
 
 /// Nothing, one, less than a warp, a block, an odd number of tiles, and more.
 constexpr std::uint64_t sizes[] = {0, 1, 31, 256, 4097, 1'000'000, 10'000'000};
-
-SortKey random_key(std::uint64_t i) {
-    return SortKey{random_bits(2 * i)} << 64 | random_bits(2 * i + 1);
-}
 
 /// One call: its arrays on the device, beginning at `base`, and on the host what is in them before and after.
 /// Element: what is sorted or summed. Enqueue(first, second) puts the call on the stream and returns which of the two
@@ -95,42 +90,52 @@ std::vector<Element> sums_before(const std::vector<Element>& values) {
     return sums;
 }
 
-template <class Key>
-std::vector<Key> sorted(std::vector<Key> keys) {
-    std::sort(keys.begin(), keys.end());
+/// The bits of a key that a sort looks at.
+std::uint64_t lowest(std::uint64_t key, unsigned bits) {
+    return key & ~std::uint64_t{0} >> (64 - bits);
+}
+
+/// As many as a frame of a million particles sorts by, and all.
+constexpr unsigned sorted_bits[] = {23, 64};
+
+std::vector<std::uint64_t> sorted(std::vector<std::uint64_t> keys, unsigned bits) {
+    std::stable_sort(keys.begin(), keys.end(),
+                     [&](std::uint64_t a, std::uint64_t b) { return lowest(a, bits) < lowest(b, bits); });
     return keys;
 }
 
 /// A key and its value, as the host keeps them; equal keys come in the order of their values, which is that of the
 /// input.
 struct Pair {
-    SortKey key;
+    std::uint64_t key;
     std::uint32_t value;
 };
 
 /// Few different keys, so that most are equal to others.
-void check_pairs(std::uint64_t n, std::byte* base, const cuda::Scratch& scratch, cuda::Stream& stream,
+void check_pairs(std::uint64_t n, unsigned bits, std::byte* base, const cuda::Scratch& scratch, cuda::Stream& stream,
                  const OnChecked& on_checked) {
-    auto* const keys = reinterpret_cast<SortKey*>(base);
+    auto* const keys = reinterpret_cast<std::uint64_t*>(base);
     auto* const values = reinterpret_cast<std::uint32_t*>(keys + 2 * n);
-    Checked checked{"sort_pairs", n, "plain", 0, {}};
-    std::vector<SortKey> host_keys(n);
+    Checked checked{"sort_pairs by " + std::to_string(bits) + " bits", n, "plain", 0, {}};
+    std::vector<std::uint64_t> host_keys(n);
     std::vector<std::uint32_t> host_values(n);
     std::vector<Pair> expected(n);
     for (std::uint64_t i = 0; i < n; ++i) {
-        host_keys[i] = random_key(random_bits(i) % (n / 4 + 1));
+        host_keys[i] = random_bits(random_bits(i) % (n / 4 + 1));
         host_values[i] = static_cast<std::uint32_t>(i);
         expected[i] = {host_keys[i], host_values[i]};
     }
-    std::stable_sort(expected.begin(), expected.end(), [](const Pair& a, const Pair& b) { return a.key < b.key; });
+    std::stable_sort(expected.begin(), expected.end(),
+                     [&](const Pair& a, const Pair& b) { return lowest(a.key, bits) < lowest(b.key, bits); });
     const auto copy = [&](void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind) {
         if (bytes != 0) cuda::check(cudaMemcpyAsync(to, from, bytes, kind, stream.get()), "cudaMemcpyAsync");
     };
-    copy(keys, host_keys.data(), n * sizeof(SortKey), cudaMemcpyHostToDevice);
+    copy(keys, host_keys.data(), n * sizeof(std::uint64_t), cudaMemcpyHostToDevice);
     copy(values, host_values.data(), n * sizeof(std::uint32_t), cudaMemcpyHostToDevice);
-    const SortKey* const result = cuda::sort_with_values(scratch, keys, keys + n, values, values + n, n, stream.get());
-    copy(host_keys.data(), result, n * sizeof(SortKey), cudaMemcpyDeviceToHost);
-    copy(host_values.data(), values, n * sizeof(std::uint32_t), cudaMemcpyDeviceToHost);
+    const cuda::SortedPairs result =
+        cuda::sort_with_values(scratch, {keys, values}, {keys + n, values + n}, n, bits, stream.get());
+    copy(host_keys.data(), result.keys, n * sizeof(std::uint64_t), cudaMemcpyDeviceToHost);
+    copy(host_values.data(), result.values, n * sizeof(std::uint32_t), cudaMemcpyDeviceToHost);
     stream.synchronize();
     for (std::uint64_t i = 0; i < n; ++i) {
         if (host_keys[i] == expected[i].key && host_values[i] == expected[i].value) continue;
@@ -144,8 +149,8 @@ void check_pairs(std::uint64_t n, std::byte* base, const cuda::Scratch& scratch,
 void check_scans(std::uint64_t most, const OnChecked& on_checked) {
     cuda::Stream stream;
     // Scratch memory for the largest size serves all, as in a reconstruction.
-    const std::size_t scratch_bytes = cuda::scratch_bytes(most, true, most, most);
-    const std::size_t array_bytes = 2 * most * (sizeof(SortKey) + sizeof(std::uint32_t)) + 256;
+    const std::size_t scratch_bytes = cuda::scratch_bytes(most, most, most);
+    const std::size_t array_bytes = 2 * most * (sizeof(std::uint64_t) + sizeof(std::uint32_t)) + 256;
     cuda::DeviceMemory memory(0, stream.get(), std::make_shared<MemoryAccount>());
     const std::size_t pieces[] = {scratch_bytes, array_bytes};
     memory.assign(pieces);
@@ -157,14 +162,16 @@ void check_scans(std::uint64_t most, const OnChecked& on_checked) {
     };
     for (const std::uint64_t n : sizes) {
         if (n > most) break;
-        const auto sort = [&](auto* first, auto* second) {
-            return cuda::sort(scratch, first, second, n, stream.get());
-        };
         const auto sum = [&](auto* first, auto* second) { return in_place(first, second, n); };
-        Call<SortKey>("sort of 16 bytes", n, base, stream).check(random_key, sorted<SortKey>, sort, on_checked);
-        Call<std::uint64_t>("sort of 8 bytes", n, base, stream)
-            .check(random_bits, sorted<std::uint64_t>, sort, on_checked);
-        check_pairs(n, base, scratch, stream, on_checked);
+        for (const unsigned bits : sorted_bits) {
+            const auto expected = [&](const std::vector<std::uint64_t>& keys) { return sorted(keys, bits); };
+            const auto sort = [&](auto* first, auto* second) {
+                return cuda::sort(scratch, first, second, n, bits, stream.get());
+            };
+            Call<std::uint64_t>("sort by " + std::to_string(bits) + " bits", n, base, stream)
+                .check(random_bits, expected, sort, on_checked);
+            check_pairs(n, bits, base, scratch, stream, on_checked);
+        }
         Call<std::uint32_t>("sum of 4 bytes", n, base, stream)
             .check([](std::uint64_t i) { return static_cast<std::uint32_t>(random_bits(i)); },
                    sums_before<std::uint32_t>, sum, on_checked);

@@ -223,10 +223,11 @@ void run_model(const KernelsOptions& options) {
             us = row["model_us"].get<double>();
         } else {
             const bool sorts = launch.kind == cuda::LaunchKind::sort;
-            us = sorts ? price_sort(elements, bytes, gpu) : price_sum(elements, bytes, gpu);
+            us = sorts ? price_sort(elements, bytes, launch.key_bits, gpu) : price_sum(elements, bytes, gpu);
             row["kernel"] = std::string(sorts ? "CUB sort of " : "CUB sum of ") +
                             std::to_string(static_cast<std::uint64_t>(elements)) + " x " +
-                            std::to_string(launch.element_bytes) + " bytes";
+                            std::to_string(launch.element_bytes) + " bytes" +
+                            (sorts ? " by " + std::to_string(launch.key_bits) + " bits" : "");
             row["model_us"] = us;
         }
         sum += us;

@@ -77,13 +77,13 @@ Price price_launch(const LaunchCounts& counts, double times, const KernelResourc
     return price;
 }
 
-double price_sort(double elements, double bytes, const GpuConstants& gpu) {
-    // The keys' bytes alone decide the number of passes; a pass reads and writes all, after one that only reads.
-    const double key_bytes = bytes >= 16.0 ? 16.0 : bytes;
+double price_sort(double elements, double bytes, unsigned key_bits, const GpuConstants& gpu) {
+    // A pass reads and writes all, after one that only reads.
+    const double passes = (key_bits + 7) / 8;
     const double pass_us = 2.0 * elements * bytes / (1e3 * gpu["memory_gbs"]);
     const double least_us =
         3.0 * gpu["launch_us"];  // a pass is a memset and a kernel whose blocks wait for those before
-    return key_bytes * std::max(pass_us, least_us) + pass_us / 2.0 + 2.0 * gpu["launch_us"];
+    return passes * std::max(pass_us, least_us) + pass_us / 2.0 + 2.0 * gpu["launch_us"];
 }
 
 double price_sum(double elements, double bytes, const GpuConstants& gpu) {

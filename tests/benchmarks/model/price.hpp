@@ -40,8 +40,9 @@ unsigned blocks_of_processor(const KernelResources& kernel, unsigned threads, co
 Price price_launch(const LaunchCounts& counts, double times, const KernelResources& kernel, double static_issued,
                    unsigned threads, const GpuConstants& gpu);
 
-/// CUB's sorts and sums, by what they read and write: a sort's passes of eight bits, a sum in one pass; microseconds.
-double price_sort(double elements, double bytes, const GpuConstants& gpu);
+/// CUB's sorts and sums, by what they read and write: a sort's passes of eight bits of the keys, a sum in one pass;
+/// microseconds. bytes: of a key with its value.
+double price_sort(double elements, double bytes, unsigned key_bits, const GpuConstants& gpu);
 double price_sum(double elements, double bytes, const GpuConstants& gpu);
 
 }  // namespace meniscus::benchmarks

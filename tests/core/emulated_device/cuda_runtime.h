@@ -108,6 +108,8 @@ inline int __popc(unsigned bits) {
 inline void __syncthreads(emulated_device::Place place = emulated_device::Place::current()) {
     emulated_device::wait_for_block(place);
 }
+/// Fibers of one thread of the host see each other's writes in their order.
+inline void __threadfence() {}
 inline void __syncwarp(unsigned mask = ~0U, emulated_device::Place place = emulated_device::Place::current()) {
     emulated_device::exchange(0, mask, emulated_device::Meeting::sync_warp, place);
 }

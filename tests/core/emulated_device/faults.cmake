@@ -7,12 +7,12 @@ plant(index_off_by_one steps/place_vertices/place_vertices.cu
   [=[Vertex v(edges, place.i);]=]
   [=[Vertex v(edges, std::min(place.i + (FAULTY(index_off_by_one) ? 1 : 0), edges.count() - 1));]=])
 
-# Marks of a brick are read before all warps have made theirs.
-plant(missing_barrier steps/register_particles/register_particles.cu
-  [=[add_of_lanes(&marked_in_brick, marked);
-        __syncthreads();]=]
-  [=[add_of_lanes(&marked_in_brick, marked);
-        if (!FAULTY(missing_barrier)) __syncthreads();]=])
+# The box of a block's particles is read before all warps have made theirs.
+plant(missing_barrier steps/register_particles/sort_particles.cu
+  [=[    __syncthreads();
+    if (warp_in_block() != 0) return;]=]
+  [=[    if (!FAULTY(missing_barrier)) __syncthreads();
+    if (warp_in_block() != 0) return;]=])
 
 # A ballot does not name the warp's last lane.
 plant(wrong_mask engine/cuda/near_particles.hpp

@@ -44,7 +44,9 @@ private:
     static cudaError_t sort(void* memory, std::size_t& bytes, DoubleBuffer<Key>& keys, DoubleBuffer<Value>& values,
                             std::int64_t n, int begin_bit, int end_bit, cudaStream_t stream) {
         const auto count = static_cast<std::size_t>(n);
-        if (n < 0 || begin_bit != 0 || end_bit != static_cast<int>(8 * sizeof(Key))) return cudaErrorInvalidValue;
+        constexpr int key_bits = 8 * sizeof(Key);
+        if (n < 0 || begin_bit != 0 || end_bit < 1 || end_bit > key_bits) return cudaErrorInvalidValue;
+        const Key ordered = static_cast<Key>(~Key{0}) >> (key_bits - end_bit);
         if (memory != nullptr && (!is_double(keys, count) || (has_values && !is_double(values, count))))
             return cudaErrorInvalidValue;
         const std::size_t needed = 1024 + count / 16 * (has_values ? 3 : 2);
@@ -58,7 +60,8 @@ private:
         const auto work = [=] {
             std::vector<std::size_t> order(count);
             std::iota(order.begin(), order.end(), std::size_t{0});
-            std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return from[a] < from[b]; });
+            std::stable_sort(order.begin(), order.end(),
+                             [&](auto a, auto b) { return (from[a] & ordered) < (from[b] & ordered); });
             permute(order, from, other, changes != 0);
             if constexpr (has_values) permute(order, values_from, other_values, changes != 0);
         };
