@@ -171,33 +171,34 @@ __global__ void __launch_bounds__(block_threads) store_bricks(const __grid_const
     f.need(Resource::reached_bricks, f.counts->needed[static_cast<int>(Resource::reached_bricks)]);
 }
 
-__global__ void __launch_bounds__(block_threads) number_members(const __grid_constant__ State f) {
-    const std::uint32_t bricks = f.count(Resource::bricks);
-    GridLoop{}.each(bricks, [&](std::uint32_t b) {
-        f.bricks[b].first = static_cast<std::uint32_t>(f.members_before[b]);
-        if (b == bricks - 1) f.need(Resource::blocks, f.members_before[bricks]);
-    });
-}
-
+/// Also gives the members of every brick their numbers.
 __global__ void __launch_bounds__(block_threads) find_neighbors(const __grid_constant__ State f) {
     const BrickGridView grid = f.grid();
     GridLoop{}.each(std::uint64_t{neighbor_slots} * grid.brick_count, [&](std::uint32_t i) {
         const std::uint32_t b = i / neighbor_slots;
         const int n = static_cast<int>(i % neighbor_slots);
         f.neighbors[b].brick[n] = grid.find(f.bricks[b].coordinate + neighbor_offset(n));
+        if (n == 0) f.bricks[b].first = static_cast<std::uint32_t>(f.members_before[b]);
+        if (i == 0) f.need(Resource::blocks, f.members_before[grid.brick_count]);
     });
 }
 
-/// One thread for every word of a brick.
+/// One warp for every word of a brick: neighboring lanes fill neighboring blocks.
 __global__ void __launch_bounds__(block_threads) make_blocks(const __grid_constant__ State f) {
-    GridLoop{}.each(std::uint64_t{Brick::words} * f.count(Resource::bricks), [&](std::uint32_t i) {
+    each_by_warp(Brick::words * f.count(Resource::bricks), [&](std::uint32_t i) {
         const std::uint32_t b = i / Brick::words;
         const int w = static_cast<int>(i % Brick::words);
         const Brick& brick = f.bricks[b];
-        std::uint32_t block = brick.first + brick.rank[w];
-        for (std::uint64_t left = brick.occupied[w]; left != 0; left &= left - 1, ++block) {
+        const std::uint64_t members = brick.occupied[w];
+        if (members == 0) return;
+        const std::uint32_t first = brick.first + brick.rank[w];
+        for (unsigned bit = lane_index(); bit < 64; bit += warp_threads) {
+            if ((members >> bit & 1) == 0) continue;
+            const int index = 64 * w + static_cast<int>(bit);
+            const std::uint64_t below = members & ((std::uint64_t{1} << bit) - 1);
+            const std::uint32_t block = first + static_cast<std::uint32_t>(popcount(below));
             f.brick[block] = b;
-            f.place[block] = static_cast<std::uint16_t>(64 * w + lowest_bit(left));
+            f.place[block] = static_cast<std::uint16_t>(index);
             f.level[block] = 0;
             f.wanted_points[block] = 0;
             f.corner_points[block] = 0;
@@ -251,11 +252,10 @@ void store_reached_bricks(State& f, const Launcher& launch) {
 void store_blocks(const State& state, const Launcher& launch) {
     const std::uint64_t bricks = state.capacity[Resource::bricks];
     exclusive_sum(state.scratch_memory(), state.members_before, bricks + 1, launch.stream);
-    launch(bricks, block_threads, number_members, state);
-    if (state.settings.work_limit != 0.0) launch(1, block_threads, stop_if_base_cells_are_too_much, state);
     launch(neighbor_slots * bricks, block_threads, find_neighbors, state);
+    if (state.settings.work_limit != 0.0) launch(1, block_threads, stop_if_base_cells_are_too_much, state);
     find_near_bricks(state, launch);
-    launch(Brick::words * bricks, block_threads, make_blocks, state);
+    launch(Brick::words * bricks, block_warps, make_blocks, state);
 }
 
 void register_particles(State& state, bool has_payload, const Launcher& launch) {
