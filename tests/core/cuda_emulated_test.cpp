@@ -220,6 +220,27 @@ TEST(CudaEmulated, RefusesParticlesThatCrowd) {
     device.expect_the_cpus_mesh(test::splash(8, 5).frame());
 }
 
+TEST(CudaEmulated, SortsWholeKeysWhereACellIsFull) {
+    EmulatedDevice device(test::default_settings());
+    device.expect_the_cpus_mesh(test::splash(8, 5).frame());
+    // In no order, and some of them in one place.
+    test::Particles full = test::splash(8, 5);
+    for (int i = 0; i < 600; ++i)
+        full.add(0.5F + 1e-3F * static_cast<float>(i * 7919 % 211), 0.3F, 0.3F + 1e-3F * static_cast<float>(i % 2));
+    device.expect_the_cpus_mesh(full.frame());
+    device.expect_the_cpus_mesh(test::splash(8, 5).frame());
+}
+
+TEST(CudaEmulated, SortsByAsManyBitsAsParticlesLieApart) {
+    EmulatedDevice device(test::default_settings());
+    test::Particles apart = test::splash(8, 4);
+    for (const float distance : {100.0F, 1e4F}) {
+        for (const float sign : {-1.0F, 1.0F}) apart.add(sign * distance, -sign * distance, sign * distance);
+        device.expect_the_cpus_mesh(apart.frame());
+    }
+    device.expect_the_cpus_mesh(test::splash(8, 4).frame());
+}
+
 TEST(CudaEmulated, FramesThatGrowAndShrinkAreReplayedFromAGraph) {
     EmulatedDevice device(test::default_settings());
     for (const int side : {6, 6, 6, 10, 4, 4, 10, 10}) device.expect_the_cpus_mesh(test::splash(6, side).frame());
