@@ -79,10 +79,10 @@ void FrameRun::run(const PlacedFrame& placed) {
     const AttributeShape shape = particles_ == 0 ? state_.attributes : placed.attributes.shape;
     const FrameArrays arrays = arrays_of(particles);
     const std::uint64_t ahead = particles.sent != nullptr ? particles.sent->number_of(&areas_) : 0;
-    UploadAreas::Place place;
-    sets_.with_room([&] { place = areas_.take(arrays, ahead, stream_); });
     try {
         const bool grown = make_room({}, payload_bytes, shape);
+        UploadAreas::Place place;
+        sets_.with_room([&] { place = areas_.take(arrays, ahead, stream_); });
         areas_.with_room([&] { sets_.take(state_); });
         run_until_it_fits(placed, arrays, place, grown);
     } catch (...) {
