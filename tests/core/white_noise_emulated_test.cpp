@@ -29,17 +29,20 @@ struct NoiseField {
         const test::NoiseWorld& world;
         Int3 base_cell;
 
-        template <int G>
-        void values(const UnitBox&, const float (&x)[G], const float (&y)[G], const float (&z)[G],
-                    float (&value)[G]) const {
-            for (int g = 0; g < G; ++g) value[g] = test::noise_value(world, base_cell, x[g], y[g], z[g]);
+        float value(const UnitBox&, float x, float y, float z) const {
+            return test::noise_value(world, base_cell, x, y, z);
+        }
+        void column(const UnitBox& box, float x, float y, float z, float upper_z, bool are_two,
+                    float (&values)[2]) const {
+            values[0] = value(box, x, y, z);
+            if (are_two) values[1] = value(box, x, y, upper_z);
         }
         Normal normal(const UnitBox&, float, float, float) const {
             const float none = std::nanf("");
             return {none, none, none};
         }
     };
-    Near near(const cuda::State&, std::uint32_t, const Int3& lowest, const UnitBox&, Shared&) const {
+    Near near(const cuda::State&, const cuda::Cluster&, const Int3& lowest, const UnitBox&, Shared&) const {
         return {world, lowest};
     }
 };

@@ -18,36 +18,37 @@ public:
         unsigned brick = 0;  ///< among the eight at the lowest one, for shift()
     };
 
-    /// All lanes of a warp call it. The box lies in the brick of base cells that `near` belongs to.
-    __device__ RowsNear(const ParticleSetView& set, const NearBricks& near, const Units3& origin, const UnitBox& box)
+    /// All lanes of a warp call it. The box, in units from the corner of a base cell, lies in the brick of base cells
+    /// that `near` belongs to; base_cell: that cell's offset in it.
+    __device__ RowsNear(const ParticleSetView& set, const NearBricks& near, const Int3& base_cell, const UnitBox& box)
         : set_(set) {
-        const unsigned lane = lane_index();
-        // A lane for each of six bounds: quotients are dear.
-        const unsigned axis = lane % 4;
-        const bool is_high = (lane & 4) != 0;
-        const auto of_axis = [axis](auto x, auto y, auto z) { return axis == 0 ? x : axis == 1 ? y : z; };
-        const float bound =
-            is_high ? of_axis(box.high[0], box.high[1], box.high[2]) : of_axis(box.low[0], box.low[1], box.low[2]);
-        // See ParticleSetView::for_each_run_near().
-        const int reached =
-            is_high ? static_cast<int>(ceilf(bound + set.support)) - 1 : static_cast<int>(floorf(bound - set.support));
-        const auto cell =
-            static_cast<std::int32_t>(floor_div(of_axis(origin.x, origin.y, origin.z) + reached, set.cell_units));
-        const auto from = [cell](int with) { return __shfl_sync(all_lanes, cell, with); };
-        low_ = {from(0), from(1), from(2)};
-        const Int3 high{from(4), from(5), from(6)};
-        size_ = high - low_ + Int3{1, 1, 1};
+        const auto cell_units = static_cast<int>(set.cell_units);
+        // Units from the corner of slot 0's brick, less than three such bricks, to cells. An estimate is off by one
+        // where the quotient is nearly whole.
+        const auto cell_at = [&](int at) {
+            const int estimate = static_cast<int>(static_cast<float>(at) * near.cells_per_unit);
+            const int rest = at - estimate * cell_units;
+            return estimate + (rest >= cell_units ? 1 : 0) - (rest < 0 ? 1 : 0);
+        };
+        const int edge = cell_units * brick_size;
+        const int cells[3] = {base_cell.x, base_cell.y, base_cell.z};
+        int low[3], high[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            // See ParticleSetView::for_each_run_near().
+            const int corner = cells[axis] * units_per_base_cell - near.corner[axis];
+            low[axis] = cell_at(corner + static_cast<int>(floorf(box.low[axis] - set.support)));
+            high[axis] = cell_at(corner + static_cast<int>(ceilf(box.high[axis] + set.support)) - 1);
+            shift_[axis] = static_cast<float>((low[axis] >> brick_axis_shift) * edge - corner);
+        }
+        edge_ = static_cast<float>(edge);
+        low_ = {low[0], low[1], low[2]};
+        size_ = {high[0] - low[0] + 1, high[1] - low[1] + 1, high[2] - low[2] + 1};
         first_ = {before_border(low_.x, size_.x), before_border(low_.y, size_.y), before_border(low_.z, size_.z)};
-        const Int3 lowest = brick_of(low_);
+        const unsigned lane = lane_index();
         const Int3 step{static_cast<int>(lane & 1), static_cast<int>(lane >> 1 & 1), static_cast<int>(lane >> 2 & 1)};
         const bool is_met = lane < 8 && (step.x == 0 || first_.x < size_.x) && (step.y == 0 || first_.y < size_.y) &&
                             (step.z == 0 || first_.z < size_.z);
-        brick_of_lane_ = is_met ? near.at(lowest + step) : no_index;
-        const std::int64_t edge = set.cell_units * brick_size;
-        edge_ = static_cast<float>(edge);
-        shift_[0] = static_cast<float>(lowest.x * edge - origin.x);
-        shift_[1] = static_cast<float>(lowest.y * edge - origin.y);
-        shift_[2] = static_cast<float>(lowest.z * edge - origin.z);
+        brick_of_lane_ = is_met ? near.at(brick_of(low_) + step) : no_index;
     }
 
     __device__ unsigned count() const {
@@ -106,7 +107,7 @@ private:
     }
 
     const ParticleSetView& set_;
-    Int3 low_;    ///< lowest cell
+    Int3 low_;    ///< lowest cell, from the corner of slot 0's brick
     Int3 size_;   ///< cells a side
     Int3 first_;  ///< of these, those in the lowest brick
     std::uint32_t brick_of_lane_ = no_index;
@@ -124,18 +125,13 @@ __device__ void for_each_window(const LevelParticles<Kernel>& level, const RowsN
         const RowsNear::Run run = rows.run(first_row + lane);
         std::uint32_t total = 0;
         const std::uint32_t below = sum_of_lanes_below(run.end - run.begin, total);
-        const auto fetch = [&](std::uint32_t i, OneCandidate& c) {
+        for (std::uint32_t start = 0; start < total; start += warp_threads) {
+            const std::uint32_t i = start + lane;
             const unsigned from = lane_with(i, below);
             const std::uint32_t rank = __shfl_sync(all_lanes, run.begin - below, static_cast<int>(from)) + i;
             const unsigned brick = __shfl_sync(all_lanes, run.brick, static_cast<int>(from));
             const float shift[3] = {rows.shift(brick, 0), rows.shift(brick, 1), rows.shift(brick, 2)};
-            c = i < total ? level.candidate(rank, shift) : OneCandidate{};
-        };
-        // Two windows' loads are under way at once.
-        for (std::uint32_t start = 0; start < total; start += 2 * warp_threads) {
-            OneCandidate c[2];
-            for (unsigned w = 0; w < 2; ++w) fetch(start + w * warp_threads + lane, c[w]);
-            for (unsigned w = 0; w < 2; ++w) visit(c[w], start + w * warp_threads + lane < total);
+            visit(i < total ? level.candidate(rank, shift) : OneCandidate{}, i < total);
         }
     }
 }

@@ -1,6 +1,7 @@
 // Clusters of 2 x 2 x 2 blocks, which share the particles near them: a warp takes one at a time.
 #pragma once
 
+#include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/state.hpp"
 #include "engine/cuda/warp.hpp"
 
@@ -29,28 +30,49 @@ __device__ inline void list_clusters(const State& f, List list, std::uint32_t bl
     if (is_first) f.chosen[at] = block;
 }
 
-/// A cluster as a warp sees it.
+/// A cluster, or a part of one, as a warp sees it.
 struct Cluster {
     std::uint32_t brick;
     Int3 corner;          ///< of its lowest block, in the brick
     std::uint32_t block;  ///< this lane's, of the first eight: no_index for the others, and where none is stored
+    bool is_first_part;
 
-    /// The one that holds a block.
-    __device__ Cluster(const BlocksView& blocks, std::uint32_t member) : brick(blocks.brick[member]) {
+    /// The one that holds a block; of its 2^halvings parts, this one.
+    __device__ Cluster(const BlocksView& blocks, std::uint32_t member, unsigned part, unsigned halvings)
+        : brick(blocks.brick[member]), is_first_part(part == 0) {
         const Int3 place = place_in_brick(blocks.place[member]);
         corner = {place.x & ~1, place.y & ~1, place.z & ~1};
         const Brick& of = blocks.grid.bricks[brick];
-        const int own = index_in_brick(corner + cluster_step(lane_index()));
-        block = lane_index() < cluster_blocks && of.holds(own) ? of.number(own) : no_index;
+        const unsigned lane = lane_index();
+        const int own = index_in_brick(corner + cluster_step(lane));
+        const bool has_block = lane < cluster_blocks && lane >> (most_halvings - halvings) == part;
+        block = has_block && of.holds(own) ? of.number(own) : no_index;
     }
+    static constexpr unsigned most_halvings = 3;
+
     __device__ Int3 coordinate(const BlocksView& blocks) const { return blocks.grid.bricks[brick].corner() + corner; }
     /// Takes the mark of its list away: once for a cluster that was listed.
     __device__ void unmark(const State& f) const {
         const int cluster = corner.x >> 1 | corner.y >> 1 << 3 | corner.z >> 1 << 6;
-        if (lane_index() == 0)
+        if (is_first_part && lane_index() == 0)
             atomicAnd(&f.marked_clusters[std::uint64_t{cluster_words} * brick + static_cast<unsigned>(cluster / 32)],
                       ~(1U << cluster % 32));
     }
 };
+
+/// Calls visit(cluster) for all on a list, each by all lanes of one warp. Where there are few clusters for a warp,
+/// several warps take parts of one: the last cluster shall not keep all others waiting.
+template <class Visit>
+__device__ void each_listed_cluster(const State& f, const BlocksView& blocks, List list, const Visit& visit) {
+    const std::uint32_t count = same_in_all_lanes(f.listed(list));
+    const std::uint64_t warps = static_cast<std::uint64_t>(gridDim.x) * block_warps;
+    unsigned halvings = 0;
+    while (halvings < Cluster::most_halvings && std::uint64_t{count} << (halvings + 1) <= 4 * warps) ++halvings;
+    LongLoop loop(f);
+    each_by_warp(count << halvings, [&](std::uint32_t i) {
+        if (!loop.goes_on_together()) return;
+        visit(Cluster(blocks, f.chosen[i >> halvings], i & ((1U << halvings) - 1), halvings));
+    });
+}
 
 }  // namespace meniscus::cuda

@@ -12,21 +12,21 @@ struct NearBricks {
     static constexpr int a_side = 3;
     static constexpr int slots = a_side * a_side * a_side;
 
-    Int3 lowest;                 ///< coordinate of slot 0's brick
-    std::uint32_t brick[slots];  ///< index in the level's set at x + 3 y + 9 z from there; no_index where there is none
+    std::int32_t corner[3];      ///< of slot 0's brick, units from the corner of the brick of base cells
+    float cells_per_unit;        ///< 1 / the edge of a support cell
+    std::uint32_t brick[slots];  ///< index in the level's set at x + 3 y + 9 z; no_index where there is none
 
-    /// For boxes within this brick of base cells.
-    MENISCUS_HD static Int3 lowest_near(const ParticleSetView& set, const Brick& of) {
-        const Units3 origin = base_cell_origin(of.corner());
-        const auto below = [&](std::int64_t at) { return at + static_cast<std::int64_t>(floorf(0.0F - set.support)); };
-        return brick_of(set.cell_of(below(origin.x), below(origin.y), below(origin.z)));
+    /// The coordinate of slot 0's brick.
+    MENISCUS_HD static Int3 lowest(const ParticleSetView& set, const Units3& origin) {
+        const auto reached = static_cast<std::int64_t>(floorf(0.0F - set.support));
+        return brick_of(set.cell_of(origin.x + reached, origin.y + reached, origin.z + reached));
     }
     MENISCUS_HD static Int3 offset(int slot) {
         return {slot % a_side, slot / a_side % a_side, slot / (a_side * a_side)};
     }
-    MENISCUS_HD std::uint32_t at(const Int3& coordinate) const {
-        const Int3 from_lowest = coordinate - lowest;
-        return brick[from_lowest.x + a_side * from_lowest.y + a_side * a_side * from_lowest.z];
+    /// offset: from slot 0, 0 to 2 a side.
+    MENISCUS_HD std::uint32_t at(const Int3& offset) const {
+        return brick[offset.x + a_side * offset.y + a_side * a_side * offset.z];
     }
 };
 

@@ -5,6 +5,7 @@
 
 #include "engine/cuda/candidate_windows.hpp"
 #include "engine/cuda/candidates.hpp"
+#include "engine/cuda/cluster.hpp"
 #include "engine/cuda/state.hpp"
 #include "engine/cuda/warp.hpp"
 
@@ -54,10 +55,9 @@ struct ParticleList {
 template <class Kernel, bool has_ranks = false>
 class NearParticles {
 public:
-    /// Takes in the particles near a box (units from `origin`) in the brick of base cells `brick`, but for the first
-    /// `skipped` of them. Returns how many there are, which may be more than skipped + room.
-    __device__ unsigned gather(const State& f, std::uint32_t brick, const Units3& origin, const UnitBox& box,
-                               unsigned skipped) {
+    /// Takes in the particles near a box (units from the cluster's corner), but for the first `skipped` of them.
+    /// Returns how many there are, which may be more than skipped + room.
+    __device__ unsigned gather(const State& f, const Cluster& cluster, const UnitBox& box, unsigned skipped) {
         const unsigned lane = lane_index();
         __syncwarp();
         unsigned found = 0;
@@ -65,8 +65,8 @@ public:
         for (unsigned k = 0; k < particle_level_count; ++k) {
             const LevelParticles<Kernel> level(f, k);
             if (level.set.cells.brick_count != 0) {
-                const RowsNear rows(level.set, f.near_bricks[std::uint64_t{particle_level_count} * brick + k], origin,
-                                    box);
+                const NearBricks& near = f.near_bricks[std::uint64_t{particle_level_count} * cluster.brick + k];
+                const RowsNear rows(level.set, near, cluster.corner, box);
                 const BoxTest<Kernel> test(box, level.set.reach());
                 for_each_window(level, rows, [&](const OneCandidate& c, bool exists) {
                     const bool reaches = exists && test(c.particle, c.fall);
@@ -128,10 +128,11 @@ public:
         }
     }
 
-    static constexpr unsigned room = has_ranks ? 128 : 192;
+    UnitBox whole;  ///< see ClusterParticles
+    static constexpr unsigned room = has_ranks ? 128 : 224;
 
 private:
-    static constexpr unsigned most_chosen = 96;
+    static constexpr unsigned most_chosen = 64;
     /// Candidates whose loads are under way at once. With ranks they are visited one by one: numbers of attributes may
     /// be such that zero times one is not zero.
     static constexpr unsigned group = has_ranks ? 1 : 4;
@@ -145,38 +146,50 @@ private:
 template <class Kernel, bool has_ranks = false>
 class ClusterParticles {
 public:
-    /// box: holds all parts; units from the corner of base cell `origin`.
-    __device__ ClusterParticles(const State& f, std::uint32_t brick, const Int3& origin, const UnitBox& box,
+    /// box: holds all parts; units from the cluster's corner.
+    __device__ ClusterParticles(const State& f, const Cluster& cluster, const UnitBox& box,
                                 NearParticles<Kernel, has_ranks>& shared)
-        : f_(f), brick_(brick), origin_(base_cell_origin(origin)), shared_(shared) {
-        all_fit_ = shared.gather(f, brick, origin_, box, 0) <= shared.room;
+        : f_(f), cluster_(cluster), shared_(shared) {
+        // Asked for once and then seldom: not for registers.
+        if (lane_index() == 0) shared.whole = box;
+        __syncwarp();
     }
+
     /// Calls visit(OneCandidate) for all near a part's box.
     template <class Visit>
-    __device__ void for_each_near(const UnitBox& box, const Visit& visit) const {
+    __device__ void for_each_near(const UnitBox& box, const Visit& visit) {
         for_each_piece(box, [&] { shared_.for_each_near(f_, box, visit); });
     }
     /// Calls visit() for each piece of those near a part's box that `shared` holds at a time.
     template <class Visit>
-    __device__ void for_each_piece(const UnitBox& box, const Visit& visit) const {
-        unsigned found = 0;
+    __device__ void for_each_piece(const UnitBox& box, const Visit& visit) {
         unsigned skipped = 0;
+        unsigned found = 0;
         do {
-            if (!all_fit_) found = shared_.gather(f_, brick_, origin_, box, skipped);
+            if (held_ != Held::all) {
+                const bool tries_all = held_ == Held::none;
+                // By coordinates: a choice between the boxes themselves would keep them in memory.
+                UnitBox from;
+                for (int axis = 0; axis < 3; ++axis) {
+                    from.low[axis] = tries_all ? shared_.whole.low[axis] : box.low[axis];
+                    from.high[axis] = tries_all ? shared_.whole.high[axis] : box.high[axis];
+                }
+                found = shared_.gather(f_, cluster_, from, skipped);
+                held_ = tries_all && found <= shared_.room ? Held::all : Held::piece;
+                if (tries_all && held_ == Held::piece) continue;
+            }
             visit();
             skipped += shared_.room;
         } while (skipped < found);
     }
 
-    __device__ const State& state() const { return f_; }
-    __device__ NearParticles<Kernel, has_ranks>& piece() const { return shared_; }
-
 private:
+    enum class Held : std::uint8_t { none, all, piece };
+
     const State& f_;
-    std::uint32_t brick_;
-    Units3 origin_;
+    const Cluster& cluster_;
     NearParticles<Kernel, has_ranks>& shared_;
-    bool all_fit_ = false;
+    Held held_ = Held::none;
 };
 
 }  // namespace meniscus::cuda

@@ -14,41 +14,39 @@ struct ParticleField {
     using Shared = NearParticles<Kernel>;                              ///< memory of a warp
     static constexpr bool has_own_supports = Kernel::has_own_support;  ///< which takes more registers
 
-    /// The field in a part of a cluster. Points are in units from the corner of the cluster's lowest base cell; a box
-    /// given with them holds those of all lanes.
+    /// The field in a part of a cluster. Points are in units from the cluster's corner; a box given with them holds
+    /// those of all lanes.
     class Near {
     public:
-        __device__ explicit Near(const ClusterParticles<Kernel>& particles) : particles_(particles) {}
+        __device__ Near(const State& f, const Cluster& cluster, const UnitBox& box, Shared& shared)
+            : f_(f), shared_(shared), particles_(f, cluster, box, shared) {}
 
-        /// Values at G points of every lane.
-        template <int G>
-        __device__ void values(const UnitBox& box, const float (&x)[G], const float (&y)[G], const float (&z)[G],
-                               float (&value)[G]) const {
-            for (int g = 0; g < G; ++g) value[g] = 0.0F;
-            particles_.for_each_near(box,
-                                     [&](const OneCandidate& c) { sum_values<Kernel, G>(c.view(), x, y, z, value); });
+        /// The value at one point of every lane.
+        __device__ float value(const UnitBox& box, float x, float y, float z) {
+            float value[1] = {0.0F};
+            particles_.for_each_near(
+                box, [&](const OneCandidate& c) { sum_values<Kernel, 1>(c.view(), {x}, {y}, {z}, value); });
+            return value[0];
         }
-        /// At one point of every lane, or at two that differ in z.
-        __device__ void column(const UnitBox& box, float x, float y, float z, float distance, bool are_two,
-                               float (&value)[2]) const {
-            const float upper = z + distance;
-            value[0] = value[1] = 0.0F;
+        /// The same, or values at two points that differ in z.
+        __device__ void column(const UnitBox& box, float x, float y, float z, float upper_z, bool are_two,
+                               float (&value)[2]) {
+            float one[1] = {0.0F};
+            float two[2] = {0.0F, 0.0F};
             particles_.for_each_piece(box, [&] {
-                NearParticles<Kernel>& piece = particles_.piece();
-                float one[1] = {value[0]};
                 if (are_two)
-                    piece.for_each_near(particles_.state(), box, [&](const OneCandidate& c) {
-                        sum_values<Kernel, 2>(c.view(), {x, x}, {y, y}, {z, upper}, value);
+                    shared_.for_each_near(f_, box, [&](const OneCandidate& c) {
+                        sum_values<Kernel, 2>(c.view(), {x, x}, {y, y}, {z, upper_z}, two);
                     });
                 else
-                    piece.for_each_near(particles_.state(), box, [&](const OneCandidate& c) {
-                        sum_values<Kernel, 1>(c.view(), {x}, {y}, {z}, one);
-                    });
-                if (!are_two) value[0] = one[0];
+                    shared_.for_each_near(
+                        f_, box, [&](const OneCandidate& c) { sum_values<Kernel, 1>(c.view(), {x}, {y}, {z}, one); });
             });
+            value[0] = are_two ? two[0] : one[0];
+            value[1] = two[1];
         }
         /// Unit vectors against the gradient at one point of every lane; not-a-numbers where it vanishes.
-        __device__ Normal normal(const UnitBox& box, float x, float y, float z) const {
+        __device__ Normal normal(const UnitBox& box, float x, float y, float z) {
             float gx = 0.0F, gy = 0.0F, gz = 0.0F;
             particles_.for_each_near(
                 box, [&](const OneCandidate& c) { sum_gradients<Kernel>(c.view(), x, y, z, gx, gy, gz); });
@@ -57,12 +55,14 @@ struct ParticleField {
         }
 
     private:
+        const State& f_;
+        Shared& shared_;
         ClusterParticles<Kernel> particles_;
     };
-    /// box: holds all points of the cluster that are asked for. brick: of base cells. lowest: base cell.
-    __device__ Near near(const State& f, std::uint32_t brick, const Int3& lowest, const UnitBox& box,
+    /// box: holds all points of the cluster that are asked for. lowest: the cluster's first base cell.
+    __device__ Near near(const State& f, const Cluster& cluster, const Int3&, const UnitBox& box,
                          Shared& shared) const {
-        return Near(ClusterParticles<Kernel>(f, brick, lowest, box, shared));
+        return {f, cluster, box, shared};
     }
 };
 

@@ -44,7 +44,9 @@ template <class Visit>
 __device__ void each_by_warp(std::uint32_t n, const Visit& visit) {
     n = same_in_all_lanes(n);
     const std::uint64_t warps = static_cast<std::uint64_t>(gridDim.x) * block_warps;
-    for (std::uint64_t i = static_cast<std::uint64_t>(blockIdx.x) * block_warps + warp_in_block(); i < n; i += warps)
+    // The compiler shall know that all lanes have the same: it then takes them for being together.
+    const std::uint32_t warp = same_in_all_lanes(warp_in_block());
+    for (std::uint64_t i = static_cast<std::uint64_t>(blockIdx.x) * block_warps + warp; i < n; i += warps)
         visit(static_cast<std::uint32_t>(i));
 }
 
@@ -86,10 +88,11 @@ __device__ inline std::uint32_t sum_of_lanes(std::uint32_t value) {
 }
 
 /// Adds the lanes' values to a count.
-__device__ inline void add_of_lanes(unsigned long long* counter, unsigned long long value) {
+template <class Value>
+__device__ void add_of_lanes(unsigned long long* counter, Value value) {
     for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2)
         value += __shfl_xor_sync(all_lanes, value, static_cast<int>(distance));
-    if (lane_index() == 0 && value != 0) atomicAdd(counter, value);
+    if (lane_index() == 0 && value != 0) atomicAdd(counter, static_cast<unsigned long long>(value));
 }
 
 __device__ inline unsigned reduce_or(unsigned bits) {

@@ -16,13 +16,13 @@ public:
         std::uint32_t number;  ///< among all
     };
 
-    /// Of the cluster that holds a block; all lanes of a warp call it.
-    __device__ ClusterVertices(const BlocksView& blocks, std::uint32_t member)
-        : cluster(blocks, member), lowest(cluster.coordinate(blocks)) {
+    /// All lanes of a warp call it.
+    __device__ ClusterVertices(const BlocksView& blocks, const Cluster& cluster)
+        : lowest(cluster.coordinate(blocks)), block_(cluster.block) {
         std::uint32_t own = 0;
-        if (cluster.block != no_index) {
-            own = static_cast<std::uint32_t>(blocks.edges[cluster.block].count());
-            first_ = blocks.first_vertex[cluster.block];
+        if (block_ != no_index) {
+            own = static_cast<std::uint32_t>(blocks.edges[block_].count());
+            first_ = blocks.first_vertex[block_];
         }
         below_ = sum_of_lanes_below(own, count);
         const Int3 step = cluster_step(lane_index());
@@ -40,15 +40,15 @@ public:
             return __shfl_sync(all_lanes, value, static_cast<int>(owner));
         };
         const std::uint32_t in_block = i - from(below_);
-        return {cluster_step(owner), from(cluster.block), static_cast<int>(in_block), from(first_) + in_block};
+        return {cluster_step(owner), from(block_), static_cast<int>(in_block), from(first_) + in_block};
     }
 
-    Cluster cluster;
     Int3 lowest;  ///< base cell
     std::uint32_t count = 0;
     UnitBox box;  ///< of the blocks with vertices, units from the lowest's corner
 
 private:
+    std::uint32_t block_;      ///< this lane's
     std::uint32_t below_ = 0;  ///< vertices in the blocks of lower lanes
     std::uint32_t first_ = 0;  ///< of this lane's block
 };

@@ -1,7 +1,6 @@
 // Attributes of the vertices, once those have their places: a warp for every cluster of blocks with vertices. A kernel
 // of its own, so that those of frames without attributes keep their registers.
 #include "engine/cuda/candidates.hpp"
-#include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/near_particles.hpp"
 #include "engine/cuda/particle_field.hpp"
 #include "engine/cuda/warp.hpp"
@@ -21,7 +20,7 @@ struct VertexValues {
 
 /// Means of the first K numbers of a group at one point of every lane; not-a-numbers where the weight is 0.
 template <class Kernel, unsigned K>
-__device__ void find_means(const ClusterParticles<Kernel, true>& near, const UnitBox& box, const float4* numbers,
+__device__ void find_means(ClusterParticles<Kernel, true>& near, const UnitBox& box, const float4* numbers,
                            const AttributeNumber* of_group, float x, float y, float z, VertexValues& values) {
     float sum[K] = {};
     values.weight = 0.0F;
@@ -36,7 +35,7 @@ __device__ void find_means(const ClusterParticles<Kernel, true>& near, const Uni
 
 /// Ids of the particle with the largest share at one point of every lane.
 template <class Kernel>
-__device__ void find_ids(const ClusterParticles<Kernel, true>& near, const UnitBox& box, const float4* numbers, float x,
+__device__ void find_ids(ClusterParticles<Kernel, true>& near, const UnitBox& box, const float4* numbers, float x,
                          float y, float z, VertexValues& values) {
     LargestShare largest;
     near.for_each_near(box, [&](const OneCandidate& c) {
@@ -63,13 +62,10 @@ __global__ void __launch_bounds__(block_threads) place_group(const __grid_consta
     const unsigned count_of_numbers = f.attributes.count(group);
     const float4* const numbers = f.numbers + group * f.capacity.particles;
     Counter lonely = 0;
-    LongLoop loop(f);
-    each_by_warp(f.listed(List::vertices), [&](std::uint32_t entry) {
-        if (!loop.goes_on_together()) return;
-        const ClusterVertices vertices(blocks, f.chosen[entry]);
+    each_listed_cluster(f, blocks, List::vertices, [&](const Cluster& cluster) {
+        const ClusterVertices vertices(blocks, cluster);
         const Int3 lowest = vertices.lowest;
-        const ClusterParticles<Kernel, true> near(f, vertices.cluster.brick, lowest, vertices.box,
-                                                  shared[warp_in_block()]);
+        ClusterParticles<Kernel, true> near(f, cluster, vertices.box, shared[warp_in_block()]);
         const std::uint32_t count = vertices.count;
         for (std::uint32_t first = 0; first < count; first += warp_threads) {
             const std::uint32_t i = first + lane_index();

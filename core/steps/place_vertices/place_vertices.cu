@@ -1,7 +1,6 @@
 // Step 6 on the GPU: a warp for every cluster of blocks with vertices.
 #include "steps/place_vertices/place_vertices.hpp"
 
-#include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/particle_field.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
@@ -61,28 +60,21 @@ struct Vertex {
     }
 };
 
-/// Bisection with particles' own supports takes more registers than fit two blocks.
-template <bool bisects, class Field>
-inline constexpr int blocks_of_placing = !bisects || !Field::has_own_supports ? 2 : 1;
-
 /// One warp for every cluster with vertices, one lane for every vertex.
 template <bool bisects, class Field>
-__global__ void __launch_bounds__(block_threads, blocks_of_placing<bisects, Field>)
-    place_listed(const __grid_constant__ State f, const Field field) {
+__global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_constant__ State f, const Field field) {
     __shared__ typename Field::Shared shared[block_warps];
     const BlocksView blocks = f.blocks();
     const int bits = static_cast<int>(f.settings.offset_bits);
     const float iso = f.settings.iso;
     const auto units_per_step = static_cast<float>(units_per_cell >> bits);
     Counter evaluations = 0;
-    LongLoop loop(f);
-    each_by_warp(f.listed(List::vertices), [&](std::uint32_t entry) {
-        if (!loop.goes_on_together()) return;
-        const ClusterVertices vertices(blocks, f.chosen[entry]);
-        vertices.cluster.unmark(f);
+    each_listed_cluster(f, blocks, List::vertices, [&](const Cluster& cluster) {
+        cluster.unmark(f);
+        const ClusterVertices vertices(blocks, cluster);
         const std::uint32_t count = vertices.count;
         evaluations += static_cast<Counter>(count) * f.settings.bisection_steps;
-        const auto near = field.near(f, vertices.cluster.brick, vertices.lowest, vertices.box, shared[warp_in_block()]);
+        auto near = field.near(f, cluster, vertices.lowest, vertices.box, shared[warp_in_block()]);
         for (std::uint32_t first = 0; first < count; first += warp_threads) {
             const std::uint32_t i = first + lane_index();
             // Lanes without a vertex repeat the last one.
@@ -108,9 +100,8 @@ __global__ void __launch_bounds__(block_threads, blocks_of_placing<bisects, Fiel
             if constexpr (bisects) {
                 go_to(bisection_start(bits));
                 for (int step = first_bisection_step(bits); step >= 1; step /= 2) {
-                    float value[1];
-                    near.template values<1>(box, {x}, {y}, {z}, value);
-                    go_to(bisected_offset(v.offset, step, value[0] > iso, low_inside));
+                    const float value = near.value(box, x, y, z);
+                    go_to(bisected_offset(v.offset, step, value > iso, low_inside));
                 }
             } else {
                 go_to(cropped ? cropped_offset(low_inside, bits) : interpolated_offset(ends.low, ends.high, iso, bits));

@@ -16,8 +16,15 @@ __global__ void __launch_bounds__(block_threads) find_each_near_brick(const __gr
         NearBricks& near = f.near_bricks[std::uint64_t{particle_level_count} * b + level];
         const ParticleSetView set = f.set(level);
         if (set.cells.brick_count == 0) return;
-        const Int3 lowest = NearBricks::lowest_near(set, f.bricks[b]);
-        if (slot == 0) near.lowest = lowest;
+        const Units3 origin = base_cell_origin(f.bricks[b].corner());
+        const Int3 lowest = NearBricks::lowest(set, origin);
+        const std::int64_t edge = set.cell_units * brick_size;
+        if (slot == 0) {
+            near.cells_per_unit = 1.0F / static_cast<float>(set.cell_units);
+            near.corner[0] = static_cast<std::int32_t>(lowest.x * edge - origin.x);
+            near.corner[1] = static_cast<std::int32_t>(lowest.y * edge - origin.y);
+            near.corner[2] = static_cast<std::int32_t>(lowest.z * edge - origin.z);
+        }
         near.brick[slot] = set.cells.find(lowest + NearBricks::offset(slot));
     });
 }

@@ -2,7 +2,6 @@
 #include "steps/sample_field/sample_field.hpp"
 
 #include "engine/cuda/cluster.hpp"
-#include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/particle_field.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/adjust_levels/sweeps.hpp"
@@ -44,73 +43,85 @@ struct ClusterSampling {
     std::uint32_t bits[warp_threads];  ///< of a block's missing points, where they are few
 };
 
-/// The corner of a block of a cluster, in units from the cluster's.
-__device__ inline float corner_of_step(int step) {
-    return static_cast<float>(step * units_per_base_cell);
-}
+/// A block's points, of which a lane has two: `lane` and lane + 32.
+struct HalfMasks {
+    unsigned half[2];
+
+    __device__ explicit HalfMasks(BlockMask points)
+        : half{static_cast<unsigned>(points), static_cast<unsigned>(points >> 32)} {}
+    __device__ unsigned count() const { return static_cast<unsigned>(__popc(half[0]) + __popc(half[1])); }
+    __device__ bool holds(int h) const { return (half[h] >> lane_index() & 1) != 0; }
+    /// Points before this lane's.
+    __device__ unsigned before(int h) const {
+        const auto in_half = static_cast<unsigned>(__popc(half[h] & ((1U << lane_index()) - 1)));
+        return h == 0 ? in_half : in_half + static_cast<unsigned>(__popc(half[0]));
+    }
+};
 
 /// All lanes of a warp give values to a block's wanted points that have none; samples lie in the order of points, signs
 /// follow. step: the block's offset in its cluster.
 template <class Field, class Near>
-__device__ void sample_block(const State& f, const Near& near, const BlocksView& blocks, std::uint32_t block,
+__device__ void sample_block(const State& f, Near& near, const BlocksView& blocks, std::uint32_t block,
                              const Int3& step, ClusterSampling<Field>& shared) {
     const unsigned lane = lane_index();
-    const BlockMask known = blocks.sampled[block];
-    const BlockMask missing = f.wanted_points[block] & ~known;
-    const BlockMask sampled = known | missing;
-    const float corner[3] = {corner_of_step(step.x), corner_of_step(step.y), corner_of_step(step.z)};
+    const BlockMask known_points = blocks.sampled[block];
+    const HalfMasks known(known_points);
+    const HalfMasks missing(f.wanted_points[block] & ~known_points);
+    const float corner[3] = {static_cast<float>(step.x * units_per_base_cell),
+                             static_cast<float>(step.y * units_per_base_cell),
+                             static_cast<float>(step.z * units_per_base_cell)};
     UnitBox box;
-    for (int axis = 0; axis < 3; ++axis) {
-        const BlockMask low = missing & low_face(axis);
+    const auto span = [&](int axis, unsigned low, unsigned others) {
         box.low[axis] = corner[axis] + (low != 0 ? 0.0F : static_cast<float>(units_per_cell));
-        box.high[axis] = corner[axis] + (low == missing ? 0.0F : static_cast<float>(3 * units_per_cell));
-    }
-    const auto coordinate = [&](unsigned bit, int axis) {
-        return corner[axis] + static_cast<float>(point_coordinate(static_cast<int>(bit), axis) * units_per_cell);
+        box.high[axis] = corner[axis] + (others != 0 ? static_cast<float>(3 * units_per_cell) : 0.0F);
     };
-    const auto first_half = static_cast<unsigned>(missing);
-    const auto second_half = static_cast<unsigned>(missing >> 32);
-    const unsigned in_first_half = static_cast<unsigned>(__popc(first_half));
-    const unsigned count = in_first_half + static_cast<unsigned>(__popc(second_half));
-    const unsigned before = (1U << lane) - 1;
-    const unsigned place[2] = {static_cast<unsigned>(__popc(first_half & before)),
-                               in_first_half + static_cast<unsigned>(__popc(second_half & before))};
+    const unsigned in_either = missing.half[0] | missing.half[1];
+    constexpr auto low_x = static_cast<unsigned>(low_face(0));
+    constexpr auto low_y = static_cast<unsigned>(low_face(1));
+    constexpr auto low_z = static_cast<unsigned>(low_face(2));
+    span(0, in_either & low_x, in_either & ~low_x);
+    span(1, in_either & low_y, in_either & ~low_y);
+    span(2, missing.half[0] & low_z, (missing.half[0] & ~low_z) | missing.half[1]);
     // All 64 points, which cost no more than those beyond 32; or one for each lane.
+    const unsigned count = missing.count();
     const bool are_many = count > warp_threads;
+    const unsigned place[2] = {missing.before(0), missing.before(1)};
     unsigned bit = lane;
     if (!are_many) {
-        if ((first_half >> lane & 1) != 0) shared.bits[place[0]] = lane;
-        if ((second_half >> lane & 1) != 0) shared.bits[place[1]] = lane + warp_threads;
+        for (int h = 0; h < 2; ++h)
+            if (missing.holds(h)) shared.bits[place[h]] = lane + 32U * static_cast<unsigned>(h);
         __syncwarp();
         // Lanes without a point repeat the first.
         bit = shared.bits[lane < count ? lane : 0];
         // The next block's take the place of this one's.
         __syncwarp();
     }
+    const auto coordinate = [&](int axis) {
+        return corner[axis] + static_cast<float>(point_coordinate(static_cast<int>(bit), axis) * units_per_cell);
+    };
     float fresh[2];  // of points `lane` and lane + 32
-    near.column(box, coordinate(bit, 0), coordinate(bit, 1), coordinate(bit, 2), static_cast<float>(2 * units_per_cell),
-                are_many, fresh);
+    const float z = coordinate(2);
+    near.column(box, coordinate(0), coordinate(1), z, z + static_cast<float>(2 * units_per_cell), are_many, fresh);
     if (!are_many) {
         const float value = fresh[0];
-        for (int half = 0; half < 2; ++half)
-            fresh[half] = __shfl_sync(all_lanes, value, static_cast<int>(place[half] % warp_threads));
+        for (int h = 0; h < 2; ++h) fresh[h] = __shfl_sync(all_lanes, value, static_cast<int>(place[h] % warp_threads));
     }
-    const float* const old = f.samples + f.old_first_sample[block];
-    float* const samples = f.samples + f.first_sample[block];
+    const BlockMask sampled_points = known_points | f.wanted_points[block];
+    const HalfMasks sampled(sampled_points);
+    const std::uint32_t old = f.old_first_sample[block];
+    const std::uint32_t first = f.first_sample[block];
     BlockMask above = 0;
-    for (int half = 0; half < 2; ++half) {
-        const int bit = static_cast<int>(lane) + 32 * half;
-        const BlockMask before = (BlockMask{1} << bit) - 1;
+    for (int h = 0; h < 2; ++h) {
         bool is_above = false;
-        if ((sampled >> bit & 1) != 0) {
-            const float value = (known >> bit & 1) != 0 ? old[popcount(known & before)] : fresh[half];
-            samples[popcount(sampled & before)] = value;
+        if (sampled.holds(h)) {
+            const float value = known.holds(h) ? f.samples[old + known.before(h)] : fresh[h];
+            f.samples[first + sampled.before(h)] = value;
             is_above = value > f.settings.iso;
         }
-        above |= static_cast<BlockMask>(__ballot_sync(all_lanes, is_above ? 1 : 0)) << (32 * half);
+        above |= static_cast<BlockMask>(__ballot_sync(all_lanes, is_above ? 1 : 0)) << (32 * h);
     }
     if (lane == 0) {
-        f.sampled[block] = sampled;
+        f.sampled[block] = sampled_points;
         f.inside[block] = f.settings.has_domain ? above & domain_points(blocks.coordinate(block), f.settings.domain_low,
                                                                         f.settings.domain_high)
                                                 : above;
@@ -141,18 +152,15 @@ template <class Field>
 __device__ void sample_listed(const State& f, const Field& field, List list,
                               ClusterSampling<Field> (&shared)[block_warps]) {
     const BlocksView blocks = f.blocks();
-    Counter evaluations = 0;
-    LongLoop loop(f);
-    each_by_warp(f.listed(list), [&](std::uint32_t i) {
-        if (!loop.goes_on_together()) return;
-        const Cluster cluster(blocks, f.chosen[i]);
+    std::uint32_t evaluations = 0;  // a warp's are fewer than all samples
+    each_listed_cluster(f, blocks, list, [&](const Cluster& cluster) {
         cluster.unmark(f);
         const BlockMask missing =
             cluster.block == no_index ? 0 : f.wanted_points[cluster.block] & ~blocks.sampled[cluster.block];
-        evaluations += static_cast<Counter>(popcount(missing));
+        evaluations += static_cast<std::uint32_t>(popcount(missing));
         ClusterSampling<Field>& own = shared[warp_in_block()];
-        const auto near = field.near(f, cluster.brick, cluster.coordinate(blocks),
-                                     box_of_points(missing, cluster_step(lane_index())), own.near);
+        auto near = field.near(f, cluster, cluster.coordinate(blocks),
+                               box_of_points(missing, cluster_step(lane_index())), own.near);
         for (unsigned left = __ballot_sync(all_lanes, missing != 0 ? 1 : 0); left != 0; left &= left - 1) {
             const auto k = static_cast<unsigned>(lowest_bit(left));
             sample_block(f, near, blocks, __shfl_sync(all_lanes, cluster.block, static_cast<int>(k)), cluster_step(k),
@@ -184,8 +192,12 @@ __global__ void __launch_bounds__(block_threads) list_half_edge_middles(const __
     });
 }
 
+/// Three blocks hide what a warp waits for, if registers suffice.
 template <class Field>
-__global__ void __launch_bounds__(block_threads, 2)
+inline constexpr int blocks_of_sampling = Field::has_own_supports ? 3 : 2;
+
+template <class Field>
+__global__ void __launch_bounds__(block_threads, blocks_of_sampling<Field>)
     sample_list(const __grid_constant__ State f, const Field field, List list) {
     __shared__ ClusterSampling<Field> shared[block_warps];
     sample_listed(f, field, list, shared);
