@@ -64,10 +64,19 @@ struct CubicSpline {
         return F(weight) * cubic_spline(length(dx, dy, dz) * F(inverse_support));
     }
 
+    /// What add_strength() makes a share of: W(q) / W0.
+    template <class F>
+    MENISCUS_HD F strength(F dx, F dy, F dz) const {
+        return cubic_spline(length(dx, dy, dz) * F(inverse_support));
+    }
+    template <class F>
+    MENISCUS_HD F add_strength(F sum, F s) const {
+        return fma(F(weight), s, sum);
+    }
     /// Adds the share to the value.
     template <class F>
     MENISCUS_HD F add_value(F sum, F dx, F dy, F dz) const {
-        return fma(F(weight), cubic_spline(length(dx, dy, dz) * F(inverse_support)), sum);
+        return add_strength(sum, strength(dx, dy, dz));
     }
 
     /// The same for an upper bound, by the distance from a box. `closest` becomes the largest 1 - distance/h.

@@ -60,11 +60,19 @@ struct Poly6 {
         return max(fnma(F(fall), d2, F(weight)), F(0.0F));
     }
 
+    /// What add_strength() makes a share of: its cube root.
+    template <class F>
+    MENISCUS_HD F strength(F dx, F dy, F dz) const {
+        return root_of_share(squared_distance(dx, dy, dz));
+    }
+    template <class F>
+    MENISCUS_HD F add_strength(F sum, F a) const {
+        return fma(a * a, a, sum);
+    }
     /// Adds the share to the value.
     template <class F>
     MENISCUS_HD F add_value(F sum, F dx, F dy, F dz) const {
-        const F a = root_of_share(squared_distance(dx, dy, dz));
-        return fma(a * a, a, sum);
+        return add_strength(sum, strength(dx, dy, dz));
     }
 
     /// The same for an upper bound, by the distance from a box. `closest` becomes the largest 1 - distance^2/h^2 of the

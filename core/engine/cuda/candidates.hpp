@@ -37,10 +37,24 @@ struct LevelParticles {
           inverse_support(f.settings.inverse_support[level]) {
         if (std::is_same_v<Kernel, Company>) set.support = f.settings.company_support[level];
     }
-    __device__ OneCandidate candidate(std::uint32_t i, const float* shift) const {
-        const float4 p = particles[i];
+    /// The particles from the first-th on. Those next to it are then found at fixed distances.
+    __device__ LevelParticles from(std::uint32_t first) const {
+        LevelParticles here = *this;
+        here.particles += first;
+        if (std::is_same_v<Kernel, Poly6>) here.falls += first;
+        return here;
+    }
+    /// Relative to the corner of its support cell's brick.
+    __device__ OneCandidate candidate(std::uint32_t i) const {
         const float fall = std::is_same_v<Kernel, Poly6> ? falls[i] : 0.0F;
-        return {{p.x + shift[0], p.y + shift[1], p.z + shift[2], p.w}, fall, set.support, inverse_support, i};
+        return {particles[i], fall, set.support, inverse_support, i};
+    }
+    __device__ OneCandidate candidate(std::uint32_t i, const float* shift) const {
+        OneCandidate c = candidate(i);
+        c.particle.x += shift[0];
+        c.particle.y += shift[1];
+        c.particle.z += shift[2];
+        return c;
     }
 };
 

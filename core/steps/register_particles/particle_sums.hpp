@@ -9,26 +9,52 @@
 
 namespace meniscus::cuda {
 
-/// Poly6 takes more registers than fit three blocks.
-template <class Kernel>
-inline constexpr int blocks_of_sums = std::is_same_v<Kernel, CubicSpline> ? 3 : 2;
+/// Adds G particles from the first-th on to the sum at a point. All are fetched before the first is added: a thread
+/// that waits for one after another is idle most of the time.
+template <class Kernel, int G>
+__device__ inline void add_particles(const LevelParticles<Kernel>& level, std::uint32_t first, const float (&at)[3],
+                                     float& sum) {
+    const LevelParticles<Kernel> here = level.from(first);
+    OneCandidate c[G];
+    for (unsigned g = 0; g < G; ++g) c[g] = here.candidate(g);
+#ifdef __CUDA_ARCH__
+    // Else the compiler moves each load to where its value is used, and the waits lie one behind another.
+    for (unsigned g = 0; g < G; ++g) asm volatile("" : "+f"(c[g].fall));
+#endif
+    float strength[G];
+    for (int g = 0; g < G; ++g)
+        strength[g] = Kernel::of(c[g].view(), 0)
+                          .strength(at[0] - c[g].particle.x, at[1] - c[g].particle.y, at[2] - c[g].particle.z);
+    for (int g = 0; g < G; ++g) sum = Kernel::of(c[g].view(), 0).add_strength(sum, strength[g]);
+}
 
 template <class Kernel>
-__global__ void __launch_bounds__(block_threads, blocks_of_sums<Kernel>)
-    sum_at_each_particle(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const __grid_constant__ State f) {
     LongLoop loop(f);
     GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
         if (!loop.goes_on()) return;
-        const unsigned level = key_level(f.keys[i]);
+        const unsigned own_level = key_level(f.keys[i]);
         const ParticleKey key = particle_key(f.keys[i]);
-        const Units3 origin = cell_corner(key.cell, f.settings.cell_units[level]);
+        const Units3 origin = cell_corner(key.cell, f.settings.cell_units[own_level]);
         const Units3 place = place_in_cell(key);
-        const float x[1] = {static_cast<float>(place.x)}, y[1] = {static_cast<float>(place.y)},
-                    z[1] = {static_cast<float>(place.z)};
-        float sum[1] = {0.0F};
-        for_each_candidate<Kernel>(f, origin, {{x[0], y[0], z[0]}, {x[0], y[0], z[0]}},
-                                   [&](const OneCandidate& c) { sum_values<Kernel, 1>(c.view(), x, y, z, sum); });
-        f.sums[i] = sum[0];
+        const float x = static_cast<float>(place.x), y = static_cast<float>(place.y), z = static_cast<float>(place.z);
+        float sum = 0.0F;
+        for (unsigned k = 0; k < particle_level_count; ++k) {
+            const LevelParticles<Kernel> level(f, k);
+            if (level.set.cells.brick_count == 0) continue;
+            NoBrickHints hints;
+            level.set.for_each_run_near(origin, {{x, y, z}, {x, y, z}}, hints,
+                                        [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+                                            // Whole units, so that this is exact.
+                                            const float at[3] = {x - shift[0], y - shift[1], z - shift[2]};
+                                            constexpr int group = std::is_same_v<Kernel, CubicSpline> ? 2 : 4;
+                                            std::uint32_t j = begin;
+                                            for (; j + group <= end; j += group)
+                                                add_particles<Kernel, group>(level, j, at, sum);
+                                            for (; j < end; ++j) add_particles<Kernel, 1>(level, j, at, sum);
+                                        });
+        }
+        f.sums[i] = sum;
     });
 }
 
