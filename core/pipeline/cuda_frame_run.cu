@@ -10,7 +10,7 @@
 //                scan, find_neighbors, find_each_near_brick, make_blocks; measure_densities, divide_weights or
 //                count_particles
 //   sample       sample_base
-//   split        collect_base_vertices, find_band, measure_listed, choose_levels, list_level_sets
+//   split        collect_base_vertices, find_band, measure_band, choose_levels, list_level_sets
 //   adjust       balance_and_promote                                        (cooperative)
 //   sample       list_corner_points, sample_list, settle_band               (cooperative); list_edge_middles, ...
 //   count        list_band, count_cells, count_cracks, scan, order_by_level_and_brick

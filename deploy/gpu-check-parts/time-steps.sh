@@ -175,7 +175,7 @@ profile() {
   record "$name" "$verdict" 0 '' 0 "$milliseconds" "ncu ${command[*]}" "$detail"
 }
 
-most_of_the_time='sample_list|place_listed|emit_cells|settle_band|measure_listed|mark_reached_cells|sample_base|sum_at_each_particle'
+most_of_the_time='sample_list|place_listed|emit_cells|settle_band|measure_band|mark_reached_cells|sample_base|sum_at_each_particle'
 step_profile() { profile profile 1 'sample_list|place_listed|emit_cells'; }
 step_profile-more() {
   profile profile-coarse 1 "$most_of_the_time"

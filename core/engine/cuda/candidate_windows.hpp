@@ -115,6 +115,33 @@ private:
     float shift_[3] = {};
 };
 
+/// The particles of up to 32 rows one after another.
+template <class Kernel>
+class ParticlesOfRows {
+public:
+    /// From a row on; all lanes of a warp call it.
+    __device__ ParticlesOfRows(const LevelParticles<Kernel>& level, const RowsNear& rows, unsigned first_row)
+        : level_(level), rows_(rows), run_(rows.run(first_row + lane_index())) {
+        below_ = sum_of_lanes_below(run_.end - run_.begin, total);
+    }
+    /// The i-th of them, each lane its own; all lanes of a warp call it. No particle where there are not as many.
+    __device__ OneCandidate candidate(std::uint32_t i) const {
+        const unsigned from = lane_with(i, below_);
+        const std::uint32_t rank = __shfl_sync(all_lanes, run_.begin - below_, static_cast<int>(from)) + i;
+        const unsigned brick = __shfl_sync(all_lanes, run_.brick, static_cast<int>(from));
+        const float shift[3] = {rows_.shift(brick, 0), rows_.shift(brick, 1), rows_.shift(brick, 2)};
+        return i < total ? level_.candidate(rank, shift) : OneCandidate{};
+    }
+
+    std::uint32_t total = 0;
+
+private:
+    const LevelParticles<Kernel>& level_;
+    const RowsNear& rows_;
+    RowsNear::Run run_;  ///< of this lane's row
+    std::uint32_t below_ = 0;
+};
+
 /// Calls visit(OneCandidate, whether there is one) in all lanes for the particles of these rows, neighboring ones in
 /// neighboring lanes, in their order.
 template <class Kernel, class Visit>
@@ -122,16 +149,10 @@ __device__ void for_each_window(const LevelParticles<Kernel>& level, const RowsN
     const unsigned lane = lane_index();
     const unsigned count = rows.count();
     for (unsigned first_row = 0; first_row < count; first_row += warp_threads) {
-        const RowsNear::Run run = rows.run(first_row + lane);
-        std::uint32_t total = 0;
-        const std::uint32_t below = sum_of_lanes_below(run.end - run.begin, total);
-        for (std::uint32_t start = 0; start < total; start += warp_threads) {
+        const ParticlesOfRows<Kernel> particles(level, rows, first_row);
+        for (std::uint32_t start = 0; start < particles.total; start += warp_threads) {
             const std::uint32_t i = start + lane;
-            const unsigned from = lane_with(i, below);
-            const std::uint32_t rank = __shfl_sync(all_lanes, run.begin - below, static_cast<int>(from)) + i;
-            const unsigned brick = __shfl_sync(all_lanes, run.brick, static_cast<int>(from));
-            const float shift[3] = {rows.shift(brick, 0), rows.shift(brick, 1), rows.shift(brick, 2)};
-            visit(i < total ? level.candidate(rank, shift) : OneCandidate{}, i < total);
+            visit(particles.candidate(i), i < particles.total);
         }
     }
 }

@@ -41,7 +41,6 @@ inline constexpr int cluster_words = Brick::words / 4;
 
 /// Lists of blocks, filled in any order.
 enum class List : std::uint8_t {
-    bends,          ///< cells of the band whose bend is measured
     corner_points,  ///< blocks to be sampled: first, in every later round, and for the middles of edges
     later_round,
     edge_middles,
@@ -50,7 +49,7 @@ enum class List : std::uint8_t {
     band,
     cracks,  ///< cells with cracks to fill
 };
-inline constexpr std::size_t list_count = 8;
+inline constexpr std::size_t list_count = 7;
 
 /// Why the kernels of a frame do nothing more.
 enum class Stop : std::uint32_t {

@@ -1,5 +1,6 @@
-// Curvature at a point of the surface in every cell of the band, a thread for every cell.
-#include "engine/cuda/candidates.hpp"
+// Curvature at a point of the surface in every cell of the band, a warp for every cluster of cells and a lane for each.
+#include "engine/cuda/box_particles.hpp"
+#include "engine/cuda/cell_cluster.hpp"
 #include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
@@ -9,50 +10,80 @@
 namespace meniscus::cuda {
 namespace {
 
+using BendCluster = CellCluster<4, 4, 2>;
+static_assert(BendCluster::cells == warp_threads);
+
+/// The smallest box around the points of some lanes, of which there is one at least.
+__device__ UnitBox box_of(const Point3<float>& p, bool counts) {
+    constexpr float far = 1e9F;
+    const auto least = [&](float v) { return reduce_min(counts ? v : far); };
+    const auto greatest = [&](float v) { return reduce_max(counts ? v : -far); };
+    return {{least(p.x), least(p.y), least(p.z)}, {greatest(p.x), greatest(p.y), greatest(p.z)}};
+}
+
 template <class Kernel>
-__global__ void __launch_bounds__(block_threads, 2) measure_listed(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_constant__ State f) {
+    __shared__ BoxParticles<Kernel> particles[block_warps];
     const BlocksView blocks = f.blocks();
     const BlobRule blobs{f.settings.blob_closest, f.settings.blob_level};
     const float iso = f.settings.iso;
-    const std::uint32_t cells = f.listed(List::bends);
+    Counter evaluations = 0;
+    const Int3 step = BendCluster::step(lane_index());
+    // Relative to the corner of the cell's pair of cells a side, as on the CPU: the search meets points that are no
+    // whole units.
+    const Point3<float> corner{static_cast<float>(step.x & 1) * base_edge, static_cast<float>(step.y & 1) * base_edge,
+                               static_cast<float>(step.z & 1) * base_edge};
     LongLoop loop(f);
-    GridLoop{}.each(cells, [&](std::uint32_t i) {
-        if (!loop.goes_on()) return;
-        const std::uint32_t block = f.chosen[i];
-        const ClosedCell cell(blocks, block);
+    each_by_warp(BendCluster::of_brick * f.count(Resource::bricks), [&](std::uint32_t i) {
+        const BendCluster cluster(f, i);
+        std::uint32_t block = cluster.holds(f, step) ? cluster.block(f, step) : no_index;
+        if (block != no_index && f.level[block] == 0) block = no_index;
+        const bool is_asked = block != no_index;
+        if (__ballot_sync(all_lanes, is_asked ? 1 : 0) == 0 || !loop.goes_on_together()) return;
         CellCorners<float> corners;
         int inside_corners = 0;
-        for (int k = 0; k < 8; ++k) {
-            corners.value[k] = (cell.block[k] == no_index ? 0.0F : blocks.value(cell.block[k], 0)) - iso;
-            inside_corners += static_cast<int>(blocks.inside_or_none(cell.block[k]) & 1);
+        for (float& value : corners.value) value = -iso;
+        if (is_asked) {
+            const ClosedCell cell(blocks, block);
+            for (int k = 0; k < 8; ++k) {
+                if (cell.block[k] != no_index) corners.value[k] += blocks.value(cell.block[k], 0);
+                inside_corners += static_cast<int>(blocks.inside_or_none(cell.block[k]) & 1);
+            }
         }
-        // Relative to the corner of the cell's cluster, as on the CPU: the search meets points that are no whole units.
-        const Int3 at = blocks.coordinate(block);
-        const Int3 cluster{at.x & ~1, at.y & ~1, at.z & ~1};
-        constexpr float edge = units_per_base_cell;
-        const Point3<float> corner{static_cast<float>(at.x - cluster.x) * edge,
-                                   static_cast<float>(at.y - cluster.y) * edge,
-                                   static_cast<float>(at.z - cluster.z) * edge};
+        // From the corner of the cluster to that of the pairs.
+        const float aside[3] = {static_cast<float>(step.x & ~1) * base_edge,
+                                static_cast<float>(step.y & ~1) * base_edge,
+                                static_cast<float>(step.z & ~1) * base_edge};
         const auto jet_at = [&]<class Jet>(const Point3<float>& p, Jet jet) {
             // Wider by a unit, since the sides of the box are rounded.
-            const UnitBox box{{p.x - 1.0F, p.y - 1.0F, p.z - 1.0F}, {p.x + 1.0F, p.y + 1.0F, p.z + 1.0F}};
-            for_each_candidate<Kernel>(f, base_cell_origin(cluster), box,
-                                       [&](const OneCandidate& c) { sum_jets<Kernel>(c.view(), p.x, p.y, p.z, jet); });
+            UnitBox box = box_of({p.x + aside[0], p.y + aside[1], p.z + aside[2]}, is_asked);
+            for (int axis = 0; axis < 3; ++axis) {
+                box.low[axis] -= 1.0F;
+                box.high[axis] += 1.0F;
+            }
+            particles[warp_in_block()].for_each(f, cluster.brick, cluster.corner, box, [&](OneCandidate c) {
+                // Whole units, so that this is exact.
+                c.particle.x -= aside[0];
+                c.particle.y -= aside[1];
+                c.particle.z -= aside[2];
+                sum_jets<Kernel>(c.view(), p.x, p.y, p.z, jet);
+            });
             return jet;
         };
         const SurfaceSearch<float> search =
             search_surface(corners, is_mixed(inside_corners) ? 1.0F : 0.0F, corner, iso, jet_at);
-        f.bends[block] = cell_bend(search, inside_corners, blobs.least_level(inside_corners, f.reaches[block]));
+        if (is_asked)
+            f.bends[block] = cell_bend(search, inside_corners, blobs.least_level(inside_corners, f.reaches[block]));
+        evaluations += is_asked ? 2 : 0;
     });
-    if (blockIdx.x == 0 && threadIdx.x == 0) f.counts->field_evaluations += Counter{2} * cells;
+    add_of_lanes(&f.counts->field_evaluations, evaluations);
 }
 
 }  // namespace
 
 void measure_bends(const State& state, const Launcher& launch) {
-    with_kernel(state.settings, [&]<class Kernel>() {
-        launch(state.capacity[Resource::blocks], block_threads, measure_listed<Kernel>, state);
-    });
+    const std::uint64_t clusters = BendCluster::of_brick * state.capacity[Resource::bricks];
+    with_kernel(state.settings, [&]<class Kernel>() { launch(clusters, block_warps, measure_band<Kernel>, state); });
 }
 
 }  // namespace meniscus::cuda

@@ -81,10 +81,7 @@ __global__ void __launch_bounds__(block_threads, 4) find_band(const __grid_const
             const bool exists = word.holds(bit);
             const bool in_band = exists && corners.may_hold_surface(bit, test, f.reaches[block].bound);
             if (exists) f.level[block] = in_band ? 1 : 0;
-            if (!bends) continue;
-            if (exists) f.bends[block] = {0.0F, 1};
-            const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(List::bends)], in_band ? 1 : 0);
-            if (in_band) f.chosen[at] = block;
+            if (exists && bends) f.bends[block] = {0.0F, 1};
         }
     });
 }
