@@ -64,9 +64,7 @@ template <class Field, class Near>
 __device__ void sample_block(const State& f, Near& near, const BlocksView& blocks, std::uint32_t block,
                              const Int3& step, ClusterSampling<Field>& shared) {
     const unsigned lane = lane_index();
-    const BlockMask known_points = blocks.sampled[block];
-    const HalfMasks known(known_points);
-    const HalfMasks missing(f.wanted_points[block] & ~known_points);
+    const HalfMasks missing(f.wanted_points[block] & ~blocks.sampled[block]);
     const float corner[3] = {static_cast<float>(step.x * units_per_base_cell),
                              static_cast<float>(step.y * units_per_base_cell),
                              static_cast<float>(step.z * units_per_base_cell)};
@@ -102,12 +100,17 @@ __device__ void sample_block(const State& f, Near& near, const BlocksView& block
     float fresh[2];  // of points `lane` and lane + 32
     const float z = coordinate(2);
     near.column(box, coordinate(0), coordinate(1), z, z + static_cast<float>(2 * units_per_cell), are_many, fresh);
-    if (!are_many) {
-        const float value = fresh[0];
-        for (int h = 0; h < 2; ++h) fresh[h] = __shfl_sync(all_lanes, value, static_cast<int>(place[h] % warp_threads));
-    }
+    // Read anew: while particles were summed over, registers were dear.
+    const BlockMask known_points = blocks.sampled[block];
     const BlockMask sampled_points = known_points | f.wanted_points[block];
+    const HalfMasks known(known_points);
     const HalfMasks sampled(sampled_points);
+    if (!are_many) {
+        const HalfMasks added(sampled_points & ~known_points);
+        const float value = fresh[0];
+        for (int h = 0; h < 2; ++h)
+            fresh[h] = __shfl_sync(all_lanes, value, static_cast<int>(added.before(h) % warp_threads));
+    }
     const std::uint32_t old = f.old_first_sample[block];
     const std::uint32_t first = f.first_sample[block];
     BlockMask above = 0;
@@ -192,9 +195,14 @@ __global__ void __launch_bounds__(block_threads) list_half_edge_middles(const __
     });
 }
 
-/// Three blocks hide what a warp waits for, if registers suffice.
+/// Three blocks hide what a warp waits for, if registers suffice; on some GPUs shared memory has room for two.
+#if defined(__CUDA_ARCH__) && (__CUDA_ARCH__ == 860 || __CUDA_ARCH__ == 890)
+template <class Field>
+inline constexpr int blocks_of_sampling = 2;
+#else
 template <class Field>
 inline constexpr int blocks_of_sampling = Field::has_own_supports ? 3 : 2;
+#endif
 
 template <class Field>
 __global__ void __launch_bounds__(block_threads, blocks_of_sampling<Field>)
