@@ -9,7 +9,7 @@
 namespace meniscus::cuda {
 
 /// The support cells near a box as rows along x, each within one brick, in the order of their particles. The box is at
-/// most two base cells wide, so that at most five support cells a side are near it, in at most two bricks a side.
+/// most four base cells wide, so that at most seven support cells a side are near it, in at most two bricks a side.
 class RowsNear {
 public:
     /// A row's particles, and what their coordinates lack.

@@ -55,11 +55,11 @@ __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_co
                                 static_cast<float>(step.y & ~1) * base_edge,
                                 static_cast<float>(step.z & ~1) * base_edge};
         const auto jet_at = [&]<class Jet>(const Point3<float>& p, Jet jet) {
-            // Wider by a unit, since the sides of the box are rounded.
+            // Wider by a unit, since the sides of the box are rounded, but no wider than the cluster, which holds all.
             UnitBox box = box_of({p.x + aside[0], p.y + aside[1], p.z + aside[2]}, is_asked);
             for (int axis = 0; axis < 3; ++axis) {
-                box.low[axis] -= 1.0F;
-                box.high[axis] += 1.0F;
+                box.low[axis] = max(box.low[axis] - 1.0F, cluster.box().low[axis]);
+                box.high[axis] = min(box.high[axis] + 1.0F, cluster.box().high[axis]);
             }
             particles[warp_in_block()].for_each(f, cluster.brick, cluster.corner, box, [&](OneCandidate c) {
                 // Whole units, so that this is exact.
