@@ -2,7 +2,6 @@
 // that check were missing, the faulty backend would pass for a right one, and its test here would fail.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <utility>
@@ -84,12 +83,7 @@ TEST(FaultsEmulated, AMissingBarrierIsCaughtByTheOrderOfChanceOfWarps) {
     Comparison comparison("together");
     ASSERT_TRUE(comparison.gives_the_cpus_bytes_in_any_order());
     const FaultInForce fault(Fault::missing_barrier);
-    // Particles beyond their box lead anywhere: another process looks where.
-    EXPECT_DEATH(
-        {
-            if (!comparison.gives_the_cpus_bytes_in_any_order()) std::abort();
-        },
-        "");
+    EXPECT_FALSE(comparison.gives_the_cpus_bytes_in_any_order());
 }
 
 TEST(FaultsEmulated, AWrongMaskIsCaughtByTheCheckOfMasks) {

@@ -89,7 +89,7 @@ private:
 
 /// Also adds up ReachedBox::count(): for the frame, or where a domain will leave cells out, for each brick in
 /// members_before.
-__global__ void __launch_bounds__(block_threads) mark_reached_cells(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __grid_constant__ State f) {
     const BrickGridView grid = f.grid();
     LongLoop loop(f);
     Counter pairs = 0;

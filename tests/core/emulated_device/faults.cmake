@@ -7,12 +7,12 @@ plant(index_off_by_one steps/place_vertices/place_vertices.cu
   [=[Vertex v(edges, place.i);]=]
   [=[Vertex v(edges, std::min(place.i + (FAULTY(index_off_by_one) ? 1 : 0), edges.count() - 1));]=])
 
-# The box of a block's particles is read before all warps have made theirs.
-plant(missing_barrier steps/register_particles/sort_particles.cu
+# A block's triangles are told before all warps have counted theirs.
+plant(missing_barrier steps/count_triangles/count_triangles.cu
   [=[    __syncthreads();
-    if (warp_in_block() != 0) return;]=]
+    if (threadIdx.x < 3 && total]=]
   [=[    if (!FAULTY(missing_barrier)) __syncthreads();
-    if (warp_in_block() != 0) return;]=])
+    if (threadIdx.x < 3 && total]=])
 
 # A ballot does not name the warp's last lane.
 plant(wrong_mask engine/cuda/near_particles.hpp
