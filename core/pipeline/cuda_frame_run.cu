@@ -53,7 +53,7 @@ FrameRun::FrameRun(const LatticeSettings& settings, const BackendOptions& option
       state_(settings) {
     int processors = 0;
     check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device_), "cudaDeviceGetAttribute");
-    launcher_ = {stream_.get(), 8 * static_cast<unsigned>(std::max(1, processors))};
+    launcher_ = {stream_.get(), static_cast<unsigned>(std::max(1, processors))};
     host_counts_.reserve(sizeof(Counts));
     state_.settings.work_limit = options.work_limit;
     state_.stop_word = stop_.word();

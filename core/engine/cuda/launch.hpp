@@ -13,36 +13,41 @@ inline constexpr unsigned block_threads = 256;
 inline constexpr unsigned warp_threads = 32;
 inline constexpr unsigned block_warps = block_threads / warp_threads;
 
-/// Where kernels run, and how many blocks keep the device busy.
+/// Where kernels run.
 struct Launcher {
     cudaStream_t stream = nullptr;
-    unsigned most_blocks = 1;
+    unsigned processors = 1;  ///< of the stream's device
 
     /// For up to `elements` elements with `a_block` of them in a block at a time.
     template <class... Parameters, class... Arguments>
     void operator()(std::uint64_t elements, unsigned a_block, void (*kernel)(Parameters...),
                     const Arguments&... arguments) const {
-        const std::uint64_t blocks = std::clamp<std::uint64_t>((elements + a_block - 1) / a_block, 1, most_blocks);
-        launch(static_cast<unsigned>(blocks), false, kernel, arguments...);
+        // Whole waves, of which none leaves the device half empty: some eight blocks a multiprocessor, so that elements
+        // that take long are evened out.
+        const unsigned at_once = blocks_of_processor(kernel);
+        const unsigned waves = std::max(1U, (8 + at_once / 2) / at_once);
+        launch(blocks_for(elements, a_block, std::uint64_t{processors} * at_once * waves), false, kernel, arguments...);
     }
     /// For up to `elements` elements, with no more blocks than run at once, so that a kernel can wait for its whole
     /// grid.
     template <class... Parameters, class... Arguments>
     void cooperative(std::uint64_t elements, void (*kernel)(Parameters...), const Arguments&... arguments) const {
-        int a_processor = 0;
-        int processors = 0;
-        int device = 0;
-        check(cudaGetDevice(&device), "cudaGetDevice");
-        check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "cudaDeviceGetAttribute");
-        check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&a_processor, kernel, static_cast<int>(block_threads), 0),
-              "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
-        // None would fit: one is tried, and CUDA names what it lacks.
-        const std::uint64_t most = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(processors * a_processor));
-        const std::uint64_t blocks = std::clamp<std::uint64_t>((elements + block_threads - 1) / block_threads, 1, most);
-        launch(static_cast<unsigned>(blocks), true, kernel, arguments...);
+        const std::uint64_t most = std::uint64_t{processors} * blocks_of_processor(kernel);
+        launch(blocks_for(elements, block_threads, most), true, kernel, arguments...);
     }
 
 private:
+    /// That run at once. One where none would fit: CUDA names then what it lacks.
+    template <class... Parameters>
+    static unsigned blocks_of_processor(void (*kernel)(Parameters...)) {
+        int blocks = 0;
+        check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, static_cast<int>(block_threads), 0),
+              "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
+        return static_cast<unsigned>(std::max(1, blocks));
+    }
+    static unsigned blocks_for(std::uint64_t elements, unsigned a_block, std::uint64_t most) {
+        return static_cast<unsigned>(std::clamp<std::uint64_t>((elements + a_block - 1) / a_block, 1, most));
+    }
     template <class... Parameters, class... Arguments>
     void launch(unsigned blocks, bool together, void (*kernel)(Parameters...), const Arguments&... arguments) const {
         cudaLaunchAttribute attribute{};

@@ -71,7 +71,7 @@ struct KernelRunner {
     std::function<void(const void* kernel, unsigned blocks, unsigned threads, bool cooperative, void* const* arguments)>
         run;
     unsigned processors = 1;                                     ///< as many as the backend is told of
-    std::function<int(const void* kernel)> blocks_of_processor;  ///< of cooperative grids
+    std::function<int(const void* kernel)> blocks_of_processor;  ///< that run at once
 };
 extern KernelRunner* runner;
 

@@ -40,8 +40,9 @@ plant(missing_wait pipeline/cuda_frame_run.cu
 
 # A cooperative grid has a block more than run at once.
 plant(wrong_block_count engine/cuda/launch.hpp
-  [=[launch(static_cast<unsigned>(blocks), true, kernel, arguments...);]=]
-  [=[launch(static_cast<unsigned>(FAULTY(wrong_block_count) ? most + 1 : blocks), true, kernel, arguments...);]=])
+  [=[launch(blocks_for(elements, block_threads, most), true, kernel, arguments...);]=]
+  [=[launch(FAULTY(wrong_block_count) ? static_cast<unsigned>(most + 1) : blocks_for(elements, block_threads, most), true,
+               kernel, arguments...);]=])
 
 # What blocks but the grid's first have changed in a sweep is not told to the others.
 plant(lost_flag steps/adjust_levels/sweeps.hpp
