@@ -8,8 +8,8 @@
 
 namespace meniscus::cuda {
 
-/// Shared memory of one warp.
-template <class Kernel>
+/// Shared memory of one warp. group: candidates whose loads are under way at once, which takes registers.
+template <class Kernel, unsigned group>
 class BoxParticles {
 public:
     /// Calls visit(OneCandidate) in all lanes, in the order of summation, and a few times for what adds nothing. All
@@ -55,7 +55,6 @@ public:
 
 private:
     static constexpr unsigned room = 4 * warp_threads;
-    static constexpr unsigned group = 4;  ///< candidates whose loads are under way at once
 
     template <class Visit>
     __device__ void visit_listed(const LevelParticles<Kernel>& level, unsigned listed, const Visit& visit) {

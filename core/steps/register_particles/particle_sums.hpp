@@ -49,8 +49,10 @@ __global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const _
                                             const float at[3] = {x - shift[0], y - shift[1], z - shift[2]};
                                             constexpr int group = std::is_same_v<Kernel, CubicSpline> ? 2 : 4;
                                             std::uint32_t j = begin;
+#pragma unroll 1
                                             for (; j + group <= end; j += group)
                                                 add_particles<Kernel, group>(level, j, at, sum);
+#pragma unroll 1
                                             for (; j < end; ++j) add_particles<Kernel, 1>(level, j, at, sum);
                                         });
         }

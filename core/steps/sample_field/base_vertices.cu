@@ -15,8 +15,8 @@ static_assert(2 * BaseCluster::cells == warp_threads);
 /// A warp for every cluster, and two lanes for every cell: one sums the value at the base vertex, the other the bound
 /// of the cell. A value is the bound of a box without extent, bit by bit.
 template <class Kernel>
-__global__ void __launch_bounds__(block_threads, 2) sample_base(const __grid_constant__ State f) {
-    __shared__ BoxParticles<Kernel> particles[block_warps];
+__global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_constant__ State f) {
+    __shared__ BoxParticles<Kernel, 3> particles[block_warps];
     // What is sampled later is appended.
     const std::uint32_t blocks = f.count(Resource::blocks);
     if (blockIdx.x == 0 && threadIdx.x == 0) {

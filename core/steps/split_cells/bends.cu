@@ -23,7 +23,7 @@ __device__ UnitBox box_of(const Point3<float>& p, bool counts) {
 
 template <class Kernel>
 __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_constant__ State f) {
-    __shared__ BoxParticles<Kernel> particles[block_warps];
+    __shared__ BoxParticles<Kernel, 4> particles[block_warps];
     const BlocksView blocks = f.blocks();
     const BlobRule blobs{f.settings.blob_closest, f.settings.blob_level};
     const float iso = f.settings.iso;
