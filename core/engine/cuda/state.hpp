@@ -121,7 +121,7 @@ struct State : BlockState<Pointer> {
     std::size_t scratch_bytes = 0;
 
     // Of every particle. Those of a level lie together, levels in ascending order; ParticleSetView explains the rest.
-    SortKey* keys = nullptr;      ///< level, ParticleKey::cell, ParticleKey::place
+    SortKey* keys = nullptr;  ///< level, ParticleKey::cell, ParticleKey::place
     SortKey* unsorted_keys = nullptr;
     std::uint32_t* order = nullptr;  ///< indices in the frame, by support cell
     std::uint32_t* order_room = nullptr;
