@@ -59,7 +59,7 @@ private:
     template <class Visit>
     __device__ void visit_listed(const LevelParticles<Kernel>& level, unsigned listed, const Visit& visit) {
         // Those that fill up the last group add nothing anywhere: they have no weight, and are far away.
-        if (lane_index() < group - 1) list_.set(listed + lane_index(), {1e9F, 0.0F, 0.0F, 0.0F}, 1.0F, 0);
+        if (lane_index() + 1 < group) list_.set(listed + lane_index(), {1e9F, 0.0F, 0.0F, 0.0F}, 1.0F, 0);
         __syncwarp();
         for (unsigned j = 0; j < listed; j += group) {
             OneCandidate c[group];

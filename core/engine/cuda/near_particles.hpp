@@ -113,7 +113,7 @@ public:
                     chosen += static_cast<unsigned>(__popc(all_near));
                 }
                 // Those that add nothing make up the last group.
-                if (lane < group - 1) chosen_.set(chosen + lane, {0.0F, 0.0F, 0.0F, 0.0F}, 1.0F, 0);
+                if (lane + 1 < group) chosen_.set(chosen + lane, {0.0F, 0.0F, 0.0F, 0.0F}, 1.0F, 0);
                 __syncwarp();
                 for (unsigned j = 0; j < chosen; j += group) {
                     OneCandidate c[group];
