@@ -144,5 +144,33 @@ TEST_F(PinnedArrays, ParticlesGoUpFromThemWithoutACopyOnTheWay) {
     pinning->unpin(positions.data());
 }
 
+/// So may arrays be whose first and last pages are pinned for others beside them.
+struct PinnedEnds {
+    PinnedEnds(PagePinning& by, std::span<std::byte> array)
+        : pinning(by), first(array.first(64)), last(array.last(64)) {
+        for (const auto& end : {first, last}) pinning.pin(end.data(), end.size());
+    }
+    ~PinnedEnds() {
+        for (const auto& end : {first, last}) pinning.unpin(end.data());
+    }
+    PinnedEnds(const PinnedEnds&) = delete;
+    PinnedEnds& operator=(const PinnedEnds&) = delete;
+
+    PagePinning& pinning;
+    std::span<std::byte> first, last;
+};
+
+TEST_F(PinnedArrays, ArraysOfWhichOnlyTheEndsArePinnedGoAsThoseThatAreNot) {
+    test::Particles own = particles;
+    const PinnedEnds of_positions(*pinning, std::as_writable_bytes(std::span(own.positions)));
+    EXPECT_EQ(device->sender()->send(own.frame()), 0U);
+    reconstruct(own.frame());
+    const PinnedEnds of_triangles(*pinning, std::as_writable_bytes(std::span(mesh.triangles)));
+    expect_the_cpus_mesh();
+    EXPECT_EQ(device->sender()->send(own.frame()), 0U) << "although there is an area";
+    reconstruct(own.frame());
+    expect_the_cpus_mesh();
+}
+
 }  // namespace
 }  // namespace meniscus

@@ -24,9 +24,8 @@ public:
     template <class T>
     void fetch(const T* from, std::size_t count, T* to, cudaStream_t stream) {
         const auto* bytes = reinterpret_cast<const std::byte*>(from);
-        if (is_pinned(to, count * sizeof(T))) {
+        if (copy_straight(to, from, count * sizeof(T), cudaMemcpyDeviceToHost, stream)) {
             straight_ = true;
-            check(cudaMemcpyAsync(to, from, count * sizeof(T), cudaMemcpyDeviceToHost, stream), "cudaMemcpyAsync");
             return;
         }
         for (std::size_t at = 0; at < count * sizeof(T); at += piece_bytes)

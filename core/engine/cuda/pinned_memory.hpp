@@ -9,8 +9,8 @@
 
 namespace meniscus::cuda {
 
-/// Whether the device copies from and to this memory of a caller's by itself, while the host goes on. A range of which
-/// only a part is pinned is copied as well, and slowly.
+/// Whether both ends of this memory of a caller's are pinned. What lies between need not be: the arrays beside it may
+/// be pinned, and share its first and last pages.
 inline bool is_pinned(const void* begin, std::size_t bytes) {
     const auto is_pinned_at = [](const std::byte* at) {
         cudaPointerAttributes attributes{};
@@ -20,6 +20,20 @@ inline bool is_pinned(const void* begin, std::size_t bytes) {
     };
     const auto* const first = static_cast<const std::byte*>(begin);
     return bytes != 0 && is_pinned_at(first) && is_pinned_at(first + (bytes - 1));
+}
+
+/// Begins a copy from or to memory of a caller's that the device makes by itself, while the host goes on. Returns
+/// false, with nothing begun, where that memory is not pinned as a whole.
+inline bool copy_straight(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream) {
+    if (!is_pinned(kind == cudaMemcpyHostToDevice ? from : to, bytes)) return false;
+    const cudaError_t status = cudaMemcpyAsync(to, from, bytes, kind, stream);
+    // So CUDA refuses memory of which only a part is pinned.
+    if (status == cudaErrorInvalidValue) {
+        cudaGetLastError();
+        return false;
+    }
+    check(status, "cudaMemcpyAsync");
+    return true;
 }
 
 /// Nothing may be copying from or to it when it grows or ends.

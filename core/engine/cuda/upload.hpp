@@ -7,6 +7,7 @@
 #include <cstring>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "engine/cuda/pinned_memory.hpp"
 #include "engine/cuda/state.hpp"
@@ -25,22 +26,27 @@ public:
     /// The last upload must have ended. Positions travel as they are given, and are widened on the device. The arrays
     /// may be read until this upload has ended.
     void send_particles(const FrameArrays& arrays, bool on_device, std::byte* area, cudaStream_t stream) {
-        const auto goes_straight = [&](std::span<const std::byte> array) {
-            return on_device || is_pinned(array.data(), array.size());
+        // First, so that the device fetches these while the others are staged.
+        struct Staged {
+            std::span<const std::byte> array;
+            std::byte* to;
         };
-        std::size_t staged = 0;
-        for (const auto& array : arrays)
-            if (!goes_straight(array)) staged += array.size();
-        staging_.reserve(staged);
-        std::byte* staging = staging_.get();
+        std::vector<Staged> staged;
+        std::size_t bytes = 0;
         for (const auto& array : arrays) {
-            if (goes_straight(array)) {
-                copy(array, area, on_device ? cudaMemcpyDeviceToDevice : cudaMemcpyHostToDevice, stream);
-            } else {
-                send(array, staging, area, stream);
-                staging += array.size();
+            if (on_device) {
+                copy_on_device(array, area, stream);
+            } else if (!copy_straight(area, array.data(), array.size(), cudaMemcpyHostToDevice, stream)) {
+                staged.push_back({array, area});
+                bytes += array.size();
             }
             area += room_for(array);
+        }
+        staging_.reserve(bytes);
+        std::byte* staging = staging_.get();
+        for (const Staged& each : staged) {
+            send(each.array, staging, each.to, stream);
+            staging += each.array.size();
         }
     }
 
@@ -69,9 +75,9 @@ public:
     }
 
 private:
-    static void copy(std::span<const std::byte> from, std::byte* to, cudaMemcpyKind kind, cudaStream_t stream) {
+    static void copy_on_device(std::span<const std::byte> from, std::byte* to, cudaStream_t stream) {
         if (from.empty()) return;
-        check(cudaMemcpyAsync(to, from.data(), from.size(), kind, stream), "cudaMemcpyAsync");
+        check(cudaMemcpyAsync(to, from.data(), from.size(), cudaMemcpyDeviceToDevice, stream), "cudaMemcpyAsync");
     }
     /// Piece by piece: the device fetches one while the next is being copied.
     static void send(std::span<const std::byte> from, std::byte* staging, std::byte* to, cudaStream_t stream) {

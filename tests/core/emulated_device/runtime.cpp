@@ -1,6 +1,7 @@
 // The runtime of the device in software: work is done when the host waits for it, and no sooner.
 #include <malloc.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
@@ -48,6 +49,17 @@ void add_piece(void* memory, std::size_t bytes, cudaMemoryType type) {
 bool remove_piece(void* memory) {
     const std::lock_guard lock(pieces_mutex);
     return pieces.erase(static_cast<const std::byte*>(memory)) != 0;
+}
+/// Whether some bytes of memory of the host's are pinned and others are not.
+bool is_partly_pinned(const void* memory, std::size_t bytes) {
+    const auto* const begin = static_cast<const std::byte*>(memory);
+    const std::byte* const end = begin + bytes;
+    std::size_t pinned = 0;
+    const std::lock_guard lock(pieces_mutex);
+    for (const auto& [at, piece] : pieces)
+        if (piece.type == cudaMemoryTypeHost && at < end && begin < at + piece.bytes)
+            pinned += static_cast<std::size_t>(std::min(end, at + piece.bytes) - std::max(begin, at));
+    return pinned != 0 && pinned != bytes;
 }
 /// No byte more, so that the address sanitizer sees what is beside it.
 cudaError_t allocate(void** memory, std::size_t bytes) {
@@ -258,6 +270,10 @@ cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaM
     if (emulated_device::on_copy)
         if (const cudaError_t status = emulated_device::on_copy(to, from, bytes, kind); status != cudaSuccess)
             return status;
+    // As CUDA does.
+    const bool is_refused = (kind == cudaMemcpyHostToDevice && is_partly_pinned(from, bytes)) ||
+                            (kind == cudaMemcpyDeviceToHost && is_partly_pinned(to, bytes));
+    if (is_refused) return cudaErrorInvalidValue;
     emulated_device::submit(stream, [=] { std::memcpy(to, from, bytes); });
     return cudaSuccess;
 }
