@@ -179,6 +179,18 @@ TEST_F(UploadAreas, MemoryThatIsNotPinnedIsNotSentAndALargerFrameNotBeforeItsSiz
     EXPECT_FALSE(send(large).has_begun());
 }
 
+TEST_F(UploadAreas, FramesThatCannotBeSentTakeNoSecondArea) {
+    Frame frame(1);
+    frame.pinning->unpin(frame.particles.positions.data());
+    make_device();
+    reconstruct(frame);
+    const std::size_t with_one = device_account->bytes();
+    make_device();
+    EXPECT_FALSE(send(frame).has_begun());
+    reconstruct(frame);
+    EXPECT_EQ(device_account->bytes(), with_one);
+}
+
 TEST_F(UploadAreas, WhereTheLimitLeavesNoSecondAreaFramesAreSentIfNoneIsWorkedAt) {
     const Frame first(1), second(2, 9);
     make_device();

@@ -87,15 +87,15 @@ public:
         const std::unique_lock lock(mutex_, std::try_to_lock);
         // Whoever reconstructs may take memory now, which can be long.
         if (!lock || is_closed_) return 0;
-        is_wished_for_ = true;
         try {
             const FrameArrays arrays = arrays_of(frame);
-            const std::size_t bytes = room_for(arrays);
-            Area* const area = free_area(bytes);
-            if (area == nullptr || has_frame_ahead()) return 0;
             const CurrentDevice current(device_);
             for (const auto& array : arrays)
                 if (!array.empty() && !is_pinned(array.data(), array.size())) return 0;
+            // Only now: a second area for frames that are never sent would be memory for nothing.
+            is_wished_for_ = true;
+            Area* const area = free_area(room_for(arrays));
+            if (area == nullptr || has_frame_ahead()) return 0;
             copy_ahead(*area, arrays);
             area->arrays = arrays;
             return area->ahead = ++last_sent_;
@@ -266,7 +266,7 @@ private:
     Stream stream_;                        ///< of the copies ahead
     std::array<Area, 2> areas_;
     std::uint64_t last_sent_ = 0;
-    bool is_wished_for_ = false;  ///< whether somebody sends ahead
+    bool is_wished_for_ = false;  ///< whether somebody sends ahead, and can
     bool was_refused_ = false;    ///< whether there was no room for a second area of this size
     bool is_closed_ = false;
 };
