@@ -35,6 +35,14 @@ std::vector<InputFrame*> FrameQueue::replace(const Upload& upload) {
     return replaced;
 }
 
+void FrameQueue::recall_replaced(const Upload& upload) {
+    if (upload.options.policy != UploadPolicy::latest) return;
+    // With the lock, so that none of them is taken while it is still being copied.
+    const std::lock_guard lock(mutex_);
+    for (const Received& received : waiting_)
+        if (received.upload.get() == &upload && received.input != nullptr) received.input->recall();
+}
+
 std::vector<InputFrame*> FrameQueue::withdraw(const Upload& upload) {
     std::vector<InputFrame*> withdrawn;
     const std::lock_guard lock(mutex_);

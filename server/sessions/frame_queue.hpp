@@ -38,6 +38,9 @@ public:
     void put(Received received);
     /// Notes in place of the upload's frames that wait, each as replaced. Returns the frames.
     std::vector<InputFrame*> replace(const Upload& upload);
+    /// Before another frame of the upload is sent ahead, and one at a time is: those that wait and that it will replace
+    /// are sent no more. They stay.
+    void recall_replaced(const Upload& upload);
     /// Forgets the frames and the dropped ones of the upload. Returns the frames.
     std::vector<InputFrame*> withdraw(const Upload& upload);
 

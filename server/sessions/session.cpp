@@ -123,11 +123,10 @@ std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::
         if (before) withdrawn = received_.withdraw(*before);
     }
     for (InputFrame* input : withdrawn) inputs_.give_back(*input);
-    if (before) {
+    if (before)
         before->output.abort(std::make_exception_ptr(
             Refusal(Refusal::Kind::failed_precondition,
                     fmt::format("another stream has resumed run {:016x} of session {}", before->run->id, id()))));
-    }
     inputs_.lend_third();
     return upload;
 }
@@ -160,7 +159,10 @@ void Session::admit_frame(std::uint64_t index) {
 void Session::submit(std::shared_ptr<Upload> upload, InputFrame& input) {
     std::vector<InputFrame*> unused;
     // Nobody else sees the frame yet.
-    if (send_ahead_ && is_to_be_reconstructed(upload)) input.send_ahead(send_ahead_);
+    if (send_ahead_ && is_to_be_reconstructed(upload)) {
+        received_.recall_replaced(*upload);
+        input.send_ahead(send_ahead_);
+    }
     {
         const std::lock_guard lock(mutex_);
         // Otherwise the session has ended the upload, or another stream has resumed its run and sends this frame too.

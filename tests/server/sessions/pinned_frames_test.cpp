@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <semaphore>
+#include <set>
 #include <thread>
 
 #include "sessions/input_frame.hpp"
@@ -109,9 +110,12 @@ public:
     void withdraw(std::uint64_t number) noexcept override {
         const std::lock_guard lock(mutex_);
         ahead_.erase(number);
+        taken_.erase(number);
     }
+    /// Takes one at a time beside those that are worked at, as a GPU does: returns 0 for another.
     std::uint64_t send(const void* first) {
         const std::lock_guard lock(mutex_);
+        if (one_at_a_time && ahead_.size() > taken_.size()) return 0;
         ahead_.emplace(++sent_, first);
         return sent_;
     }
@@ -119,7 +123,9 @@ public:
     const void* take(std::uint64_t number) {
         const std::lock_guard lock(mutex_);
         const auto found = ahead_.find(number);
-        return found != ahead_.end() ? found->second : nullptr;
+        if (found == ahead_.end()) return nullptr;
+        taken_.insert(number);
+        return found->second;
     }
     std::uint64_t sent() const {
         const std::lock_guard lock(mutex_);
@@ -130,9 +136,12 @@ public:
         return ahead_.size();
     }
 
+    std::atomic<bool> one_at_a_time{false};
+
 private:
     mutable std::mutex mutex_;
     std::map<std::uint64_t, const void*> ahead_;
+    std::set<std::uint64_t> taken_;  ///< of those, by their reconstructions
     std::uint64_t sent_ = 0;
 };
 
@@ -141,7 +150,8 @@ struct FramesSentAhead : testing::Test {
 
     std::function<FrameUpload(const ParticleFrame&)> send_ahead() {
         return [receiver = receiver](const ParticleFrame& frame) {
-            return FrameUpload(receiver, receiver->send(frame.positions.data()));
+            const std::uint64_t number = receiver->send(frame.positions.data());
+            return number != 0 ? FrameUpload(receiver, number) : FrameUpload();
         };
     }
 
@@ -179,6 +189,7 @@ TEST_F(FramesSentAhead, EachIsSentAsSoonAsItHasArrivedAndItsReconstructionIsTold
 }
 
 TEST_F(FramesSentAhead, AFrameThatIsReplacedIsWithdrawnBeforeItsMemoryIsWrittenAgain) {
+    receiver->one_at_a_time = true;
     test::Simulator simulator(session, {.policy = UploadPolicy::latest});
     simulator.send(0, particles);
     while (begun == 0) std::this_thread::yield();
