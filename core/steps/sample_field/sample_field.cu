@@ -227,9 +227,9 @@ __global__ void __launch_bounds__(block_threads, 2) settle_band(const __grid_con
                 [&](const BlocksView& blocks, std::uint32_t b) { return misses_surface_on_face(blocks, b); },
                 [&](std::uint32_t b) { return f.level[b] + 1; });
         if (!grown && !raised) return;
-        sweeps.adjust_levels();
+        // All have read the last round's list; adjusting waits before the next is written.
         if (sweeps.is_first_thread()) f.counts->listed[static_cast<int>(List::later_round)] = 0;
-        sweeps.wait();
+        sweeps.adjust_levels();
         list_wanted_points(f, List::later_round, [&](const BlocksView& blocks, std::uint32_t b) {
             return f.corner_points[b] = corner_points(LevelsAround(blocks, b));
         });
