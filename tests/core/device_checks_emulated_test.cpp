@@ -1,6 +1,7 @@
 // What the device in software notices: kernels that break the rules of a GPU or of CUB do not pass.
 #include <cooperative_groups.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -8,11 +9,13 @@
 #include <type_traits>
 #include <vector>
 
+#include "engine/cuda/cell_cluster.hpp"
 #include "engine/cuda/launch.hpp"
 #include "engine/cuda/scans.hpp"
 #include "engine/cuda/stream.hpp"
 #include "engine/cuda/warp.hpp"
 #include "meniscus/error.hpp"
+#include "support/particles.hpp"
 
 namespace meniscus {
 namespace {
@@ -29,6 +32,21 @@ void run_together(unsigned blocks, void (*kernel)(Parameters...),
     cuda::Stream stream;
     cuda::Launcher{stream.get(), blocks}.cooperative(blocks * cuda::block_threads, kernel, arguments...);
     stream.synchronize();
+}
+
+/// Of a brick that is the last of the most that there may be: all clusters together are more than 2^32.
+void find_the_last_cluster(const cuda::State* f, std::uint32_t* brick, int* corner) {
+    using Cluster = cuda::CellCluster<4, 2, 2>;
+    const Cluster cluster(*f, Cluster::of_brick * cuda::too_many(cuda::Resource::bricks) - 1);
+    *brick = cluster.brick;
+    *corner = index_in_brick(cluster.corner);
+}
+/// As many elements as 32 bits cannot count, from the last few on.
+void count_the_last_of_many(unsigned long long* sum) {
+    constexpr std::uint64_t many = (std::uint64_t{1} << 32) + 2;
+    cuda::GridLoop loop;
+    loop.first += std::uint64_t{1} << 32;
+    loop.each<std::uint64_t>(many, [&](std::uint64_t i) { atomicAdd(sum, static_cast<unsigned long long>(i)); });
 }
 
 void name_too_few_lanes(unsigned* out) {
@@ -57,6 +75,26 @@ void wait_for_the_block_at_different_places() {
 void leave_before_the_block_waits() {
     if (threadIdx.x == 7) return;
     __syncthreads();
+}
+
+TEST(LoopsEmulated, CountBeyond32Bits) {
+    unsigned long long sum = 0;
+    run(1, count_the_last_of_many, &sum);
+    EXPECT_EQ(sum, (1ULL << 33) + 1);
+    // Memory that is only asked for where the last brick lies.
+    const std::size_t bytes = cuda::too_many(cuda::Resource::bricks) * sizeof(Brick);
+    void* const bricks =
+        mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (bricks == MAP_FAILED) GTEST_SKIP() << "this host gives out no address space that it may lack memory for";
+    cuda::State state{LatticeSettings(test::default_settings())};
+    state.bricks = static_cast<Brick*>(bricks);
+    const auto last = static_cast<std::uint32_t>(cuda::too_many(cuda::Resource::bricks) - 1);
+    std::uint32_t brick = 0;
+    int corner = 0;
+    run(1, find_the_last_cluster, &state, &brick, &corner);
+    munmap(bricks, bytes);
+    EXPECT_EQ(brick, last);
+    EXPECT_EQ(corner, index_in_brick({12, 14, 14}));
 }
 
 TEST(DeviceChecksEmulated, MasksNameTheLanesThatCome) {

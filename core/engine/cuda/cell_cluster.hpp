@@ -9,14 +9,14 @@ namespace meniscus::cuda {
 template <int X, int Y, int Z>
 struct CellCluster {
     static constexpr unsigned cells = X * Y * Z;
-    static constexpr unsigned of_brick = brick_volume / cells;
+    static constexpr std::uint64_t of_brick = brick_volume / cells;  ///< of all bricks they may be more than 2^32
 
     std::uint32_t brick;
     Int3 corner;  ///< the lowest cell
 
     /// The i-th of all bricks' clusters, by (z, y, x) in a brick.
-    __device__ CellCluster(const State& f, std::uint32_t i)
-        : brick(i / of_brick),
+    __device__ CellCluster(const State& f, std::uint64_t i)
+        : brick(static_cast<std::uint32_t>(i / of_brick)),
           corner(f.bricks[brick].corner() + Int3{static_cast<int>(i % a_row) * X,
                                                  static_cast<int>(i / a_row % a_column) * Y,
                                                  static_cast<int>(i % of_brick / (a_row * a_column)) * Z}) {}

@@ -17,7 +17,8 @@ __device__ inline unsigned warp_in_block() {
 }
 
 /// The first lane's value: a count that another warp may be changing must not part the lanes.
-__device__ inline std::uint32_t same_in_all_lanes(std::uint32_t value) {
+template <class Value>
+__device__ inline Value same_in_all_lanes(Value value) {
     return __shfl_sync(all_lanes, value, 0);
 }
 
@@ -26,10 +27,10 @@ struct GridLoop {
     std::uint64_t step = static_cast<std::uint64_t>(gridDim.x) * block_threads;
     std::uint64_t first = static_cast<std::uint64_t>(blockIdx.x) * block_threads + threadIdx.x;  ///< this thread's
 
-    /// Calls visit(i) for this thread's elements below n.
-    template <class Visit>
+    /// Calls visit(i) for this thread's elements below n. Index: 64 bits where there may be more than 2^32 of them.
+    template <class Index = std::uint32_t, class Visit>
     __device__ void each(std::uint64_t n, const Visit& visit) const {
-        for (std::uint64_t i = first; i < n; i += step) visit(static_cast<std::uint32_t>(i));
+        for (std::uint64_t i = first; i < n; i += step) visit(static_cast<Index>(i));
     }
     /// Calls visit(i, whether i < n), the same number of times in all lanes of a warp.
     template <class Visit>
@@ -39,15 +40,16 @@ struct GridLoop {
     }
 };
 
-/// Calls visit(i) for the elements below n, each by all lanes of one warp of the grid.
-template <class Visit>
-__device__ void each_by_warp(std::uint32_t n, const Visit& visit) {
+/// Calls visit(i) for the elements below n, each by all lanes of one warp of the grid. Index: 32 bits, or 64 where
+/// there may be more than 2^32 of them.
+template <class Index, class Visit>
+__device__ void each_by_warp(Index n, const Visit& visit) {
     n = same_in_all_lanes(n);
     const std::uint64_t warps = static_cast<std::uint64_t>(gridDim.x) * block_warps;
     // The compiler shall know that all lanes have the same: it then takes them for being together.
     const std::uint32_t warp = same_in_all_lanes(warp_in_block());
     for (std::uint64_t i = static_cast<std::uint64_t>(blockIdx.x) * block_warps + warp; i < n; i += warps)
-        visit(static_cast<std::uint32_t>(i));
+        visit(static_cast<Index>(i));
 }
 
 /// The sum of the values of the lanes below; `total` becomes that of all.

@@ -8,11 +8,13 @@ namespace meniscus::cuda {
 namespace {
 
 __global__ void __launch_bounds__(block_threads) find_each_near_brick(const __grid_constant__ State f) {
-    constexpr std::uint32_t of_brick = particle_level_count * NearBricks::slots;
-    GridLoop{}.each(std::uint64_t{of_brick} * f.count(Resource::bricks), [&](std::uint32_t i) {
-        const std::uint32_t b = i / of_brick;
-        const unsigned level = i % of_brick / NearBricks::slots;
-        const int slot = static_cast<int>(i % NearBricks::slots);
+    // Of all bricks they may be more than 2^32.
+    constexpr std::uint64_t of_brick = particle_level_count * NearBricks::slots;
+    GridLoop{}.each<std::uint64_t>(of_brick * f.count(Resource::bricks), [&](std::uint64_t i) {
+        const auto b = static_cast<std::uint32_t>(i / of_brick);
+        const auto of_this = static_cast<unsigned>(i % of_brick);
+        const unsigned level = of_this / NearBricks::slots;
+        const int slot = static_cast<int>(of_this % NearBricks::slots);
         NearBricks& near = f.near_bricks[std::uint64_t{particle_level_count} * b + level];
         const ParticleSetView set = f.set(level);
         if (set.cells.brick_count == 0) return;

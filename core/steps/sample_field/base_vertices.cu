@@ -30,7 +30,7 @@ __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_con
     const float x = static_cast<float>(step.x) * base_edge + half, y = static_cast<float>(step.y) * base_edge + half,
                 z = static_cast<float>(step.z) * base_edge + half;
     LongLoop loop(f);
-    each_by_warp(BaseCluster::of_brick * bricks, [&](std::uint32_t i) {
+    each_by_warp(BaseCluster::of_brick * bricks, [&](std::uint64_t i) {
         const BaseCluster cluster(f, i);
         const bool exists = cluster.holds(f, step);
         if (__ballot_sync(all_lanes, exists ? 1 : 0) == 0 || !loop.goes_on_together()) return;

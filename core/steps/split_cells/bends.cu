@@ -34,7 +34,7 @@ __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_co
     const Point3<float> corner{static_cast<float>(step.x & 1) * base_edge, static_cast<float>(step.y & 1) * base_edge,
                                static_cast<float>(step.z & 1) * base_edge};
     LongLoop loop(f);
-    each_by_warp(BendCluster::of_brick * f.count(Resource::bricks), [&](std::uint32_t i) {
+    each_by_warp(BendCluster::of_brick * f.count(Resource::bricks), [&](std::uint64_t i) {
         const BendCluster cluster(f, i);
         std::uint32_t block = cluster.holds(f, step) ? cluster.block(f, step) : no_index;
         if (block != no_index && f.level[block] == 0) block = no_index;
