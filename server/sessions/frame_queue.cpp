@@ -35,12 +35,12 @@ std::vector<InputFrame*> FrameQueue::replace(const Upload& upload) {
     return replaced;
 }
 
-void FrameQueue::recall_replaced(const Upload& upload) {
-    if (upload.options.policy != UploadPolicy::latest) return;
-    // With the lock, so that none of them is taken while it is still being copied.
+std::vector<FrameUpload> FrameQueue::sent_ahead(const Upload& upload) {
+    std::vector<FrameUpload> sent;
     const std::lock_guard lock(mutex_);
     for (const Received& received : waiting_)
-        if (received.upload.get() == &upload && received.input != nullptr) received.input->recall();
+        if (received.upload.get() == &upload && received.input != nullptr) sent.push_back(received.input->sent());
+    return sent;
 }
 
 std::vector<InputFrame*> FrameQueue::withdraw(const Upload& upload) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "meniscus/frame_upload.hpp"
 #include "sessions/dropped_frame.hpp"
 #include "sessions/input_frame.hpp"
 #include "sessions/upload.hpp"
@@ -38,9 +39,8 @@ public:
     void put(Received received);
     /// Notes in place of the upload's frames that wait, each as replaced. Returns the frames.
     std::vector<InputFrame*> replace(const Upload& upload);
-    /// Before another frame of the upload is sent ahead, and one at a time is: those that wait and that it will replace
-    /// are sent no more. They stay.
-    void recall_replaced(const Upload& upload);
+    /// What was sent ahead of the upload's frames that wait, to be withdrawn: they stay, and may be taken meanwhile.
+    std::vector<FrameUpload> sent_ahead(const Upload& upload);
     /// Forgets the frames and the dropped ones of the upload. Returns the frames.
     std::vector<InputFrame*> withdraw(const Upload& upload);
 

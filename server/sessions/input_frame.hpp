@@ -50,8 +50,8 @@ struct InputFrame {
     void pin() noexcept { pinned_.hold(std::span(bytes.data(), bytes.capacity())); }
     /// Sends the frame, which is complete, ahead of its reconstruction. send: see ReconstructFunctions::send_ahead.
     void send_ahead(const std::function<FrameUpload(const ParticleFrame& frame)>& send) { sent_ = send(view()); }
-    /// It goes with its reconstruction after all.
-    void recall() noexcept { sent_ = {}; }
+    /// Another handle of that, for whoever withdraws it.
+    FrameUpload sent() const { return sent_.another(); }
     /// Its bytes are no longer in flight. Its memory stays for the next frame, if there is room for it.
     void land() noexcept {
         sent_ = {};

@@ -160,7 +160,8 @@ void Session::submit(std::shared_ptr<Upload> upload, InputFrame& input) {
     std::vector<InputFrame*> unused;
     // Nobody else sees the frame yet.
     if (send_ahead_ && is_to_be_reconstructed(upload)) {
-        received_.recall_replaced(*upload);
+        // One frame at a time is sent: not the one that this one replaces.
+        if (upload->options.policy == UploadPolicy::latest) received_.sent_ahead(*upload).clear();
         input.send_ahead(send_ahead_);
     }
     {

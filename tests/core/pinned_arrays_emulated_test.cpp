@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cuda_runtime.h"
+#include "engine/cuda/pinned_memory.hpp"
 #include "host_copies.hpp"
 #include "meniscus/meniscus.hpp"
 #include "pipeline/backend.hpp"
@@ -37,6 +38,8 @@ protected:
         emulated_device::on_copy = nullptr;
         emulated_device::before_copy_to_host = nullptr;
         emulated_device::register_status = cudaSuccess;
+        emulated_device::unregister_status = cudaSuccess;
+        cuda::pages_are_lost = false;
     }
 
     void reconstruct(const ParticleFrame& frame) {
@@ -142,6 +145,30 @@ TEST_F(PinnedArrays, ParticlesGoUpFromThemWithoutACopyOnTheWay) {
         expect_the_cpus_mesh();
     }
     pinning->unpin(positions.data());
+}
+
+TEST_F(PinnedArrays, OnceADeviceIsLostWithPagesThatWerePinnedForItNothingGoesStraight) {
+    test::Particles own = particles;
+    const std::size_t bytes = own.positions.size() * sizeof(float);
+    pinning->pin(own.positions.data(), bytes);
+    emulated_device::unregister_status = cudaErrorLaunchFailure;
+    pinning->unpin(own.positions.data());
+    emulated_device::unregister_status = cudaSuccess;
+    // For CUDA these positions are pinned, as any others are that come to lie there.
+    bool straight = false;
+    emulated_device::on_copy = [&](const void*, const void* from, std::size_t copied, cudaMemcpyKind kind) {
+        if (kind == cudaMemcpyHostToDevice && overlaps(own.positions, from, copied)) straight = true;
+        return cudaSuccess;
+    };
+    reconstruct(own.frame());
+    emulated_device::on_copy = nullptr;
+    EXPECT_FALSE(straight);
+    expect_the_cpus_mesh();
+    EXPECT_EQ(device->sender()->send(own.frame()), 0U);
+    std::vector<std::byte> other(PagePinning::least_bytes);
+    pinning->pin(other.data(), other.size());
+    EXPECT_EQ(refusals.size(), 1U);
+    cudaHostUnregister(own.positions.data());
 }
 
 /// So may arrays be whose first and last pages are pinned for others beside them.

@@ -123,7 +123,7 @@ public:
     }
 
     Mesh mesh(const test::NoiseWorld& world) {
-        const cuda::Launcher launch{stream_.get(), 4};
+        const cuda::Launcher launch{stream_.get(), 1};
         const auto run = [&](auto steps) {
             NoClock clock;
             run_pipeline(steps, clock);

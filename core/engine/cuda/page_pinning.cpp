@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/cuda/errors.hpp"
+#include "engine/cuda/pinned_memory.hpp"
 #include "meniscus/devices.hpp"
 
 namespace meniscus::cuda {
@@ -18,6 +19,7 @@ public:
 
     void pin(void* begin, std::size_t bytes) noexcept override {
         try {
+            if (pages_are_lost) return refused("a GPU has been lost, with memory that was pinned for it");
             const CurrentDevice current(device_);
             const cudaError_t status = cudaHostRegister(begin, bytes, cudaHostRegisterPortable);
             if (status == cudaSuccess) return;
@@ -30,12 +32,16 @@ public:
     void unpin(void* begin) noexcept override {
         try {
             const CurrentDevice current(device_);
-            // Fails for memory that was refused, which is of no consequence.
-            cudaHostUnregister(begin);
+            const cudaError_t status = cudaHostUnregister(begin);
             cudaGetLastError();
+            // The last two of memory that was refused, which is of no consequence.
+            if (status == cudaSuccess || status == cudaErrorHostMemoryNotRegistered || status == cudaErrorInvalidValue)
+                return;
         } catch (const std::exception&) {
-            // The device is lost, and copies nothing any more.
+            // As below.
         }
+        // The device is lost, and copies nothing any more; the others would.
+        pages_are_lost = true;
     }
 
 private:

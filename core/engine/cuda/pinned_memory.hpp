@@ -1,6 +1,7 @@
 // Host memory that the device copies from and to while both go on.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 
@@ -8,6 +9,11 @@
 #include "meniscus/memory.hpp"
 
 namespace meniscus::cuda {
+
+/// Whether a lost device has left memory pinned that was freed since. To the other devices its addresses are pinned
+/// still, whatever lies there now, and their copies would be of pages that nobody has any more: from then on nothing
+/// counts as pinned, and copies go through memory that CUDA itself has allocated.
+inline std::atomic<bool> pages_are_lost{false};
 
 /// Whether both ends of this memory of a caller's are pinned. What lies between need not be: the arrays beside it may
 /// be pinned, and share its first and last pages.
@@ -19,7 +25,7 @@ inline bool is_pinned(const void* begin, std::size_t bytes) {
         return status == cudaSuccess && attributes.type == cudaMemoryTypeHost;
     };
     const auto* const first = static_cast<const std::byte*>(begin);
-    return bytes != 0 && is_pinned_at(first) && is_pinned_at(first + (bytes - 1));
+    return !pages_are_lost && bytes != 0 && is_pinned_at(first) && is_pinned_at(first + (bytes - 1));
 }
 
 /// Begins a copy from or to memory of a caller's that the device makes by itself, while the host goes on. Returns

@@ -32,6 +32,9 @@ public:
     FrameUpload(const FrameUpload&) = delete;
     FrameUpload& operator=(const FrameUpload&) = delete;
 
+    /// Another of the same frame: the end of either waits for the copies, and forgets the frame.
+    FrameUpload another() const { return {sender_, number_}; }
+
     /// Whether copies were begun.
     bool has_begun() const noexcept { return sender_ != nullptr; }
     /// For the backend: the frame's number; 0 if another has sent it.

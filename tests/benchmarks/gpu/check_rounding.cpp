@@ -16,7 +16,7 @@ namespace meniscus::benchmarks {
 namespace {
 
 constexpr std::uint64_t most_at_once = std::uint64_t{1} << 24;
-constexpr unsigned many_blocks = 4096;
+constexpr unsigned many_processors = 512;
 
 float compute_on_host(Operation operation, const Arguments& x) {
     switch (operation) {
@@ -96,7 +96,7 @@ void check_rounding(std::uint64_t one_argument, std::uint64_t more_arguments, co
     on_host.reserve(bytes);
     auto* const results = reinterpret_cast<float*>(on_device.get());
     const auto* const copied = reinterpret_cast<const float*>(on_host.get());
-    const cuda::Launcher launch{stream.get(), many_blocks};
+    const cuda::Launcher launch{stream.get(), many_processors};
     struct Named {
         Operation operation;
         const char* name;

@@ -174,6 +174,7 @@ enum cudaError_t {
     cudaErrorMemoryAllocation,
     cudaErrorLaunchFailure,
     cudaErrorInvalidValue,
+    cudaErrorHostMemoryNotRegistered,
     cudaErrorInvalidConfiguration,
     cudaErrorCooperativeLaunchTooLarge,
     cudaErrorStreamCaptureUnsupported,  ///< what would wait or allocate while this thread captures a graph

@@ -12,5 +12,7 @@ namespace emulated_device {
 extern std::function<cudaError_t(const void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind)> on_copy;
 /// What cudaHostRegister answers.
 extern cudaError_t register_status;
+/// What cudaHostUnregister answers, which does nothing then unless it is cudaSuccess.
+extern cudaError_t unregister_status;
 
 }  // namespace emulated_device

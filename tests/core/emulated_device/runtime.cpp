@@ -93,6 +93,7 @@ std::function<cudaError_t()> emulated_device::before_copy_to_host;
 std::size_t emulated_device::graph_launches = 0;
 cudaError_t emulated_device::elapsed_time_status = cudaSuccess;
 cudaError_t emulated_device::register_status = cudaSuccess;
+cudaError_t emulated_device::unregister_status = cudaSuccess;
 std::function<cudaError_t(const void*, const void*, std::size_t, cudaMemcpyKind)> emulated_device::on_copy;
 
 void emulated_device::submit(cudaStream_t stream, const std::function<void()>& work) {
@@ -112,6 +113,8 @@ const char* cudaGetErrorString(cudaError_t status) {
             return "launch failure";
         case cudaErrorInvalidValue:
             return "invalid argument";
+        case cudaErrorHostMemoryNotRegistered:
+            return "pointer does not correspond to a registered memory region";
         case cudaErrorInvalidConfiguration:
             return "invalid configuration argument";
         case cudaErrorCooperativeLaunchTooLarge:
@@ -251,7 +254,8 @@ cudaError_t cudaHostRegister(void* memory, std::size_t bytes, unsigned) {
     return emulated_device::register_status;
 }
 cudaError_t cudaHostUnregister(void* memory) {
-    return remove_piece(memory) ? cudaSuccess : cudaErrorInvalidValue;
+    if (emulated_device::unregister_status != cudaSuccess) return emulated_device::unregister_status;
+    return remove_piece(memory) ? cudaSuccess : cudaErrorHostMemoryNotRegistered;
 }
 cudaError_t cudaHostGetDevicePointer(void** mapped, void* memory, unsigned) {
     return *mapped = memory, cudaSuccess;
