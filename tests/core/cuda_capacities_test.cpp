@@ -56,7 +56,9 @@ TEST(CudaCapacities, RoomToSpareEndsWhereNumbersDo) {
     EXPECT_TRUE(capacities.grow_to(0xFFFFFFF0ULL, needed));
     EXPECT_LT(capacities.particles, std::uint64_t{1} << 32);
     for (std::size_t r = 0; r < resource_count; ++r)
-        if (too_many(static_cast<Resource>(r)) <= no_index) EXPECT_LT(capacities.of[r], std::uint64_t{1} << 32);
+        if (too_many(static_cast<Resource>(r)) <= no_index) {
+            EXPECT_LT(capacities.of[r], std::uint64_t{1} << 32);
+        }
     EXPECT_LT(Brick::words * capacities[Resource::bricks], std::uint64_t{1} << 32) << "words are numbered too";
 }
 
