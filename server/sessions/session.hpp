@@ -140,8 +140,6 @@ private:
 
     // With the lock held.
 
-    /// Throws LimitReached for one watcher too many, or one format.
-    void require_room_for(const WatchWishes& wishes, const NameAccount* watcher) const;
     std::shared_ptr<Run> run_of(const UploadOptions& options) const;
     /// Whether a stream sends, or waits for its answers.
     bool has_stream() const;
@@ -150,7 +148,10 @@ private:
     void set_upload(std::shared_ptr<Upload> upload);
     /// As the upload's policy says. Returns the inputs that are free again.
     std::vector<InputFrame*> enqueue(std::shared_ptr<Upload> upload, InputFrame& input);
-    /// Whether the frame that is submitted next will be, unless a newer one replaces it. Takes the lock.
+
+    // Called by the upload's stream.
+
+    /// Whether the frame that is submitted next will be, unless a newer one replaces it.
     bool is_to_be_reconstructed(const std::shared_ptr<Upload>& upload) const;
 
     // Called by the encoding thread.

@@ -42,7 +42,7 @@ std::string place_name(const BackendOptions& backend) {
     return backend.backend == Backend::cuda ? fmt::format("GPU {}", backend.device) : "the CPU";
 }
 
-std::shared_ptr<PagePinning> log_refusal_of_pinning(int device) {
+std::shared_ptr<PagePinning> pinning_that_logs_refusals(int device) {
     return cuda::page_pinning(device, [device](const std::string& reason) {
         spdlog::warn("GPU {} copies more slowly: memory cannot be pinned for it ({})", device, reason);
     });
@@ -55,20 +55,22 @@ ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOpt
     BackendOptions stoppable = backend;
     stoppable.stop = stop;
     const auto reconstructor = std::make_shared<Reconstructor>(settings, stoppable);
-    return {.reconstruct =
-                [reconstructor](const ParticleFrame& frame, Mesh& mesh) {
-                    MeshDownload download = reconstructor->reconstruct_for_download(frame, mesh);
-                    return Reconstructed(reconstructor->statistics(), std::move(download));
-                },
-            .emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); },
-            .stop = stop,
-            .send_ahead =
-                [weak = std::weak_ptr(reconstructor)](const ParticleFrame& frame) {
-                    // A call may keep a session for longer than it keeps its buffers.
-                    const auto alive = weak.lock();
-                    return alive ? alive->send_ahead(frame) : FrameUpload();
-                },
-            .release_memory = [reconstructor] { reconstructor->release_memory(); }};
+    ReconstructFunctions functions{
+        .reconstruct =
+            [reconstructor](const ParticleFrame& frame, Mesh& mesh) {
+                MeshDownload download = reconstructor->reconstruct_for_download(frame, mesh);
+                return Reconstructed(reconstructor->statistics(), std::move(download));
+            },
+        .emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); },
+        .stop = stop,
+        .release_memory = [reconstructor] { reconstructor->release_memory(); }};
+    if (backend.backend != Backend::cpu)
+        functions.send_ahead = [weak = std::weak_ptr(reconstructor)](const ParticleFrame& frame) {
+            // A call may keep a session for longer than it keeps its buffers.
+            const auto alive = weak.lock();
+            return alive ? alive->send_ahead(frame) : FrameUpload();
+        };
+    return functions;
 }
 
 SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
@@ -129,7 +131,7 @@ SessionRegistry::Created SessionRegistry::create(const std::string& id, const Se
         if (!device) device = shared_memory(limits_.total_device_bytes);
         backend.shared_device_memory = device;
         auto& pinning = pinning_[backend.device];
-        if (!pinning) pinning = log_refusal_of_pinning(backend.device);
+        if (!pinning) pinning = pinning_that_logs_refusals(backend.device);
         backend.pinning = pinning;
     }
     const SessionIdentity identity{.id = id, .owner = creator.name, .account = creator.account, .kind = kind};

@@ -27,24 +27,20 @@ public:
     /// may be read until this upload has ended.
     void send_particles(const FrameArrays& arrays, bool on_device, std::byte* area, cudaStream_t stream) {
         // First, so that the device fetches these while the others are staged.
-        struct Staged {
-            std::span<const std::byte> array;
-            std::byte* to;
-        };
-        std::vector<Staged> staged;
+        staged_.clear();
         std::size_t bytes = 0;
         for (const auto& array : arrays) {
             if (on_device) {
                 copy_on_device(array, area, stream);
             } else if (!copy_straight(area, array.data(), array.size(), cudaMemcpyHostToDevice, stream)) {
-                staged.push_back({array, area});
+                staged_.push_back({array, area});
                 bytes += array.size();
             }
             area += room_for(array);
         }
         staging_.reserve(bytes);
         std::byte* staging = staging_.get();
-        for (const Staged& each : staged) {
+        for (const Staged& each : staged_) {
             send(each.array, staging, each.to, stream);
             staging += each.array.size();
         }
@@ -75,6 +71,11 @@ public:
     }
 
 private:
+    struct Staged {
+        std::span<const std::byte> array;
+        std::byte* to;
+    };
+
     static void copy_on_device(std::span<const std::byte> from, std::byte* to, cudaStream_t stream) {
         if (from.empty()) return;
         check(cudaMemcpyAsync(to, from.data(), from.size(), cudaMemcpyDeviceToDevice, stream), "cudaMemcpyAsync");
@@ -89,6 +90,7 @@ private:
         }
     }
 
+    std::vector<Staged> staged_;  ///< arrays of the frame that go through `staging_`
     PinnedMemory staging_;
     PinnedMemory input_;
 };

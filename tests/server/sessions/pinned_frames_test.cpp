@@ -10,7 +10,6 @@
 #include <mutex>
 #include <semaphore>
 #include <set>
-#include <thread>
 
 #include "sessions/input_frame.hpp"
 #include "simulator_player.hpp"
@@ -167,6 +166,7 @@ struct FramesSentAhead : testing::Test {
                              const void* const sent = receiver->take(frame.sent->number_of(receiver.get()));
                              if (sent == frame.positions.data()) ++as_sent;
                              ++begun;
+                             begun.notify_all();
                              gate.acquire();
                              return cpu(frame, mesh);
                          },
@@ -178,7 +178,7 @@ struct FramesSentAhead : testing::Test {
 TEST_F(FramesSentAhead, EachIsSentAsSoonAsItHasArrivedAndItsReconstructionIsToldOfIt) {
     test::Simulator simulator(session, {});
     simulator.send(0, particles);
-    while (begun == 0) std::this_thread::yield();
+    begun.wait(0);
     simulator.send(1, particles);
     EXPECT_EQ(receiver->sent(), 2U) << "while the first is worked at";
     gate.release(2);
@@ -192,7 +192,7 @@ TEST_F(FramesSentAhead, AFrameThatIsReplacedIsWithdrawnBeforeItsMemoryIsWrittenA
     receiver->one_at_a_time = true;
     test::Simulator simulator(session, {.policy = UploadPolicy::latest});
     simulator.send(0, particles);
-    while (begun == 0) std::this_thread::yield();
+    begun.wait(0);
     for (std::uint64_t i = 1; i < 5; ++i) {
         simulator.send(i, particles);
         EXPECT_EQ(receiver->ahead(), 2U) << "the one that is worked at, and the one that waits";
@@ -217,7 +217,7 @@ TEST_F(FramesSentAhead, OneThatIsNotToBeReconstructedIsNotSent) {
 TEST_F(FramesSentAhead, WhatWaitsInASessionThatEndsIsWithdrawn) {
     test::Simulator simulator(session, {});
     simulator.send(0, particles);
-    while (begun == 0) std::this_thread::yield();
+    begun.wait(0);
     simulator.send(1, particles);
     session.close();
     EXPECT_EQ(receiver->ahead(), 1U) << "the one that is worked at";
