@@ -44,7 +44,8 @@ struct ParticleSetView {
 
     /// Particles farther from a box than this may be passed over. A little more than the support, since a rounded
     /// distance just below it still adds a tiny term.
-    MENISCUS_HD float reach() const { return support + 1.0F; }
+    MENISCUS_HD float reach() const { return reach_of(support); }
+    MENISCUS_HD static float reach_of(float support) { return support + 1.0F; }
 
     /// Calls visit(first particle, one past the last, shift) for runs of particles, in their order, that hold all those
     /// within reach of the box. A particle's position plus shift (x, y, z) is relative to `origin`, a multiple of 16

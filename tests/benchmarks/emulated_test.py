@@ -52,7 +52,10 @@ def check_exact(bench, folder):
     sizes = {r["n"] for r in rows if r["check"].startswith("sort by ") and r["run"] == "replay"}
     check(sizes == {"0", "1", "31", "256", "4097"}, f"exact: sorts of {sizes}")
     checks = {r["check"] for r in rows}
-    check({"root", "reciprocal", "quotient", "fused", "sort_pairs by 64 bits", "sum of 16 bytes"} <= checks, f"exact: {checks}")
+    check(
+        {"root", "reciprocal", "quotient", "fused", "sort_pairs by 64 bits", "sum of 16 bytes"} <= checks,
+        f"exact: {checks}",
+    )
     run(bench, "exact", "--roots", 3, "--out", folder, expect=2)
 
 

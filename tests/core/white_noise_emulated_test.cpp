@@ -42,8 +42,8 @@ struct NoiseField {
             return {none, none, none};
         }
     };
-    Near near(const cuda::State&, const cuda::Cluster&, const Int3& lowest, const UnitBox&, Shared&) const {
-        return {world, lowest};
+    Near near(const cuda::State& f, const cuda::Cluster& cluster, const UnitBox&, Shared&) const {
+        return {world, cluster.coordinate(f.blocks())};
     }
 };
 /// Which has none.

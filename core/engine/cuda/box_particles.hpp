@@ -5,10 +5,11 @@
 
 #include "engine/cuda/candidate_windows.hpp"
 #include "engine/cuda/near_particles.hpp"
+#include "engine/cuda/particle_list.hpp"
 
 namespace meniscus::cuda {
 
-/// Shared memory of one warp. group: candidates whose loads are under way at once, which takes registers.
+/// Shared memory of one warp. group: see ParticleList.
 template <class Kernel, unsigned group>
 class BoxParticles {
 public:
@@ -37,16 +38,12 @@ public:
                     for (unsigned w = 0; w < 2; ++w) {
                         const bool reaches =
                             start + w * warp_threads + lane < particles.total && test(c[w].particle, c[w].fall);
-                        const unsigned all = __ballot_sync(all_lanes, reaches ? 1 : 0);
-                        if (reaches)
-                            list_.set(listed + static_cast<unsigned>(__popc(all & ((1U << lane) - 1))), c[w].particle,
-                                      c[w].fall, 0);
-                        listed += static_cast<unsigned>(__popc(all));
+                        list_.add(listed, reaches, c[w].particle, c[w].fall, 0);
                     }
                     start += 2 * warp_threads;
                     const bool is_last = first_row + warp_threads >= count && start >= particles.total;
                     if (!is_last && listed <= room - 2 * warp_threads) continue;
-                    visit_listed(level, listed, visit);
+                    list_.template for_each<group>(listed, level.set.support, level.inverse_support, visit);
                     listed = 0;
                 } while (start < particles.total);
             }
@@ -55,20 +52,6 @@ public:
 
 private:
     static constexpr unsigned room = 4 * warp_threads;
-
-    template <class Visit>
-    __device__ void visit_listed(const LevelParticles<Kernel>& level, unsigned listed, const Visit& visit) {
-        // Those that fill up the last group add nothing anywhere: they have no weight, and are far away.
-        if (lane_index() + 1 < group) list_.set(listed + lane_index(), {1e9F, 0.0F, 0.0F, 0.0F}, 1.0F, 0);
-        __syncwarp();
-        for (unsigned j = 0; j < listed; j += group) {
-            OneCandidate c[group];
-            for (unsigned g = 0; g < group; ++g)
-                c[g] = {list_.particles[j + g], list_.fall(j + g), level.set.support, level.inverse_support, 0};
-            for (unsigned g = 0; g < group; ++g) visit(c[g]);
-        }
-        __syncwarp();
-    }
 
     ParticleList<Kernel, false, room + group> list_;
 };

@@ -15,16 +15,26 @@ __device__ inline Int3 cluster_step(unsigned i) {
     return {static_cast<int>(i & 1), static_cast<int>(i >> 1 & 1), static_cast<int>(i >> 2 & 1)};
 }
 
+/// A cluster's bit among those of the clusters that are listed.
+struct ClusterMark {
+    std::uint32_t* word;
+    std::uint32_t bit;
+
+    /// place: in the brick, of one of its blocks.
+    __device__ ClusterMark(const State& f, std::uint32_t brick, unsigned place) {
+        const unsigned cluster = (place >> 1 & 7) | (place >> 5 & 7) << 3 | (place >> 9 & 7) << 6;
+        word = &f.marked_clusters[std::uint64_t{cluster_words} * brick + cluster / 32];
+        bit = 1U << cluster % 32;
+    }
+};
+
 /// Puts the clusters of some blocks on a list, each by one of its blocks. All lanes of a warp call it; chosen: whether
 /// this lane's block is. A block is chosen once.
 __device__ inline void list_clusters(const State& f, List list, std::uint32_t block, bool chosen) {
     bool is_first = false;
     if (chosen) {
-        const unsigned place = f.place[block];
-        const unsigned cluster = (place >> 1 & 7) | (place >> 5 & 7) << 3 | (place >> 9 & 7) << 6;
-        const std::uint32_t mark = 1U << cluster % 32;
-        std::uint32_t* const word = &f.marked_clusters[std::uint64_t{cluster_words} * f.brick[block] + cluster / 32];
-        is_first = (atomicOr(word, mark) & mark) == 0;
+        const ClusterMark mark(f, f.brick[block], f.place[block]);
+        is_first = (atomicOr(mark.word, mark.bit) & mark.bit) == 0;
     }
     const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(list)], is_first ? 1 : 0);
     if (is_first) f.chosen[at] = block;
@@ -53,10 +63,9 @@ struct Cluster {
     __device__ Int3 coordinate(const BlocksView& blocks) const { return blocks.grid.bricks[brick].corner() + corner; }
     /// Takes the mark of its list away: once for a cluster that was listed.
     __device__ void unmark(const State& f) const {
-        const int cluster = corner.x >> 1 | corner.y >> 1 << 3 | corner.z >> 1 << 6;
-        if (is_first_part && lane_index() == 0)
-            atomicAnd(&f.marked_clusters[std::uint64_t{cluster_words} * brick + static_cast<unsigned>(cluster / 32)],
-                      ~(1U << cluster % 32));
+        if (!is_first_part || lane_index() != 0) return;
+        const ClusterMark mark(f, brick, static_cast<unsigned>(index_in_brick(corner)));
+        atomicAnd(mark.word, ~mark.bit);
     }
 };
 

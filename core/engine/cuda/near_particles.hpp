@@ -6,6 +6,7 @@
 #include "engine/cuda/candidate_windows.hpp"
 #include "engine/cuda/candidates.hpp"
 #include "engine/cuda/cluster.hpp"
+#include "engine/cuda/particle_list.hpp"
 #include "engine/cuda/state.hpp"
 #include "engine/cuda/warp.hpp"
 
@@ -35,22 +36,6 @@ private:
     float reach2_;
 };
 
-/// A list of particles of one level in shared memory. has_ranks: whether OneCandidate::rank is told.
-template <class Kernel, bool has_ranks, unsigned size>
-struct ParticleList {
-    alignas(16) float4 particles[size];
-    alignas(16) float falls[Kernel::has_own_support ? size : 4];
-    std::uint32_t ranks[has_ranks ? size : 1];
-
-    __device__ float fall(unsigned i) const { return Kernel::has_own_support ? falls[i] : 0.0F; }
-    __device__ std::uint32_t rank(unsigned i) const { return has_ranks ? ranks[i] : 0; }
-    __device__ void set(unsigned i, const float4& particle, float fall, std::uint32_t rank) {
-        particles[i] = particle;
-        if constexpr (Kernel::has_own_support) falls[i] = fall;
-        if constexpr (has_ranks) ranks[i] = rank;
-    }
-};
-
 /// Shared memory of one warp.
 template <class Kernel, bool has_ranks = false>
 class NearParticles {
@@ -71,7 +56,7 @@ public:
                 for_each_window(level, rows, [&](const OneCandidate& c, bool exists) {
                     const bool reaches = exists && test(c.particle, c.fall);
                     const unsigned all = __ballot_sync(all_lanes, reaches ? 1 : 0);
-                    const unsigned at = found + static_cast<unsigned>(__popc(all & ((1U << lane) - 1))) - skipped;
+                    const unsigned at = found + lanes_below(all) - skipped;
                     if (reaches && at < room) all_.set(at, c.particle, c.fall, c.rank);
                     found += static_cast<unsigned>(__popc(all));
                 });
@@ -93,7 +78,7 @@ public:
             if (begin == end) continue;
             const float support = f.settings.support[k];
             const float inverse_support = f.settings.inverse_support[k];
-            const BoxTest<Kernel> test(box, support + 1.0F);
+            const BoxTest<Kernel> test(box, ParticleSetView::reach_of(support));
             while (begin < end) {
                 unsigned chosen = 0;
                 for (; begin < end && chosen <= most_chosen - warp_threads; begin += warp_threads) {
@@ -106,23 +91,9 @@ public:
                         fall = all_.fall(i);
                         near = test(particle, fall);
                     }
-                    const unsigned all_near = __ballot_sync(all_lanes, near ? 1 : 0);
-                    if (near)
-                        chosen_.set(chosen + static_cast<unsigned>(__popc(all_near & ((1U << lane) - 1))), particle,
-                                    fall, all_.rank(i));
-                    chosen += static_cast<unsigned>(__popc(all_near));
+                    chosen_.add(chosen, near, particle, fall, near ? all_.rank(i) : 0);
                 }
-                // Those that add nothing make up the last group.
-                if (lane + 1 < group) chosen_.set(chosen + lane, {0.0F, 0.0F, 0.0F, 0.0F}, 1.0F, 0);
-                __syncwarp();
-                for (unsigned j = 0; j < chosen; j += group) {
-                    OneCandidate c[group];
-                    for (unsigned g = 0; g < group; ++g)
-                        c[g] = {chosen_.particles[j + g], chosen_.fall(j + g), support, inverse_support,
-                                chosen_.rank(j + g)};
-                    for (unsigned g = 0; g < group; ++g) visit(c[g]);
-                }
-                __syncwarp();
+                chosen_.template for_each<group>(chosen, support, inverse_support, visit);
             }
             begin = end;
         }
@@ -133,8 +104,8 @@ public:
 
 private:
     static constexpr unsigned most_chosen = 64;
-    /// Candidates whose loads are under way at once. With ranks they are visited one by one: numbers of attributes may
-    /// be such that zero times one is not zero.
+    /// With ranks, candidates are visited one by one: numbers of attributes may be such that zero times one is not
+    /// zero.
     static constexpr unsigned group = has_ranks ? 1 : 4;
 
     ParticleList<Kernel, has_ranks, room> all_;

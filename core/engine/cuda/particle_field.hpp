@@ -59,9 +59,8 @@ struct ParticleField {
         Shared& shared_;
         ClusterParticles<Kernel> particles_;
     };
-    /// box: holds all points of the cluster that are asked for. lowest: the cluster's first base cell.
-    __device__ Near near(const State& f, const Cluster& cluster, const Int3&, const UnitBox& box,
-                         Shared& shared) const {
+    /// box: holds all points of the cluster that are asked for.
+    __device__ Near near(const State& f, const Cluster& cluster, const UnitBox& box, Shared& shared) const {
         return {f, cluster, box, shared};
     }
 };

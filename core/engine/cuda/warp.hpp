@@ -16,6 +16,11 @@ __device__ inline unsigned warp_in_block() {
     return threadIdx.x / warp_threads;
 }
 
+/// The number of lanes below this one in a set.
+__device__ inline unsigned lanes_below(unsigned set) {
+    return static_cast<unsigned>(__popc(set & ((1U << lane_index()) - 1)));
+}
+
 /// The first lane's value: a count that another warp may be changing must not part the lanes.
 template <class Value>
 __device__ inline Value same_in_all_lanes(Value value) {

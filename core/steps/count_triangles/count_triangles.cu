@@ -1,6 +1,9 @@
 // Step 5 on the GPU, and the order of the mesh.
 #include "steps/count_triangles/count_triangles.hpp"
 
+#include <array>
+#include <tuple>
+
 #include "engine/cuda/warp.hpp"
 #include "steps/count_triangles/warp_signs.hpp"
 #include "steps/cuda_steps.hpp"
@@ -84,7 +87,7 @@ __global__ void __launch_bounds__(block_threads) count_cracks(const __grid_const
     GridLoop{}.each_together(f.listed(List::band), [&](std::uint32_t i, bool exists) {
         const std::uint32_t block = exists ? f.band_cells[i] : 0;
         const std::uint32_t listed = __ballot_sync(all_lanes, exists && has_coarser_neighbor(blocks, block) ? 1 : 0);
-        if ((listed >> lane_index() & 1) != 0) fine[__popc(listed & ((1U << lane_index()) - 1))] = block;
+        if ((listed >> lane_index() & 1) != 0) fine[lanes_below(listed)] = block;
         __syncwarp();
         const auto n = static_cast<std::uint32_t>(__popc(listed));
         for (std::uint32_t first = 0; first < n; first += closed_cells_a_warp) {
@@ -92,7 +95,8 @@ __global__ void __launch_bounds__(block_threads) count_cracks(const __grid_const
             signs.put(blocks, cells);
             const std::uint32_t faces = cracks.list(blocks, cells);
             __syncwarp();
-            // A cell has six faces of four subfaces with up to eight triangles: a byte counts them.
+            // A cell has six faces of four subfaces: a byte counts their triangles.
+            static_assert(6 * 4 * std::tuple_size_v<decltype(CrackCase::edges)> / 3 < 256);
             std::uint32_t counts = 0;
             cracks.for_each_subface_together(signs, faces, [&](const CrackSubface& subface) {
                 if (!subface.exists) return;

@@ -2,16 +2,20 @@
 // cube table by triangles.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <tuple>
 
 #include "engine/cuda/warp.hpp"
 #include "steps/count_triangles/warp_signs.hpp"
+#include "tables/tables.hpp"
 
 namespace meniscus::cuda {
 
 /// The cube table by triangles. For a block of threads.
 struct TriangleRows {
     static constexpr unsigned most = 5;  ///< triangles of a case
+    static_assert(3 * most == std::tuple_size_v<decltype(CubeCase::edges)>);
 
     /// Row 5 case + triangle. Corner k, from bit 10 k on: the place where its edge starts (5 bits), and the axis (2).
     std::uint32_t row[cube_case_count * most];

@@ -21,14 +21,21 @@ struct CrackFace {
     int corner[3];  ///< lowest point, in the fine cell's closed coordinates
 };
 
+/// The coarser cell beyond a face of a cell of the band; no_index where there is none. level: the cell's. side: 0: down
+/// the axis, 1: up.
+MENISCUS_HD inline std::uint32_t coarser_neighbor(const BlocksView& blocks, std::uint32_t block, int level, int axis,
+                                                  int side) {
+    const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, 2 * side - 1));
+    const int other_level = blocks.level_or_none(other);
+    return other_level != 0 && other_level < level ? other : no_index;
+}
+
 /// Whether beyond a face of a cell of the band lies a coarser one.
 MENISCUS_HD inline bool has_coarser_neighbor(const BlocksView& blocks, std::uint32_t block) {
     const int level = blocks.level[block];
     if (level == 1) return false;
-    for (int face = 0; face < 6; ++face) {
-        const int other = blocks.level_or_none(blocks.neighbor(block, axis_offset(face >> 1, 2 * (face & 1) - 1)));
-        if (other != 0 && other < level) return true;
-    }
+    for (int face = 0; face < 6; ++face)
+        if (coarser_neighbor(blocks, block, level, face >> 1, face & 1) != no_index) return true;
     return false;
 }
 
@@ -42,9 +49,8 @@ MENISCUS_HD void for_each_crack(const BlocksView& blocks, std::uint32_t block, V
     face.stride = level_stride(level);
     for (face.axis = 0; face.axis < 3; ++face.axis)
         for (face.side = 0; face.side < 2; ++face.side) {
-            const std::uint32_t other = blocks.neighbor(block, axis_offset(face.axis, 2 * face.side - 1));
-            const int other_level = blocks.level_or_none(other);
-            if (other_level == 0 || other_level >= level) continue;
+            const std::uint32_t other = coarser_neighbor(blocks, block, level, face.axis, face.side);
+            if (other == no_index) continue;
             const FaceSigns signs(blocks, face.side == 1 ? other : block, face.axis, face.stride);
             for (BlockMask left = signs.mixed(); left != 0; left &= left - 1) {
                 const int bit = lowest_bit(left);

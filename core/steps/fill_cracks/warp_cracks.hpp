@@ -6,6 +6,7 @@
 #include "engine/cuda/warp.hpp"
 #include "lattice/blocks.hpp"
 #include "steps/count_triangles/warp_signs.hpp"
+#include "steps/fill_cracks/fill_cracks.hpp"
 
 namespace meniscus::cuda {
 
@@ -41,14 +42,10 @@ struct WarpCracks {
     /// Returns the set of faces. The lanes must wait for each other before any reads.
     __device__ std::uint32_t list(const BlocksView& blocks, const CellsOfLanes& cells) {
         const int own = static_cast<int>(lane_index() % 8);
-        bool is_listed = false;
-        if (cells.exists && own < 6) {
-            const int other =
-                blocks.level_or_none(blocks.neighbor(cells.block, axis_offset(own >> 1, 2 * (own & 1) - 1)));
-            is_listed = other != 0 && other < cells.level;
-        }
+        const bool is_listed = cells.exists && own < 6 &&
+                               coarser_neighbor(blocks, cells.block, cells.level, own >> 1, own & 1) != no_index;
         const std::uint32_t listed = __ballot_sync(all_lanes, is_listed ? 1 : 0);
-        if (is_listed) face[__popc(listed & ((1U << lane_index()) - 1))] = static_cast<std::uint8_t>(lane_index());
+        if (is_listed) face[lanes_below(listed)] = static_cast<std::uint8_t>(lane_index());
         return listed;
     }
     /// Calls visit(subface) in all lanes at once, for neighboring subfaces in neighboring lanes.

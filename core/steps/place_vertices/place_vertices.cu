@@ -74,7 +74,7 @@ __global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_co
         const ClusterVertices vertices(blocks, cluster);
         const std::uint32_t count = vertices.count;
         evaluations += static_cast<Counter>(count) * f.settings.bisection_steps;
-        auto near = field.near(f, cluster, vertices.lowest, vertices.box, shared[warp_in_block()]);
+        auto near = field.near(f, cluster, vertices.box, shared[warp_in_block()]);
         for (std::uint32_t first = 0; first < count; first += warp_threads) {
             const std::uint32_t i = first + lane_index();
             // Lanes without a vertex repeat the last one.

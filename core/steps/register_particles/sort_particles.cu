@@ -184,6 +184,7 @@ __global__ void __launch_bounds__(block_threads) store_support_cells(const __gri
 __device__ std::uint32_t place_in_order(const State& f, std::uint32_t i, std::uint32_t begin, std::uint32_t end) {
     if (f.capacity.orders_whole_keys()) return i;
     if (end - begin > Capacities::most_counted_in_cell) {
+        // Whichever thread is last: any such number asks for the order of whole keys.
         f.need(Resource::cell_particles, end - begin);
         return i;
     }

@@ -53,7 +53,7 @@ struct HalfMasks {
     __device__ bool holds(int h) const { return (half[h] >> lane_index() & 1) != 0; }
     /// Points before this lane's.
     __device__ unsigned before(int h) const {
-        const auto in_half = static_cast<unsigned>(__popc(half[h] & ((1U << lane_index()) - 1)));
+        const auto in_half = lanes_below(half[h]);
         return h == 0 ? in_half : in_half + static_cast<unsigned>(__popc(half[0]));
     }
 };
@@ -162,8 +162,7 @@ __device__ void sample_listed(const State& f, const Field& field, List list,
             cluster.block == no_index ? 0 : f.wanted_points[cluster.block] & ~blocks.sampled[cluster.block];
         evaluations += static_cast<std::uint32_t>(popcount(missing));
         ClusterSampling<Field>& own = shared[warp_in_block()];
-        auto near = field.near(f, cluster, cluster.coordinate(blocks),
-                               box_of_points(missing, cluster_step(lane_index())), own.near);
+        auto near = field.near(f, cluster, box_of_points(missing, cluster_step(lane_index())), own.near);
         for (unsigned left = __ballot_sync(all_lanes, missing != 0 ? 1 : 0); left != 0; left &= left - 1) {
             const auto k = static_cast<unsigned>(lowest_bit(left));
             sample_block(f, near, blocks, __shfl_sync(all_lanes, cluster.block, static_cast<int>(k)), cluster_step(k),

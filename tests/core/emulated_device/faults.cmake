@@ -15,9 +15,9 @@ plant(missing_barrier steps/count_triangles/count_triangles.cu
     if (threadIdx.x < 3 && total]=])
 
 # A ballot does not name the warp's last lane.
-plant(wrong_mask engine/cuda/near_particles.hpp
-  [=[__ballot_sync(all_lanes, near ? 1 : 0);]=]
-  [=[__ballot_sync(FAULTY(wrong_mask) ? all_lanes >> 1 : all_lanes, near ? 1 : 0);]=])
+plant(wrong_mask engine/cuda/particle_list.hpp
+  [=[__ballot_sync(all_lanes, has_one ? 1 : 0);]=]
+  [=[__ballot_sync(FAULTY(wrong_mask) ? all_lanes >> 1 : all_lanes, has_one ? 1 : 0);]=])
 
 # The normal of each cluster's last vertex is what lies in memory.
 plant(unset_word steps/place_vertices/place_vertices.cu
