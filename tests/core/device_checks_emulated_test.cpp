@@ -115,6 +115,35 @@ TEST(DeviceChecksEmulated, AThreadThatDoesNotComeIsMissed) {
     EXPECT_DEATH(run(1, leave_before_the_block_waits), "threads wait for some that do not come");
 }
 
+/// Quarters of a warp meet different numbers of times, then all lanes do.
+void meet_in_quarters(unsigned* out) {
+    const unsigned lane = cuda::lane_index();
+    const unsigned first = lane & ~7U;
+    unsigned sum = 0;
+    for (unsigned i = 0; i <= lane / 8; ++i)
+        sum += __shfl_sync(0xFFU << first, lane + 100 * i, static_cast<int>(first + i));
+    out[threadIdx.x] = sum + __shfl_sync(cuda::all_lanes, sum, 31);
+}
+void meet_in_other_parts(unsigned* out) {
+    const unsigned first = cuda::lane_index() & ~7U;
+    out[threadIdx.x] = __shfl_sync(0xFFU << first, 0U, static_cast<int>(first));
+    const unsigned half = cuda::lane_index() & ~15U;
+    out[threadIdx.x] += __shfl_sync(0xFFFFU << half, 0U, static_cast<int>(half));
+}
+
+TEST(DeviceChecksEmulated, PartsOfAWarpMeetOnTheirOwn) {
+    std::vector<unsigned> out(cuda::block_threads);
+    run(1, meet_in_quarters, out.data());
+    const auto of_quarter = [](unsigned quarter) {
+        unsigned sum = 0;
+        for (unsigned i = 0; i <= quarter; ++i) sum += 8 * quarter + i + 100 * i;
+        return sum;
+    };
+    for (unsigned t = 0; t < cuda::block_threads; ++t)
+        EXPECT_EQ(out[t], of_quarter(t % 32 / 8) + of_quarter(3)) << "thread " << t;
+    EXPECT_DEATH(run(1, meet_in_other_parts, out.data()), "threads meet at different places");
+}
+
 void read_shared_memory(unsigned* out) {
     auto& word = emulated_device::shared<unsigned>();
     if (threadIdx.x == 0) out[blockIdx.x] = word;

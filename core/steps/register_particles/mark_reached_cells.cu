@@ -1,8 +1,10 @@
-// The base cells that the particles reach, on the GPU: a thread for every particle, marks in the bricks themselves.
+// The base cells that the particles reach, on the GPU: a thread for every particle or a few, marks in the bricks
+// themselves.
 #include <algorithm>
 #include <cmath>
 
 #include "engine/cuda/long_loop.hpp"
+#include "engine/cuda/sharing_lanes.hpp"
 #include "engine/cuda/sort_key.hpp"
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
@@ -28,10 +30,12 @@ __device__ std::uint64_t rows_of_word(int first, int last) {
     return (last < 3 ? std::uint64_t{1} << brick_size * (last + 1) : 0) - (std::uint64_t{1} << brick_size * first);
 }
 
-/// Marks the base cells of a brick that a particle reaches.
-__device__ void mark_in_brick(const Marks& marks, const ReachedBox& box, float x, float y, float z, float reach) {
+/// Marks the base cells of a brick that a particle reaches, in every count-th slice from the own-th on.
+template <unsigned count>
+__device__ void mark_in_brick(const Marks& marks, const ReachedBox& box, float x, float y, float z, float reach,
+                              unsigned own) {
     const std::uint64_t widest = row_bits(box.low[0], box.high[0]) * first_of_rows;
-    for (int cz = box.low[2]; cz <= box.high[2]; ++cz) {
+    for (int cz = box.low[2] + static_cast<int>(own); cz <= box.high[2]; cz += count) {
         const float gap_z = gap_to_cells(z, static_cast<float>(cz));
         for (int rows = box.low[1] & ~3; rows <= box.high[1]; rows += 4) {
             const int w = rows >> 2 | cz << 2;
@@ -87,14 +91,18 @@ private:
     static_assert(std::int64_t{1} << reached_brick_shift == reached_brick_edge);
 };
 
-/// Also adds up ReachedBox::count(): for the frame, or where a domain will leave cells out, for each brick in
-/// members_before.
-__global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __grid_constant__ State f) {
+/// What each particle reaches, by `count` lanes, which share its slices. Also adds up ReachedBox::count(): for the
+/// frame, or where a domain will leave cells out, for each brick in members_before.
+template <unsigned count>
+__device__ void mark_for_each(const State& f) {
     const BrickGridView grid = f.grid();
     LongLoop loop(f);
     Counter pairs = 0;
-    GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
-        if (!loop.goes_on()) return;
+    const GridLoop threads;
+    const std::uint32_t n = f.particle_count();
+    const SharingLanes<count> lanes;
+    for (std::uint64_t i = threads.first / count; i < n; i += threads.step / count) {
+        if (!loop.goes_on()) break;
         const unsigned level = key_level(f.keys[i]);
         const std::uint64_t cell_key = particle_key(f.keys[i]).cell;
         const std::int64_t cell_units = f.settings.cell_units[level];
@@ -120,14 +128,22 @@ __global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __g
                         continue;
                     const std::uint32_t number = grid.find(b);
                     if (number == no_index) continue;  // in a frame that another block has stopped
-                    mark_in_brick({f.bricks[number].occupied}, box, at[0], at[1], at[2], reach);
+                    mark_in_brick<count>({f.bricks[number].occupied}, box, at[0], at[1], at[2], reach, lanes.own);
+                    if (lanes.own != 0) continue;
                     if (f.settings.has_domain)
                         atomicAdd(reinterpret_cast<Counter*>(&f.members_before[number]), Counter{box.count()});
                     else
                         pairs += box.count();
                 }
-    });
+    }
     add_of_lanes(&f.counts->pairs, pairs);
+}
+
+__global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __grid_constant__ State f) {
+    if (has_threads_to_spare(f))
+        mark_for_each<lanes_to_share>(f);
+    else
+        mark_for_each<1>(f);
 }
 
 /// One warp for every brick: leaves out what lies beyond the domain, and counts the members.
@@ -150,7 +166,7 @@ __global__ void __launch_bounds__(block_threads) count_members(const __grid_cons
 }  // namespace
 
 void store_reached_cells(const State& state, const Launcher& launch) {
-    launch(state.capacity.particles, block_threads, mark_reached_cells, state);
+    launch(state.capacity.particles, block_threads / lanes_to_share, mark_reached_cells, state);
     launch(state.capacity[Resource::bricks], block_warps, count_members, state);
 }
 

@@ -1,37 +1,55 @@
-// Sums at the places of particles on the GPU, a thread for each.
+// Sums at the places of particles on the GPU, a few lanes for each.
 #pragma once
 
 #include "engine/cuda/candidates.hpp"
 #include "engine/cuda/launch.hpp"
 #include "engine/cuda/long_loop.hpp"
+#include "engine/cuda/sharing_lanes.hpp"
 #include "engine/cuda/sort_key.hpp"
 #include "engine/cuda/warp.hpp"
 
 namespace meniscus::cuda {
 
-/// Adds G particles from the first-th on to the sum at a point. All are fetched before the first is added: a thread
-/// that waits for one after another is idle most of the time.
-template <class Kernel, int G>
-__device__ inline void add_particles(const LevelParticles<Kernel>& level, std::uint32_t first, const float (&at)[3],
-                                     float& sum) {
-    const LevelParticles<Kernel> here = level.from(first);
+/// Adds particles from the first-th on to the sum at a point: G of each of the lanes that share it, or where not
+/// are_all, the `left` ones that a run has left. Each lane finds the strengths of its own, and all of them add all up
+/// in their order. A lane fetches all before it adds the first: if it waited for one after another it would be idle
+/// most of the time.
+template <class Kernel, unsigned G, bool are_all, unsigned count>
+__device__ inline void add_particles(const LevelParticles<Kernel>& level, std::uint32_t first, std::uint32_t left,
+                                     const SharingLanes<count>& lanes, const float (&at)[3], float& sum) {
+    const LevelParticles<Kernel> here = level.from(first + (are_all ? lanes.own : 0));
     OneCandidate c[G];
-    for (unsigned g = 0; g < G; ++g) c[g] = here.candidate(g);
+    for (unsigned g = 0; g < G; ++g) {
+        const unsigned i = g * count + lanes.own;
+        c[g] = here.candidate(are_all ? g * count : i < left ? i : 0);
+    }
 #ifdef __CUDA_ARCH__
     // Else the compiler moves each load to where its value is used, and the waits lie one behind another.
     for (unsigned g = 0; g < G; ++g) asm volatile("" : "+f"(c[g].fall));
 #endif
     float strength[G];
-    for (int g = 0; g < G; ++g)
+    for (unsigned g = 0; g < G; ++g)
         strength[g] = Kernel::of(c[g].view(), 0)
                           .strength(at[0] - c[g].particle.x, at[1] - c[g].particle.y, at[2] - c[g].particle.z);
-    for (int g = 0; g < G; ++g) sum = Kernel::of(c[g].view(), 0).add_strength(sum, strength[g]);
+    float of_lane[G * count];
+    for (unsigned g = 0; g < G; ++g)
+        for (unsigned l = 0; l < count; ++l) of_lane[g * count + l] = lanes.from(strength[g], l);
+    for (unsigned g = 0; g < G; ++g)
+        for (unsigned l = 0; l < count; ++l) {
+            auto share = Kernel::of(c[g].view(), 0);
+            if constexpr (!decltype(share)::has_own_support) share.weight = lanes.from(share.weight, l);
+            if (are_all || g * count + l < left) sum = share.add_strength(sum, of_lane[g * count + l]);
+        }
 }
 
-template <class Kernel>
-__global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const __grid_constant__ State f) {
+/// The sum at the place of each particle, by `count` lanes.
+template <class Kernel, unsigned count>
+__device__ void sum_at_each(const State& f) {
     LongLoop loop(f);
-    GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
+    const SharingLanes<count> lanes;
+    const GridLoop threads;
+    const std::uint32_t n = f.particle_count();
+    for (std::uint64_t i = threads.first / count; i < n; i += threads.step / count) {
         if (!loop.goes_on()) return;
         const unsigned own_level = key_level(f.keys[i]);
         const ParticleKey key = particle_key(f.keys[i]);
@@ -47,23 +65,31 @@ __global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const _
                                         [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
                                             // Whole units, so that this is exact.
                                             const float at[3] = {x - shift[0], y - shift[1], z - shift[2]};
-                                            constexpr int group = std::is_same_v<Kernel, CubicSpline> ? 2 : 4;
+                                            constexpr unsigned group = std::is_same_v<Kernel, CubicSpline> ? 2 : 4;
                                             std::uint32_t j = begin;
 #pragma unroll 1
-                                            for (; j + group <= end; j += group)
-                                                add_particles<Kernel, group>(level, j, at, sum);
-#pragma unroll 1
-                                            for (; j < end; ++j) add_particles<Kernel, 1>(level, j, at, sum);
+                                            for (; j + group * count <= end; j += group * count)
+                                                add_particles<Kernel, group, true>(level, j, end - j, lanes, at, sum);
+                                            if (j < end)
+                                                add_particles<Kernel, group, false>(level, j, end - j, lanes, at, sum);
                                         });
         }
-        f.sums[i] = sum;
-    });
+        if (lanes.own == 0) f.sums[i] = sum;
+    }
+}
+
+template <class Kernel>
+__global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const __grid_constant__ State f) {
+    if (has_threads_to_spare(f))
+        sum_at_each<Kernel, lanes_to_share>(f);
+    else
+        sum_at_each<Kernel, 1>(f);
 }
 
 /// Into State::sums. Kernel: CubicSpline, Poly6 or Company.
 template <class Kernel>
 void sum_at_particles(const State& state, const Launcher& launch) {
-    launch(state.capacity.particles, block_threads, sum_at_each_particle<Kernel>, state);
+    launch(state.capacity.particles, block_threads / lanes_to_share, sum_at_each_particle<Kernel>, state);
 }
 
 }  // namespace meniscus::cuda

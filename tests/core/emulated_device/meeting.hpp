@@ -14,10 +14,10 @@ struct Waiting {
     Place place;
     unsigned mask = 0;
 
-    bool operator==(const Waiting& other) const {
-        return meeting == other.meeting && mask == other.mask && place.line() == other.place.line() &&
-               place.column() == other.place.column();
+    bool is_at_place_of(const Waiting& other) const {
+        return meeting == other.meeting && place.line() == other.place.line() && place.column() == other.place.column();
     }
+    bool operator==(const Waiting& other) const { return mask == other.mask && is_at_place_of(other); }
     std::string text() const {
         static constexpr const char* names[] = {"__syncwarp",      "__ballot_sync", "__shfl_sync", "__shfl_up_sync",
                                                 "__shfl_xor_sync", "__syncthreads", "grid sync"};

@@ -34,6 +34,17 @@ constexpr unsigned blocks_at_once = 2;  ///< of a grid that is not cooperative
 
 struct Block;
 
+/// Meetings of some lanes of a warp, always the same ones.
+struct Meetings {
+    unsigned mask = 0;  ///< of these lanes; 0: there was no meeting
+    unsigned arrived = 0;
+    unsigned number = 0;  ///< of the next meeting
+    Waiting waiting;
+};
+
+/// What lanes have given, for two meetings in turn: nobody gets to the second next before all have read.
+using Given = std::array<std::array<std::uint64_t, lanes>, 2>;
+
 /// Lanes are bits of its sets.
 struct Warp {
     Block* block = nullptr;
@@ -44,11 +55,11 @@ struct Warp {
     unsigned turns = 0;  ///< to come before another warp goes on
     bool is_listed = false;
 
-    // What the lanes have given, for two meetings in turn: nobody gets to the second next before all have read.
-    unsigned arrived = 0;
-    unsigned meetings = 0;
-    Waiting waiting;
-    std::uint64_t given[2][lanes] = {};
+    Meetings whole;
+    Given given_to_whole{};
+    Meetings parts[lanes];  ///< by their lowest lane
+    Given given_to_parts{};
+    unsigned in_parts = 0;  ///< lanes that wait for others of their part
 };
 
 struct Block {
@@ -134,7 +145,8 @@ void begin(Block& block, unsigned index) {
         Warp& own = block.warps[w];
         own.block = &block;
         own.first_thread = w * lanes;
-        own.arrived = 0;
+        own.whole.arrived = own.in_parts = 0;
+        for (Meetings& part : own.parts) part.arrived = part.mask = 0;
         for (unsigned lane = 0; lane < lanes; ++lane)
             own.fibers[lane].prepare((*block.stacks)[w * lanes + lane], &run_thread);
         let_go_on(own, all_lanes);
@@ -167,6 +179,28 @@ Block& run_until_one_ends() {
     }
 }
 
+/// Those that a lane comes to: of all lanes, or of a part of a warp that is the same for as long as a block runs. Lanes
+/// of one part may wait for all others while those of another still meet, but not at the same place.
+Meetings& meetings_of(Warp& own, const Waiting& waiting) {
+    const auto require_other_place = [&](const Meetings& of_others) {
+        if (of_others.arrived != 0 && of_others.waiting.is_at_place_of(waiting)) [[unlikely]]
+            require_same(of_others.waiting, waiting);
+    };
+    if (waiting.mask == all_lanes) {
+        if (own.in_parts != 0) [[unlikely]]
+            for (const Meetings& part : own.parts) require_other_place(part);
+        return own.whole;
+    }
+    require_other_place(own.whole);
+    Meetings& part = own.parts[std::countr_zero(waiting.mask)];
+    if (part.mask != waiting.mask) {
+        for (const Meetings& other : own.parts)
+            if ((other.mask & waiting.mask) != 0) require_same(other.waiting, waiting);
+        part.mask = waiting.mask;
+    }
+    return part;
+}
+
 /// For as many threads, which are those of these blocks.
 void wait_at(Barrier& barrier, unsigned threads, const std::vector<Block*>& blocks, const Waiting& waiting) {
     if (barrier.arrived == 0) barrier.waiting = waiting;
@@ -190,17 +224,21 @@ const std::uint64_t* exchange(std::uint64_t value, unsigned mask, Meeting meetin
     Warp& own = *warp;
     const unsigned lane = running_lane();
     const Waiting waiting{meeting, place, mask};
-    if (own.arrived == 0) own.waiting = waiting;
-    require_same(own.waiting, waiting);
     if ((mask >> lane & 1) == 0) fail("a lane is not in its own mask: " + waiting.text());
-    std::uint64_t* const given = own.given[own.meetings % 2];
+    Meetings& meetings = meetings_of(own, waiting);
+    if (meetings.arrived == 0) meetings.waiting = waiting;
+    require_same(meetings.waiting, waiting);
+    Given& given_to = mask == all_lanes ? own.given_to_whole : own.given_to_parts;
+    std::uint64_t* const given = given_to[meetings.number % 2].data();
     given[lane] = value;
-    own.arrived |= 1U << lane;
-    if (own.arrived != mask) {
+    meetings.arrived |= 1U << lane;
+    if (meetings.arrived != mask) {
+        if (mask != all_lanes) own.in_parts |= 1U << lane;
         wait();
     } else {
-        own.arrived = 0;
-        ++own.meetings;
+        meetings.arrived = 0;
+        own.in_parts &= ~mask;
+        ++meetings.number;
         own.ready |= mask;
     }
     return given;
