@@ -81,9 +81,9 @@ MENISCUS_HD inline void turn_outward(F& x, F& y, F& z) {
     z = z / size;
 }
 
-/// Adds to the field's jets, FieldSlope or FieldJet.
-template <class Kernel, class F, class Jet>
-MENISCUS_HD inline void sum_jets(const CandidateView& c, F x, F y, F z, Jet& jet) {
+/// Adds to the field's jets, FieldSlope or FieldJet. X: F, or what gives one less an F.
+template <class Kernel, class X, class F, class Jet>
+MENISCUS_HD inline void sum_jets(const CandidateView& c, const X& x, F y, F z, Jet& jet) {
     for (std::size_t j = 0; j < c.count; ++j)
         Kernel::of(c, j).add_jet(jet, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]));
 }

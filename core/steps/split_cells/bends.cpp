@@ -18,6 +18,19 @@ UnitBox box_of(const Point3<WideLanes>& points) {
             {reduce_max(points.x), reduce_max(points.y), reduce_max(points.z)}};
 }
 
+/// The search meets points that are no whole units, and how they are rounded depends on how far their origin is. So it
+/// is the lowest corner of their pair of cells a side, whatever the number of lanes.
+constexpr int cells_of_origin = 2;
+static_assert(cluster_size.y == cells_of_origin && cluster_size.z == cells_of_origin);
+
+/// Coordinates x of points from there.
+struct FromPair {
+    WideLanes x;
+    WideLanes aside;  ///< from the origin of the candidates to that of the points: whole units, so that this is exact
+
+    friend WideLanes operator-(const FromPair& p, const WideLanes& candidate) { return p.x - (candidate - p.aside); }
+};
+
 /// The base vertices at the corners of a cluster's cells: by x, then y, then z.
 struct ClusterVertices {
     static constexpr int row = cluster_size.x + 1;
@@ -82,7 +95,7 @@ void measure(State& s, Neighborhoods& near) {
                     here += is_chosen ? 2 : 0;
                 }
                 const ClusterVertices vertices(blocks, static_cast<std::uint32_t>(b), corner);
-                alignas(64) float corners[8][cluster_blocks], starts[3][cluster_blocks],
+                alignas(64) float corners[8][cluster_blocks], starts[3][cluster_blocks], asides[cluster_blocks],
                     mixed[cluster_blocks];  // [corner][cell]
                 int inside_corners[cluster_blocks];
                 for (int i = 0; i < cluster_blocks; ++i) {
@@ -97,14 +110,23 @@ void measure(State& s, Neighborhoods& near) {
                         inside_corners[i] += static_cast<int>(vertices.inside >> vertex & 1);
                     }
                     mixed[i] = is_mixed(inside_corners[i]) ? 1.0F : 0.0F;
-                    starts[0][i] = static_cast<float>(step.x) * base_edge;
+                    starts[0][i] = static_cast<float>(step.x % cells_of_origin) * base_edge;
+                    asides[i] = static_cast<float>(step.x) * base_edge - starts[0][i];
                     starts[1][i] = static_cast<float>(step.y) * base_edge;
                     starts[2][i] = static_cast<float>(step.z) * base_edge;
                 }
                 const Int3 base = brick.corner() + corner;
+                const WideLanes aside = WideLanes::load(asides);
                 const auto jet_at = [&]<class Jet>(const Point3<WideLanes>& p, Jet jet) {
-                    for (const Candidates& c : near.near_box(base, box_of(p), worker))
-                        sum_jets<Kernel>(c.view(), p.x, p.y, p.z, jet);
+                    const auto add_near = [&](const UnitBox& box, const auto& x) {
+                        for (const Candidates& c : near.near_box(base, box, worker))
+                            sum_jets<Kernel>(c.view(), x, p.y, p.z, jet);
+                    };
+                    // A box that is rounded makes no difference: candidates from a little farther than they reach.
+                    if constexpr (cluster_size.x == cells_of_origin)
+                        add_near(box_of(p), p.x);
+                    else
+                        add_near(box_of({p.x + aside, p.y, p.z}), FromPair{p.x, aside});
                     return jet;
                 };
                 CellCorners<WideLanes> values;
