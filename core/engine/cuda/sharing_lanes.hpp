@@ -21,7 +21,8 @@ struct SharingLanes {
     unsigned own = lane_index() % count;
 
     /// The value of the i-th of them, which all of them ask for.
-    __device__ float from(float value, unsigned i) const {
+    template <class Value>
+    __device__ Value from(Value value, unsigned i) const {
         if constexpr (count == 1) return value;
         const unsigned first = lane_index() - own;
         return __shfl_sync(((1U << count) - 1) << first, value, static_cast<int>(first + i));

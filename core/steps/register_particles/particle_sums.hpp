@@ -50,7 +50,8 @@ __device__ void sum_at_each(const State& f) {
     const GridLoop threads;
     const std::uint32_t n = f.particle_count();
     for (std::uint64_t i = threads.first / count; i < n; i += threads.step / count) {
-        if (!loop.goes_on()) return;
+        // Lanes that share a particle end together: each waits for the values of the others.
+        if (lanes.from(lanes.own == 0 && loop.goes_on() ? 1 : 0, 0) == 0) return;
         const unsigned own_level = key_level(f.keys[i]);
         const ParticleKey key = particle_key(f.keys[i]);
         const Units3 origin = cell_corner(key.cell, f.settings.cell_units[own_level]);
