@@ -23,6 +23,17 @@ struct LevelSets {
             for (int side = -1; side <= 1; side += 2) cells |= at_least[level].moved(brick, w, axis_offset(axis, side));
         return cells;
     }
+    /// Cells with a neighbor of a higher level at an offset.
+    MENISCUS_HD std::uint64_t below(std::uint32_t brick, int w, const Int3& offset) const {
+        std::uint64_t cells = 0;
+        std::uint64_t reaching = ~std::uint64_t{0};  // the level before
+        for (int level = 1; level <= 3; ++level) {
+            const std::uint64_t own = is_at_least(level, brick, w);
+            cells |= reaching & ~own & at_least[level].moved(brick, w, offset);
+            reaching = own;
+        }
+        return cells;
+    }
 };
 
 /// The cells of a word of Brick::occupied that are of at least each level, 1 to 3.

@@ -97,7 +97,15 @@ struct Counts {
     std::uint32_t first_particle_brick[particle_level_count + 1];
     std::uint32_t level_particles[particle_level_count];  ///< where work is limited
     std::uint32_t listed[list_count];
-    std::uint32_t changed[3];  ///< see Sweeps
+    // See Sweeps and settle_band:
+    std::uint32_t found[3];
+    std::uint32_t found_alone[3];
+    std::uint32_t last_to_finest;  ///< of searches, the last that promoted a cell to the finest level
+    std::uint32_t last_joining;    ///< and the last in which a cell joined the band
+    std::uint32_t faces_to_settle;
+    std::uint32_t stale_cells;
+    std::uint32_t stale_words;
+    std::uint32_t is_settled;
     Stop stop;
 
     /// Whether there are particles of a level.
@@ -284,6 +292,13 @@ struct State : BlockState<Pointer> {
     }
     __device__ BrickGridView grid() const { return {bricks, brick_keys, neighbors, count(Resource::bricks)}; }
     __device__ BlocksView blocks() const { return blocks_view(*this, grid(), count(Resource::blocks)); }
+    // Until step 5, in arrays that are not needed before: lists of cells that a rule has found, of those that may have
+    // to change, of the words of bricks that hold some of these, and of faces, at most three of a cell.
+    __device__ std::uint32_t* found_cells() const { return cracked_cells; }
+    __device__ std::uint32_t* stale_cells() const { return band_cells; }
+    __device__ std::uint32_t* stale_words() const { return reinterpret_cast<std::uint32_t*>(base_deep); }
+    __device__ std::uint64_t* is_stale() const { return base_inside; }
+    __device__ std::uint64_t* faces_to_settle() const { return reinterpret_cast<std::uint64_t*>(edges); }
     __device__ LevelSets level_sets() const { return level_sets_of(*this, grid()); }
 };
 

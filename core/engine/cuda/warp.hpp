@@ -38,10 +38,10 @@ struct GridLoop {
         for (std::uint64_t i = first; i < n; i += step) visit(static_cast<Index>(i));
     }
     /// Calls visit(i, whether i < n), the same number of times in all lanes of a warp.
-    template <class Visit>
-    __device__ void each_together(std::uint32_t n, const Visit& visit) const {
+    template <class Index = std::uint32_t, class Visit>
+    __device__ void each_together(Index n, const Visit& visit) const {
         n = same_in_all_lanes(n);
-        for (std::uint64_t i = first; i - lane_index() < n; i += step) visit(static_cast<std::uint32_t>(i), i < n);
+        for (std::uint64_t i = first; i - lane_index() < n; i += step) visit(static_cast<Index>(i), i < n);
     }
 };
 

@@ -52,8 +52,7 @@ void adjust_levels(State& s) {
         return take_stale(s, StaleFor::promotion, brick, w) == 0 ? 0 : cells_to_promote(levels, brick, w);
     };
     do {
-        while (raise_levels(s, unbalanced, one_more)) {
-        }
+        raise_levels(s, unbalanced, one_more);  // once, see there
     } while (raise_levels(s, promoted, one_more));
 }
 

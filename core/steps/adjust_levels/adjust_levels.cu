@@ -19,8 +19,7 @@ __global__ void __launch_bounds__(block_threads) list_level_sets(const __grid_co
 }
 
 __global__ void __launch_bounds__(block_threads, 4) balance_and_promote(const __grid_constant__ State f) {
-    Sweeps sweeps(f);
-    sweeps.adjust_levels();
+    Sweeps(f, Team::grid(), AllWords(f)).adjust_levels();
 }
 
 }  // namespace

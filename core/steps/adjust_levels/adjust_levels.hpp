@@ -10,37 +10,41 @@
 
 namespace meniscus {
 
-/// The cells of the band that lie two levels below a face neighbor.
+/// The cells of the band that lie two levels below a face neighbor: those of level 1 beside one of level 3. None goes
+/// up to 3 for it, so that all words can be balanced once, in any order, and nothing is left to balance.
 MENISCUS_HD inline std::uint64_t unbalanced_cells(const LevelSets& levels, std::uint32_t brick, int w) {
     const std::uint64_t coarsest = levels.band(brick, w) & ~levels.is_at_least(2, brick, w);
     return coarsest == 0 ? 0 : coarsest & levels.beside(3, brick, w);
 }
 
+/// A cell's edges along an axis at one side are a group: cells_to_promote looks at them together.
+inline constexpr unsigned edge_groups = 6;
+
 /// The coarse cells that, at one of their twelve edges, face another coarse cell across the edge with two cells between
 /// them that are finer than both, and come first in the order (z, y, x): four crack fillings would share a chord there.
-MENISCUS_HD inline std::uint64_t cells_to_promote(const LevelSets& levels, std::uint32_t brick, int w) {
+/// Looked at: every sharers-th group of edges from `first` on.
+template <unsigned sharers = 1>
+MENISCUS_HD inline std::uint64_t cells_to_promote(const LevelSets& levels, std::uint32_t brick, int w,
+                                                  unsigned first = 0) {
     const std::uint64_t coarse = levels.band(brick, w) & ~levels.is_at_least(3, brick, w);
     if (coarse == 0) return 0;
     const std::uint64_t own2 = levels.is_at_least(2, brick, w);
     std::uint64_t promoted = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const int u = axis == 0 ? 1 : 0;
-        const int v = axis == 2 ? 1 : 2;
+    for (unsigned group = first; group < edge_groups; group += sharers) {
+        const int axis = static_cast<int>(group >> 1);
+        const int side = (group & 1) != 0 ? 1 : -1;
         // The cell across comes later in (z, y, x) exactly if it lies up the later of the two axes, v.
-        const Int3 along_v = axis_offset(v, 1);
-        const std::uint64_t v2 = coarse & levels.at_least[2].moved(brick, w, along_v);
-        if (v2 == 0) continue;
-        const std::uint64_t v3 = levels.at_least[3].moved(brick, w, along_v);
-        for (int side = -1; side <= 1; side += 2) {
-            const Int3 along_u = axis_offset(u, side);
-            const std::uint64_t finer2 = v2 & levels.at_least[2].moved(brick, w, along_u);
-            if (finer2 == 0) continue;
-            const std::uint64_t finer3 = finer2 & v3 & levels.at_least[3].moved(brick, w, along_u);
-            const std::uint64_t across1 = levels.at_least[1].moved(brick, w, along_u + along_v);
-            const std::uint64_t across2 = levels.at_least[2].moved(brick, w, along_u + along_v);
-            const std::uint64_t across3 = levels.at_least[3].moved(brick, w, along_u + along_v);
-            promoted |= across1 & ~across3 & ((finer2 & ~own2 & ~across2) | finer3);
-        }
+        const Int3 along_v = axis_offset(axis == 2 ? 1 : 2, 1);
+        const Int3 along_u = axis_offset(axis == 0 ? 1 : 0, side);
+        const std::uint64_t finer2 =
+            coarse & levels.at_least[2].moved(brick, w, along_v) & levels.at_least[2].moved(brick, w, along_u);
+        if (finer2 == 0) continue;
+        const std::uint64_t finer3 =
+            finer2 & levels.at_least[3].moved(brick, w, along_v) & levels.at_least[3].moved(brick, w, along_u);
+        const std::uint64_t across1 = levels.at_least[1].moved(brick, w, along_u + along_v);
+        const std::uint64_t across2 = levels.at_least[2].moved(brick, w, along_u + along_v);
+        const std::uint64_t across3 = levels.at_least[3].moved(brick, w, along_u + along_v);
+        promoted |= across1 & ~across3 & ((finer2 & ~own2 & ~across2) | finer3);
     }
     return promoted;
 }
@@ -60,8 +64,8 @@ MENISCUS_HD inline void raise_cells(const LevelSets& levels, std::uint8_t* level
         if (raised >= 3) level3 |= cell;
     }
     levels.at_least[1].word(brick, w) |= cells;
-    levels.at_least[2].word(brick, w) |= level2;
-    levels.at_least[3].word(brick, w) |= level3;
+    if (level2 != 0) levels.at_least[2].word(brick, w) |= level2;
+    if (level3 != 0) levels.at_least[3].word(brick, w) |= level3;
 }
 
 }  // namespace meniscus

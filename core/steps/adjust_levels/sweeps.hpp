@@ -1,96 +1,165 @@
-// Rules that raise the levels of some cells, swept over all cells by a grid of threads that waits for itself between
-// sweeps: how many sweeps there are is known on the device alone. A cooperative kernel rather than a loop in a graph,
-// since it runs in and outside of graphs alike, and a wait of the grid costs less than the start of a kernel.
+// Rules that raise levels, one after another, until none finds a cell: how often is known on the device alone. A
+// cooperative kernel rather than a loop in a graph, since it runs in and outside of graphs alike, and a wait of the
+// grid costs less than the start of a kernel.
+//
+// A rule searches by one state of all levels and lists the cells that it finds; after a wait they are raised.
 #pragma once
 
-#include <cooperative_groups.h>
-
+#include "engine/cuda/cell_bit.hpp"
 #include "engine/cuda/state.hpp"
-#include "engine/cuda/warp.hpp"
+#include "engine/cuda/team.hpp"
 #include "steps/adjust_levels/adjust_levels.hpp"
 
 namespace meniscus::cuda {
 
-/// The sweeps of one cooperative kernel. All threads of the grid must call all functions, in the same order.
+/// Where rules look the first time: at the words of all bricks.
+class AllWords {
+public:
+    static constexpr bool follows_raising = false;
+
+    __device__ explicit AllWords(const State& f) : count_(std::uint64_t{Brick::words} * f.count(Resource::bricks)) {}
+    __device__ std::uint64_t words() const { return count_; }
+    __device__ std::uint32_t word(std::uint64_t i) const { return static_cast<std::uint32_t>(i); }
+    __device__ void mark(std::uint32_t) const {}
+
+private:
+    std::uint64_t count_;
+};
+
+/// One kernel's rules, which look at the words of Places. If Places::follows_raising, each cell that is raised is
+/// marked there with the 26 around it. All threads of the team must call all functions but find(), in the same order.
+/// Before the first search the grid must wait once.
+template <class Places>
 class Sweeps {
 public:
-    __device__ explicit Sweeps(const State& f)
-        : f_(f), levels_(f.level_sets()), words_(std::uint64_t{Brick::words} * levels_.at_least[1].grid.brick_count) {
-        if (is_first_thread()) f_.counts->changed[0] = f_.counts->changed[1] = f_.counts->changed[2] = 0;
-        wait();
+    Team team;
+    Places places;
+
+    __device__ Sweeps(const State& f, const Team& first_team, const Places& places_of_rules)
+        : team(first_team), places(places_of_rules), f_(f), levels_(f.level_sets()) {
+        if (team.is_first_thread()) f_.counts->found[0] = f_.counts->found_alone[0] = 0;
     }
 
-    __device__ void wait() const { cooperative_groups::this_grid().sync(); }
-    __device__ bool is_first_thread() const { return blockIdx.x == 0 && threadIdx.x == 0; }
+    /// The number of the next search or of the one that is going on: another one for each.
+    __device__ std::uint32_t search() const { return team.is_alone() ? ~searches_alone_ : searches_ + 1; }
 
-    /// Raises the cells that raised(brick, w) gives for every word, all by the same state, by one level; returns
-    /// whether there were any.
-    template <class Raised>
-    __device__ bool raise_words(const Raised& raised) {
-        bool changed = false;
-        GridLoop{}.each(words_, [&](std::uint32_t i) {
-            const std::uint64_t cells = raised(levels_, i / Brick::words, static_cast<int>(i % Brick::words));
-            if (cells != 0) f_.raised[i] = cells;
-            changed |= cells != 0;
-        });
-        return apply(changed, [&](std::uint32_t block) { return f_.level[block] + 1; });
+    /// A rule's: this cell shall go up. Several threads may find the same one.
+    __device__ void find(std::uint32_t block) const {
+        const CellBit cell(f_, block);
+        if ((cell.put_into(f_.raised) & cell.bit) == 0) list(block);
     }
-
-    /// The same for the blocks of which raised(blocks, b) holds, to new_level(b).
-    template <class Raised, class NewLevel>
-    __device__ bool raise_blocks(const Raised& raised, const NewLevel& new_level) {
-        const BlocksView blocks = f_.blocks();
-        bool changed = false;
-        GridLoop{}.each(blocks.count, [&](std::uint32_t b) {
-            if (!raised(blocks, b)) return;
-            changed = true;
-            const int place = blocks.place[b];
-            atomicOr(reinterpret_cast<Counter*>(
-                         &f_.raised[std::uint64_t{Brick::words} * blocks.brick[b] + static_cast<unsigned>(place >> 6)]),
-                     Counter{1} << (place & 63));
+    /// Ends a rule's search; returns how many cells it has found.
+    __device__ std::uint32_t end_search() {
+        // Three counts in turn: one is added to, one may still be read, one is cleared for the next search.
+        // A block that goes on alone has its own: others may read the grid's long after.
+        if (team.is_first_thread()) *count(1) = 0;
+        team.wait();
+        const std::uint32_t found = *count();
+        if (team.is_alone())
+            ++searches_alone_;
+        else
+            ++searches_;
+        return found;
+    }
+    /// Raises so many cells, all that were found, to new_level(block); to 0: it stays as it is.
+    template <class NewLevel>
+    __device__ void raise_found(std::uint32_t found, const NewLevel& new_level) const {
+        each_around(found, [&](std::uint32_t block, unsigned slot) {
+            if (slot == own_slot) raise(block, new_level(block));
         });
-        return apply(changed, new_level);
+        team.wait();
     }
 
     /// Balance and promotion, until nothing changes.
     __device__ void adjust_levels() {
-        const auto unbalanced = [](const LevelSets& levels, std::uint32_t brick, int w) {
-            return unbalanced_cells(levels, brick, w);
-        };
-        const auto promoted = [](const LevelSets& levels, std::uint32_t brick, int w) {
-            return cells_to_promote(levels, brick, w);
-        };
-        do {
-            while (raise_words(unbalanced)) {
-            }
-        } while (raise_words(promoted));
+        for (bool has_finer = true;;) {
+            if (has_finer) balance();
+            // Where threads are left over, six share the twelve edges of a word's cells.
+            if (places.words() * edge_groups <= 2 * team.threads())
+                promote<edge_groups>();
+            else
+                promote<1>();
+            const std::uint32_t promotion = search();
+            const std::uint32_t found = end_search();
+            if (found == 0) return;
+            has_finer = static_cast<volatile std::uint32_t&>(f_.counts->last_to_finest) == promotion;
+            raise_found(found, [&](std::uint32_t block) { return f_.level[block] + 1; });
+        }
     }
 
 private:
-    template <class NewLevel>
-    __device__ bool apply(bool changed, const NewLevel& new_level) {
-        // Three flags in turn: one is being set, one may still be read, one is cleared for the next sweep.
-        std::uint32_t* const flags = f_.counts->changed;
-        if (changed) atomicOr(&flags[sweep_ % 3], 1U);
-        if (is_first_thread()) flags[(sweep_ + 1) % 3] = 0;
-        wait();
-        const bool any = *const_cast<volatile std::uint32_t*>(&flags[sweep_ % 3]) != 0;
-        ++sweep_;
-        if (!any) return false;
-        GridLoop{}.each(words_, [&](std::uint32_t i) {
-            const std::uint64_t cells = f_.raised[i];
-            if (cells == 0) return;
-            f_.raised[i] = 0;
-            raise_cells(levels_, f_.level, i / Brick::words, static_cast<int>(i % Brick::words), cells, new_level);
+    /// How many cells this search has found; searches later: that one's.
+    __device__ volatile std::uint32_t* count(std::uint32_t later = 0) const {
+        return team.is_alone() ? &f_.counts->found_alone[(searches_alone_ + later) % 3]
+                               : &f_.counts->found[(searches_ + later) % 3];
+    }
+    __device__ void list(std::uint32_t block) const {
+        f_.found_cells()[atomicAdd(const_cast<std::uint32_t*>(count()), 1U)] = block;
+    }
+    /// Calls visit(block, slot) for the cells that were found. Where Places follow, it does so for all 27 slots, each
+    /// in a thread of its own, and marks the cells there; else for own_slot alone.
+    template <class Visit>
+    __device__ void each_around(std::uint32_t found, const Visit& visit) const {
+        constexpr unsigned slots = Places::follows_raising ? neighbor_slots : 1;
+        const BlocksView blocks = f_.blocks();
+        team.loop().template each<std::uint64_t>(std::uint64_t{found} * slots, [&](std::uint64_t i) {
+            const std::uint32_t block = f_.found_cells()[i / slots];
+            const unsigned slot = slots == 1 ? own_slot : static_cast<unsigned>(i % slots);
+            visit(block, slot);
+            if constexpr (Places::follows_raising) {
+                const std::uint32_t near = blocks.neighbor(block, neighbor_offset(static_cast<int>(slot)));
+                if (near != no_index) places.mark(near);
+            }
         });
-        wait();
-        return true;
+    }
+    __device__ void raise(std::uint32_t block, int level) const {
+        const CellBit cell(f_, block);
+        cell.take_out_of(f_.raised);
+        if (level == 0) return;
+        const int before = f_.level[block];
+        for (int l = 1; l <= 3; ++l)
+            if (before < l && l <= level) cell.put_into(levels_.at_least[l].words);
+        f_.level[block] = static_cast<std::uint8_t>(level);
+    }
+
+    /// Calls visit(brick, w, which of them) for the words, once for each of so many threads that share one.
+    template <unsigned threads, class Visit>
+    __device__ void each_word(const Visit& visit) const {
+        team.template each_part<threads>(places.words(), [&](std::uint64_t i, unsigned part) {
+            const std::uint32_t word = places.word(i);
+            visit(word / Brick::words, static_cast<int>(word % Brick::words), part);
+        });
+    }
+    __device__ void balance() {
+        each_word<1>([&](std::uint32_t brick, int w, unsigned) {
+            const std::uint64_t cells = unbalanced_cells(levels_, brick, w);
+            if (cells == 0) return;
+            raise_cells(levels_, f_.level, brick, w, cells, [&](std::uint32_t block) {
+                if (Places::follows_raising) list(block);
+                return 2;
+            });
+        });
+        if constexpr (Places::follows_raising) {
+            const std::uint32_t found = end_search();
+            if (found == 0) return;
+            each_around(found, [](std::uint32_t, unsigned) {});
+        }
+        team.wait();
+    }
+    template <unsigned threads>
+    __device__ void promote() const {
+        each_word<threads>([&](std::uint32_t brick, int w, unsigned first) {
+            std::uint64_t left = cells_to_promote<threads>(levels_, brick, w, first);
+            // Only cells of the finest level unbalance others.
+            if ((left & levels_.is_at_least(2, brick, w)) != 0) f_.counts->last_to_finest = search();
+            for (; left != 0; left &= left - 1) find(f_.bricks[brick].number(64 * w + lowest_bit(left)));
+        });
     }
 
     const State& f_;
     LevelSets levels_;
-    std::uint64_t words_;
-    unsigned sweep_ = 0;
+    std::uint32_t searches_ = 0;        ///< by the grid
+    std::uint32_t searches_alone_ = 0;  ///< by its first block
 };
 
 }  // namespace meniscus::cuda

@@ -165,7 +165,7 @@ bool grow_band(State& s, const WantedLevel& wanted_level) {
         std::uint64_t cells = take_stale(s, StaleFor::band, brick, w) & ~levels.band(brick, w);
         if (cells != 0) cells &= levels.beside(1, brick, w) & signs.cells_seeing_both(brick, w);
         return cells_where(s.grid.bricks[brick], w, cells,
-                           [&](std::uint32_t block) { return joins_band(blocks, block); });
+                           [&](std::uint32_t block) { return holds_at_a_face(joins_band, blocks, block); });
     };
     return raise_levels(s, joining, wanted_level);
 }
@@ -181,7 +181,7 @@ bool raise_at_slivers(State& s) {
         if (cells != 0) cells &= cells_beside_finer(levels, brick, w);
         if (cells != 0) cells &= signs.cells_seeing_both(brick, w);
         return cells_where(s.grid.bricks[brick], w, cells,
-                           [&](std::uint32_t block) { return misses_surface_on_face(blocks, block); });
+                           [&](std::uint32_t block) { return holds_at_a_face(misses_surface, blocks, block); });
     };
     return raise_levels(s, missing, [&s](std::uint32_t block) { return s.level[block] + 1; });
 }

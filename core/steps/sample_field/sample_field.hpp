@@ -57,33 +57,39 @@ MENISCUS_HD inline BlockMask half_edge_middles(BlockMask inside, BlockMask middl
     return wanted;
 }
 
-/// Whether a cell's points `stride` apart on its face at one side (0 below, 1 above) along an axis show both signs.
-MENISCUS_HD inline bool face_is_mixed(const BlocksView& blocks, const ClosedCell& cell, int axis, int side,
-                                      int stride) {
-    const int u = (axis + 1) % 3;
-    const int v = (axis + 2) % 3;
-    const int first = side << axis;
-    const BlockMask face = stride_points(stride) & low_face(axis);
-    const BlockMask own = blocks.inside_or_none(cell.block[first]) & face;
-    if (own != 0 && own != face) return true;
-    const auto differs = [&](int i, BlockMask points) {
-        return ((blocks.inside_or_none(cell.block[first | i]) ^ own) & points) != 0;
+/// A base cell's faces: axis, and side 0 below, 1 above.
+struct CellFace {
+    int axis;
+    int side;
+
+    static constexpr unsigned count = 6;
+    MENISCUS_HD constexpr explicit CellFace(unsigned i)
+        : axis(static_cast<int>(i >> 1)), side(static_cast<int>(i & 1)) {}
+    /// To the cell on the other side.
+    MENISCUS_HD constexpr Int3 offset() const { return axis_offset(axis, 2 * side - 1); }
+};
+
+/// Whether points `stride` apart on a cell's face show both signs.
+MENISCUS_HD inline bool face_is_mixed(const BlocksView& blocks, std::uint32_t block, const CellFace& face, int stride) {
+    const Int3 first = axis_offset(face.axis, face.side);
+    const Int3 u = axis_offset((face.axis + 1) % 3);
+    const Int3 v = axis_offset((face.axis + 2) % 3);
+    const BlockMask low_u = low_face((face.axis + 1) % 3);
+    const BlockMask low_v = low_face((face.axis + 2) % 3);
+    const BlockMask points = stride_points(stride) & low_face(face.axis);
+    const BlockMask own = blocks.inside_or_none(blocks.neighbor(block, first)) & points;
+    if (own != 0 && own != points) return true;
+    const auto differs = [&](const Int3& offset, BlockMask some) {
+        return ((blocks.inside_or_none(blocks.neighbor(block, first + offset)) ^ own) & some) != 0;
     };
-    return differs(1 << u, face & low_face(u)) || differs(1 << v, face & low_face(v)) ||
-           differs(1 << u | 1 << v, face & low_face(u) & low_face(v));
+    return differs(u, points & low_u) || differs(v, points & low_v) || differs(u + v, points & low_u & low_v);
 }
 
-/// Whether a stored cell outside the band must join it: a neighbor in the band sees both signs on their common face, so
-/// that skipping the cell would leave the mesh open.
-MENISCUS_HD inline bool joins_band(const BlocksView& blocks, std::uint32_t block) {
-    const ClosedCell cell(blocks, block);
-    for (int axis = 0; axis < 3; ++axis)
-        for (int side = 0; side < 2; ++side) {
-            const int level =
-                blocks.level_or_none(side == 1 ? cell.block[1 << axis] : blocks.neighbor(block, axis_offset(axis, -1)));
-            if (level != 0 && face_is_mixed(blocks, cell, axis, side, level_stride(level))) return true;
-        }
-    return false;
+/// Whether a stored cell outside the band must join it for a face: its neighbor there is in the band and sees both
+/// signs on the face, so that skipping the cell would leave the mesh open.
+MENISCUS_HD inline bool joins_band(const BlocksView& blocks, std::uint32_t block, const CellFace& face) {
+    const int level = blocks.level_or_none(blocks.neighbor(block, face.offset()));
+    return level != 0 && face_is_mixed(blocks, block, face, level_stride(level));
 }
 
 /// The cells of the band with a finer face neighbor.
@@ -94,18 +100,20 @@ MENISCUS_HD inline std::uint64_t cells_beside_finer(const LevelSets& levels, std
     return (coarse & ~level2 & levels.beside(2, brick, w)) | (coarse & level2 & levels.beside(3, brick, w));
 }
 
-/// Whether a finer neighbor sees surface on their common face where this cell's own corners show none: its part there
-/// would end in a closed sliver at the face.
-MENISCUS_HD inline bool misses_surface_on_face(const BlocksView& blocks, std::uint32_t block) {
+/// Whether a finer neighbor of a cell of the band sees surface on their common face where this cell's own corners show
+/// none: its part there would end in a closed sliver at the face.
+MENISCUS_HD inline bool misses_surface(const BlocksView& blocks, std::uint32_t block, const CellFace& face) {
     const int level = blocks.level[block];
-    if (level == 0 || level == 3) return false;
-    for (int axis = 0; axis < 3; ++axis)
-        for (int side = 0; side < 2; ++side) {
-            const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, 2 * side - 1));
-            if (blocks.level_or_none(other) > level &&
-                FaceSigns(blocks, side == 1 ? other : block, axis, level_stride(level) / 2).hiding() != 0)
-                return true;
-        }
+    const std::uint32_t other = blocks.neighbor(block, face.offset());
+    return blocks.level_or_none(other) > level &&
+           FaceSigns(blocks, face.side == 1 ? other : block, face.axis, level_stride(level) / 2).hiding() != 0;
+}
+
+/// Whether a rule, one of the two above, holds for any face of a cell.
+template <class Rule>
+MENISCUS_HD inline bool holds_at_a_face(const Rule& rule, const BlocksView& blocks, std::uint32_t block) {
+    for (unsigned i = 0; i < CellFace::count; ++i)
+        if (rule(blocks, block, CellFace(i))) return true;
     return false;
 }
 

@@ -44,10 +44,10 @@ plant(wrong_block_count engine/cuda/launch.hpp
   [=[launch(FAULTY(wrong_block_count) ? static_cast<unsigned>(most + 1) : blocks_for(elements, block_threads, most), true,
                kernel, arguments...);]=])
 
-# What blocks but the grid's first have changed in a sweep is not told to the others.
+# Cells that blocks but the grid's first have found in a search are not told to the others.
 plant(lost_flag steps/adjust_levels/sweeps.hpp
-  [=[if (changed) atomicOr(]=]
-  [=[if (changed && !(FAULTY(lost_flag) && blockIdx.x != 0)) atomicOr(]=])
+  [=[if ((cell.put_into(f_.raised) & cell.bit) == 0) list(block);]=]
+  [=[if ((cell.put_into(f_.raised) & cell.bit) == 0 && !(FAULTY(lost_flag) && blockIdx.x != 0)) list(block);]=])
 
 # Triangles of a cell lie in the order in which its lanes come by.
 plant(unstable_order steps/emit_triangles/emit_triangles.cu

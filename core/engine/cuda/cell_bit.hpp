@@ -1,0 +1,28 @@
+// A cell as one bit of a set of cells, which many threads may change at once.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/cuda/state.hpp"
+
+namespace meniscus::cuda {
+
+struct CellBit {
+    std::uint64_t word;  ///< among the words of all bricks
+    Counter bit;
+
+    __device__ CellBit(const State& f, std::uint32_t block) {
+        const unsigned place = f.place[block];
+        word = std::uint64_t{Brick::words} * f.brick[block] + place / 64;
+        bit = Counter{1} << place % 64;
+    }
+    /// Both return what was in the word before.
+    __device__ Counter put_into(std::uint64_t* set) const {
+        return atomicOr(reinterpret_cast<Counter*>(&set[word]), bit);
+    }
+    __device__ Counter take_out_of(std::uint64_t* set) const {
+        return atomicAnd(reinterpret_cast<Counter*>(&set[word]), ~bit);
+    }
+};
+
+}  // namespace meniscus::cuda
