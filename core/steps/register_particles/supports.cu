@@ -9,13 +9,20 @@
 namespace meniscus::cuda {
 namespace {
 
-/// Counts the particles alone, and marks them where they are to be listed.
-__global__ void __launch_bounds__(block_threads) count_spray(const __grid_constant__ State f) {
+/// Also counts the particles alone, and marks them where they are to be listed.
+__global__ void __launch_bounds__(block_threads) fit_kernels(const __grid_constant__ State f) {
+    const std::uint32_t n = f.particle_count();
     Counter spray = 0;
-    GridLoop{}.each_together(f.capacity.particles, [&](std::uint32_t i, bool exists) {
-        const bool is_alone = exists && i < f.particle_count() && is_spray(f.sums[i], f.settings.smooth);
+    GridLoop{}.each(f.capacity.particles, [&](std::uint32_t i) {
+        const bool is_alone = i < n && is_spray(f.sums[i], f.settings.smooth);
         if (is_alone) ++spray;
-        if (exists && f.settings.lists_spray) f.spray_before[i] = is_alone ? 1 : 0;
+        if (f.settings.lists_spray) f.spray_before[i] = is_alone ? 1 : 0;
+        if (i >= n) return;
+        const Poly6 kernel = is_alone && f.settings.leaves_out_spray
+                                 ? Poly6::none()
+                                 : fitted_kernel(f.sums[i], key_level(f.keys[i]), f.settings.smooth);
+        f.particles[i].w = kernel.weight;
+        f.falls[i] = kernel.fall;
     });
     add_of_lanes(&f.counts->spray_particles, spray);
 }
@@ -26,16 +33,6 @@ __global__ void __launch_bounds__(block_threads) list_spray(const __grid_constan
         const unsigned level = key_level(f.keys[i]);
         f.spray[f.spray_before[i]] =
             spray_point(particle_key(f.keys[i]), f.settings.cell_units[level], f.settings.units_per_length);
-    });
-}
-
-__global__ void __launch_bounds__(block_threads) fit_kernels(const __grid_constant__ State f) {
-    GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
-        const Poly6 kernel = f.settings.leaves_out_spray && is_spray(f.sums[i], f.settings.smooth)
-                                 ? Poly6::none()
-                                 : fitted_kernel(f.sums[i], key_level(f.keys[i]), f.settings.smooth);
-        f.particles[i].w = kernel.weight;
-        f.falls[i] = kernel.fall;
     });
 }
 
@@ -52,12 +49,11 @@ __global__ void __launch_bounds__(block_threads) lift_kernels(const __grid_const
 void fit_supports(const State& state, const Launcher& launch) {
     const std::uint64_t particles = state.capacity.particles;
     sum_at_particles<Company>(state, launch);
-    launch(particles, block_threads, count_spray, state);
+    launch(particles, block_threads, fit_kernels, state);
     if (state.settings.lists_spray) {
         exclusive_sum(state.scratch_memory(), state.spray_before, particles, launch.stream);
         launch(particles, block_threads, list_spray, state);
     }
-    launch(particles, block_threads, fit_kernels, state);
     sum_at_particles<Poly6>(state, launch);
     launch(particles, block_threads, lift_kernels, state);
 }
