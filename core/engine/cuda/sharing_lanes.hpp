@@ -11,8 +11,8 @@ namespace meniscus::cuda {
 /// Of each particle, where the grid has_threads_to_spare(): a power of two.
 inline constexpr unsigned lanes_to_share = 4;
 
-__device__ inline bool has_threads_to_spare(const State& f) {
-    return std::uint64_t{lanes_to_share} * f.particle_count() <= GridLoop{}.step;
+__device__ inline bool has_threads_to_spare(std::uint32_t particles) {
+    return std::uint64_t{lanes_to_share} * particles <= GridLoop{}.step;
 }
 
 /// Those of one particle, as each of them sees them.

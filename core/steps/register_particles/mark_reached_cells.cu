@@ -91,15 +91,14 @@ private:
     static_assert(std::int64_t{1} << reached_brick_shift == reached_brick_edge);
 };
 
-/// What each particle reaches, by `count` lanes, which share its slices. Also adds up ReachedBox::count(): for the
-/// frame, or where a domain will leave cells out, for each brick in members_before.
+/// What each of n particles reaches, by `count` lanes, which share its slices. Also adds up ReachedBox::count(): for
+/// the frame, or where a domain will leave cells out, for each brick in members_before.
 template <unsigned count>
-__device__ void mark_for_each(const State& f) {
+__device__ void mark_for_each(const State& f, std::uint32_t n) {
     const BrickGridView grid = f.grid();
     LongLoop loop(f);
     Counter pairs = 0;
     const GridLoop threads;
-    const std::uint32_t n = f.particle_count();
     const SharingLanes<count> lanes;
     for (std::uint64_t i = threads.first / count; i < n; i += threads.step / count) {
         if (!loop.goes_on()) break;
@@ -140,10 +139,11 @@ __device__ void mark_for_each(const State& f) {
 }
 
 __global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __grid_constant__ State f) {
-    if (has_threads_to_spare(f))
-        mark_for_each<lanes_to_share>(f);
+    const std::uint32_t n = same_in_all_lanes(f.particle_count());
+    if (has_threads_to_spare(n))
+        mark_for_each<lanes_to_share>(f, n);
     else
-        mark_for_each<1>(f);
+        mark_for_each<1>(f, n);
 }
 
 /// One warp for every brick: leaves out what lies beyond the domain, and counts the members.

@@ -42,13 +42,12 @@ __device__ inline void add_particles(const LevelParticles<Kernel>& level, std::u
         }
 }
 
-/// The sum at the place of each particle, by `count` lanes.
+/// The sum at the place of each of n particles, by `count` lanes.
 template <class Kernel, unsigned count>
-__device__ void sum_at_each(const State& f) {
+__device__ void sum_at_each(const State& f, std::uint32_t n) {
     LongLoop loop(f);
     const SharingLanes<count> lanes;
     const GridLoop threads;
-    const std::uint32_t n = f.particle_count();
     for (std::uint64_t i = threads.first / count; i < n; i += threads.step / count) {
         // Lanes that share a particle end together: each waits for the values of the others.
         if (lanes.from(lanes.own == 0 && loop.goes_on() ? 1 : 0, 0) == 0) return;
@@ -81,10 +80,12 @@ __device__ void sum_at_each(const State& f) {
 
 template <class Kernel>
 __global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const __grid_constant__ State f) {
-    if (has_threads_to_spare(f))
-        sum_at_each<Kernel, lanes_to_share>(f);
+    // None if the frame has stopped, which must not part the lanes.
+    const std::uint32_t n = same_in_all_lanes(f.particle_count());
+    if (has_threads_to_spare(n))
+        sum_at_each<Kernel, lanes_to_share>(f, n);
     else
-        sum_at_each<Kernel, 1>(f);
+        sum_at_each<Kernel, 1>(f, n);
 }
 
 /// Into State::sums. Kernel: CubicSpline, Poly6 or Company.
