@@ -27,6 +27,8 @@ using WideLanes = Lanes<16>;
 #else
 using WideLanes = Lanes<8>;
 #endif
+/// For so few floats that wider registers would not be half full: those cost up to twice as much.
+using NarrowLanes = Lanes<8>;
 
 template <int N>
 float reduce_max(Lanes<N> a) {

@@ -116,16 +116,15 @@ void ParticleField<Kernel>::normals(const Int3& base_cell, PointList& points, co
                                     unsigned worker) {
     pad(points);
     const CandidateLists::Levels& near = near_.near_box(base_cell, box_of(points), worker);
-    for (std::size_t i = 0; i < points.count; i += WideLanes::count) {
-        const WideLanes px = WideLanes::load(points.x + i), py = WideLanes::load(points.y + i),
-                        pz = WideLanes::load(points.z + i);
-        WideLanes gx(0.0F), gy(0.0F), gz(0.0F);
+    for_each_register(points, [&]<class F>(std::size_t i) {
+        const F px = F::load(points.x + i), py = F::load(points.y + i), pz = F::load(points.z + i);
+        F gx(0.0F), gy(0.0F), gz(0.0F);
         for (const Candidates& c : near) sum_gradients<Kernel>(c.view(), px, py, pz, gx, gy, gz);
         turn_outward(gx, gy, gz);
         gx.store(normals.x + i);
         gy.store(normals.y + i);
         gz.store(normals.z + i);
-    }
+    });
 }
 
 template <class Kernel>

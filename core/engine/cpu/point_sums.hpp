@@ -36,26 +36,41 @@ inline void pad(PointList& points) {
     }
 }
 
+/// Calls visit.operator()<F>(i) for every register of points from the i-th on, whose lanes are F.
+template <class Visit>
+void for_each_register(const PointList& points, const Visit& visit) {
+    std::size_t i = 0;
+    for (; points.count > i + NarrowLanes::count; i += WideLanes::count) visit.template operator()<WideLanes>(i);
+    if (points.count > i) visit.template operator()<NarrowLanes>(i);
+}
+
 /// Values at G registers of points from the i-th on.
-template <class Kernel, int G>
+template <class Kernel, class F, int G>
 void sum_group(const CandidateLists::Levels& near, const PointList& points, std::size_t i, float* out) {
-    WideLanes x[G], y[G], z[G], sum[G];
+    F x[G], y[G], z[G], sum[G];
     for (int g = 0; g < G; ++g) {
-        const std::size_t at = i + static_cast<std::size_t>(g) * WideLanes::count;
-        x[g] = WideLanes::load(points.x + at);
-        y[g] = WideLanes::load(points.y + at);
-        z[g] = WideLanes::load(points.z + at);
-        sum[g] = WideLanes(0.0F);
+        const std::size_t at = i + static_cast<std::size_t>(g) * F::count;
+        x[g] = F::load(points.x + at);
+        y[g] = F::load(points.y + at);
+        z[g] = F::load(points.z + at);
+        sum[g] = F(0.0F);
     }
     for (const Candidates& c : near) sum_values<Kernel, G>(c.view(), x, y, z, sum);
-    for (int g = 0; g < G; ++g) sum[g].store(out + i + static_cast<std::size_t>(g) * WideLanes::count);
+    for (int g = 0; g < G; ++g) sum[g].store(out + i + static_cast<std::size_t>(g) * F::count);
 }
 
 template <class Kernel>
 void sum_points(const CandidateLists::Levels& near, const PointList& points, float* out) {
+#ifdef __AVX512F__
+    // One by one: operations take a particle's numbers from memory into all lanes by themselves, which is free; for two
+    // registers each number would be loaded into a third, which costs more than it saves.
+    for_each_register(points, [&]<class F>(std::size_t i) { sum_group<Kernel, F, 1>(near, points, i, out); });
+#else
     std::size_t i = 0;
-    for (; points.count > i + WideLanes::count; i += 2 * WideLanes::count) sum_group<Kernel, 2>(near, points, i, out);
-    if (points.count > i) sum_group<Kernel, 1>(near, points, i, out);
+    for (; points.count > i + WideLanes::count; i += 2 * WideLanes::count)
+        sum_group<Kernel, WideLanes, 2>(near, points, i, out);
+    if (points.count > i) sum_group<Kernel, WideLanes, 1>(near, points, i, out);
+#endif
 }
 
 }  // namespace meniscus::cpu
