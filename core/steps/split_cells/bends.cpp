@@ -13,7 +13,8 @@ namespace meniscus::cpu {
 namespace {
 
 /// The smallest box around points.
-UnitBox box_of(const Point3<WideLanes>& points) {
+template <class F>
+UnitBox box_of(const Point3<F>& points) {
     return {{reduce_min(points.x), reduce_min(points.y), reduce_min(points.z)},
             {reduce_max(points.x), reduce_max(points.y), reduce_max(points.z)}};
 }
@@ -24,11 +25,12 @@ constexpr int cells_of_origin = 2;
 static_assert(cluster_size.y == cells_of_origin && cluster_size.z == cells_of_origin);
 
 /// Coordinates x of points from there.
+template <class F>
 struct FromPair {
-    WideLanes x;
-    WideLanes aside;  ///< from the origin of the candidates to that of the points: whole units, so that this is exact
+    F x;
+    F aside;  ///< from the origin of the candidates to that of the points: whole units, so that this is exact
 
-    friend WideLanes operator-(const FromPair& p, const WideLanes& candidate) { return p.x - (candidate - p.aside); }
+    friend F operator-(const FromPair& p, const F& candidate) { return p.x - (candidate - p.aside); }
 };
 
 /// The base vertices at the corners of a cluster's cells: by x, then y, then z.
@@ -71,6 +73,75 @@ private:
     }
 };
 
+/// Some cells of a cluster, lane by lane, in which the surface is looked for.
+class SearchedCells {
+public:
+    int count() const { return count_; }
+
+    /// step: the cell's place in the cluster.
+    void add(std::uint32_t block, const Int3& step, const ClusterVertices& vertices, float iso) {
+        int inside_corners = 0;
+        for (int k = 0; k < 8; ++k) {
+            const int vertex =
+                step.x + (k & 1) + ClusterVertices::row * (step.y + (k >> 1 & 1) + 3 * (step.z + (k >> 2)));
+            corners_[k][count_] = vertices.value[vertex] - iso;
+            inside_corners += static_cast<int>(vertices.inside >> vertex & 1);
+        }
+        block_[count_] = block;
+        inside_corners_[count_] = inside_corners;
+        mixed_[count_] = is_mixed(inside_corners) ? 1.0F : 0.0F;
+        lowest_[0][count_] = static_cast<float>(step.x % cells_of_origin) * base_edge;
+        lowest_[1][count_] = static_cast<float>(step.y) * base_edge;
+        lowest_[2][count_] = static_cast<float>(step.z) * base_edge;
+        aside_[count_] = static_cast<float>(step.x) * base_edge - lowest_[0][count_];
+        ++count_;
+    }
+
+    /// In a register whose lanes are F, enough for all cells. near(box): the particles near it.
+    template <class Kernel, class F, class Near>
+    void search(float iso, const Near& near) {
+        // Lanes beyond the last cell repeat the first, so that the box around their points stays small.
+        for (float* const row : {corners_[0], corners_[1], corners_[2], corners_[3], corners_[4], corners_[5],
+                                 corners_[6], corners_[7], mixed_, lowest_[0], lowest_[1], lowest_[2], aside_})
+            std::fill(row + count_, row + F::count, row[0]);
+        const F aside = F::load(aside_);
+        const auto jet_at = [&]<class Jet>(const Point3<F>& p, Jet jet) {
+            const auto add_near = [&](const UnitBox& box, const auto& x) {
+                for (const Candidates& c : near(box)) sum_jets<Kernel>(c.view(), x, p.y, p.z, jet);
+            };
+            // A box that is rounded makes no difference: candidates from a little farther than they reach.
+            if constexpr (cluster_size.x == cells_of_origin)
+                add_near(box_of(p), p.x);
+            else
+                add_near(box_of<F>({p.x + aside, p.y, p.z}), FromPair<F>{p.x, aside});
+            return jet;
+        };
+        CellCorners<F> values;
+        for (int k = 0; k < 8; ++k) values.value[k] = F::load(corners_[k]);
+        const Point3<F> lowest{F::load(lowest_[0]), F::load(lowest_[1]), F::load(lowest_[2])};
+        const SurfaceSearch<F> found = search_surface(values, F::load(mixed_), lowest, iso, jet_at);
+        found.curvature.store(curvature_);
+        found.inside.store(inside_);
+    }
+
+    void enter_bends(State& s, const BlobRule& blobs) const {
+        for (int i = 0; i < count_; ++i)
+            s.bends[block_[i]] = cell_bend({curvature_[i], inside_[i]}, inside_corners_[i],
+                                           blobs.least_level(inside_corners_[i], s.reaches[block_[i]]));
+    }
+
+private:
+    int count_ = 0;
+    std::uint32_t block_[cluster_blocks];
+    int inside_corners_[cluster_blocks];
+    alignas(64) float corners_[8][cluster_blocks];  ///< less the iso-value
+    alignas(64) float mixed_[cluster_blocks];       ///< 1 where their signs are, else 0
+    alignas(64) float lowest_[3][cluster_blocks];   ///< lowest points, units from their pair's
+    alignas(64) float aside_[cluster_blocks];       ///< of the pair along x, from the cluster's lowest point
+    alignas(64) float curvature_[cluster_blocks];
+    alignas(64) float inside_[cluster_blocks];
+};
+
 /// Of the chosen cells.
 template <class Kernel>
 void measure(State& s, Neighborhoods& near) {
@@ -85,64 +156,24 @@ void measure(State& s, Neighborhoods& near) {
             const Brick& brick = s.grid.bricks[b];
             const std::uint64_t* const chosen = &s.chosen_cells().word(static_cast<std::uint32_t>(b), 0);
             for_each_cluster(chosen, [&](const Int3& corner) {
-                std::uint32_t block[cluster_blocks];
-                int first = cluster_blocks;
-                for (int i = 0; i < cluster_blocks; ++i) {
-                    const int place = index_in_brick(corner + cluster_step(i));
-                    const bool is_chosen = (chosen[place >> 6] >> (place & 63) & 1) != 0;
-                    block[i] = is_chosen ? brick.number(place) : no_index;
-                    first = is_chosen ? std::min(first, i) : first;
-                    here += is_chosen ? 2 : 0;
-                }
                 const ClusterVertices vertices(blocks, static_cast<std::uint32_t>(b), corner);
-                alignas(64) float corners[8][cluster_blocks], starts[3][cluster_blocks], asides[cluster_blocks],
-                    mixed[cluster_blocks];  // [corner][cell]
-                int inside_corners[cluster_blocks];
+                SearchedCells cells;
                 for (int i = 0; i < cluster_blocks; ++i) {
-                    // Lanes of cells that are not chosen repeat another's, so that the box around their points stays
-                    // small.
-                    const Int3 step = cluster_step(block[i] != no_index ? i : first);
-                    inside_corners[i] = 0;
-                    for (int k = 0; k < 8; ++k) {
-                        const int vertex =
-                            step.x + (k & 1) + ClusterVertices::row * (step.y + (k >> 1 & 1) + 3 * (step.z + (k >> 2)));
-                        corners[k][i] = vertices.value[vertex] - iso;
-                        inside_corners[i] += static_cast<int>(vertices.inside >> vertex & 1);
-                    }
-                    mixed[i] = is_mixed(inside_corners[i]) ? 1.0F : 0.0F;
-                    starts[0][i] = static_cast<float>(step.x % cells_of_origin) * base_edge;
-                    asides[i] = static_cast<float>(step.x) * base_edge - starts[0][i];
-                    starts[1][i] = static_cast<float>(step.y) * base_edge;
-                    starts[2][i] = static_cast<float>(step.z) * base_edge;
+                    const Int3 step = cluster_step(i);
+                    const int place = index_in_brick(corner + step);
+                    if ((chosen[place >> 6] >> (place & 63) & 1) != 0)
+                        cells.add(brick.number(place), step, vertices, iso);
                 }
-                const Int3 base = brick.corner() + corner;
-                const WideLanes aside = WideLanes::load(asides);
-                const auto jet_at = [&]<class Jet>(const Point3<WideLanes>& p, Jet jet) {
-                    const auto add_near = [&](const UnitBox& box, const auto& x) {
-                        for (const Candidates& c : near.near_box(base, box, worker))
-                            sum_jets<Kernel>(c.view(), x, p.y, p.z, jet);
-                    };
-                    // A box that is rounded makes no difference: candidates from a little farther than they reach.
-                    if constexpr (cluster_size.x == cells_of_origin)
-                        add_near(box_of(p), p.x);
-                    else
-                        add_near(box_of({p.x + aside, p.y, p.z}), FromPair{p.x, aside});
-                    return jet;
+                const auto near_box = [&](const UnitBox& box) -> const CandidateLists::Levels& {
+                    return near.near_box(brick.corner() + corner, box, worker);
                 };
-                CellCorners<WideLanes> values;
-                for (int k = 0; k < 8; ++k) values.value[k] = WideLanes::load(corners[k]);
-                const Point3<WideLanes> origin{WideLanes::load(starts[0]), WideLanes::load(starts[1]),
-                                               WideLanes::load(starts[2])};
-                const SurfaceSearch<WideLanes> search =
-                    search_surface(values, WideLanes::load(mixed), origin, iso, jet_at);
-                alignas(64) float curvature[cluster_blocks], inside[cluster_blocks];
-                search.curvature.store(curvature);
-                search.inside.store(inside);
-                for (int i = 0; i < cluster_blocks; ++i) {
-                    if (block[i] == no_index) continue;
-                    s.bends[block[i]] = cell_bend({curvature[i], inside[i]}, inside_corners[i],
-                                                  blobs.least_level(inside_corners[i], s.reaches[block[i]]));
-                }
+                // A sheet of cells fills half of a wide register.
+                if (cells.count() <= NarrowLanes::count)
+                    cells.search<Kernel, NarrowLanes>(iso, near_box);
+                else
+                    cells.search<Kernel, WideLanes>(iso, near_box);
+                cells.enter_bends(s, blobs);
+                here += 2 * static_cast<std::uint64_t>(cells.count());
             });
         }
         evaluations.fetch_add(here, std::memory_order_relaxed);
