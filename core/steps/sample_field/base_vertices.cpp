@@ -1,4 +1,6 @@
 // Base vertices are sampled for all stored cells, before the band is known.
+#include <limits>
+
 #include "engine/cpu/clusters.hpp"
 #include "field/kernels.hpp"
 #include "field/sums.hpp"
@@ -8,50 +10,98 @@
 namespace meniscus::cpu {
 namespace {
 
+/// Some blocks of a cluster, lane by lane: their base vertices fill the lanes, and their cells' bounds need the same
+/// particles.
+class BaseVertices {
+public:
+    int count() const { return count_; }
+    bool fit_narrow_lanes() const { return count_ <= NarrowLanes::count; }
+    std::uint32_t block(int i) const { return block_[i]; }
+    /// Its place in the cluster.
+    const Int3& step(int i) const { return step_[i]; }
+
+    void add(std::uint32_t block, const Int3& step) {
+        block_[count_] = block;
+        step_[count_] = step;
+        x_[count_] = static_cast<float>(step.x) * base_edge;
+        y_[count_] = static_cast<float>(step.y) * base_edge;
+        z_[count_] = static_cast<float>(step.z) * base_edge;
+        ++count_;
+    }
+
+    // In a register whose lanes are F, enough for all blocks; what lanes beyond the last one find is nobody's. near:
+    // the particles near the cluster.
+
+    template <class Kernel, class F>
+    void find_values(const CandidateLists::Levels& near, float* values) const {
+        const F x[1] = {F::load(x_)}, y[1] = {F::load(y_)}, z[1] = {F::load(z_)};
+        F sum[1] = {F(0.0F)};
+        for (const Candidates& c : near) sum_values<Kernel, 1>(c.view(), x, y, z, sum);
+        sum[0].store(values);
+    }
+
+    template <class Kernel, class F>
+    void find_reaches(const CandidateLists::Levels& near, Array<CellReach>& reaches) const {
+        const F half(base_edge / 2);
+        const F x = F::load(x_) + half, y = F::load(y_) + half, z = F::load(z_) + half;
+        F most(0.0F), nearest(0.0F);
+        for (const Candidates& c : near) sum_bounds<Kernel>(c.view(), x, y, z, base_edge / 2, most, nearest);
+        alignas(64) float bound[cluster_blocks], closest[cluster_blocks];
+        most.store(bound);
+        nearest.store(closest);
+        for (int i = 0; i < count_; ++i) reaches[block_[i]] = {bound[i], closest[i]};
+    }
+
+private:
+    int count_ = 0;
+    std::uint32_t block_[cluster_blocks];
+    Int3 step_[cluster_blocks];
+    alignas(64) float x_[cluster_blocks] = {}, y_[cluster_blocks] = {}, z_[cluster_blocks] = {};
+};
+
 template <class Kernel>
 void sample(State& s, Neighborhoods& near) {
     resize_for_overwrite(s.reaches, s.block_count());
     s.samples.reserve(s.block_count());
     s.samples.resize(s.block_count());
-    // Base vertices of a cluster fill the lanes; their cells' bounds need the same particles.
-    alignas(64) float lane_x[cluster_blocks], lane_y[cluster_blocks], lane_z[cluster_blocks];
-    for (int i = 0; i < cluster_blocks; ++i) {
-        lane_x[i] = static_cast<float>(cluster_step(i).x) * base_edge;
-        lane_y[i] = static_cast<float>(cluster_step(i).y) * base_edge;
-        lane_z[i] = static_cast<float>(cluster_step(i).z) * base_edge;
-    }
     s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
-        const WideLanes x[1] = {WideLanes::load(lane_x)}, y[1] = {WideLanes::load(lane_y)},
-                        z[1] = {WideLanes::load(lane_z)};
-        const WideLanes half(base_edge / 2);
-        alignas(64) float value[cluster_blocks], bound[cluster_blocks], closest[cluster_blocks];
+        alignas(64) float value[cluster_blocks];
         for (std::size_t b = begin; b < end; ++b) {
             const Brick& brick = s.grid.bricks[b];
             for_each_cluster(brick.occupied, [&](const Int3& corner) {
                 const Int3 base = brick.corner() + corner;
-                WideLanes sum[1] = {WideLanes(0.0F)};
-                WideLanes most(0.0F), nearest(0.0F);
-                for (const Candidates& c : near.near_cluster(base, worker)) {
-                    sum_values<Kernel, 1>(c.view(), x, y, z, sum);
-                    sum_bounds<Kernel>(c.view(), x[0] + half, y[0] + half, z[0] + half, base_edge / 2, most, nearest);
-                }
-                sum[0].store(value);
-                most.store(bound);
-                nearest.store(closest);
+                const CandidateLists::Levels& list = near.near_cluster(base, worker);
+                BaseVertices stored, outside;
                 for (int i = 0; i < cluster_blocks; ++i) {
-                    const Int3 step = cluster_step(i);
-                    const int place = index_in_brick(corner + step);
-                    if (!brick.holds(place)) continue;
-                    const std::uint32_t block = brick.number(place);
-                    s.samples[block] = value[i];
-                    s.reaches[block] = {bound[i], closest[i]};
-                    s.first_sample[block] = block;
-                    s.sampled[block] = 1;
+                    const int place = index_in_brick(corner + cluster_step(i));
+                    if (brick.holds(place)) stored.add(brick.number(place), cluster_step(i));
+                }
+                if (stored.fit_narrow_lanes())
+                    stored.find_values<Kernel, NarrowLanes>(list, value);
+                else
+                    stored.find_values<Kernel, WideLanes>(list, value);
+                for (int i = 0; i < stored.count(); ++i) {
+                    const std::uint32_t block = stored.block(i);
+                    const Int3 step = stored.step(i);
                     const bool allowed =
                         !s.settings.has_domain ||
                         (domain_points(base + step, s.settings.domain_low, s.settings.domain_high) & 1) != 0;
-                    s.inside[block] = allowed && value[i] > s.settings.iso ? 1 : 0;
+                    const bool is_inside = allowed && value[i] > s.settings.iso;
+                    s.samples[block] = value[i];
+                    s.first_sample[block] = block;
+                    s.sampled[block] = 1;
+                    s.inside[block] = is_inside ? 1 : 0;
+                    // Nobody asks how far particles reach into a cell with a corner inside.
+                    if (is_inside)
+                        s.reaches[block] = {std::numeric_limits<float>::infinity(), 1.0F};
+                    else
+                        outside.add(block, step);
                 }
+                if (outside.count() == 0) return;
+                if (outside.fit_narrow_lanes())
+                    outside.find_reaches<Kernel, NarrowLanes>(list, s.reaches);
+                else
+                    outside.find_reaches<Kernel, WideLanes>(list, s.reaches);
             });
         }
     });
