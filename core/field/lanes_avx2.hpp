@@ -37,6 +37,9 @@ inline Lanes<8> max(Lanes<8> a, Lanes<8> b) {
 inline Lanes<8> min(Lanes<8> a, Lanes<8> b) {
     return _mm256_min_ps(a.v, b.v);
 }
+inline Lanes<8> magnitude(Lanes<8> a) {
+    return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), a.v);
+}
 /// Rounded toward zero.
 inline Lanes<8> trunc(Lanes<8> a) {
     return _mm256_round_ps(a.v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);

@@ -37,6 +37,9 @@ inline Lanes<16> max(Lanes<16> a, Lanes<16> b) {
 inline Lanes<16> min(Lanes<16> a, Lanes<16> b) {
     return _mm512_min_ps(a.v, b.v);
 }
+inline Lanes<16> magnitude(Lanes<16> a) {
+    return _mm512_abs_ps(a.v);
+}
 /// Rounded toward zero.
 inline Lanes<16> trunc(Lanes<16> a) {
     return _mm512_roundscale_ps(a.v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);

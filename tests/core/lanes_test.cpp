@@ -63,6 +63,7 @@ TEST(Lanes, EveryOperationGivesTheScalarsBits) {
         expect_same("max", x, max(a, b), [](float p, float q, float) { return max(p, q); });
         expect_same("min", x, min(a, b), [](float p, float q, float) { return min(p, q); });
         expect_same("sqrt", x, sqrt(a), [](float p, float, float) { return sqrt(p); });
+        expect_same("magnitude", x, magnitude(a), [](float p, float, float) { return magnitude(p); });
         expect_same("trunc", x, trunc(a), [](float p, float, float) { return trunc(p); });
         if (HasFatalFailure()) return;
     }
