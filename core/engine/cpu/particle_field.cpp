@@ -35,7 +35,8 @@ void list_block_points(BlockMask points, const Int3& block, PointList& list) {
 
 /// Scatters values in the order of some points to the places of their bits; returns where the values end.
 const float* scatter(BlockMask points, const float* values, float* by_bit) {
-    for (BlockMask left = points; left != 0; left &= left - 1) by_bit[lowest_bit(left)] = *values++;
+    for (BlockMask left = points; left != 0; left &= left - 1)
+        by_bit[lowest_bit(left)] = *values++;  // NOLINT(clang-analyzer-core.uninitialized.Assign): it was summed before
     return values;
 }
 
