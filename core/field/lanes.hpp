@@ -30,6 +30,13 @@ using WideLanes = Lanes<8>;
 /// For so few floats that wider registers would not be half full: those cost up to twice as much.
 using NarrowLanes = Lanes<8>;
 
+/// Calls visit.operator()<F>() with the narrower of the two that has so many lanes.
+template <class Visit>
+void with_lanes_for(int floats, const Visit& visit) {
+    if (floats <= NarrowLanes::count) return visit.template operator()<NarrowLanes>();
+    visit.template operator()<WideLanes>();
+}
+
 template <int N>
 float reduce_max(Lanes<N> a) {
     return -reduce_min(Lanes<N>(0.0F) - a);

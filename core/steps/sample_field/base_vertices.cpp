@@ -15,7 +15,6 @@ namespace {
 class BaseVertices {
 public:
     int count() const { return count_; }
-    bool fit_narrow_lanes() const { return count_ <= NarrowLanes::count; }
     std::uint32_t block(int i) const { return block_[i]; }
     /// Its place in the cluster.
     const Int3& step(int i) const { return step_[i]; }
@@ -53,10 +52,10 @@ public:
     }
 
 private:
-    int count_ = 0;
+    alignas(64) float x_[cluster_blocks] = {}, y_[cluster_blocks] = {}, z_[cluster_blocks] = {};
     std::uint32_t block_[cluster_blocks];
     Int3 step_[cluster_blocks];
-    alignas(64) float x_[cluster_blocks] = {}, y_[cluster_blocks] = {}, z_[cluster_blocks] = {};
+    int count_ = 0;
 };
 
 template <class Kernel>
@@ -76,10 +75,7 @@ void sample(State& s, Neighborhoods& near) {
                     const int place = index_in_brick(corner + cluster_step(i));
                     if (brick.holds(place)) stored.add(brick.number(place), cluster_step(i));
                 }
-                if (stored.fit_narrow_lanes())
-                    stored.find_values<Kernel, NarrowLanes>(list, value);
-                else
-                    stored.find_values<Kernel, WideLanes>(list, value);
+                with_lanes_for(stored.count(), [&]<class F>() { stored.find_values<Kernel, F>(list, value); });
                 for (int i = 0; i < stored.count(); ++i) {
                     const std::uint32_t block = stored.block(i);
                     const Int3 step = stored.step(i);
@@ -98,10 +94,7 @@ void sample(State& s, Neighborhoods& near) {
                         outside.add(block, step);
                 }
                 if (outside.count() == 0) return;
-                if (outside.fit_narrow_lanes())
-                    outside.find_reaches<Kernel, NarrowLanes>(list, s.reaches);
-                else
-                    outside.find_reaches<Kernel, WideLanes>(list, s.reaches);
+                with_lanes_for(outside.count(), [&]<class F>() { outside.find_reaches<Kernel, F>(list, s.reaches); });
             });
         }
     });

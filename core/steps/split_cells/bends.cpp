@@ -131,15 +131,15 @@ public:
     }
 
 private:
-    int count_ = 0;
-    std::uint32_t block_[cluster_blocks];
-    int inside_corners_[cluster_blocks];
     alignas(64) float corners_[8][cluster_blocks];  ///< less the iso-value
     alignas(64) float mixed_[cluster_blocks];       ///< 1 where their signs are, else 0
     alignas(64) float lowest_[3][cluster_blocks];   ///< lowest points, units from their pair's
     alignas(64) float aside_[cluster_blocks];       ///< of the pair along x, from the cluster's lowest point
     alignas(64) float curvature_[cluster_blocks];
     alignas(64) float inside_[cluster_blocks];
+    std::uint32_t block_[cluster_blocks];
+    int inside_corners_[cluster_blocks];
+    int count_ = 0;
 };
 
 /// Of the chosen cells.
@@ -168,10 +168,7 @@ void measure(State& s, Neighborhoods& near) {
                     return near.near_box(brick.corner() + corner, box, worker);
                 };
                 // A sheet of cells fills half of a wide register.
-                if (cells.count() <= NarrowLanes::count)
-                    cells.search<Kernel, NarrowLanes>(iso, near_box);
-                else
-                    cells.search<Kernel, WideLanes>(iso, near_box);
+                with_lanes_for(cells.count(), [&]<class F>() { cells.search<Kernel, F>(iso, near_box); });
                 cells.enter_bends(s, blobs);
                 here += 2 * static_cast<std::uint64_t>(cells.count());
             });
