@@ -194,6 +194,9 @@ TEST(WhiteNoiseEmulated, GivesClosedManifoldsWhereValuesLieOnTheIsoValue) {
 TEST(WhiteNoiseEmulated, GivesClosedManifoldsWhenTheBandMustGrow) {
     expect_closed({.share = 0.02, .band_share = 0.1}, 4001, 20);
 }
+TEST(WhiteNoiseEmulated, GivesTheCpusMeshWhereTheBandGrowsBesideSlivers) {
+    expect_closed({.share = 0.04, .keeps_slivers = false, .band_share = 0.6}, 9001, 30);
+}
 TEST(WhiteNoiseEmulated, GivesClosedManifoldsWhereLevelsAreCapped) {
     for (const int max_level : {1, 2}) expect_closed({.max_level = max_level}, 8001, 20);
 }

@@ -67,9 +67,9 @@ TEST(WorkEmulated, IsEstimatedAsOnTheCpu) {
     EXPECT_NE(sums.find("the field at the particles' places"), std::string::npos) << sums;
 }
 
-TEST(StopEmulated, EndsAFrameAtAnyKernelThatAsksAndTheNextIsAsEver) {
+/// At so many of the places at which kernels ask, evenly over the frame.
+void expect_stops(const test::Particles& particles, int tries) {
     const Settings settings = test::default_settings();
-    const test::Particles particles = test::splash(4, 5);
     const std::string expected = mesh_sha256(test::reconstruct(settings, particles.frame()));
     const auto flag = std::make_shared<StopFlag>();
     BackendOptions options;
@@ -90,7 +90,6 @@ TEST(StopEmulated, EndsAFrameAtAnyKernelThatAsksAndTheNextIsAsEver) {
         reconstruct();
     }
     ASSERT_GT(asked, 20);
-    constexpr int tries = 10;
     for (int i = 0; i < tries; ++i) {
         SCOPED_TRACE(i);
         const int at = 1 + asked * i / tries;  // not the very last one, after which there is nothing to stop
@@ -107,6 +106,13 @@ TEST(StopEmulated, EndsAFrameAtAnyKernelThatAsksAndTheNextIsAsEver) {
     }
     flag->raise();
     EXPECT_THROW(reconstruct(), Stopped) << "before any kernel";
+}
+
+TEST(StopEmulated, EndsAFrameAtAnyKernelThatAsksAndTheNextIsAsEver) {
+    expect_stops(test::splash(4, 5), 10);
+}
+TEST(StopEmulated, LanesThatShareAParticleStopTogether) {
+    expect_stops(test::splash(4, 2), 60);
 }
 
 }  // namespace

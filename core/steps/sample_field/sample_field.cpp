@@ -171,13 +171,14 @@ bool grow_band(State& s, const WantedLevel& wanted_level) {
 }
 
 /// Raises the cells by one level that would cut off a finer neighbor's surface in a sliver; returns whether there were
-/// any.
-bool raise_at_slivers(State& s) {
+/// any. band_has_grown: the cells that have joined are not sampled yet, so that all must be looked at once more.
+bool raise_at_slivers(State& s, bool band_has_grown) {
     const BlocksView blocks = s.blocks();
     const LevelSets levels = s.level_sets();
     const SignSets signs = s.sign_sets();
     const auto missing = [&](std::uint32_t brick, int w) {
-        std::uint64_t cells = take_stale(s, StaleFor::slivers, brick, w);
+        std::uint64_t cells = band_has_grown ? s.stale_cells(StaleFor::slivers).word(brick, w)
+                                             : take_stale(s, StaleFor::slivers, brick, w);
         if (cells != 0) cells &= cells_beside_finer(levels, brick, w);
         if (cells != 0) cells &= signs.cells_seeing_both(brick, w);
         return cells_where(s.grid.bricks[brick], w, cells,
@@ -206,7 +207,7 @@ void sample_field(State& s, FieldSource& field, const WantedLevel& wanted_level,
     for (;;) {
         sample_corner_points(s, field);
         const bool grown = grow_band(s, wanted_level);
-        const bool raised = slivers == Slivers::raised && raise_at_slivers(s);
+        const bool raised = slivers == Slivers::raised && raise_at_slivers(s, grown);
         if (!grown && !raised) return;
         adjust_levels(s);
     }
