@@ -36,6 +36,12 @@ struct Launcher {
         launch(blocks_for(elements, block_threads, most), true, kernel, arguments...);
     }
 
+    /// Of a kernel, on the whole device.
+    template <class... Parameters>
+    std::uint64_t threads_at_once(void (*kernel)(Parameters...)) const {
+        return std::uint64_t{processors} * blocks_of_processor(kernel) * block_threads;
+    }
+
 private:
     /// That run at once. One where none would fit: CUDA names then what it lacks.
     template <class... Parameters>

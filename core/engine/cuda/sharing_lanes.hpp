@@ -1,21 +1,18 @@
-// Lanes that share a particle. A frame of few particles waits for its slowest thread, and has threads to spare.
+// Lanes that share a particle. A frame of few particles waits for its slowest thread, and leaves threads idle.
 #pragma once
 
 #include <cstdint>
 
+#include "engine/cuda/launch.hpp"
 #include "engine/cuda/state.hpp"
 #include "engine/cuda/warp.hpp"
 
 namespace meniscus::cuda {
 
-/// Of each particle, where the grid has_threads_to_spare(): a power of two.
+/// Of each particle: a power of two.
 inline constexpr unsigned lanes_to_share = 4;
 
-__device__ inline bool has_threads_to_spare(std::uint32_t particles) {
-    return std::uint64_t{lanes_to_share} * particles <= GridLoop{}.step;
-}
-
-/// Those of one particle, as each of them sees them.
+/// Those of one particle, as each of them sees them. count: 1 or lanes_to_share.
 template <unsigned count>
 struct SharingLanes {
     unsigned own = lane_index() % count;
@@ -28,5 +25,16 @@ struct SharingLanes {
         return __shfl_sync(((1U << count) - 1) << first, value, static_cast<int>(first + i));
     }
 };
+
+/// Launches a kernel for all particles: the one whose lanes share them if the device runs so many threads at once, else
+/// the one with a thread for each.
+inline void launch_for_particles(const State& state, const Launcher& launch, void (*shared)(State),
+                                 void (*alone)(State)) {
+    const std::uint64_t particles = state.capacity.particles;
+    if (lanes_to_share * particles <= launch.threads_at_once(shared))
+        launch(particles, block_threads / lanes_to_share, shared, state);
+    else
+        launch(particles, block_threads, alone, state);
+}
 
 }  // namespace meniscus::cuda

@@ -91,10 +91,11 @@ private:
     static_assert(std::int64_t{1} << reached_brick_shift == reached_brick_edge);
 };
 
-/// What each of n particles reaches, by `count` lanes, which share its slices. Also adds up ReachedBox::count(): for
+/// What each particle reaches, by `count` lanes, which share its slices. Also adds up ReachedBox::count(): for
 /// the frame, or where a domain will leave cells out, for each brick in members_before.
 template <unsigned count>
-__device__ void mark_for_each(const State& f, std::uint32_t n) {
+__global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __grid_constant__ State f) {
+    const std::uint32_t n = f.particle_count();
     const BrickGridView grid = f.grid();
     LongLoop loop(f);
     Counter pairs = 0;
@@ -138,14 +139,6 @@ __device__ void mark_for_each(const State& f, std::uint32_t n) {
     add_of_lanes(&f.counts->pairs, pairs);
 }
 
-__global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __grid_constant__ State f) {
-    const std::uint32_t n = same_in_all_lanes(f.particle_count());
-    if (has_threads_to_spare(n))
-        mark_for_each<lanes_to_share>(f, n);
-    else
-        mark_for_each<1>(f, n);
-}
-
 /// One warp for every brick: leaves out what lies beyond the domain, and counts the members.
 __global__ void __launch_bounds__(block_threads) count_members(const __grid_constant__ State f) {
     each_by_warp(f.count(Resource::bricks), [&](std::uint32_t b) {
@@ -166,7 +159,7 @@ __global__ void __launch_bounds__(block_threads) count_members(const __grid_cons
 }  // namespace
 
 void store_reached_cells(const State& state, const Launcher& launch) {
-    launch(state.capacity.particles, block_threads / lanes_to_share, mark_reached_cells, state);
+    launch_for_particles(state, launch, mark_reached_cells<lanes_to_share>, mark_reached_cells<1>);
     launch(state.capacity[Resource::bricks], block_warps, count_members, state);
 }
 

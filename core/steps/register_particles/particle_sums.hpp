@@ -31,20 +31,22 @@ __device__ inline void add_particles(const LevelParticles<Kernel>& level, std::u
     for (unsigned g = 0; g < G; ++g)
         strength[g] = Kernel::of(c[g].view(), 0)
                           .strength(at[0] - c[g].particle.x, at[1] - c[g].particle.y, at[2] - c[g].particle.z);
-    float of_lane[G * count];
-    for (unsigned g = 0; g < G; ++g)
-        for (unsigned l = 0; l < count; ++l) of_lane[g * count + l] = lanes.from(strength[g], l);
-    for (unsigned g = 0; g < G; ++g)
+    for (unsigned g = 0; g < G; ++g) {
+        float of_lane[count];
+        for (unsigned l = 0; l < count; ++l) of_lane[l] = lanes.from(strength[g], l);
         for (unsigned l = 0; l < count; ++l) {
             auto share = Kernel::of(c[g].view(), 0);
             if constexpr (!decltype(share)::has_own_support) share.weight = lanes.from(share.weight, l);
-            if (are_all || g * count + l < left) sum = share.add_strength(sum, of_lane[g * count + l]);
+            if (are_all || g * count + l < left) sum = share.add_strength(sum, of_lane[l]);
         }
+    }
 }
 
-/// The sum at the place of each of n particles, by `count` lanes.
+/// `count` lanes for every particle.
 template <class Kernel, unsigned count>
-__device__ void sum_at_each(const State& f, std::uint32_t n) {
+__global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const __grid_constant__ State f) {
+    // None if the frame has stopped, which must not part the lanes.
+    const std::uint32_t n = same_in_all_lanes(f.particle_count());
     LongLoop loop(f);
     const SharingLanes<count> lanes;
     const GridLoop threads;
@@ -61,37 +63,27 @@ __device__ void sum_at_each(const State& f, std::uint32_t n) {
             const LevelParticles<Kernel> level(f, k);
             if (level.set.cells.brick_count == 0) continue;
             NoBrickHints hints;
-            level.set.for_each_run_near(origin, {{x, y, z}, {x, y, z}}, hints,
-                                        [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
-                                            // Whole units, so that this is exact.
-                                            const float at[3] = {x - shift[0], y - shift[1], z - shift[2]};
-                                            constexpr unsigned group = std::is_same_v<Kernel, CubicSpline> ? 2 : 4;
-                                            std::uint32_t j = begin;
+            level.set.for_each_run_near(
+                origin, {{x, y, z}, {x, y, z}}, hints, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
+                    // Whole units, so that this is exact.
+                    const float at[3] = {x - shift[0], y - shift[1], z - shift[2]};
+                    // As many as registers hold.
+                    constexpr unsigned group = (std::is_same_v<Kernel, CubicSpline> ? 2 : 4) / (count == 1 ? 1 : 2);
+                    std::uint32_t j = begin;
 #pragma unroll 1
-                                            for (; j + group * count <= end; j += group * count)
-                                                add_particles<Kernel, group, true>(level, j, end - j, lanes, at, sum);
-                                            if (j < end)
-                                                add_particles<Kernel, group, false>(level, j, end - j, lanes, at, sum);
-                                        });
+                    for (; j + group * count <= end; j += group * count)
+                        add_particles<Kernel, group, true>(level, j, end - j, lanes, at, sum);
+                    if (j < end) add_particles<Kernel, group, false>(level, j, end - j, lanes, at, sum);
+                });
         }
         if (lanes.own == 0) f.sums[i] = sum;
     }
 }
 
-template <class Kernel>
-__global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const __grid_constant__ State f) {
-    // None if the frame has stopped, which must not part the lanes.
-    const std::uint32_t n = same_in_all_lanes(f.particle_count());
-    if (has_threads_to_spare(n))
-        sum_at_each<Kernel, lanes_to_share>(f, n);
-    else
-        sum_at_each<Kernel, 1>(f, n);
-}
-
 /// Into State::sums. Kernel: CubicSpline, Poly6 or Company.
 template <class Kernel>
 void sum_at_particles(const State& state, const Launcher& launch) {
-    launch(state.capacity.particles, block_threads / lanes_to_share, sum_at_each_particle<Kernel>, state);
+    launch_for_particles(state, launch, sum_at_each_particle<Kernel, lanes_to_share>, sum_at_each_particle<Kernel, 1>);
 }
 
 }  // namespace meniscus::cuda

@@ -149,7 +149,7 @@ __device__ void sample_listed(const State& f, const Field& field, List list,
         f.need(Resource::samples, f.counts->needed[static_cast<int>(Resource::samples)]);
 }
 
-__global__ void __launch_bounds__(block_threads) list_corner_points(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads, 4) list_corner_points(const __grid_constant__ State f) {
     list_wanted_points(f, List::corner_points, [&](const BlocksView& blocks, std::uint32_t b) {
         return f.corner_points[b] = corner_points(LevelsAround(blocks, b));
     });
