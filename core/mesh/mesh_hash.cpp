@@ -43,10 +43,14 @@ private:
 }  // namespace
 
 std::string mesh_sha256(const Mesh& mesh) {
-    const Mesh ordered = in_canonical_order(mesh);
+    Mesh ordered;  // without what is not hashed
+    ordered.levels = mesh.levels;
+    ordered.vertices.assign(mesh.vertices.begin(), mesh.vertices.end());
+    ordered.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    put_in_canonical_order(ordered);
     Sha256 sha;
-    sha.add(ordered.cell_size);
-    sha.add(ordered.offset_bits);
+    sha.add(mesh.cell_size);
+    sha.add(mesh.offset_bits);
     sha.add(std::uint64_t{ordered.triangles.size()});
     // By the levels' bytes, of which crack filling has the least.
     for (const TriangleLevel level :

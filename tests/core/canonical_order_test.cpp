@@ -104,6 +104,74 @@ TEST(CanonicalOrder, HoldsForCoordinatesAtTheEndsOfTheirRange) {
     EXPECT_TRUE(in_canonical_order(Mesh{}).vertices.empty());
 }
 
+/// The same by comparison, vertex by vertex and triangle by triangle.
+Mesh sorted_by_comparison(const Mesh& mesh) {
+    std::vector<std::uint32_t> order(mesh.vertices.size()), place(mesh.vertices.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return mesh.vertices[a] < mesh.vertices[b]; });
+    Mesh sorted = mesh;
+    for (std::uint32_t v = 0; v < order.size(); ++v) {
+        sorted.vertices[v] = mesh.vertices[order[v]];
+        place[order[v]] = v;
+    }
+    for (Triangle& t : sorted.triangles) {
+        for (std::uint32_t& v : t) v = place[v];
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    }
+    for (const auto& [first, count] : sorted.levels)
+        std::sort(sorted.triangles.begin() + first, sorted.triangles.begin() + first + count);
+    return sorted;
+}
+
+TEST(CanonicalOrder, IsThatOfComparisonHoweverVerticesLieAndTrianglesJoinThem) {
+    std::mt19937 random(7);
+    // Wide and flat along each axis: slices of x that are even, crowded, and one alone.
+    for (const LatticePosition& extent :
+         {LatticePosition{3000, 40, 40}, {1, 2000, 2000}, {40, 3000, 3}, {50, 50, 50}}) {
+        Mesh mesh;
+        mesh.cell_size = 1.0;
+        for (int i = 0; i < 90'000; ++i) {
+            LatticePosition p;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                p[axis] = static_cast<std::int32_t>(random() % static_cast<unsigned>(extent[axis])) - extent[axis] / 2;
+            mesh.vertices.push_back(p);
+        }
+        std::sort(mesh.vertices.begin(), mesh.vertices.end());
+        mesh.vertices.erase(std::unique(mesh.vertices.begin(), mesh.vertices.end()), mesh.vertices.end());
+        std::shuffle(mesh.vertices.begin(), mesh.vertices.end(), random);
+        const auto count = static_cast<std::uint32_t>(mesh.vertices.size());
+        ASSERT_GT(count, 2U << 14) << "several slices";
+        for (std::size_t level = 0; level < triangle_level_count; ++level) {
+            // Of level 2 none; of cracks all at a few vertices.
+            const std::uint32_t triangles = level == 1 ? 0 : 40'000;
+            const std::uint32_t vertices = level == 3 ? 100 : count;
+            mesh.levels[level] = {static_cast<std::uint32_t>(mesh.triangles.size()), triangles};
+            for (std::uint32_t i = 0; i < triangles; ++i) {
+                const auto first = static_cast<std::uint32_t>(random() % vertices);
+                const auto step = static_cast<std::uint32_t>(2 + random() % 50);
+                mesh.triangles.push_back({first, (first + 1) % count, (first + step) % count});
+            }
+        }
+        const Mesh expected = sorted_by_comparison(mesh);
+        expect_equal(in_canonical_order(mesh), expected);
+        EXPECT_EQ(mesh_sha256(mesh), mesh_sha256(expected));
+        put_in_canonical_order(mesh);
+        expect_equal(mesh, expected);
+    }
+}
+
+TEST(CanonicalOrder, TakesAttributesAndNormalsAlongInPlace) {
+    Mesh mesh = splash(Mode::adaptive);
+    const Mesh ordered = in_canonical_order(mesh);
+    EXPECT_FALSE(mesh.bricks.empty());
+    put_in_canonical_order(mesh);
+    expect_equal(mesh, ordered);
+    EXPECT_TRUE(mesh.bricks.empty());
+    put_in_canonical_order(mesh);
+    expect_equal(mesh, ordered);
+}
+
 TEST(RoundedNormals, AreThoseOfAMeshThatWasEncodedAndDecoded) {
     for (const bool normals : {true, false}) {
         Mesh mesh = splash(Mode::adaptive, normals);
