@@ -133,7 +133,7 @@ void Candidates::cull(const Candidates& from, const std::array<float, 3>& shift,
     count_ = 0;
     if (from.count_ == 0) return;
     has_own_supports_ = from.has_own_supports_;
-    has_ranks_ = from.has_ranks_;
+    has_ranks_ = from.has_ranks_ && told_ != Told::nothing;
     reach_ = from.reach_;
     support_ = from.support_;
     inverse_support_ = from.inverse_support_;
@@ -165,6 +165,7 @@ CandidateLists::Levels lists_of_levels(const std::shared_ptr<MemoryAccount>& acc
 CandidateLists::CandidateLists(const std::shared_ptr<MemoryAccount>& account, const LatticeSettings& settings)
     : group(lists_of_levels(account, settings, Candidates::Told::ranks)),
       cluster(lists_of_levels(account, settings, Candidates::Told::ranks)),
-      near(lists_of_levels(account, settings, Candidates::Told::ranks_and_values)) {}
+      near(lists_of_levels(account, settings, Candidates::Told::ranks_and_values)),
+      nearer(lists_of_levels(account, settings, Candidates::Told::nothing)) {}
 
 }  // namespace meniscus::cpu

@@ -64,7 +64,8 @@ private:
     float inverse_support_ = 0.0F;
 };
 
-/// Of all particle levels: near a group of clusters (clusters.hpp), near one of them, and near some points in it.
+/// Of all particle levels: near a group of clusters (clusters.hpp), near one of them, near some points in it, and near
+/// a few of these.
 struct CandidateLists {
     CandidateLists(const std::shared_ptr<MemoryAccount>& account, const LatticeSettings& settings);
 
@@ -72,6 +73,7 @@ struct CandidateLists {
     Levels group;
     Levels cluster;
     Levels near;
+    Levels nearer;
     Int3 group_corner, cluster_corner;  ///< lowest base cells
     bool has_cluster = false;           ///< whether `group` and `cluster` hold the particles near them
     bool has_ranks = false;             ///< whether they tell them, too

@@ -70,6 +70,16 @@ const CandidateLists::Levels& Neighborhoods::near_box(const Int3& base_cell, con
     return cull_cluster(base_cell, box, worker);
 }
 
+const CandidateLists::Levels& Neighborhoods::nearer_box(const UnitBox& box, unsigned worker) {
+    constexpr std::size_t few = 48;
+    CandidateLists& lists = lists_[worker];
+    std::size_t count = 0;
+    for (const Candidates& c : lists.near) count += c.view().count;
+    if (count < few) return lists.near;
+    for (std::size_t k = 0; k < particle_level_count; ++k) lists.nearer[k].cull(lists.near[k], {}, box);
+    return lists.nearer;
+}
+
 const CandidateLists::Levels& Neighborhoods::near_box_with_values(const Int3& base_cell, const UnitBox& box,
                                                                   unsigned group, unsigned worker) {
     find_cluster(base_cell, true, worker);
@@ -95,7 +105,8 @@ const CandidateLists::Levels& Neighborhoods::company_near_box(const Units3& orig
 }
 
 void Neighborhoods::even_out() {
-    for (const auto levels : {&CandidateLists::group, &CandidateLists::cluster, &CandidateLists::near})
+    for (const auto levels :
+         {&CandidateLists::group, &CandidateLists::cluster, &CandidateLists::near, &CandidateLists::nearer})
         for (std::size_t k = 0; k < particle_level_count; ++k) {
             std::size_t most = 0;
             for (const CandidateLists& lists : lists_) most = std::max(most, (lists.*levels)[k].capacity());

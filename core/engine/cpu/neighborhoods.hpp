@@ -22,7 +22,9 @@ public:
     const CandidateLists::Levels& near_cluster(const Int3& base_cell, unsigned worker);
     /// Those near a box, both relative to a base cell's corner.
     const CandidateLists::Levels& near_box(const Int3& base_cell, const UnitBox& box, unsigned worker);
-    /// The same, each with its numbers of a group (Candidates::values).
+    /// Those of the last list that are near a box within its own; all of them where a search would not pay.
+    const CandidateLists::Levels& nearer_box(const UnitBox& box, unsigned worker);
+    /// The same as near_box(), each with its numbers of a group (Candidates::values).
     const CandidateLists::Levels& near_box_with_values(const Int3& base_cell, const UnitBox& box, unsigned group,
                                                        unsigned worker);
     /// Those near a box, both relative to an origin that may lie anywhere.

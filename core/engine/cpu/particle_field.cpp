@@ -116,11 +116,13 @@ template <class Kernel>
 void ParticleField<Kernel>::normals(const Int3& base_cell, PointList& points, const NormalRows& normals,
                                     unsigned worker) {
     pad(points);
-    const CandidateLists::Levels& near = near_.near_box(base_cell, box_of(points), worker);
+    const CandidateLists::Levels& near_all = near_.near_box(base_cell, box_of(points), worker);
     for_each_register(points, [&]<class F>(std::size_t i) {
         const F px = F::load(points.x + i), py = F::load(points.y + i), pz = F::load(points.z + i);
+        const bool is_alone = points.count <= F::count;
         F gx(0.0F), gy(0.0F), gz(0.0F);
-        for (const Candidates& c : near) sum_gradients<Kernel>(c.view(), px, py, pz, gx, gy, gz);
+        for (const Candidates& c : is_alone ? near_all : near_.nearer_box(box_of_lanes(px, py, pz), worker))
+            sum_gradients<Kernel>(c.view(), px, py, pz, gx, gy, gz);
         turn_outward(gx, gy, gz);
         gx.store(normals.x + i);
         gy.store(normals.y + i);

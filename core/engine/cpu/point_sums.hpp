@@ -27,6 +27,12 @@ inline UnitBox box_of(const PointList& points) {
     return box;
 }
 
+/// The same around the points of a register.
+template <class F>
+UnitBox box_of_lanes(F x, F y, F z) {
+    return {{reduce_min(x), reduce_min(y), reduce_min(z)}, {reduce_max(x), reduce_max(y), reduce_max(z)}};
+}
+
 /// Lanes beyond the last point repeat it.
 inline void pad(PointList& points) {
     for (std::size_t i = points.count; i % WideLanes::count != 0; ++i) {
@@ -36,7 +42,7 @@ inline void pad(PointList& points) {
     }
 }
 
-/// Calls visit.operator()<F>(i) for every register of points from the i-th on, whose lanes are F.
+/// Calls visit.operator()<F>(i) for each register that the points fill: F are its lanes, i its first point.
 template <class Visit>
 void for_each_register(const PointList& points, const Visit& visit) {
     std::size_t i = 0;

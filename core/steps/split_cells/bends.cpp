@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "engine/cpu/clusters.hpp"
+#include "engine/cpu/point_sums.hpp"
 #include "field/kernels.hpp"
 #include "field/sums.hpp"
 #include "steps/cpu_steps.hpp"
@@ -11,13 +12,6 @@
 
 namespace meniscus::cpu {
 namespace {
-
-/// The smallest box around points.
-template <class F>
-UnitBox box_of(const Point3<F>& points) {
-    return {{reduce_min(points.x), reduce_min(points.y), reduce_min(points.z)},
-            {reduce_max(points.x), reduce_max(points.y), reduce_max(points.z)}};
-}
 
 /// The search meets points that are no whole units, and how they are rounded depends on how far their origin is. So it
 /// is the lowest corner of their pair of cells a side, whatever the number of lanes.
@@ -111,9 +105,9 @@ public:
             };
             // A box that is rounded makes no difference: candidates from a little farther than they reach.
             if constexpr (cluster_size.x == cells_of_origin)
-                add_near(box_of(p), p.x);
+                add_near(box_of_lanes(p.x, p.y, p.z), p.x);
             else
-                add_near(box_of<F>({p.x + aside, p.y, p.z}), FromPair<F>{p.x, aside});
+                add_near(box_of_lanes(p.x + aside, p.y, p.z), FromPair<F>{p.x, aside});
             return jet;
         };
         CellCorners<F> values;
