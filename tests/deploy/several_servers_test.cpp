@@ -102,7 +102,8 @@ protected:
         for (PlayedSession& session : sessions) ASSERT_TRUE(session.when_all_have(3)) << session.state();
     }
 
-    /// The server of each, once it is uploaded to and watched there, and is on no other.
+    /// The server of each, once it is uploaded to and watched there, and on no other. On a machine so busy that the proxy
+    /// takes a server for gone, a simulator leaves its session there, and nobody uses it any more.
     std::map<std::string, std::size_t> places() const {
         std::map<std::string, std::size_t> result;
         std::size_t there = 0;
@@ -112,7 +113,7 @@ protected:
             there = 0;
             for (std::size_t i = 0; i < servers.size(); ++i)
                 for (const client::SessionInfo& session : servers[i].sessions()) {
-                    ++there;
+                    if (session.uploading || session.watchers != 0) ++there;
                     if (session.uploading && session.watchers == 1) result.emplace(session.id, i);
                 }
         } while ((there != count || result.size() != count) && Clock::now() < guard);
@@ -140,7 +141,9 @@ Clock::duration longest_way_to_a_frame(const std::string& address, const std::st
     while (!stop) {
         const auto start = Clock::now();
         for (;;) try {
-                if (client.watch(id).next()) break;
+                // Where a server was taken for gone and is back, a session may be left there that nobody uploads to.
+                if (client.watch(id).next(std::chrono::seconds(5))) break;
+                if (stop) return longest;
             } catch (const client::ServerError&) {
                 if (stop) return longest;
                 std::this_thread::sleep_for(
@@ -168,7 +171,7 @@ TEST_P(Sessions, GoOnElsewhereWhenTheirServerIsKilledAndComeBackWithItWhileOther
     const auto before = places();
     std::array<std::size_t, 3> spread{};
     for (const auto& [id, server] : before) ++spread[server];
-    std::cout << "sessions on the servers: " << spread[0] << ", " << spread[1] << ", " << spread[2] << "\n";
+    std::cout << "sessions on the servers: " << spread[0] << ", " << spread[1] << ", " << spread[2] << std::endl;
     for (const std::size_t sessions_there : spread) EXPECT_GT(sessions_there, 0U);
 
     std::set<std::string> moved;
@@ -188,7 +191,7 @@ TEST_P(Sessions, GoOnElsewhereWhenTheirServerIsKilledAndComeBackWithItWhileOther
         if (moved.contains(session.id())) longest = std::max(longest, *there - killed);
     }
     std::cout << "from the kill to the first new frame of the last of its sessions, its watcher included: "
-              << milliseconds(longest) << " ms\n";
+              << milliseconds(longest) << " ms" << std::endl;
     EXPECT_LT(longest, std::chrono::seconds(10));
     for (const std::size_t i : {1U, 2U})
         for (const client::SessionInfo& session : servers[i].sessions())
