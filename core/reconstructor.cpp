@@ -103,11 +103,15 @@ public:
     /// Frame, here and below: ParticleFrame or DeviceParticleFrame.
     template <class Frame>
     void reconstruct(const Frame& frame, Mesh& mesh) {
-        fill(frame, mesh, [&](const PlacedFrame& particles) {
-            const MeshDownload download = backend_->reconstruct(particles, mesh, statistics_);
-            download.finish();
-            statistics_.download_seconds = download.seconds();
+        fill(frame, mesh, [&](const PlacedFrame& particles) { download(particles, mesh); });
+    }
+
+    void reconstruct_last(const ParticleFrame& frame, Mesh& mesh) {
+        fill(frame, mesh, [&](PlacedFrame particles) {
+            particles.is_last = true;
+            download(particles, mesh);
         });
+        release_memory();
     }
 
     template <class Frame>
@@ -260,6 +264,12 @@ private:
         }
     }
 
+    void download(const PlacedFrame& particles, Mesh& mesh) {
+        const MeshDownload download = backend_->reconstruct(particles, mesh, statistics_);
+        download.finish();
+        statistics_.download_seconds = download.seconds();
+    }
+
     /// Times a call to the backend with what follows from its result, and counts memory.
     template <class Call>
     void measure(const ValidFrame& frame, const Call& call) {
@@ -349,6 +359,9 @@ void Reconstructor::emit_capped(int max_level, Mesh& mesh) {
 }
 DeviceMesh Reconstructor::reconstruct_on_device(const ParticleFrame& frame) {
     return impl_->reconstruct_on_device(frame);
+}
+void Reconstructor::reconstruct_last(const ParticleFrame& frame, Mesh& mesh) {
+    impl_->reconstruct_last(frame, mesh);
 }
 void Reconstructor::release_memory() {
     impl_->release_memory();

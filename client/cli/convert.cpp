@@ -83,7 +83,7 @@ void convert_recording(const ConvertOptions& options) {
             write_particles(path, recording.particles(frame), options.particle_format);
         } else if (frame.mesh) {
             const client::ReceivedFrame mesh = recording.mesh(frame);
-            const Surface surface(mesh);
+            Surface surface(mesh);
             if (*options.format != MeshFormat::bricks) require_mesh(surface, recording.path());
             write_surface(path, surface, *options.format);
         } else {

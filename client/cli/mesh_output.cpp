@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "cli/file_pattern.hpp"
 #include "cli/mesh_check.hpp"
@@ -10,6 +11,7 @@
 #include "formats/brick_file.hpp"
 #include "formats/extension.hpp"
 #include "formats/standard_streams.hpp"
+#include "meniscus/canonical_order.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
 
@@ -47,11 +49,13 @@ void check_spray(const Settings& settings) {
                            "', and must be '" + std::string(name_of(Spray::points)) + "'");
 }
 
-MeshOutput::MeshOutput(const Surface& surface, MeshFormat format, const MeshEdits& edits, bool check)
+MeshOutput::MeshOutput(Surface& surface, MeshFormat format, const MeshEdits& edits, bool check)
     : compress_(edits.compress) {
     if (format == MeshFormat::bricks) bricks_ = surface.encoded();
     if (format == MeshFormat::bricks && !check) return;
-    content_.emplace(surface.mesh(), format);
+    Mesh mesh = surface.take_mesh();
+    put_in_canonical_order(mesh);
+    content_.emplace(std::move(mesh), format);
     if (!check && !edits.any()) return;
     formats::TriangleMesh& triangles = content_->triangles();
     if (edits.origin) editing::move_from(triangles, *edits.origin);
@@ -69,7 +73,7 @@ formats::TriangleMesh MeshOutput::form() const {
     return content_ ? content_->form() : formats::TriangleMesh{};
 }
 
-void write_surface(const std::filesystem::path& path, const Surface& surface, MeshFormat format) {
+void write_surface(const std::filesystem::path& path, Surface& surface, MeshFormat format) {
     MeshOutput(surface, format).write(path);
 }
 

@@ -34,8 +34,8 @@ void check_spray(const Settings& settings);
 /// A surface as it is written: in its canonical order, so that a file tells nothing of the way of its mesh.
 class MeshOutput {
 public:
-    /// Does all that takes time but the writing. The surface is not needed afterwards. check: the mesh is looked at.
-    MeshOutput(const Surface& surface, MeshFormat format, const MeshEdits& edits = {}, bool check = false);
+    /// Does all that takes time but the writing. Takes the surface's mesh. check: the mesh is looked at.
+    MeshOutput(Surface& surface, MeshFormat format, const MeshEdits& edits = {}, bool check = false);
     /// time: the time code of a USD file of a sequence.
     void write(const std::filesystem::path& path, std::optional<double> time = std::nullopt) const;
     /// What the mesh has beside positions and triangles, without values: for the stage of a sequence of USD files.
@@ -51,7 +51,7 @@ private:
 };
 
 /// Both at once.
-void write_surface(const std::filesystem::path& path, const Surface& surface, MeshFormat format);
+void write_surface(const std::filesystem::path& path, Surface& surface, MeshFormat format);
 
 /// "DIR/frame_000012.ply"
 std::filesystem::path frame_path(const std::filesystem::path& directory, std::uint64_t index,

@@ -89,8 +89,7 @@ private:
 class Reconstruction::Worker {
 public:
     Worker(Reconstruction& whole, const SurfacesOptions& surfaces)
-        : whole_(whole),
-          surfaces_(surfaces.open(whole.settings_, [this](const Surface& surface) { handle(surface); })) {}
+        : whole_(whole), surfaces_(surfaces.open(whole.settings_, [this](Surface& surface) { handle(surface); })) {}
 
     void work(std::size_t index, const std::function<void()>& wait_for_turn) {
         const auto input = whole_.read(index);
@@ -111,11 +110,11 @@ public:
     }
 
 private:
-    void handle(const Surface& surface) {
+    void handle(Surface& surface) {
         runs_.push_back(surface.statistics());
         whole_.report_.say_run(runs_.size(), whole_.options_.repeat, runs_.back());
-        if (runs_.size() == whole_.options_.repeat)
-            finished_ = whole_.report_.prepare(surface, index_, std::exchange(runs_, {}));
+        if (runs_.size() != whole_.options_.repeat) return;
+        finished_ = whole_.report_.prepare(surface, index_, std::exchange(runs_, {}));
     }
 
     Reconstruction& whole_;
@@ -158,6 +157,7 @@ void Reconstruction::run_here() {
     const unsigned count = jobs();
     if (plan_.all.size() > 1 && settings_.all_attributes) name_attributes();
     SurfacesOptions surfaces = options_.surfaces;
+    surfaces.only_one = plan_.frames.size() * options_.repeat == 1;
     if (count > 1) surfaces.backend.threads = std::max(1U, threads_of(surfaces.backend) / count);
     std::vector<std::unique_ptr<Worker>> workers;
     std::vector<Work> works;
@@ -176,7 +176,7 @@ void Reconstruction::run_on_server() {
     if (plan_.skipped() > 0 && settings_.all_attributes) name_attributes();
     SurfacesOptions place = options_.surfaces;
     place.stream.spray = settings_.spray == Spray::points;
-    const auto surfaces = place.open(settings_, [&](const Surface& surface) {
+    const auto surfaces = place.open(settings_, [&](Surface& surface) {
         runs.push_back(surface.statistics());
         report_.say_run(runs.size(), options_.repeat, runs.back());
         if (runs.size() < options_.repeat) return;

@@ -30,18 +30,17 @@ ReconstructReport::ReconstructReport(const ReconstructFiles& files, const Plan& 
     std::cerr << plan_.skipped() << " of " << plan_.all.size() << " frames skipped: their files are there\n";
 }
 
-FinishedFrame ReconstructReport::prepare(const Surface& surface, std::size_t index,
-                                         std::vector<Statistics> runs) const {
+FinishedFrame ReconstructReport::prepare(Surface& surface, std::size_t index, std::vector<Statistics> runs) const {
     FinishedFrame frame;
     frame.index = index;
     frame.runs = std::move(runs);
-    if (!files_.out.empty() || options_.check)
-        frame.mesh.emplace(surface, plan_.format, options_.edits, options_.check);
     if (!files_.spray_out.empty()) frame.spray.assign(surface.spray().begin(), surface.spray().end());
     if (!files_.stats.empty()) {
         frame.mesh_sha256 = mesh_sha256(surface.mesh());
         frame.attributes = attributes_json(surface.mesh());
     }
+    if (!files_.out.empty() || options_.check)
+        frame.mesh.emplace(surface, plan_.format, options_.edits, options_.check);
     return frame;
 }
 

@@ -40,7 +40,7 @@ public:
     ReconstructReport(const ReconstructFiles& files, const Plan& plan, ReportOptions options);
 
     /// What takes time but is seen by nobody: in any thread. `warnings` stays empty.
-    FinishedFrame prepare(const Surface& surface, std::size_t index, std::vector<Statistics> runs) const;
+    FinishedFrame prepare(Surface& surface, std::size_t index, std::vector<Statistics> runs) const;
     /// Writes the frame's files and says what there is to say: in order, one at a time.
     void deliver(FinishedFrame frame);
     /// One of the times that a frame is reconstructed, for --repeat.

@@ -56,7 +56,8 @@ void ServerSurfaces::receive() {
             // After a failed handler frames are only taken out of the way, so that submit() does not wait for ever.
             if (failed_) continue;
             try {
-                handler_(Surface(*frame));
+                Surface surface(*frame);
+                handler_(surface);
             } catch (...) {
                 error_ = std::current_exception();
                 failed_ = true;

@@ -103,16 +103,16 @@ void simulate(const SimulateOptions& options) {
 
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     Warnings warnings(options.strict);
-    const auto handle = [&](const Surface& surface) {
+    const auto handle = [&](Surface& surface) {
         const client::FrameStatistics& s = surface.statistics();
-        if (!options.out.empty())
-            write_surface(frame_path(options.out, surface.index(), name_of(options.format)), surface, options.format);
         if (!options.stats.empty()) {
             nlohmann::ordered_json figures{{"frame", surface.index()}};
             figures.update(to_json({s}, mesh_sha256(surface.mesh())));
             figures["attributes"] = attributes_json(surface.mesh());
             frames.push_back(std::move(figures));
         }
+        if (!options.out.empty())
+            write_surface(frame_path(options.out, surface.index(), name_of(options.format)), surface, options.format);
         if (!options.verbosity.quiet) std::cerr << "frame " << surface.index() << ": " << summary(s) << '\n';
         if (options.verbosity.verbose) std::cerr << stages_text(s);
         warnings.say("frame " + std::to_string(surface.index()), s.warnings);

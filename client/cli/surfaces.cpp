@@ -17,7 +17,7 @@
 
 namespace meniscus::cli {
 
-Surface::Surface(const Mesh& mesh, client::FrameStatistics statistics, std::uint64_t index, double simulation_time,
+Surface::Surface(Mesh& mesh, client::FrameStatistics statistics, std::uint64_t index, double simulation_time,
                  const CodingOptions& coding)
     : index_(index),
       simulation_time_(simulation_time),
@@ -35,6 +35,12 @@ const Mesh& Surface::mesh() const {
     if (mesh_ != nullptr) return *mesh_;
     if (!decoded_) decoded_ = received_->mesh();
     return *decoded_;
+}
+
+Mesh Surface::take_mesh() {
+    if (mesh_ != nullptr) return std::move(*mesh_);
+    mesh();
+    return std::move(*std::exchange(decoded_, std::nullopt));
 }
 
 std::span<const Point> Surface::spray() const {
@@ -96,7 +102,8 @@ std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfac
         throw InvalidInput("--normal-bits " + std::to_string(*normal_bits) +
                            " is of normals, and --no-normals leaves them out: give one of the two");
     if (server.address.empty())
-        return std::make_unique<LocalSurfaces>(settings, backend, normal_bits, attribute_bits, std::move(handler));
+        return std::make_unique<LocalSurfaces>(settings, backend, normal_bits, attribute_bits, only_one,
+                                               std::move(handler));
     client::StreamOptions options = stream;
     if (normal_bits) options.normal_bits = *normal_bits;
     options.attributes = {{.name = {}, .bits = attribute_bits}};

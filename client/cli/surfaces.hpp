@@ -23,8 +23,8 @@ namespace meniscus::cli {
 /// One frame's surface. Its mesh and its bricks are decoded or encoded when they are first asked for.
 class Surface {
 public:
-    /// Reconstructed here; the mesh is borrowed. coding: for a file of bricks.
-    Surface(const Mesh& mesh, client::FrameStatistics statistics, std::uint64_t index, double simulation_time,
+    /// Reconstructed here; the mesh is borrowed, and given away if it is taken. coding: for a file of bricks.
+    Surface(Mesh& mesh, client::FrameStatistics statistics, std::uint64_t index, double simulation_time,
             const CodingOptions& coding);
     /// Received from a server; borrowed.
     explicit Surface(const client::ReceivedFrame& received);
@@ -34,6 +34,8 @@ public:
     const client::FrameStatistics& statistics() const { return statistics_; }
     /// Throws InvalidInput if the received bricks are not a mesh.
     const Mesh& mesh() const;
+    /// The same, to be changed, so that none is copied: there is no mesh() afterwards.
+    Mesh take_mesh();
     /// Places of the particles left out of the surface.
     std::span<const Point> spray() const;
     /// The encoded bricks, for a file of bricks.
@@ -44,7 +46,7 @@ private:
     double simulation_time_;
     client::FrameStatistics statistics_;
     CodingOptions coding_;
-    const Mesh* mesh_ = nullptr;
+    Mesh* mesh_ = nullptr;
     const client::ReceivedFrame* received_ = nullptr;
     mutable std::optional<Mesh> decoded_;
     mutable std::optional<client::ReceivedFrame> encoded_;
@@ -53,7 +55,7 @@ private:
 /// Takes frames and hands their surfaces, in order, to a handler.
 class Surfaces {
 public:
-    using Handler = std::function<void(const Surface&)>;
+    using Handler = std::function<void(Surface&)>;
     virtual ~Surfaces() = default;
 
     /// Submits the next frame; its index is the number of frames before it. The frame may be changed afterwards.
@@ -78,6 +80,7 @@ struct SurfacesOptions {
     int attribute_bits = 0;          ///< of float32 attributes; 0: exact
     SessionFlags session;            ///< on the server
     client::StreamOptions stream;    ///< to it
+    bool only_one = false;           ///< no flag: whether a single frame is submitted, and its memory can go at once
 
     void add_to(CLI::App& command);
     /// The handler may be called from another thread, one call at a time. Throws InvalidInput for bits of normals that

@@ -76,7 +76,8 @@ void watch(const WatchOptions& options) {
         const auto frame = next_frame(watcher, options);
         if (!frame) break;
         const auto path = frame_path(options.directory, frame->index, name_of(options.format));
-        write_surface(path, Surface(*frame), options.format);
+        Surface surface(*frame);
+        write_surface(path, surface, options.format);
         if (!options.spray_directory.empty())
             formats::write_points(frame_path(options.spray_directory, frame->index, name_of(MeshFormat::ply)),
                                   frame->spray);

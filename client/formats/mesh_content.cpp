@@ -1,7 +1,8 @@
 #include "formats/mesh_content.hpp"
 
+#include <utility>
+
 #include "formats/usda_writer.hpp"
-#include "meniscus/canonical_order.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -13,7 +14,7 @@ bool is_from_mesh(MeshFormat format) {
 
 }  // namespace
 
-MeshContent::MeshContent(const Mesh& mesh, MeshFormat format) : format_(format), ordered_(in_canonical_order(mesh)) {
+MeshContent::MeshContent(Mesh ordered, MeshFormat format) : format_(format), ordered_(std::move(ordered)) {
     if (!is_from_mesh(format)) triangles();
 }
 

@@ -14,8 +14,8 @@ namespace meniscus::formats {
 /// but bricks.
 class MeshContent {
 public:
-    /// Does all that takes time but the writing. The mesh is not needed afterwards.
-    MeshContent(const Mesh& mesh, MeshFormat format);
+    /// ordered: in its canonical order. Does all that takes time but the writing.
+    MeshContent(Mesh ordered, MeshFormat format);
     /// To be changed: what is written from then on.
     TriangleMesh& triangles();
     /// time: the time code of a USD file of a sequence. compress: as write_mesh(). Throws as write_mesh() does.

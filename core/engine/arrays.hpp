@@ -10,12 +10,18 @@
 
 namespace meniscus {
 
+/// Gives its memory back, not its account.
+template <class T>
+void release(Array<T>& array) {
+    array = Array<T>(array.get_allocator());
+}
+
 /// Makes an array of n elements whose values do not matter.
 template <class T>
 void resize_for_overwrite(Array<T>& array, std::size_t n) {
     if (array.capacity() < n) {
         // Gives the old memory back first: nothing of it is needed, and the peak stays low.
-        array = Array<T>(array.get_allocator());
+        release(array);
         array.reserve(with_room_to_grow(n));
     }
     array.resize(n);

@@ -34,4 +34,12 @@ ParticleSets::ParticleSets(const std::shared_ptr<MemoryAccount>& account, Worker
     }
 }
 
+void ParticleSets::release() {
+    for (ParticleSet& set : of_level) {
+        const auto give_back = [](auto&... arrays) { (meniscus::release(arrays), ...); };
+        give_back(set.keys, set.identified, set.sources, set.ranks, set.values, set.first, set.cell_keys);
+        give_back(set.x, set.y, set.z, set.weight, set.fall, set.sums);
+    }
+}
+
 }  // namespace meniscus::cpu

@@ -79,6 +79,9 @@ struct ParticleSets {
     Scan scan;
     Array<std::uint64_t> reached_bricks;
 
+    /// Of the particles; their spray stays.
+    void release();
+
     ParticleSet& operator[](std::size_t level) { return of_level[level]; }
     const ParticleSet& operator[](std::size_t level) const { return of_level[level]; }
 };

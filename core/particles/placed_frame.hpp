@@ -17,6 +17,7 @@ struct PlacedFrame {
     ParticleFrame frame;  ///< with no other arrays than those that become attributes
     AttributeNumbers attributes;
     bool on_device = false;  ///< whether its spans are of device pointers, which the host must not follow
+    bool is_last = false;    ///< whether no other follows, so that what no later step needs can be given back
 };
 
 /// Particles of each level.

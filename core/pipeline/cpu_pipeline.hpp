@@ -8,6 +8,7 @@
 #include "engine/cpu/state.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "particles/placed_frame.hpp"
 #include "steps/cpu_steps.hpp"
 
 namespace meniscus::cpu {
@@ -39,17 +40,29 @@ protected:
 class ParticleSteps : public SurfaceSteps {
 public:
     ParticleSteps(State& state, FieldSource& field, Mesh& mesh, ParticleSets& sets, Neighborhoods& near,
-                  const ParticleFrame& frame)
-        : SurfaceSteps(state, field, mesh), sets_(sets), near_(near), frame_(frame) {}
+                  const PlacedFrame& particles)
+        : SurfaceSteps(state, field, mesh),
+          sets_(sets),
+          near_(near),
+          frame_(particles.frame),
+          is_last_(particles.is_last) {}
 
     void register_particles() { cpu::register_particles(state_, sets_, near_, frame_); }
     void sample_base_vertices() { cpu::sample_base_vertices(state_, near_); }
     void split_cells() { wanted_level_ = cpu::split_cells(state_, near_, !frame_.levels.empty()); }
+    void place_vertices() {
+        SurfaceSteps::place_vertices();
+        // The greatest sample is looked up where no triangle is.
+        if (!is_last_ || mesh_.vertices.empty()) return;
+        state_.release_samples();
+        sets_.release();
+    }
 
 private:
     ParticleSets& sets_;
     Neighborhoods& near_;
     const ParticleFrame& frame_;
+    bool is_last_;
 };
 
 }  // namespace meniscus::cpu

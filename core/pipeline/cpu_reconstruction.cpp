@@ -33,7 +33,7 @@ public:
     MeshDownload reconstruct(const PlacedFrame& particles, Mesh& mesh, Statistics& statistics) override {
         StageClock clock(statistics);
         state_.attributes = particles.attributes;
-        ParticleSteps steps(state_, *field_, mesh, particles_, near_, particles.frame);
+        ParticleSteps steps(state_, *field_, mesh, particles_, near_, particles);
         run_pipeline(steps, clock);
         is_capped_ = false;
 

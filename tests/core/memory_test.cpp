@@ -51,6 +51,52 @@ TEST(Memory, AFramePastTheLimitIsRefusedAndASmallerOneThenWorks) {
     EXPECT_LE(limited.statistics().peak_bytes, 3 * peak);
 }
 
+TEST(Memory, OfTheLastFrameGoesWhileItsMeshIsMade) {
+    Settings settings = test::default_settings();
+    const test::Particles particles = test::splash(43, 20);
+    for (const Mode mode : {Mode::adaptive, Mode::uniform})
+        for (const Field field : choices<Field>) {
+            settings.mode = mode;
+            settings.field = field;
+            const auto memory = std::make_shared<SharedMemory>();
+            const BackendOptions options{.backend = Backend::cpu, .threads = 1, .shared_memory = memory};
+            Mesh mesh, last;
+            Reconstructor kept(settings, options);
+            kept.reconstruct(particles.frame(), mesh);
+            EXPECT_NO_THROW(kept.emit_capped(1, last));
+
+            Reconstructor released(settings, options);
+            last = {};
+            const std::size_t before = memory->bytes();
+            released.reconstruct_last(particles.frame(), last);
+            EXPECT_EQ(mesh_sha256(last), mesh_sha256(mesh));
+            EXPECT_EQ(released.statistics().volume, kept.statistics().volume);
+            EXPECT_EQ(released.statistics().base_cells_by_level, kept.statistics().base_cells_by_level);
+            EXPECT_LT(released.statistics().peak_bytes, kept.statistics().peak_bytes);
+            const std::size_t of_mesh =
+                last.vertices.capacity() * sizeof(LatticePosition) + last.normals.capacity() * sizeof(Normal) +
+                last.triangles.capacity() * sizeof(Triangle) + last.bricks.capacity() * sizeof(MeshBrick);
+            EXPECT_EQ(memory->bytes() - before, of_mesh) << "nothing is left but the mesh";
+            EXPECT_THROW(released.emit_capped(1, last), InvalidInput);
+
+            released.reconstruct(particles.frame(), last);
+            EXPECT_EQ(mesh_sha256(last), mesh_sha256(mesh)) << "the next frame takes its memory again";
+        }
+}
+
+TEST(Memory, OfTheLastFrameIsThereToTellWhyItsSurfaceIsEmpty) {
+    Settings settings = test::default_settings();
+    settings.field = Field::color;  // the smooth field is lifted above any threshold
+    settings.iso = 3.0;
+    Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
+    Mesh mesh;
+    reconstructor.reconstruct(test::splash(44, 6).frame(), mesh);
+    const std::vector<Warning> expected = reconstructor.statistics().warnings;
+    ASSERT_FALSE(expected.empty());
+    reconstructor.reconstruct_last(test::splash(44, 6).frame(), mesh);
+    EXPECT_EQ(reconstructor.statistics().warnings, expected);
+}
+
 TEST(Memory, FollowsTheFluidAndNotItsExtent) {
     Reconstructor near(test::default_settings(), {Backend::cpu, 1, 0});
     Reconstructor apart(test::default_settings(), {Backend::cpu, 1, 0});

@@ -14,6 +14,7 @@
 #include "formats/mesh_format.hpp"
 #include "interpreter_lock.hpp"
 #include "meniscus/attribute_coding.hpp"
+#include "meniscus/canonical_order.hpp"
 #include "meniscus/mesh_hash.hpp"
 #include "paths.hpp"
 #include "process.hpp"
@@ -111,7 +112,7 @@ void save(const MeshHandle& handle, const py::object& path) {
     without_lock([&] {
         const formats::MeshFormat format = formats::mesh_format_of(file);
         if (format == formats::MeshFormat::bricks) return write_bricks(file, handle);
-        formats::MeshContent(*handle.mesh, format).write(file);
+        formats::MeshContent(in_canonical_order(*handle.mesh), format).write(file);
     });
 }
 

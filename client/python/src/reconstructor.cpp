@@ -51,11 +51,16 @@ py::tuple mesh_and_figures(const Work& work) {
 }
 
 py::tuple reconstruct(const PythonReconstructor& self, const py::object& positions, const py::object& levels,
-                      const py::sequence& arrays) {
+                      const py::sequence& arrays, bool is_last) {
     const auto content = self.content;
     py::tuple told;
     content->run([&](OwnedFrame& frame) { frame.take(given_frame(positions, levels, arrays)); },
-                 [](Work& work) { work.content.reconstruct(work.frame.frame(), *work.mesh); },
+                 [is_last](Work& work) {
+                     if (is_last)
+                         work.content.reconstruct_last(work.frame.frame(), *work.mesh);
+                     else
+                         work.content.reconstruct(work.frame.frame(), *work.mesh);
+                 },
                  [&told](const Work& work) { told = mesh_and_figures(work); });
     return told;
 }
@@ -124,7 +129,8 @@ void bind_reconstructor(py::module_& module) {
         .def(py::init(&make), py::arg("options"))
         .def_property_readonly("backend", [](const PythonReconstructor& self) { return self.content->backend(); })
         .def("settings", [](const PythonReconstructor& self) { return to_dict(self.content->settings()); })
-        .def("reconstruct", &reconstruct, py::arg("positions"), py::arg("levels").none(true), py::arg("arrays"))
+        .def("reconstruct", &reconstruct, py::arg("positions"), py::arg("levels").none(true), py::arg("arrays"),
+             py::arg("is_last"))
         .def("device_mesh", &device_mesh, py::arg("positions"), py::arg("levels").none(true), py::arg("arrays"))
         .def("reconstruct_from_device", &reconstruct_from_device, py::arg("positions"), py::arg("levels").none(true),
              py::arg("arrays"))

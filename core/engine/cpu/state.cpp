@@ -21,4 +21,14 @@ State::State(const std::shared_ptr<MemoryAccount>& account, Workers& own_workers
     for (auto& set : stale) charge(set);
 }
 
+void State::release_samples() {
+    release(samples);
+    release(wanted_points);
+    release(sampled);
+    release(first_sample);
+    release(particle_counts);
+    release(reaches);
+    release(bends);
+}
+
 }  // namespace meniscus::cpu

@@ -48,6 +48,9 @@ struct State : BlockState<Array> {
     std::uint64_t field_evaluations = 0;
     std::uint64_t sixfold_volume = 0;  ///< see mesh/volume.hpp
 
+    /// Of samples and what led to them, once vertices are placed: the frame's surface cannot be emitted again.
+    void release_samples();
+
     std::uint32_t block_count() const { return grid.members; }
     BlocksView blocks() { return blocks_view(*this, grid.view(), block_count()); }
     LevelSets level_sets() { return level_sets_of(*this, grid.view()); }

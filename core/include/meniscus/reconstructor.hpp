@@ -35,6 +35,10 @@ public:
     /// also DeviceError. After InvalidInput the surface and the statistics of the frame before are there still.
     void reconstruct(const ParticleFrame& frame, Mesh& mesh);
 
+    /// As reconstruct() and release_memory(), at a lower peak of memory: the CPU backend gives buffers back as soon as
+    /// no later step needs them. For a frame that no other follows.
+    void reconstruct_last(const ParticleFrame& frame, Mesh& mesh);
+
     /// As reconstruct(), but returns once the mesh is finished in the memory in which it was made. From a GPU the
     /// download then copies it, in the caller's thread or another, while the next frame is reconstructed. Two meshes
     /// may wait on the GPU: a third frame, or one for which the device's memory limit leaves no room for a second mesh,

@@ -90,7 +90,6 @@ void order_by_level_and_brick(State& s, Mesh& mesh) {
         }
         if (brick.triangle_count() != 0) mesh.bricks.push_back(brick);
     }
-    resize_for_overwrite(mesh.triangles, total);
 }
 
 }  // namespace

@@ -1,11 +1,14 @@
 // Step 7 on the CPU.
 #include "steps/emit_triangles/emit_triangles.hpp"
 
+#include "engine/arrays.hpp"
 #include "steps/cpu_steps.hpp"
 
 namespace meniscus::cpu {
 
 void emit_triangles(State& s, Mesh& mesh) {
+    const TriangleRange& last = mesh.levels.back();
+    resize_for_overwrite(mesh.triangles, last.first + last.count);
     const BlocksView blocks = s.blocks();
     s.workers.for_ranges(s.mixed_cells.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i)

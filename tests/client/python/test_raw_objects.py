@@ -83,7 +83,7 @@ def take(request, positions):
         raw = _meniscus.Reconstructor({"particle-radius": "0.05", "backend": "cpu", "attribute": "all"})
         yield getattr(raw, request.param)
         # It may have taken attributes by now, which every frame with particles has to bring.
-        assert len(raw.reconstruct(np.empty((0, 3), np.float32), None, [])[0].triangles) == 0
+        assert len(raw.reconstruct(np.empty((0, 3), np.float32), None, [], False)[0].triangles) == 0
     else:
         session, client = (request.getfixturevalue(name) for name in ("session", "client"))
         raw = session.stream(meshes=False)._raw
