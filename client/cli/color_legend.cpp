@@ -1,6 +1,7 @@
 #include "cli/color_legend.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "cli/lettering.hpp"
@@ -29,7 +30,7 @@ void draw_centered(formats::Image& image, const std::string& text, std::size_t x
 std::vector<double> fitting_ticks(const ValueRange& range, std::size_t width, std::size_t scale) {
     const double extent = range.high - range.low;
     for (std::size_t most = 9; most > 1; --most) {
-        const std::vector<double> chosen = ticks(range, most);
+        std::vector<double> chosen = ticks(range, most);
         std::size_t widest = 0;
         for (const double tick : chosen) widest = std::max(widest, text_width(value_text(tick, extent), scale));
         if (chosen.size() < 2 ||
@@ -63,7 +64,8 @@ void draw_legend(formats::Image& image, const ColorLegend& legend) {
     y += bar_height * scale;
     const ValueRange& range = *legend.range;
     for (const double tick : fitting_ticks(range, width, scale)) {
-        const auto x = static_cast<std::size_t>(part_of(tick, range) * static_cast<double>(width - 1) + 0.5) + left;
+        const auto x =
+            static_cast<std::size_t>(std::lround(part_of(tick, range) * static_cast<double>(width - 1))) + left;
         fill(image, at(x), at(y), std::max<std::size_t>(1, scale / 2), 3 * scale, ink);
         draw_centered(image, value_text(tick, range.high - range.low), x, y + space * scale, scale);
     }

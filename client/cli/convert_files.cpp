@@ -39,6 +39,7 @@ std::vector<FileToConvert> files_of(const FileConversion& conversion) {
     const auto inputs = conversion.selection.files(in);
     out.pad_like(in);
     std::vector<FileToConvert> files;
+    files.reserve(inputs.size());
     for (const auto& [number, path] : inputs) files.push_back({path, out.at(number)});
     return files;
 }
@@ -72,6 +73,7 @@ ParticleFormat written_particle_format(const std::string& name) {
     const auto& written = formats::written_particle_formats;
     if (format && std::find(written.begin(), written.end(), *format) != written.end()) return *format;
     std::vector<std::string_view> known;
+    known.reserve(written.size());
     for (const ParticleFormat f : written) known.push_back(name_of(f));
     throw InvalidInput("particles are written as " + listed(known) + ", not as '" + name + "'");
 }

@@ -263,12 +263,13 @@ void add_reconstruct(CLI::App& app) {
         add_strict_option(command, options->report.strict);
     }
     options->report.verbosity.add_to(command);
+    const char* const in_a_pipe =
+        "zcat frame.vtk.gz | meniscus reconstruct - --input-format vtk -o - --format ply -r 0.025 | "
+        "meniscus picture - --input-format ply -o surface.png";
     add_examples(command, {"meniscus reconstruct frame.vtk -o surface.ply --particle-radius 0.025",
                            "meniscus reconstruct 'frame_{}.vtk' -o 'mesh_{}.ply' -r 0.025 --cell-size 1 --step 2",
                            "meniscus reconstruct 'frame_{}.vtk' -o 'mesh_{}.ply' -r 0.025 --skip-existing",
-                           "meniscus reconstruct frame.vtk -o surface.ply -r 0.025 --server localhost",
-                           "zcat frame.vtk.gz | meniscus reconstruct - --input-format vtk -o - --format ply -r 0.025 | "
-                           "meniscus picture - --input-format ply -o surface.png"});
+                           "meniscus reconstruct frame.vtk -o surface.ply -r 0.025 --server localhost", in_a_pipe});
     command.callback([options] { reconstruct(*options); });
 }
 

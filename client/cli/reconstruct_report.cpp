@@ -18,10 +18,10 @@
 
 namespace meniscus::cli {
 
-ReconstructReport::ReconstructReport(const ReconstructFiles& files, const Plan& plan, ReportOptions options)
+ReconstructReport::ReconstructReport(const ReconstructFiles& files, const Plan& plan, const ReportOptions& options)
     : files_(files),
       plan_(plan),
-      options_(std::move(options)),
+      options_(options),
       bar_(plan.frames.size(),
            options_.bar && plan.frames.size() > 1 && !options_.verbosity.quiet && !options_.verbosity.verbose),
       warnings_(options_.strict) {

@@ -37,7 +37,7 @@ struct FinishedFrame {
 
 class ReconstructReport {
 public:
-    ReconstructReport(const ReconstructFiles& files, const Plan& plan, ReportOptions options);
+    ReconstructReport(const ReconstructFiles& files, const Plan& plan, const ReportOptions& options);
 
     /// What takes time but is seen by nobody: in any thread. `warnings` stays empty.
     FinishedFrame prepare(Surface& surface, std::size_t index, std::vector<Statistics> runs) const;

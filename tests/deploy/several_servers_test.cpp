@@ -102,8 +102,8 @@ protected:
         for (PlayedSession& session : sessions) ASSERT_TRUE(session.when_all_have(3)) << session.state();
     }
 
-    /// The server of each, once it is uploaded to and watched there, and on no other. On a machine so busy that the proxy
-    /// takes a server for gone, a simulator leaves its session there, and nobody uses it any more.
+    /// The server of each, once it is uploaded to and watched there, and on no other. On a machine so busy that the
+    /// proxy takes a server for gone, a simulator leaves its session there, and nobody uses it any more.
     std::map<std::string, std::size_t> places() const {
         std::map<std::string, std::size_t> result;
         std::size_t there = 0;

@@ -103,7 +103,7 @@ public:
     template <class Floats>
     requires std::same_as<Floats, std::vector<float>>
     void push(Floats&& positions, std::uint64_t index, double simulation_time) {
-        push(ParticleBuffer(std::move(positions)), index, simulation_time);
+        push(ParticleBuffer(std::forward<Floats>(positions)), index, simulation_time);
     }
 
     /// As push(), where that would not wait. Otherwise false, and nothing has been taken: neither the buffer nor the
