@@ -113,8 +113,8 @@ private:
     void handle(Surface& surface) {
         runs_.push_back(surface.statistics());
         whole_.report_.say_run(runs_.size(), whole_.options_.repeat, runs_.back());
-        if (runs_.size() != whole_.options_.repeat) return;
-        finished_ = whole_.report_.prepare(surface, index_, std::exchange(runs_, {}));
+        if (runs_.size() == whole_.options_.repeat)
+            finished_ = whole_.report_.prepare(surface, index_, std::exchange(runs_, {}));
     }
 
     Reconstruction& whole_;

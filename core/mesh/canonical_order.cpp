@@ -98,7 +98,8 @@ Array<std::uint32_t> order_of(std::span<const LatticePosition> vertices) {
     return order;
 }
 
-/// Puts the values of vertices in order, so many elements of an array for each.
+/// Puts the values of vertices in order, so many elements of an array for each. The array keeps its memory, which may
+/// be charged to an account.
 template <class T>
 void permute(Array<T>& values, std::size_t per_vertex, const Array<std::uint32_t>& order) {
     Array<T> ordered(values.size());
@@ -176,7 +177,7 @@ void put_in_canonical_order(Mesh& mesh) {
 }
 
 Mesh in_canonical_order(const Mesh& mesh) {
-    Mesh ordered;
+    Mesh ordered;  // array by array: the account of the mesh is not charged for a copy
     ordered.cell_size = mesh.cell_size;
     ordered.offset_bits = mesh.offset_bits;
     ordered.levels = mesh.levels;

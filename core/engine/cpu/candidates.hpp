@@ -23,7 +23,8 @@ public:
 
     /// Searches a set for the particles that may reach into a box relative to `origin`. With ranks if the set has them.
     void gather(const ParticleSetView& set, const Units3& origin, const UnitBox& box);
-    /// Those of another list that may reach into a box, their positions moved by `shift`. With ranks if it has them.
+    /// Those of another list that may reach into a box, their positions moved by `shift`. With ranks if both may
+    /// have them.
     void cull(const Candidates& from, const std::array<float, 3>& shift, const UnitBox& box);
 
     /// Looks four numbers up for each particle, by its rank. of_set: those of all particles of the set.

@@ -9,7 +9,7 @@ namespace meniscus {
 /// of a triangle the first vertex of these first, the orientation kept; the triangles of a level by their first, second
 /// and third vertex. Files are written in this order, and mesh_sha256() hashes in it. The triangles of a brick do not
 /// lie together in it, so that the result has no `bricks`. Takes 4 bytes a vertex while it works, and as much as the
-/// largest array of the vertices; up to 36 bytes a vertex where most have nearly the same x, for the extent of all.
+/// largest array of the vertices; up to 36 bytes a vertex where one far away leaves most in a single slice of x.
 void put_in_canonical_order(Mesh& mesh);
 /// A copy in that order.
 Mesh in_canonical_order(const Mesh& mesh);
