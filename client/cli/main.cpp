@@ -3,7 +3,7 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "cli/command_line.hpp"
+#include "cli/commands/command_line.hpp"
 
 int main(int argc, char** argv) {
     // What goes wrong is one line, which gRPC's own messages would stand before.

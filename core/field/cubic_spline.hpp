@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "field/candidate_view.hpp"
 #include "field/jet.hpp"
 #include "field/lanes.hpp"
+#include "field/neighbor_view.hpp"
 #include "lattice/host_device.hpp"
 
 namespace meniscus {
@@ -55,9 +55,7 @@ struct CubicSpline {
     float weight;  ///< mass (over density) times W0
     float inverse_support;
 
-    MENISCUS_HD static CubicSpline of(const CandidateView& c, std::size_t j) {
-        return {c.weight[j], c.inverse_support};
-    }
+    MENISCUS_HD static CubicSpline of(const NeighborView& c, std::size_t j) { return {c.weight[j], c.inverse_support}; }
 
     template <class F>
     MENISCUS_HD F share(F dx, F dy, F dz) const {

@@ -1,19 +1,19 @@
-// The field and its gradient at one point or at eight: sums over candidate particles in their order. Kernel:
+// The field and its gradient at one point or at eight: sums over neighbor particles in their order. Kernel:
 // CubicSpline or Poly6.
 #pragma once
 
 #include <cstddef>
 
-#include "field/candidate_view.hpp"
 #include "field/jet.hpp"
 #include "field/lanes.hpp"
+#include "field/neighbor_view.hpp"
 #include "lattice/host_device.hpp"
 
 namespace meniscus {
 
 /// Adds to the values at G points (F = float) or G times eight (F = Lanes).
 template <class Kernel, int G, class F>
-MENISCUS_HD inline void sum_values(const CandidateView& c, const F (&x)[G], const F (&y)[G], const F (&z)[G],
+MENISCUS_HD inline void sum_values(const NeighborView& c, const F (&x)[G], const F (&y)[G], const F (&z)[G],
                                    F (&sum)[G]) {
     for (std::size_t j = 0; j < c.count; ++j) {
         const auto share = Kernel::of(c, j);
@@ -24,7 +24,7 @@ MENISCUS_HD inline void sum_values(const CandidateView& c, const F (&x)[G], cons
 
 /// The same for a grid of points: NY x NZ, lane by lane at (x, y[i], z[j]), i running first in `sum`.
 template <class Kernel, int NY, int NZ, class F>
-MENISCUS_HD inline void sum_grid_values(const CandidateView& c, F x, const F (&y)[NY], const float (&z)[NZ],
+MENISCUS_HD inline void sum_grid_values(const NeighborView& c, F x, const F (&y)[NY], const float (&z)[NZ],
                                         F (&sum)[NY * NZ]) {
     for (std::size_t j = 0; j < c.count; ++j) {
         const auto share = Kernel::of(c, j);
@@ -41,7 +41,7 @@ MENISCUS_HD inline void sum_grid_values(const CandidateView& c, F x, const F (&y
 /// Adds to upper bounds of the field in boxes of half edge `half` around the points: every particle counts with the
 /// kernel at its distance from the box. `closest`: see the kernel's add_bound().
 template <class Kernel, class F>
-MENISCUS_HD inline void sum_bounds(const CandidateView& c, F x, F y, F z, float half, F& sum, F& closest) {
+MENISCUS_HD inline void sum_bounds(const NeighborView& c, F x, F y, F z, float half, F& sum, F& closest) {
     const auto gap = [half](F d) { return max(magnitude(d) - F(half), F(0.0F)); };
     for (std::size_t j = 0; j < c.count; ++j)
         Kernel::of(c, j).add_bound(sum, closest, gap(x - F(c.x[j])), gap(y - F(c.y[j])), gap(z - F(c.z[j])), c.support);
@@ -49,7 +49,7 @@ MENISCUS_HD inline void sum_bounds(const CandidateView& c, F x, F y, F z, float 
 
 /// Adds to the gradient, up to a positive factor common to all particles (the paper's Equation 2).
 template <class Kernel, class F>
-MENISCUS_HD inline void sum_gradients(const CandidateView& c, F x, F y, F z, F& gx, F& gy, F& gz) {
+MENISCUS_HD inline void sum_gradients(const NeighborView& c, F x, F y, F z, F& gx, F& gy, F& gz) {
     for (std::size_t j = 0; j < c.count; ++j)
         Kernel::of(c, j).add_gradient(gx, gy, gz, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]));
 }
@@ -57,7 +57,7 @@ MENISCUS_HD inline void sum_gradients(const CandidateView& c, F x, F y, F z, F& 
 /// Adds to the sum of the particles' shares, and to the sums of the first K of their numbers, each times the share;
 /// with has_gradient also to the gradient, as sum_gradients() does. numbers: four for each particle.
 template <class Kernel, unsigned K, bool has_gradient, class F>
-MENISCUS_HD inline void sum_numbers(const CandidateView& c, const float* numbers, F x, F y, F z, F& gx, F& gy, F& gz,
+MENISCUS_HD inline void sum_numbers(const NeighborView& c, const float* numbers, F x, F y, F z, F& gx, F& gy, F& gz,
                                     F& weight, F (&sum)[K]) {
     for (std::size_t j = 0; j < c.count; ++j) {
         const auto kernel = Kernel::of(c, j);
@@ -83,7 +83,7 @@ MENISCUS_HD inline void turn_outward(F& x, F& y, F& z) {
 
 /// Adds to the field's jets, FieldSlope or FieldJet. X: F, or what gives one less an F.
 template <class Kernel, class X, class F, class Jet>
-MENISCUS_HD inline void sum_jets(const CandidateView& c, const X& x, F y, F z, Jet& jet) {
+MENISCUS_HD inline void sum_jets(const NeighborView& c, const X& x, F y, F z, Jet& jet) {
     for (std::size_t j = 0; j < c.count; ++j)
         Kernel::of(c, j).add_jet(jet, x - F(c.x[j]), y - F(c.y[j]), z - F(c.z[j]));
 }

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "instruction_set.hpp"
+#include "base/instruction_set.hpp"
 #include "meniscus/backend_options.hpp"
 #include "meniscus/device_mesh.hpp"
 #include "meniscus/error.hpp"

@@ -1,5 +1,5 @@
 // The CPU backend with the loops of the instruction set in use.
-#include "instruction_set.hpp"
+#include "base/instruction_set.hpp"
 #include "pipeline/backend.hpp"
 
 namespace meniscus::cpu {

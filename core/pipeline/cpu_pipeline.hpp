@@ -3,11 +3,11 @@
 
 #include <utility>
 
-#include "engine/cpu/field_source.hpp"
-#include "engine/cpu/neighborhoods.hpp"
 #include "engine/cpu/state.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "neighbors/cpu/field_source.hpp"
+#include "neighbors/cpu/neighbor_search.hpp"
 #include "particles/placed_frame.hpp"
 #include "steps/cpu_steps.hpp"
 
@@ -39,7 +39,7 @@ protected:
 /// All steps of a frame of particles.
 class ParticleSteps : public SurfaceSteps {
 public:
-    ParticleSteps(State& state, FieldSource& field, Mesh& mesh, ParticleSets& sets, Neighborhoods& near,
+    ParticleSteps(State& state, FieldSource& field, Mesh& mesh, ParticleSets& sets, NeighborSearch& near,
                   const PlacedFrame& particles)
         : SurfaceSteps(state, field, mesh),
           sets_(sets),
@@ -60,7 +60,7 @@ public:
 
 private:
     ParticleSets& sets_;
-    Neighborhoods& near_;
+    NeighborSearch& near_;
     const ParticleFrame& frame_;
     bool is_last_;
 };

@@ -1,7 +1,7 @@
 // The CPU backend: state, particles and field that live from frame to frame.
-#include "engine/cpu/particle_field.hpp"
 #include "field/kernels.hpp"
-#include "mesh/volume.hpp"
+#include "lattice/volume.hpp"
+#include "neighbors/cpu/particle_field.hpp"
 #include "pipeline/backend.hpp"
 #include "pipeline/cpu_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
@@ -10,7 +10,7 @@
 namespace meniscus::cpu {
 namespace {
 
-std::unique_ptr<FieldSource> make_field(const LatticeSettings& settings, Neighborhoods& near) {
+std::unique_ptr<FieldSource> make_field(const LatticeSettings& settings, NeighborSearch& near) {
     return with_kernel(settings, [&]<class Kernel>() -> std::unique_ptr<FieldSource> {
         return std::make_unique<ParticleField<Kernel>>(near);
     });
@@ -66,7 +66,7 @@ private:
     Workers workers_;
     State state_;
     ParticleSets particles_;
-    Neighborhoods near_;
+    NeighborSearch near_;
     std::unique_ptr<FieldSource> field_;
     Array<std::uint8_t> found_levels_;  ///< of the last frame, once a mesh of it was emitted with capped ones
     bool is_capped_ = false;

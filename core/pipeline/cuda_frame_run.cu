@@ -7,8 +7,8 @@
 //   register     make_keys, store_key_part, sort, mark_starts, scan, store_support_cells, store_particles,
 //                stop_if_crowded; order_by_payload, store_numbers;
 //                list_reached_bricks, sort, mark_first_keys, scan, store_bricks, mark_reached_cells, count_members;
-//                scan, find_neighbors, find_each_near_brick, make_blocks; sum_at_each_particle, and divide_weights or
-//                fit_kernels, ...; or count_particles
+//                scan, find_neighbors, find_each_neighbor_brick, make_blocks; sum_at_each_particle, and divide_weights
+//                or fit_kernels, ...; or count_particles
 //   sample       sample_base
 //   split        collect_base_vertices, find_band, measure_band, choose_levels, list_level_sets
 //   adjust       balance_and_promote                                        (cooperative)

@@ -6,10 +6,10 @@
 #include <limits>
 #include <string>
 
-#include "attribute_choice.hpp"
 #include "engine/cuda/warp.hpp"
 #include "meniscus/error.hpp"
-#include "validation.hpp"
+#include "particles/attribute_choice.hpp"
+#include "particles/validation.hpp"
 
 namespace meniscus::cuda {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/cuda/launch.hpp"
-#include "engine/cuda/particle_field.hpp"
 #include "engine/cuda/state.hpp"
+#include "neighbors/cuda/particle_field.hpp"
 #include "steps/cuda_steps.hpp"
 
 namespace meniscus::cuda {

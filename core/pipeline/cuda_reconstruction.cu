@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "mesh/volume.hpp"
+#include "lattice/volume.hpp"
 #include "pipeline/backend.hpp"
 #include "pipeline/cuda_frame_run.hpp"
 

@@ -5,38 +5,38 @@
 #include <cstdint>
 #include <functional>
 
-#include "engine/cpu/field_source.hpp"
-#include "engine/cpu/neighborhoods.hpp"
 #include "engine/cpu/state.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/particle_frame.hpp"
-#include "particles/particle_sets.hpp"
+#include "neighbors/cpu/field_source.hpp"
+#include "neighbors/cpu/neighbor_search.hpp"
+#include "neighbors/cpu/particle_sets.hpp"
 #include "steps/sample_field/slivers.hpp"
 
 namespace meniscus::cpu {
 
 /// Step 1: sorts a valid frame's particles, and stores the base cells that they reach. Throws LimitExceeded where the
 /// particles crowd, or bring too much work.
-void register_particles(State& state, ParticleSets& sets, Neighborhoods& near, const ParticleFrame& frame);
+void register_particles(State& state, ParticleSets& sets, NeighborSearch& near, const ParticleFrame& frame);
 /// Gives every particle a support that fits its neighborhood, and the volume that it stands for: the smooth field.
-void fit_supports(ParticleSets& sets, Neighborhoods& near);
+void fit_supports(ParticleSets& sets, NeighborSearch& near);
 /// Divides the particles' weights by the density at their places: the color field.
-void divide_weights_by_density(ParticleSets& sets, Neighborhoods& near);
+void divide_weights_by_density(ParticleSets& sets, NeighborSearch& near);
 /// Numbers the members of a grid whose bits are set, and finds its bricks' neighbors.
 void number_members(BrickGrid& grid, Workers& workers);
 /// Sizes the arrays for the grid's members; no point is sampled, no cell is in the band.
 void store_blocks(State& state);
 
 /// Step 4's first part: the value at every stored block's base vertex, and what its particles may do in the whole cell.
-void sample_base_vertices(State& state, Neighborhoods& near);
+void sample_base_vertices(State& state, NeighborSearch& near);
 
 /// Gives the level that the criterion asks for in a cell, 1 to 3.
 using WantedLevel = std::function<int(std::uint32_t block)>;
 /// Step 2: puts the stored cells that may hold surface into the band, and gives each the level that the criterion of
 /// the settings asks for. Base vertices must be sampled. Returns the criterion, for cells that join the band later.
-WantedLevel split_cells(State& state, Neighborhoods& near, bool has_particle_levels);
+WantedLevel split_cells(State& state, NeighborSearch& near, bool has_particle_levels);
 /// How much the surface bends in every cell of the band.
-void measure_bends(State& state, Neighborhoods& near);
+void measure_bends(State& state, NeighborSearch& near);
 
 /// After levels have been given to all blocks at once: collects them as sets of cells, and lets all rules look at all
 /// cells anew.

@@ -22,7 +22,7 @@ void fit_supports(const State& state, const Launcher& launch);
 /// Divides the particles' weights by the density at their places: the color field.
 void divide_weights_by_density(const State& state, const Launcher& launch);
 /// Tells the state which bricks of particles are near each brick of base cells.
-void find_near_bricks(const State& state, const Launcher& launch);
+void find_neighbor_bricks(const State& state, const Launcher& launch);
 /// Marks the base cells that the particles reach in their bricks, which hold none so far; counts them.
 void store_reached_cells(const State& state, const Launcher& launch);
 /// Numbers the members of the bricks, whose bits are set and counted in members_before; makes their blocks, none of

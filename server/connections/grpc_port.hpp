@@ -14,7 +14,7 @@
 #include "connections/connection_table.hpp"
 #include "connections/listening_sockets.hpp"
 #include "connections/own_connections.hpp"
-#include "line_limit.hpp"
+#include "process/line_limit.hpp"
 
 namespace meniscus::server {
 

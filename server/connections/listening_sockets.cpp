@@ -15,7 +15,7 @@
 #include <optional>
 #include <utility>
 
-#include "listen_address.hpp"
+#include "connections/listen_address.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::server {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "sessions/metrics.hpp"
+#include "sessions/sending/metrics.hpp"
 
 namespace meniscus::server {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sessions/session_registry.hpp"
+#include "sessions/session/session_registry.hpp"
 
 namespace meniscus::server {
 

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "log.hpp"
+#include "process/log.hpp"
 #include "recording/deleted_numbers.hpp"
 
 namespace meniscus::server {

@@ -12,8 +12,8 @@
 #include <string>
 #include <system_error>
 
-#include "log.hpp"
 #include "meniscus/error.hpp"
+#include "process/log.hpp"
 
 namespace meniscus::server {
 

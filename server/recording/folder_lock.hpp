@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "unavailable.hpp"
+#include "process/unavailable.hpp"
 
 namespace meniscus::server {
 

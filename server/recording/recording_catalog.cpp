@@ -9,11 +9,11 @@
 #include <optional>
 #include <system_error>
 
-#include "log.hpp"
 #include "meniscus/error.hpp"
+#include "process/log.hpp"
 #include "recording/delete_recording.hpp"
 #include "recording/recording_file.hpp"
-#include "sessions/refusal.hpp"
+#include "sessions/limits/refusal.hpp"
 
 namespace meniscus::server {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "files/random_access_file.hpp"
-#include "line_limit.hpp"
+#include "process/line_limit.hpp"
 #include "recording/recording_index.hpp"
 #include "recording/recording_name.hpp"
 #include "recording/recording_options.hpp"

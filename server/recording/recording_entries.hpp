@@ -5,8 +5,8 @@
 #include <string>
 
 #include "meniscus/settings.hpp"
-#include "sessions/encoded_frame.hpp"
-#include "sessions/input_frame.hpp"
+#include "sessions/intake/input_frame.hpp"
+#include "sessions/sending/encoded_frame.hpp"
 
 namespace meniscus::server {
 

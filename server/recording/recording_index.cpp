@@ -1,7 +1,7 @@
 #include "recording/recording_index.hpp"
 
-#include "log.hpp"
 #include "meniscus/error.hpp"
+#include "process/log.hpp"
 
 namespace meniscus::server {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "sessions/limits/limit_reached.hpp"
-#include "sessions/refusal.hpp"
+#include "sessions/limits/refusal.hpp"
 
 namespace meniscus::server {
 

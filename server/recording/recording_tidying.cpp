@@ -2,8 +2,8 @@
 
 #include <exception>
 
-#include "log.hpp"
-#include "sessions/refusal.hpp"
+#include "process/log.hpp"
+#include "sessions/limits/refusal.hpp"
 
 namespace meniscus::server {
 

@@ -11,9 +11,9 @@
 #include <system_error>
 #include <utility>
 
-#include "log.hpp"
 #include "meniscus/error.hpp"
-#include "open_work.hpp"
+#include "process/log.hpp"
+#include "process/open_work.hpp"
 #include "recording/delete_recording.hpp"
 
 namespace meniscus::server {

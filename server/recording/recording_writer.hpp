@@ -10,16 +10,16 @@
 #include <thread>
 #include <variant>
 
-#include "line_limit.hpp"
 #include "meniscus/settings.hpp"
 #include "meniscus/v1/session_service.pb.h"
+#include "process/line_limit.hpp"
 #include "recording/folder_lock.hpp"
 #include "recording/recorded_bytes.hpp"
 #include "recording/recording_entries.hpp"
 #include "recording/recording_file.hpp"
 #include "recording/recording_options.hpp"
 #include "recording/write_queue.hpp"
-#include "sessions/encoded_frame.hpp"
+#include "sessions/sending/encoded_frame.hpp"
 
 namespace meniscus::server {
 

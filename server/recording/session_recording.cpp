@@ -4,7 +4,7 @@
 #include <exception>
 #include <utility>
 
-#include "log.hpp"
+#include "process/log.hpp"
 
 namespace meniscus::server {
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "recording/recording_writer.hpp"
-#include "sessions/session_observer.hpp"
+#include "sessions/session/session_observer.hpp"
 
 namespace meniscus::server {
 

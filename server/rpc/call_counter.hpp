@@ -7,7 +7,7 @@
 #include <memory>
 #include <string_view>
 
-#include "sessions/metrics.hpp"
+#include "sessions/sending/metrics.hpp"
 
 namespace meniscus::server {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "security/forwarded_client.hpp"
-#include "web/web_peer.hpp"
+#include "security/web_peer.hpp"
 
 namespace meniscus::server {
 

@@ -3,7 +3,7 @@
 
 #include "meniscus/v1/session_service.pb.h"
 #include "security/authorizer.hpp"
-#include "sessions/session_registry.hpp"
+#include "sessions/session/session_registry.hpp"
 
 namespace meniscus::server {
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "sessions/metrics.hpp"
+#include "sessions/sending/metrics.hpp"
 
 namespace meniscus::server {
 

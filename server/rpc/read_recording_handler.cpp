@@ -16,17 +16,17 @@
 #include "conversion/codec_conversion.hpp"
 #include "files/delimited_messages.hpp"
 #include "files/recording_format.hpp"
-#include "log.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/recording_service.pb.h"
+#include "process/log.hpp"
 #include "rpc/caller.hpp"
 #include "rpc/cancel_timer.hpp"
 #include "rpc/one_request.hpp"
 #include "rpc/session_id.hpp"
 #include "rpc/status.hpp"
 #include "rpc/wire_bytes.hpp"
-#include "sessions/refusal.hpp"
-#include "sessions/spray_messages.hpp"
+#include "sessions/limits/refusal.hpp"
+#include "sessions/sending/spray_messages.hpp"
 
 namespace meniscus::server {
 

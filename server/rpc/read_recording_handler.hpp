@@ -8,7 +8,7 @@
 #include "rpc/byte_service.hpp"
 #include "rpc/refusals.hpp"
 #include "security/authorizer.hpp"
-#include "sessions/metrics.hpp"
+#include "sessions/sending/metrics.hpp"
 
 namespace meniscus::server {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "line_limit.hpp"
-#include "sessions/metrics.hpp"
+#include "process/line_limit.hpp"
+#include "sessions/sending/metrics.hpp"
 
 namespace meniscus::server {
 

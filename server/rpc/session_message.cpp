@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "conversion/settings_conversion.hpp"
-#include "sessions/statistics_message.hpp"
+#include "sessions/sending/statistics_message.hpp"
 
 namespace meniscus::server {
 

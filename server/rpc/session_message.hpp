@@ -3,7 +3,7 @@
 
 #include "meniscus/v1/session_service.pb.h"
 #include "security/tokens.hpp"
-#include "sessions/session.hpp"
+#include "sessions/session/session.hpp"
 
 namespace meniscus::server {
 

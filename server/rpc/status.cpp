@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "meniscus/error.hpp"
-#include "sessions/refusal.hpp"
+#include "sessions/limits/refusal.hpp"
 
 namespace meniscus::server {
 

@@ -13,9 +13,9 @@
 #include <string>
 #include <utility>
 
-#include "call_log.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
+#include "process/call_log.hpp"
 #include "rpc/caller.hpp"
 #include "rpc/cancel_timer.hpp"
 #include "rpc/frame_chunk_reader.hpp"
@@ -23,8 +23,8 @@
 #include "rpc/status.hpp"
 #include "rpc/upload_options.hpp"
 #include "rpc/wire_bytes.hpp"
-#include "sessions/frame_assembler.hpp"
-#include "sessions/refusal.hpp"
+#include "sessions/intake/frame_assembler.hpp"
+#include "sessions/limits/refusal.hpp"
 
 namespace meniscus::server {
 

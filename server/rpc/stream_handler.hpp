@@ -7,7 +7,7 @@
 #include "rpc/byte_service.hpp"
 #include "rpc/refusals.hpp"
 #include "security/authorizer.hpp"
-#include "sessions/session_registry.hpp"
+#include "sessions/session/session_registry.hpp"
 
 namespace meniscus::server {
 

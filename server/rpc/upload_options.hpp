@@ -2,7 +2,7 @@
 #pragma once
 
 #include "meniscus/v1/surface_service.pb.h"
-#include "sessions/upload.hpp"
+#include "sessions/intake/upload.hpp"
 
 namespace meniscus::server {
 

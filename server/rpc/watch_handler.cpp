@@ -11,8 +11,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "call_log.hpp"
 #include "meniscus/v1/surface_service.pb.h"
+#include "process/call_log.hpp"
 #include "rpc/caller.hpp"
 #include "rpc/cancel_timer.hpp"
 #include "rpc/one_request.hpp"
@@ -20,7 +20,7 @@
 #include "rpc/status.hpp"
 #include "rpc/watch_wishes.hpp"
 #include "rpc/wire_bytes.hpp"
-#include "sessions/refusal.hpp"
+#include "sessions/limits/refusal.hpp"
 
 namespace meniscus::server {
 

@@ -10,7 +10,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
 #include "rpc/normal_bits.hpp"
-#include "sessions/canonical_wishes.hpp"
+#include "sessions/watching/canonical_wishes.hpp"
 
 namespace meniscus::server {
 

@@ -3,7 +3,7 @@
 
 #include "meniscus/settings.hpp"
 #include "meniscus/v1/surface_service.pb.h"
-#include "sessions/watch_wishes.hpp"
+#include "sessions/watching/watch_wishes.hpp"
 
 namespace meniscus::server {
 

@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-#include "sessions/encoded_frame.hpp"
+#include "sessions/sending/encoded_frame.hpp"
 
 namespace meniscus::server {
 

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "sessions/refusal.hpp"
+#include "sessions/limits/refusal.hpp"
 
 namespace meniscus::server {
 

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "meniscus/error.hpp"
+#include "security/web_peer.hpp"
 #include "web/beast_text.hpp"
 #include "web/call_metadata.hpp"
 #include "web/origins.hpp"
-#include "web/web_peer.hpp"
 
 namespace meniscus::server {
 

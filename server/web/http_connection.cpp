@@ -19,10 +19,10 @@
 
 #include "meniscus/error.hpp"
 #include "rpc/session_id.hpp"
+#include "security/web_peer.hpp"
 #include "web/beast_text.hpp"
 #include "web/call_metadata.hpp"
 #include "web/grpc_web_messages.hpp"
-#include "web/web_peer.hpp"
 
 namespace meniscus::server {
 

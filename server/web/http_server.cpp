@@ -11,7 +11,7 @@
 #include <exception>
 #include <utility>
 
-#include "listen_address.hpp"
+#include "connections/listen_address.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::server {

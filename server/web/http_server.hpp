@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "line_limit.hpp"
+#include "process/line_limit.hpp"
 #include "security/tls_context.hpp"
 #include "security/trusted_peers.hpp"
 #include "web/grpc_web.hpp"

@@ -17,7 +17,7 @@
 #include "meniscus/client/client.hpp"
 #include "report.hpp"
 #include "rpc/services.hpp"
-#include "sessions/session_registry.hpp"
+#include "sessions/session/session_registry.hpp"
 #include "socket_copy.hpp"
 #include "warm_runs.hpp"
 

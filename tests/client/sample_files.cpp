@@ -8,17 +8,17 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "bgeo_sample.hpp"
-#include "bi4_sample.hpp"
+#include "formats/bgeo_sample.hpp"
+#include "formats/bi4_sample.hpp"
 #include "formats/brick_file.hpp"
 #include "formats/byte_cursor.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/particle_writer.hpp"
 #include "formats/particles.hpp"
 #include "formats/pysph_npz.hpp"
+#include "formats/pysph_sample.hpp"
 #include "formats/scalar.hpp"
 #include "meniscus/error.hpp"
-#include "pysph_sample.hpp"
 
 namespace meniscus::test {
 

@@ -4,8 +4,8 @@
 
 #include "conversion/particle_arrays.hpp"
 #include "meniscus/v1/surface_service.pb.h"
-#include "sessions/frame_assembler.hpp"
-#include "sessions/input_frame.hpp"
+#include "sessions/intake/frame_assembler.hpp"
+#include "sessions/intake/input_frame.hpp"
 #include "support.hpp"
 
 namespace meniscus::fuzz {

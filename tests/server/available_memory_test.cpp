@@ -1,4 +1,4 @@
-#include "available_memory.hpp"
+#include "process/available_memory.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "log.hpp"
+#include "process/log.hpp"
 
 #include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "call_log.hpp"
+#include "process/call_log.hpp"
 
 namespace meniscus::server {
 namespace {

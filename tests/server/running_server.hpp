@@ -11,8 +11,8 @@
 
 #include "connection/connection.hpp"
 #include "conversion/particle_arrays.hpp"
+#include "daemon/server.hpp"
 #include "meniscus/client/client.hpp"
-#include "server.hpp"
 #include "test_frames.hpp"
 
 namespace meniscus::server::test {

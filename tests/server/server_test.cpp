@@ -1,8 +1,8 @@
-#include "server.hpp"
+#include "daemon/server.hpp"
 
 #include <gtest/gtest.h>
 
-#include "listen_address.hpp"
+#include "connections/listen_address.hpp"
 #include "meniscus/error.hpp"
 #include "running_server.hpp"
 

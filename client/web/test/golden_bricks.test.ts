@@ -51,7 +51,7 @@ interface Golden {
 }
 
 const golden = JSON.parse(
-  readFileSync(new URL('../../../tests/core/golden_bricks.json', import.meta.url), 'utf8'),
+  readFileSync(new URL('../../../tests/core/codec/golden_bricks.json', import.meta.url), 'utf8'),
 ) as Golden;
 const draco = await dracoDecoder();
 

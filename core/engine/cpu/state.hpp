@@ -46,7 +46,7 @@ struct State : BlockState<Array> {
     AttributeNumbers attributes;  ///< of the frame, set before its particles are registered
     std::uint64_t vertices_without_particles = 0;
     std::uint64_t field_evaluations = 0;
-    std::uint64_t sixfold_volume = 0;  ///< see mesh/volume.hpp
+    std::uint64_t sixfold_volume = 0;  ///< see lattice/volume.hpp
 
     /// Of samples and what led to them, once vertices are placed: the frame's surface cannot be emitted again.
     void release_samples();

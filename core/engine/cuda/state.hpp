@@ -10,18 +10,18 @@
 
 #include "engine/block_state.hpp"
 #include "engine/cuda/capacities.hpp"
-#include "engine/cuda/near_bricks.hpp"
 #include "engine/cuda/scans.hpp"
 #include "field/lattice_settings.hpp"
 #include "lattice/blocks.hpp"
 #include "lattice/level_sets.hpp"
+#include "lattice/tables/tables.hpp"
 #include "meniscus/mesh.hpp"
 #include "particles/attributes.hpp"
+#include "particles/neighbor_bricks.hpp"
 #include "particles/particle_key.hpp"
 #include "particles/particle_set.hpp"
 #include "particles/payload.hpp"
 #include "particles/positions.hpp"
-#include "tables/tables.hpp"
 
 namespace meniscus::cuda {
 
@@ -83,7 +83,7 @@ struct Counts {
     Counter needed[resource_count];
     Counter field_evaluations;
     Counter triangles[triangle_level_count];
-    Counter sixfold_volume;  ///< see mesh/volume.hpp
+    Counter sixfold_volume;  ///< see lattice/volume.hpp
     std::uint32_t first_triangle[triangle_level_count];
     std::uint32_t band_cells[3];  ///< by level
     Counter crowd;                ///< see is_crowded()
@@ -158,7 +158,7 @@ struct State : BlockState<Pointer> {
     Brick* bricks = nullptr;
     std::uint64_t* brick_keys = nullptr;
     BrickNeighbors* neighbors = nullptr;
-    NearBricks* near_bricks =
+    NeighborBricks* neighbor_bricks =
         nullptr;  ///< of every level of particles, level after level; unset where a level has none
     std::uint64_t* members_before = nullptr;   ///< and one past the last
     std::uint64_t* base_inside = nullptr;      ///< a set of blocks, see BaseVertexSets
@@ -216,7 +216,7 @@ struct State : BlockState<Pointer> {
         take("bricks", bricks, brick_count);
         take("brick_keys", brick_keys, brick_count);
         take("neighbors", neighbors, brick_count);
-        take("near_bricks", near_bricks, particle_level_count * brick_count);
+        take("neighbor_bricks", neighbor_bricks, particle_level_count * brick_count);
         take("members_before", members_before, brick_count + 1);
         take("base_inside", base_inside, brick_count * Brick::words);
         take("raised", raised, brick_count * Brick::words);

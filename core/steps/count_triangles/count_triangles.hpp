@@ -7,7 +7,7 @@
 #include "lattice/bits.hpp"
 #include "lattice/blocks.hpp"
 #include "lattice/host_device.hpp"
-#include "tables/tables.hpp"
+#include "lattice/tables/tables.hpp"
 
 namespace meniscus {
 

@@ -8,7 +8,7 @@
 
 #include "engine/cuda/warp.hpp"
 #include "lattice/blocks.hpp"
-#include "tables/tables.hpp"
+#include "lattice/tables/tables.hpp"
 
 namespace meniscus::cuda {
 

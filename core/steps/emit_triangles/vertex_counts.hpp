@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "engine/cuda/warp.hpp"
+#include "lattice/tables/tables.hpp"
 #include "steps/count_triangles/warp_signs.hpp"
-#include "tables/tables.hpp"
 
 namespace meniscus::cuda {
 

@@ -7,9 +7,9 @@
 #include "lattice/blocks.hpp"
 #include "lattice/face_signs.hpp"
 #include "lattice/host_device.hpp"
+#include "lattice/tables/tables.hpp"
 #include "meniscus/mesh.hpp"
 #include "steps/place_vertices/place_vertices.hpp"
-#include "tables/tables.hpp"
 
 namespace meniscus {
 

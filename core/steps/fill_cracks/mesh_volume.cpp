@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cstring>
 
-#include "mesh/volume.hpp"
+#include "lattice/volume.hpp"
 #include "steps/cpu_steps.hpp"
 
 #if defined(__AVX2__)

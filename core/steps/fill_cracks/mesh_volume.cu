@@ -1,6 +1,6 @@
 // The volume of the finished mesh on the GPU.
 #include "engine/cuda/warp.hpp"
-#include "mesh/volume.hpp"
+#include "lattice/volume.hpp"
 #include "steps/cuda_steps.hpp"
 
 namespace meniscus::cuda {

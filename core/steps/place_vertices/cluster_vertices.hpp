@@ -1,8 +1,8 @@
 // The vertices of a cluster of blocks one after another, so that those of several blocks fill a warp.
 #pragma once
 
-#include "engine/cuda/cluster.hpp"
 #include "engine/cuda/warp.hpp"
+#include "neighbors/cuda/cluster.hpp"
 
 namespace meniscus::cuda {
 

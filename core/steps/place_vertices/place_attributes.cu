@@ -1,11 +1,11 @@
 // Attributes of the vertices, once those have their places: a warp for every cluster of blocks with vertices. A kernel
 // of its own, so that those of frames without attributes keep their registers.
-#include "engine/cuda/candidates.hpp"
-#include "engine/cuda/near_particles.hpp"
-#include "engine/cuda/particle_field.hpp"
 #include "engine/cuda/warp.hpp"
 #include "field/cubic_spline.hpp"
 #include "field/poly6.hpp"
+#include "neighbors/cuda/cluster_neighbors.hpp"
+#include "neighbors/cuda/neighbor.hpp"
+#include "neighbors/cuda/particle_field.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/place_vertices/cluster_vertices.hpp"
 
@@ -24,7 +24,7 @@ __device__ void find_means(ClusterParticles<Kernel, true>& near, const UnitBox& 
                            const AttributeNumber* of_group, float x, float y, float z, VertexValues& values) {
     float sum[K] = {};
     values.weight = 0.0F;
-    near.for_each_near(box, [&](const OneCandidate& c) {
+    near.for_each_near(box, [&](const Neighbor& c) {
         const float4 own = numbers[c.rank];
         const float of_particle[group_size_of_numbers] = {own.x, own.y, own.z, own.w};
         float none = 0.0F;
@@ -38,7 +38,7 @@ template <class Kernel>
 __device__ void find_ids(ClusterParticles<Kernel, true>& near, const UnitBox& box, const float4* numbers, float x,
                          float y, float z, VertexValues& values) {
     LargestShare largest;
-    near.for_each_near(box, [&](const OneCandidate& c) {
+    near.for_each_near(box, [&](const Neighbor& c) {
         const float4 own = numbers[c.rank];
         const float of_particle[group_size_of_numbers] = {own.x, own.y, own.z, own.w};
         largest.add(Kernel::of(c.view(), 0).share(x - c.particle.x, y - c.particle.y, z - c.particle.z), of_particle);
@@ -49,7 +49,7 @@ __device__ void find_ids(ClusterParticles<Kernel, true>& near, const UnitBox& bo
 
 /// Without a comma, which a declaration of shared memory may not have here.
 template <class Kernel>
-using SharedParticles = NearParticles<Kernel, true>;
+using SharedParticles = ClusterNeighbors<Kernel, true>;
 
 /// K: amounts in the group, or 0 for a group of ids.
 template <class Kernel, unsigned K>
@@ -88,9 +88,9 @@ __global__ void __launch_bounds__(block_threads) place_group(const __grid_consta
                 NearestParticle nearest{x - static_cast<float>(step.x * units_per_base_cell),
                                         y - static_cast<float>(step.y * units_per_base_cell),
                                         z - static_cast<float>(step.z * units_per_base_cell)};
-                for_each_candidate<Kernel>(
+                for_each_neighbor<Kernel>(
                     f, base_cell_origin(lowest + step), {{0.0F, 0.0F, 0.0F}, {base_edge, base_edge, base_edge}},
-                    [&](const OneCandidate& c) {
+                    [&](const Neighbor& c) {
                         nearest.consider(Kernel::of(c.view(), 0), c.particle.x, c.particle.y, c.particle.z, 0, c.rank);
                     });
                 if (!nearest.exists()) ++lonely;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <iterator>
 
-#include "engine/cpu/block_points.hpp"
-#include "engine/cpu/clusters.hpp"
 #include "engine/cpu/words.hpp"
 #include "engine/index_limit.hpp"
 #include "field/lanes.hpp"
+#include "neighbors/cpu/block_points.hpp"
+#include "neighbors/cpu/clusters.hpp"
 #include "steps/cpu_steps.hpp"
 
 namespace meniscus::cpu {

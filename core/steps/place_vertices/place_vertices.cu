@@ -1,8 +1,8 @@
 // Step 6 on the GPU: a warp for every cluster of blocks with vertices.
 #include "steps/place_vertices/place_vertices.hpp"
 
-#include "engine/cuda/particle_field.hpp"
 #include "engine/cuda/warp.hpp"
+#include "neighbors/cuda/particle_field.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/place_vertices/cluster_vertices.hpp"
 

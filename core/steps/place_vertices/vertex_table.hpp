@@ -6,8 +6,8 @@
 #include "lattice/bits.hpp"
 #include "lattice/blocks.hpp"
 #include "lattice/host_device.hpp"
+#include "lattice/tables/tables.hpp"
 #include "steps/place_vertices/place_vertices.hpp"
-#include "tables/tables.hpp"
 
 namespace meniscus {
 

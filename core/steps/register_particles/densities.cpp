@@ -6,7 +6,7 @@
 
 namespace meniscus::cpu {
 
-void divide_weights_by_density(ParticleSets& sets, Neighborhoods& near) {
+void divide_weights_by_density(ParticleSets& sets, NeighborSearch& near) {
     // A density is a sum of the weights that it will divide: all are computed before any is.
     for (unsigned k = 0; k < particle_level_count; ++k)
         sum_at_particles(sets, k, [&](const Units3& origin, const PointList& points, float* out, unsigned worker) {

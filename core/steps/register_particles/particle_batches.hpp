@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "engine/cpu/point_sums.hpp"
-#include "particles/particle_sets.hpp"
+#include "neighbors/cpu/particle_sets.hpp"
+#include "neighbors/cpu/point_sums.hpp"
 
 namespace meniscus::cpu {
 

@@ -1,12 +1,12 @@
 // Sums at the places of particles on the GPU, a few lanes for each.
 #pragma once
 
-#include "engine/cuda/candidates.hpp"
 #include "engine/cuda/launch.hpp"
 #include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/sharing_lanes.hpp"
 #include "engine/cuda/sort_key.hpp"
 #include "engine/cuda/warp.hpp"
+#include "neighbors/cuda/neighbor.hpp"
 
 namespace meniscus::cuda {
 
@@ -18,10 +18,10 @@ template <class Kernel, unsigned G, bool are_all, unsigned count>
 __device__ inline void add_particles(const LevelParticles<Kernel>& level, std::uint32_t first, std::uint32_t left,
                                      const SharingLanes<count>& lanes, const float (&at)[3], float& sum) {
     const LevelParticles<Kernel> here = level.from(first + (are_all ? lanes.own : 0));
-    OneCandidate c[G];
+    Neighbor c[G];
     for (unsigned g = 0; g < G; ++g) {
         const unsigned i = g * count + lanes.own;
-        c[g] = here.candidate(are_all ? g * count : i < left ? i : 0);
+        c[g] = here.neighbor(are_all ? g * count : i < left ? i : 0);
     }
 #ifdef __CUDA_ARCH__
     // Else the compiler moves each load to where its value is used, and the waits lie one behind another.

@@ -421,7 +421,7 @@ void store_blocks(State& s) {
     });
 }
 
-void register_particles(State& s, ParticleSets& sets, Neighborhoods& near, const ParticleFrame& frame) {
+void register_particles(State& s, ParticleSets& sets, NeighborSearch& near, const ParticleFrame& frame) {
     for (unsigned k = 0; k < particle_level_count; ++k) {
         sort_particles(sets, frame, k);
         if (s.attributes.shape.groups() != 0) store_values(sets, sets[k], frame, s.attributes);

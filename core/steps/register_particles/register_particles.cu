@@ -254,7 +254,7 @@ void store_blocks(const State& state, const Launcher& launch) {
     exclusive_sum(state.scratch_memory(), state.members_before, bricks + 1, launch.stream);
     launch(neighbor_slots * bricks, block_threads, find_neighbors, state);
     if (state.settings.work_limit != 0.0) launch(1, block_threads, stop_if_base_cells_are_too_much, state);
-    find_near_bricks(state, launch);
+    find_neighbor_bricks(state, launch);
     launch(Brick::words * bricks, block_warps, make_blocks, state);
 }
 

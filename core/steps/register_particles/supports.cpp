@@ -44,7 +44,7 @@ void find_spray(ParticleSets& sets) {
 
 }  // namespace
 
-void fit_supports(ParticleSets& sets, Neighborhoods& near) {
+void fit_supports(ParticleSets& sets, NeighborSearch& near) {
     for (unsigned k = 0; k < particle_level_count; ++k) {
         resize_for_overwrite(sets[k].fall, sets[k].count() + WideLanes::count);
         std::fill(sets[k].fall.end() - WideLanes::count, sets[k].fall.end(), 0.0F);

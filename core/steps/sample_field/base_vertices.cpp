@@ -1,9 +1,9 @@
 // Base vertices are sampled for all stored cells, before the band is known.
 #include <limits>
 
-#include "engine/cpu/clusters.hpp"
 #include "field/kernels.hpp"
 #include "field/sums.hpp"
+#include "neighbors/cpu/clusters.hpp"
 #include "steps/cpu_steps.hpp"
 #include "steps/sample_field/sample_field.hpp"
 
@@ -32,19 +32,19 @@ public:
     // the particles near the cluster.
 
     template <class Kernel, class F>
-    void find_values(const CandidateLists::Levels& near, float* values) const {
+    void find_values(const NeighborLists::Levels& near, float* values) const {
         const F x[1] = {F::load(x_)}, y[1] = {F::load(y_)}, z[1] = {F::load(z_)};
         F sum[1] = {F(0.0F)};
-        for (const Candidates& c : near) sum_values<Kernel, 1>(c.view(), x, y, z, sum);
+        for (const NeighborList& c : near) sum_values<Kernel, 1>(c.view(), x, y, z, sum);
         sum[0].store(values);
     }
 
     template <class Kernel, class F>
-    void find_reaches(const CandidateLists::Levels& near, Array<CellReach>& reaches) const {
+    void find_reaches(const NeighborLists::Levels& near, Array<CellReach>& reaches) const {
         const F half(base_edge / 2);
         const F x = F::load(x_) + half, y = F::load(y_) + half, z = F::load(z_) + half;
         F most(0.0F), nearest(0.0F);
-        for (const Candidates& c : near) sum_bounds<Kernel>(c.view(), x, y, z, base_edge / 2, most, nearest);
+        for (const NeighborList& c : near) sum_bounds<Kernel>(c.view(), x, y, z, base_edge / 2, most, nearest);
         alignas(64) float bound[cluster_blocks], closest[cluster_blocks];
         most.store(bound);
         nearest.store(closest);
@@ -59,7 +59,7 @@ private:
 };
 
 template <class Kernel>
-void sample(State& s, Neighborhoods& near) {
+void sample(State& s, NeighborSearch& near) {
     resize_for_overwrite(s.reaches, s.block_count());
     s.samples.reserve(s.block_count());
     s.samples.resize(s.block_count());
@@ -69,7 +69,7 @@ void sample(State& s, Neighborhoods& near) {
             const Brick& brick = s.grid.bricks[b];
             for_each_cluster(brick.occupied, [&](const Int3& corner) {
                 const Int3 base = brick.corner() + corner;
-                const CandidateLists::Levels& list = near.near_cluster(base, worker);
+                const NeighborLists::Levels& list = near.near_cluster(base, worker);
                 BaseVertices stored, outside;
                 for (int i = 0; i < cluster_blocks; ++i) {
                     const int place = index_in_brick(corner + cluster_step(i));
@@ -104,7 +104,7 @@ void sample(State& s, Neighborhoods& near) {
 
 }  // namespace
 
-void sample_base_vertices(State& s, Neighborhoods& near) {
+void sample_base_vertices(State& s, NeighborSearch& near) {
     with_kernel(s.settings, [&]<class Kernel>() { sample<Kernel>(s, near); });
 }
 

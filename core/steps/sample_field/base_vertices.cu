@@ -1,8 +1,8 @@
 // Base vertices are sampled for all stored cells, before the band is known.
-#include "engine/cuda/box_particles.hpp"
-#include "engine/cuda/cell_cluster.hpp"
 #include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/warp.hpp"
+#include "neighbors/cuda/box_neighbors.hpp"
+#include "neighbors/cuda/cell_cluster.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/sample_field/sample_field.hpp"
 
@@ -16,7 +16,7 @@ static_assert(2 * BaseCluster::cells == warp_threads);
 /// of the cell. A value is the bound of a box without extent, bit by bit.
 template <class Kernel>
 __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_constant__ State f) {
-    __shared__ BoxParticles<Kernel, 3> particles[block_warps];
+    __shared__ BoxNeighbors<Kernel, 3> particles[block_warps];
     // What is sampled later is appended.
     const std::uint32_t blocks = f.count(Resource::blocks);
     if (blockIdx.x == 0 && threadIdx.x == 0) {
@@ -35,9 +35,9 @@ __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_con
         const bool exists = cluster.holds(f, step);
         if (__ballot_sync(all_lanes, exists ? 1 : 0) == 0 || !loop.goes_on_together()) return;
         float sum = 0.0F, closest = 0.0F;
-        particles[warp_in_block()].for_each(
-            f, cluster.brick, cluster.corner, cluster.box(),
-            [&](const OneCandidate& c) { sum_bounds<Kernel>(c.view(), x, y, z, half, sum, closest); });
+        particles[warp_in_block()].for_each(f, cluster.brick, cluster.corner, cluster.box(), [&](const Neighbor& c) {
+            sum_bounds<Kernel>(c.view(), x, y, z, half, sum, closest);
+        });
         if (!exists) return;
         const std::uint32_t b = cluster.block(f, step);
         if (bounds) {

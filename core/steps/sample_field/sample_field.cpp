@@ -5,9 +5,9 @@
 #include <array>
 #include <atomic>
 
-#include "engine/cpu/clusters.hpp"
 #include "engine/index_limit.hpp"
 #include "field/lanes.hpp"
+#include "neighbors/cpu/clusters.hpp"
 #include "steps/adjust_levels/raise_levels.hpp"
 #include "steps/cpu_steps.hpp"
 

@@ -1,9 +1,9 @@
 // Step 4 on the GPU: a warp for every cluster of blocks.
 #include "steps/sample_field/sample_field.hpp"
 
-#include "engine/cuda/cluster.hpp"
-#include "engine/cuda/particle_field.hpp"
 #include "engine/cuda/warp.hpp"
+#include "neighbors/cuda/cluster.hpp"
+#include "neighbors/cuda/particle_field.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/sample_field/settling.hpp"
 #include "steps/sample_field/wanted_points.hpp"

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "engine/cuda/cluster.hpp"
 #include "engine/cuda/state.hpp"
 #include "engine/cuda/warp.hpp"
+#include "neighbors/cuda/cluster.hpp"
 
 namespace meniscus::cuda {
 

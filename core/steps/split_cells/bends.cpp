@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <atomic>
 
-#include "engine/cpu/clusters.hpp"
-#include "engine/cpu/point_sums.hpp"
 #include "field/kernels.hpp"
 #include "field/sums.hpp"
+#include "neighbors/cpu/clusters.hpp"
+#include "neighbors/cpu/point_sums.hpp"
 #include "steps/cpu_steps.hpp"
 #include "steps/split_cells/curvature.hpp"
 #include "steps/split_cells/split_cells.hpp"
@@ -22,9 +22,9 @@ static_assert(cluster_size.y == cells_of_origin && cluster_size.z == cells_of_or
 template <class F>
 struct FromPair {
     F x;
-    F aside;  ///< from the origin of the candidates to that of the points: whole units, so that this is exact
+    F aside;  ///< from the origin of the neighbors to that of the points: whole units, so that this is exact
 
-    friend F operator-(const FromPair& p, const F& candidate) { return p.x - (candidate - p.aside); }
+    friend F operator-(const FromPair& p, const F& neighbor) { return p.x - (neighbor - p.aside); }
 };
 
 /// The base vertices at the corners of a cluster's cells: by x, then y, then z.
@@ -101,9 +101,9 @@ public:
         const F aside = F::load(aside_);
         const auto jet_at = [&]<class Jet>(const Point3<F>& p, Jet jet) {
             const auto add_near = [&](const UnitBox& box, const auto& x) {
-                for (const Candidates& c : near(box)) sum_jets<Kernel>(c.view(), x, p.y, p.z, jet);
+                for (const NeighborList& c : near(box)) sum_jets<Kernel>(c.view(), x, p.y, p.z, jet);
             };
-            // A box that is rounded makes no difference: candidates from a little farther than they reach.
+            // A box that is rounded makes no difference: neighbors from a little farther than they reach.
             if constexpr (cluster_size.x == cells_of_origin)
                 add_near(box_of_lanes(p.x, p.y, p.z), p.x);
             else
@@ -138,7 +138,7 @@ private:
 
 /// Of the chosen cells.
 template <class Kernel>
-void measure(State& s, Neighborhoods& near) {
+void measure(State& s, NeighborSearch& near) {
     s.bends.assign(s.block_count(), {0.0F, 1});
     const BlocksView blocks = s.blocks();
     const BlobRule blobs{s.settings.blob_closest, s.settings.blob_level};
@@ -158,7 +158,7 @@ void measure(State& s, Neighborhoods& near) {
                     if ((chosen[place >> 6] >> (place & 63) & 1) != 0)
                         cells.add(brick.number(place), step, vertices, iso);
                 }
-                const auto near_box = [&](const UnitBox& box) -> const CandidateLists::Levels& {
+                const auto near_box = [&](const UnitBox& box) -> const NeighborLists::Levels& {
                     return near.near_box(brick.corner() + corner, box, worker);
                 };
                 // A sheet of cells fills half of a wide register.
@@ -175,7 +175,7 @@ void measure(State& s, Neighborhoods& near) {
 
 }  // namespace
 
-void measure_bends(State& s, Neighborhoods& near) {
+void measure_bends(State& s, NeighborSearch& near) {
     with_kernel(s.settings, [&]<class Kernel>() { measure<Kernel>(s, near); });
 }
 

@@ -1,8 +1,8 @@
 // Curvature at a point of the surface in every cell of the band, a warp for every cluster of cells and a lane for each.
-#include "engine/cuda/box_particles.hpp"
-#include "engine/cuda/cell_cluster.hpp"
 #include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/warp.hpp"
+#include "neighbors/cuda/box_neighbors.hpp"
+#include "neighbors/cuda/cell_cluster.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/split_cells/curvature.hpp"
 #include "steps/split_cells/split_cells.hpp"
@@ -23,7 +23,7 @@ __device__ UnitBox box_of(const Point3<float>& p, bool counts) {
 
 template <class Kernel>
 __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_constant__ State f) {
-    __shared__ BoxParticles<Kernel, 4> particles[block_warps];
+    __shared__ BoxNeighbors<Kernel, 4> particles[block_warps];
     const BlocksView blocks = f.blocks();
     const BlobRule blobs{f.settings.blob_closest, f.settings.blob_level};
     const float iso = f.settings.iso;
@@ -61,7 +61,7 @@ __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_co
                 box.low[axis] = max(box.low[axis] - 1.0F, cluster.box().low[axis]);
                 box.high[axis] = min(box.high[axis] + 1.0F, cluster.box().high[axis]);
             }
-            particles[warp_in_block()].for_each(f, cluster.brick, cluster.corner, box, [&](OneCandidate c) {
+            particles[warp_in_block()].for_each(f, cluster.brick, cluster.corner, box, [&](Neighbor c) {
                 // Whole units, so that this is exact.
                 c.particle.x -= aside[0];
                 c.particle.y -= aside[1];

@@ -62,7 +62,7 @@ WantedLevel choose_levels(State& s, bool has_particle_levels) {
 
 }  // namespace
 
-WantedLevel split_cells(State& s, Neighborhoods& near, bool has_particle_levels) {
+WantedLevel split_cells(State& s, NeighborSearch& near, bool has_particle_levels) {
     find_band(s);
     if (s.settings.measures_bends) measure_bends(s, near);
     WantedLevel wanted_level = choose_levels(s, has_particle_levels);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "cli/picture.hpp"
 #include "formats/atomic_file.hpp"
+#include "picture/picture.hpp"
 #include "quality/triangle.hpp"
 
 namespace meniscus::benchmarks::quality {

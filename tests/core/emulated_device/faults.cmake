@@ -15,7 +15,7 @@ plant(missing_barrier steps/count_triangles/count_triangles.cu
     if (threadIdx.x < 3 && total]=])
 
 # A ballot does not name the warp's last lane.
-plant(wrong_mask engine/cuda/particle_list.hpp
+plant(wrong_mask neighbors/cuda/neighbor_list.hpp
   [=[__ballot_sync(all_lanes, has_one ? 1 : 0);]=]
   [=[__ballot_sync(FAULTY(wrong_mask) ? all_lanes >> 1 : all_lanes, has_one ? 1 : 0);]=])
 

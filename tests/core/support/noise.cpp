@@ -6,8 +6,8 @@
 #include <memory>
 #include <random>
 
-#include "engine/cpu/clusters.hpp"
 #include "engine/cpu/state.hpp"
+#include "neighbors/cpu/clusters.hpp"
 #include "pipeline/cpu_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/stage_clock.hpp"

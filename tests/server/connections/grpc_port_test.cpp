@@ -10,8 +10,8 @@
 
 #include "connections/attack_sockets.hpp"
 #include "connections/descriptors.hpp"
+#include "connections/listen_address.hpp"
 #include "connections/port_check.hpp"
-#include "listen_address.hpp"
 #include "meniscus/error.hpp"
 #include "observation/metrics.hpp"
 #include "running_server.hpp"

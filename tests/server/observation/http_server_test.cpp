@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "listen_address.hpp"
+#include "connections/listen_address.hpp"
 #include "meniscus/error.hpp"
 #include "observation/http_client.hpp"
 

@@ -18,7 +18,7 @@
 #include "meniscus/v1/surface_service.pb.h"
 #include "recording/recording_entries.hpp"
 #include "sample_files.hpp"
-#include "sessions/frame_encoder.hpp"
+#include "sessions/sending/frame_encoder.hpp"
 #include "test_frames.hpp"
 
 namespace meniscus::server::test {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "sessions/refusal.hpp"
+#include "sessions/limits/refusal.hpp"
 #include "test_folder.hpp"
 
 namespace meniscus::server {

@@ -9,7 +9,7 @@
 
 #include "recording/recording_catalog.hpp"
 #include "recording/session_recording.hpp"
-#include "sessions/refusal.hpp"
+#include "sessions/limits/refusal.hpp"
 #include "test_folder.hpp"
 #include "test_frames.hpp"
 

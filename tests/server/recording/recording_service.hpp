@@ -22,7 +22,7 @@
 #include "recording/recording_file.hpp"
 #include "running_server.hpp"
 #include "sample_files.hpp"
-#include "sessions/frame_encoder.hpp"
+#include "sessions/sending/frame_encoder.hpp"
 #include "test_folder.hpp"
 
 namespace meniscus::server::test {

@@ -1,7 +1,7 @@
 // Recordings as the server that made them offers them.
 #include "recording/recording_service.hpp"
 
-#include "cli/command_line.hpp"
+#include "cli/commands/command_line.hpp"
 
 namespace meniscus::server::test {
 namespace {

@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "cli/command_line.hpp"
-#include "cli/replay_pace.hpp"
+#include "cli/commands/command_line.hpp"
+#include "cli/sequence/replay_pace.hpp"
 #include "formats/byte_cursor.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/particles.hpp"

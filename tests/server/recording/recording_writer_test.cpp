@@ -21,10 +21,10 @@
 #include <utility>
 #include <vector>
 
-#include "call_log.hpp"
 #include "files/recording_format.hpp"
-#include "log.hpp"
 #include "meniscus/error.hpp"
+#include "process/call_log.hpp"
+#include "process/log.hpp"
 #include "recording/delete_recording.hpp"
 #include "recording/free_number.hpp"
 #include "recording/session_recording.hpp"

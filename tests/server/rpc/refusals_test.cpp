@@ -13,7 +13,7 @@
 
 #include "meniscus/error.hpp"
 #include "sessions/limits/limit_reached.hpp"
-#include "sessions/refusal.hpp"
+#include "sessions/limits/refusal.hpp"
 
 namespace meniscus::server {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <thread>
 
-#include "cli/session_lookup.hpp"
+#include "cli/surfaces/session_lookup.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "running_server.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <thread>
 
-#include "sessions/refusal.hpp"
-#include "sessions/session_registry.hpp"
+#include "sessions/limits/refusal.hpp"
+#include "sessions/session/session_registry.hpp"
 #include "simulator_player.hpp"
 
 namespace meniscus::server {

@@ -1,4 +1,4 @@
-#include "sessions/frame_assembler.hpp"
+#include "sessions/intake/frame_assembler.hpp"
 
 #include <gtest/gtest.h>
 

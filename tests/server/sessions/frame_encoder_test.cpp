@@ -1,4 +1,4 @@
-#include "sessions/frame_encoder.hpp"
+#include "sessions/sending/frame_encoder.hpp"
 
 #include <gtest/gtest.h>
 

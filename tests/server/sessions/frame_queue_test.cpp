@@ -1,4 +1,4 @@
-#include "sessions/frame_queue.hpp"
+#include "sessions/intake/frame_queue.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A frame under way ends when nobody wants it any more, or when it has had the device for as long as it may.
-#include "sessions/frame_stop.hpp"
+#include "sessions/intake/frame_stop.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "meniscus/error.hpp"
-#include "sessions/session.hpp"
-#include "sessions/session_registry.hpp"
+#include "sessions/session/session.hpp"
+#include "sessions/session/session_registry.hpp"
 #include "simulator_player.hpp"
 #include "test_frames.hpp"
 

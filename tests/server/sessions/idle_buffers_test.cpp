@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "meniscus/v1/surface_service.pb.h"
-#include "sessions/refusal.hpp"
-#include "sessions/session_registry.hpp"
+#include "sessions/limits/refusal.hpp"
+#include "sessions/session/session_registry.hpp"
 #include "simulator_player.hpp"
 
 namespace meniscus::server {

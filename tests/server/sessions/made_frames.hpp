@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "sessions/begin_message.hpp"
-#include "sessions/encoded_frame.hpp"
-#include "sessions/place_order.hpp"
+#include "sessions/sending/begin_message.hpp"
+#include "sessions/sending/encoded_frame.hpp"
+#include "sessions/sending/place_order.hpp"
 
 namespace meniscus::server::test {
 

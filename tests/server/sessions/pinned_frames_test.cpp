@@ -11,7 +11,7 @@
 #include <semaphore>
 #include <set>
 
-#include "sessions/input_frame.hpp"
+#include "sessions/intake/input_frame.hpp"
 #include "simulator_player.hpp"
 
 namespace meniscus::server {

@@ -1,10 +1,10 @@
-#include "sessions/placement.hpp"
+#include "sessions/session/placement.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "sessions/refusal.hpp"
+#include "sessions/limits/refusal.hpp"
 
 namespace meniscus::server {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "gated_session.hpp"
-#include "sessions/refusal.hpp"
+#include "sessions/limits/refusal.hpp"
 
 namespace meniscus::server::test {
 namespace {

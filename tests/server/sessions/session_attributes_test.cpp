@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "conversion/attribute_conversion.hpp"
-#include "sessions/canonical_wishes.hpp"
-#include "sessions/session.hpp"
+#include "sessions/session/session.hpp"
+#include "sessions/watching/canonical_wishes.hpp"
 #include "simulator_player.hpp"
 #include "test_frames.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "late_meshes.hpp"
 #include "meniscus/error.hpp"
-#include "sessions/session.hpp"
+#include "sessions/session/session.hpp"
 #include "simulator_player.hpp"
 #include "test_frames.hpp"
 

@@ -7,7 +7,7 @@
 #include <semaphore>
 
 #include "meniscus/v1/surface_service.pb.h"
-#include "sessions/session.hpp"
+#include "sessions/session/session.hpp"
 #include "simulator_player.hpp"
 
 namespace meniscus::server {

@@ -1,4 +1,4 @@
-#include "sessions/session_registry.hpp"
+#include "sessions/session/session_registry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "meniscus/error.hpp"
-#include "sessions/refusal.hpp"
+#include "sessions/limits/refusal.hpp"
 #include "simulator_player.hpp"
 
 namespace meniscus::server {

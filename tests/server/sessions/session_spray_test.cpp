@@ -11,8 +11,8 @@
 #include "conversion/spray_conversion.hpp"
 #include "late_meshes.hpp"
 #include "meniscus/error.hpp"
-#include "sessions/session.hpp"
-#include "sessions/spray_messages.hpp"
+#include "sessions/sending/spray_messages.hpp"
+#include "sessions/session/session.hpp"
 #include "simulator_player.hpp"
 #include "test_frames.hpp"
 

@@ -1,5 +1,5 @@
 // The pipeline of a session, driven as its streams and watchers drive it.
-#include "sessions/session.hpp"
+#include "sessions/session/session.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
 #include "meniscus/v1/surface_service.pb.h"
-#include "sessions/refusal.hpp"
+#include "sessions/limits/refusal.hpp"
 #include "simulator_player.hpp"
 #include "test_frames.hpp"
 

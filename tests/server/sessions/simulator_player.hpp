@@ -17,7 +17,7 @@
 
 #include "meniscus/reconstructor.hpp"
 #include "meniscus/v1/surface_service.pb.h"
-#include "sessions/session.hpp"
+#include "sessions/session/session.hpp"
 #include "test_frames.hpp"
 
 namespace meniscus::server::test {

@@ -10,10 +10,10 @@
 #include "gated_session.hpp"
 #include "made_frames.hpp"
 #include "sessions/limits/limit_reached.hpp"
+#include "sessions/limits/refusal.hpp"
 #include "sessions/limits/snapshot_places.hpp"
-#include "sessions/refusal.hpp"
-#include "sessions/session_registry.hpp"
-#include "sessions/watchers.hpp"
+#include "sessions/session/session_registry.hpp"
+#include "sessions/watching/watchers.hpp"
 
 namespace meniscus::server {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "made_frames.hpp"
 #include "receiving/frame_receiver.hpp"
-#include "sessions/watch.hpp"
+#include "sessions/watching/watch.hpp"
 
 namespace meniscus::server::test {
 namespace {

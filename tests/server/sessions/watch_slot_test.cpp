@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "made_frames.hpp"
-#include "sessions/watch.hpp"
+#include "sessions/watching/watch.hpp"
 
 namespace meniscus::server {
 namespace {

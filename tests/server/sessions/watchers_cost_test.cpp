@@ -15,7 +15,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/limits/limit_reached.hpp"
-#include "sessions/session.hpp"
+#include "sessions/session/session.hpp"
 #include "simulator_player.hpp"
 
 namespace meniscus::server {

@@ -1,5 +1,5 @@
 // Colors for numbers. Each map has 52 colors, of 0, 5, 10 ... 255 of its 256, as sRGB; between two of them, colors are mixed.
-// client/cli/color_maps.cpp has the same table, and a test holds both to it.
+// client/picture/color_maps.cpp has the same table, and a test holds both to it.
 //
 // viridis, magma, plasma: Smith, van der Walt and Firing, 2015, from their table (github.com/BIDS/colormap, CC0).
 // cividis: Nunez, Anderson and Renslow, doi:10.1371/journal.pone.0199239, from their table (github.com/pnnl/cmaputil).

@@ -1,4 +1,4 @@
-// Ids as colors: the same for the same id, different ones for neighbors. client/cli/id_palette.cpp has the same colors.
+// Ids as colors: the same for the same id, different ones for neighbors. client/picture/id_palette.cpp has the same colors.
 import type { Rgb } from './color_maps';
 
 /** id: int32 or uint32. */

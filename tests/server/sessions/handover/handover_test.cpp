@@ -12,7 +12,7 @@
 
 #include "sessions/handover/channel.hpp"
 #include "sessions/handover/slot_pool.hpp"
-#include "sessions/output_queue.hpp"
+#include "sessions/sending/output_queue.hpp"
 
 namespace meniscus::server {
 namespace {

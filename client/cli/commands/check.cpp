@@ -1,0 +1,65 @@
+// meniscus check: whether mesh files are closed, manifold and consistently oriented.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/commands/commands.hpp"
+#include "cli/commands/examples.hpp"
+#include "cli/options/named_option.hpp"
+#include "cli/options/option_group.hpp"
+#include "cli/options/read_limits_option.hpp"
+#include "cli/options/verbosity.hpp"
+#include "cli/surfaces/mesh_check.hpp"
+#include "cli/surfaces/mesh_output.hpp"
+#include "formats/standard_streams.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+struct CheckOptions {
+    std::vector<std::string> meshes;
+    std::optional<MeshFormat> input_format;
+    formats::ReadLimits limits;
+    Verbosity verbosity;
+};
+
+void check(const CheckOptions& options) {
+    for (const std::string& path : options.meshes)
+        check_named(path, options.input_format.has_value(), "--input-format", formats::read_mesh_formats());
+    MeshCheck check;
+    for (const std::string& path : options.meshes) {
+        const formats::TriangleMesh mesh = formats::read_mesh(path, options.input_format, options.limits);
+        const compare::Defects defects = defects_of(mesh);
+        check.say(formats::input_name(path), defects);
+        if (options.verbosity.quiet) continue;
+        std::cout << formats::input_name(path) << ": " << mesh.triangles.size() << " triangles, "
+                  << (defects.closed() ? "closed, manifold and consistently oriented" : defects.text()) << '\n';
+    }
+    check.finish();
+}
+
+}  // namespace
+
+void add_check(CLI::App& app) {
+    auto options = std::make_shared<CheckOptions>();
+    CLI::App& command = *app.add_subcommand(
+        "check", "Say whether meshes are closed, manifold and consistently oriented; exit code 4 if one is not");
+    {
+        const OptionGroup group(command, files_heading);
+        command
+            .add_option("MESH", options->meshes,
+                        "Mesh: " + listed(formats::read_mesh_formats()) + "; - for standard input")
+            ->required();
+        add_named_option(command, "--input-format", options->input_format,
+                         "Format of all of them, whatever their extensions; - needs it");
+    }
+    add_read_limits(command, options->limits);
+    options->verbosity.add_quiet_to(command);
+    add_examples(command, {"meniscus check surface.ply", "meniscus check surface_*.obj && echo all are whole"});
+    command.callback([options] { check(*options); });
+}
+
+}  // namespace meniscus::cli

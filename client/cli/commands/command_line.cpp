@@ -1,0 +1,108 @@
+#include "cli/commands/command_line.hpp"
+
+#include <google/protobuf/stubs/logging.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <new>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "cli/commands/commands.hpp"
+#include "cli/options/near_names.hpp"
+#include "cli/options/option_group.hpp"
+#include "cli/print/warnings.hpp"
+#include "cli/surfaces/mesh_check.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/reconstructor.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+/// One empty line above each heading, where CLI11 has two.
+class HelpFormatter : public CLI::Formatter {
+    std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+        return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, std::move(name), mode), "\n\n\n", "\n\n");
+    }
+};
+
+/// Below the options that a command has of its own.
+void move_help_last(CLI::App& command) {
+    command.set_help_flag();
+    const OptionGroup group(command, other_heading);
+    command.set_help_flag("-h,--help", "Print this help message and exit");
+}
+
+int report(std::string message, ExitCode code) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    std::cerr << "meniscus: " << message << '\n';
+    return code;
+}
+
+/// What is printed is buffered, so that a full disk shows late.
+int end_of_printing() {
+    errno = 0;
+    std::cout.flush();
+    if (std::cout) return success;
+    // More than a buffer has failed before, and left no reason: one more byte has the same.
+    [[maybe_unused]] const ssize_t written = errno == 0 ? ::write(STDOUT_FILENO, "\n", 1) : 0;
+    const int error = errno;
+    return report("standard output: writing failed" + (error == 0 ? "" : ": " + std::generic_category().message(error)),
+                  failure);
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) {
+    // What is wrong is said once, in a line of this program: protobuf has one of its own for bytes that do not parse.
+    google::protobuf::SetLogHandler(nullptr);
+    CLI::App app("Adaptive surfaces of simulated fluid particles", "meniscus");
+    app.set_version_flag("--version", std::string("meniscus ") + std::string(version()));
+    app.formatter(std::make_shared<HelpFormatter>());  // of the commands, too
+    app.require_subcommand(0, 1);                      // none is refused below, after anything that is not known
+    add_reconstruct(app);
+    add_simulate(app);
+    add_watch(app);
+    add_picture(app);
+    add_compare(app);
+    add_check(app);
+    add_info(app);
+    add_sessions(app);
+    add_top(app);
+    add_recordings(app);
+    add_replay(app);
+    add_convert(app);
+    add_completion(app);
+    add_help(app);
+    for (CLI::App* command : app.get_subcommands({})) move_help_last(*command);
+    app.footer("meniscus help COMMAND explains a command, with examples.");
+    try {
+        app.parse(argc, argv);
+        if (app.get_subcommands().empty()) throw InvalidInput("a subcommand is needed; meniscus --help lists them");
+        return end_of_printing();
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() != 0) return report(refusal(app, e), bad_input);
+        app.exit(e);  // prints --help or --version
+        return end_of_printing();
+    } catch (const Defective&) {
+        return defective;
+    } catch (const Warned&) {
+        return warned;
+    } catch (const InvalidInput& e) {
+        return report(e.what(), bad_input);
+    } catch (const LimitExceeded& e) {
+        return report(e.what(), bad_input);
+    } catch (const std::bad_alloc&) {
+        return report("out of memory", failure);
+    } catch (const std::exception& e) {
+        return report(e.what(), failure);
+    }
+}
+
+}  // namespace meniscus::cli

@@ -1,0 +1,38 @@
+// Particle and mesh files to files of other formats.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/options/verbosity.hpp"
+#include "cli/sequence/frame_selection.hpp"
+#include "formats/particles.hpp"
+#include "formats/read_limits.hpp"
+
+namespace meniscus::cli {
+
+enum class FileContent { particles, mesh };
+
+struct FileConversion {
+    std::string in;                           ///< a file, "-", or a sequence with {}
+    std::string out;                          ///< as many
+    std::optional<std::string> input_format;  ///< name of a format of either; none: the extension's
+    std::optional<std::string> format;        ///< of `out`, likewise
+    std::optional<FileContent> content;       ///< none: what the file has, see content_of()
+    formats::ReadLimits limits;
+    FrameSelection selection;
+    Verbosity verbosity;
+};
+
+/// What a file of this format has; none where that depends on the file: one with faces is a mesh. Throws InvalidInput
+/// for a name that is neither.
+std::optional<FileContent> content_of(const std::string& format_name);
+
+/// The format of a file of particles. Throws InvalidInput, naming those that are written, for any other.
+formats::ParticleFormat written_particle_format(const std::string& name);
+
+/// Throws InvalidInput, before any work, for names of files and formats that do not fit, and then for files that are
+/// not what they are taken for.
+void convert_files(const FileConversion& conversion);
+
+}  // namespace meniscus::cli

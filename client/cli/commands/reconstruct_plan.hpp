@@ -1,0 +1,58 @@
+// Which files `meniscus reconstruct` reads and writes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/sequence/frame_selection.hpp"
+#include "cli/surfaces/mesh_output.hpp"
+#include "formats/particles.hpp"
+
+namespace meniscus::cli {
+
+using formats::ParticleFormat;
+
+/// The argument IN, the flags that name files, and those of a sequence.
+struct ReconstructFiles {
+    std::string in;
+    std::optional<ParticleFormat> input_format;
+    formats::ReadLimits limits;
+    std::string out;
+    std::optional<MeshFormat> format;
+    std::string spray_out;
+    std::string stats;
+    std::string pvd;
+    std::string usd_stage;
+    FrameSelection selection;
+    bool skip_existing = false;
+
+    void add_to(CLI::App& command);
+    void add_sequence_to(CLI::App& command);
+};
+
+/// One frame's files. Empty: not asked for.
+struct FrameFiles {
+    std::uint64_t number = 0;
+    std::filesystem::path in;
+    std::filesystem::path out;
+    std::filesystem::path spray_out;
+};
+
+/// What there is to do.
+struct Plan {
+    bool sequence = false;
+    MeshFormat format = MeshFormat::ply;
+    std::vector<FrameFiles> frames;  ///< to be reconstructed
+    std::vector<FrameFiles> all;     ///< those and the skipped ones, in order
+
+    std::size_t skipped() const { return all.size() - frames.size(); }
+};
+
+/// Looks at the names of all files before any work. Throws InvalidInput for what is missing, contradicts itself, or
+/// would write over what is read.
+Plan make_plan(const ReconstructFiles& files);
+
+}  // namespace meniscus::cli

@@ -1,0 +1,76 @@
+// meniscus top: a server's sessions, live.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "cli/commands/commands.hpp"
+#include "cli/commands/examples.hpp"
+#include "cli/options/server_flags.hpp"
+#include "cli/print/session_table.hpp"
+#include "cli/print/terminal.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+struct TopOptions {
+    ServerFlags server;
+    double seconds = 1.0;
+    bool once = false;
+
+    std::chrono::milliseconds interval() const {
+        return std::chrono::round<std::chrono::milliseconds>(std::chrono::duration<double>(seconds));
+    }
+};
+
+/// Looks twice, since frames per second take two looks.
+void print_once(const TopOptions& options) {
+    client::Client client = options.server.connect();
+    FrameRates rates;
+    rates.update(client.sessions(), std::chrono::steady_clock::now());
+    std::this_thread::sleep_for(options.interval());
+    std::cout << session_table(rates.update(client.sessions(), std::chrono::steady_clock::now()));
+}
+
+std::string title(const TopOptions& options, std::size_t sessions) {
+    return "meniscus top  " + options.server.address + "  " + std::to_string(sessions) + " sessions  (q: quit)\n\n";
+}
+
+void watch_sessions(const TopOptions& options) {
+    Terminal terminal;
+    client::Client client = options.server.connect();
+    FrameRates rates;
+    do {
+        try {
+            const auto rows = rates.update(client.sessions(), std::chrono::steady_clock::now());
+            terminal.draw(title(options, rows.size()) + session_table(rows));
+        } catch (const client::ServerError& error) {  // it may come back
+            terminal.draw(title(options, 0) + error.what() + "\n");
+        }
+    } while (!terminal.wait_for_end(options.interval()));
+}
+
+}  // namespace
+
+void add_top(CLI::App& app) {
+    auto options = std::make_shared<TopOptions>();
+    CLI::App& command =
+        *app.add_subcommand("top", "Watch a server's sessions: frames per second, latency, sizes, drops");
+    options->server.add_to(command, "Whose")->required();
+    command.add_option("--interval", options->seconds, "Seconds from one look to the next")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->capture_default_str();
+    command.add_flag("--once", options->once, "Print one table, as is done when the output is no terminal");
+    add_examples(command, {"meniscus top --server localhost", "meniscus top --server localhost --once"});
+    command.callback([options] {
+        if (options->once || ::isatty(STDOUT_FILENO) == 0)
+            print_once(*options);
+        else
+            watch_sessions(*options);
+    });
+}
+
+}  // namespace meniscus::cli

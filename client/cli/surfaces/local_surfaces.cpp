@@ -1,0 +1,40 @@
+#include "cli/surfaces/local_surfaces.hpp"
+
+#include <malloc.h>
+
+#include <utility>
+
+namespace meniscus::cli {
+
+LocalSurfaces::LocalSurfaces(const Settings& settings, const BackendOptions& options, std::optional<int> normal_bits,
+                             int attribute_bits, bool only_one, Handler handler)
+    : reconstructor_(settings, options),
+      normal_bits_(normal_bits),
+      attributes_{{.name = {}, .bits = attribute_bits}},
+      only_one_(only_one),
+      handler_(std::move(handler)) {
+    // What is given back, the system gets, where main() keeps it for the frames to come.
+    constexpr int smallest_array = 1 << 20;
+    if (only_one) mallopt(M_MMAP_THRESHOLD, smallest_array);
+}
+
+void LocalSurfaces::submit(const ParticleFrame& frame, double simulation_time) {
+    if (only_one_)
+        reconstructor_.reconstruct_last(frame, mesh_);
+    else
+        reconstructor_.reconstruct(frame, mesh_);
+    client::FrameStatistics statistics;
+    static_cast<Statistics&>(statistics) = reconstructor_.statistics();
+    CodingOptions coding;
+    if (normal_bits_) {
+        round_normals(mesh_, *normal_bits_);
+        coding.normal_bits = *normal_bits_;
+    }
+    // Before they are rounded, as a server does: the range of what is rounded may be another.
+    coding.attributes = coded_attributes(mesh_, attribute_ranges(mesh_), attributes_);
+    round_attributes(mesh_, attributes_);
+    Surface surface(mesh_, std::move(statistics), frames_++, simulation_time, coding);
+    handler_(surface);
+}
+
+}  // namespace meniscus::cli

@@ -1,0 +1,173 @@
+// The rules for names and forms are those of the contract (proto/meniscus/v1/surface_service.proto).
+#include "particles/attribute_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+
+#include "meniscus/error.hpp"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t longest_name = 64;
+
+std::string quoted(std::string_view name) {
+    // What a stranger sends may be long, and hold what a terminal would obey.
+    std::string shown(name.substr(0, longest_name));
+    std::replace_if(
+        shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return "'" + shown + (name.size() > longest_name ? "...'" : "'");
+}
+
+void require_name(std::string_view name) {
+    const auto is_allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
+    if (name.empty() || name.size() > longest_name || !std::all_of(name.begin(), name.end(), is_allowed))
+        throw InvalidInput("the attribute " + quoted(name) +
+                           " has a name that no array can have: 1 to 64 of the characters a-z, 0-9 and _");
+    if (name == "position" || name == "level")
+        throw InvalidInput("the attribute " + quoted(name) +
+                           " is what the surface is made from: name arrays of other values");
+}
+
+std::string form_of(ElementType type, std::size_t components) {
+    return std::string(name_of(type)) + " of " + std::to_string(components) +
+           (components == 1 ? " component" : " components");
+}
+
+/// The array of a name; none if there is none.
+const ParticleArray* find(const ParticleFrame& frame, std::string_view name) {
+    const ParticleArray* found = nullptr;
+    for (const ParticleArray& array : frame.arrays) {
+        if (array.name != name) continue;
+        if (found != nullptr) throw InvalidInput("array " + quoted(name) + " comes twice in the frame, must come once");
+        found = &array;
+    }
+    if (found != nullptr && !can_be_attribute(found->type, found->components))
+        throw InvalidInput("array " + quoted(name) + " is " + form_of(found->type, found->components) +
+                           ", an attribute must be float32 or uint8 of 1, 3 or 4 components, or int32 or uint32 of 1");
+    return found;
+}
+
+bool is_finite_in_order(std::uint32_t ordered) {
+    return std::isfinite(from_ordered_bits(ordered));
+}
+
+/// The index of a float32 array's first value that is not finite, which there is.
+std::uint64_t first_not_finite(const ParticleArray& array) {
+    for (std::uint64_t value = 0;; ++value) {
+        float v = 0.0F;
+        std::memcpy(&v, array.data.data() + sizeof v * value, sizeof v);
+        if (!std::isfinite(v)) return value;
+    }
+}
+
+}  // namespace
+
+void validate_attribute_names(const Settings& settings) {
+    const std::vector<std::string>& names = settings.attributes;
+    if (settings.all_attributes && !names.empty())
+        throw InvalidInput("the settings name " + quoted(names.front()) +
+                           " among the attributes and ask for all, must do one of these");
+    if (names.size() > max_particle_arrays)
+        throw InvalidInput("the settings name " + std::to_string(names.size()) + " attributes, at most " +
+                           std::to_string(max_particle_arrays) + " are possible");
+    for (auto name = names.begin(); name != names.end(); ++name) {
+        require_name(*name);
+        if (std::find(names.begin(), name, *name) != name)
+            throw InvalidInput("the settings name the attribute " + quoted(*name) + " twice, must name it once");
+    }
+}
+
+AttributeChoice::AttributeChoice(const Settings& settings)
+    : names_(settings.attributes), takes_all_(settings.all_attributes) {}
+
+std::vector<ParticleArray> AttributeChoice::of(const ParticleFrame& frame) const {
+    std::vector<ParticleArray> chosen;
+    const auto choose = [&](std::string_view name) {
+        const ParticleArray* const array = find(frame, name);
+        if (array != nullptr) chosen.push_back(*array);
+        return array != nullptr;
+    };
+    if (takes_all_ && names_.empty()) {
+        for (const ParticleArray& array : frame.arrays) {
+            require_name(array.name);
+            choose(array.name);
+        }
+        return chosen;
+    }
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (!choose(names_[i])) {
+            if (frame.count() == 0) return {};
+            throw InvalidInput("the frame has no array " + quoted(names_[i]) +
+                               (takes_all_ ? ", which frames before it brought: attributes must come with every frame"
+                                           : ", which the settings name among the attributes: send it with every "
+                                             "frame, or leave it out of the settings"));
+        }
+        const ParticleArray& array = chosen.back();
+        if (!forms_.empty() && (array.type != forms_[i].type || array.components != forms_[i].components))
+            throw InvalidInput("array " + quoted(array.name) + " is " + form_of(array.type, array.components) +
+                               ", must be as in the frames before: " + form_of(forms_[i].type, forms_[i].components));
+    }
+    return chosen;
+}
+
+void AttributeChoice::keep(std::span<const ParticleArray> chosen) {
+    if (!forms_.empty()) return;
+    for (const ParticleArray& array : chosen) {
+        forms_.push_back({std::string(array.name), array.type, array.components});
+        if (takes_all_) names_.push_back(forms_.back().name);
+    }
+}
+
+void AttributeChoice::shape(Mesh& mesh, const std::shared_ptr<MemoryAccount>& account) const {
+    const auto fits = [&](const MeshAttribute& attribute, const Form& form) {
+        return attribute.name == form.name && attribute.type == form.type && attribute.components == form.components &&
+               attribute.data.get_allocator().account() == account;
+    };
+    if (std::equal(mesh.attributes.begin(), mesh.attributes.end(), forms_.begin(), forms_.end(), fits)) return;
+    mesh.attributes.clear();
+    for (const Form& form : forms_)
+        mesh.attributes.push_back(
+            {form.name, form.type, form.components, Array<std::byte>(AccountAllocator<std::byte>(account))});
+}
+
+void AttributeChoice::describe(std::vector<DeviceMeshAttribute>& attributes) const {
+    for (std::size_t i = 0; i < attributes.size(); ++i)
+        attributes[i] = {forms_[i].name, forms_[i].type, forms_[i].components, attributes[i].data};
+}
+
+void refuse_value(const ParticleArray& array, std::uint64_t value) {
+    throw InvalidInput("particle " + std::to_string(value / array.components) + " has a value of " +
+                       quoted(array.name) + " that is not finite" +
+                       (array.components == 1 ? "" : " (component " + std::to_string(value % array.components) + ")") +
+                       ": attributes must be finite");
+}
+
+AttributeNumbers numbers_in_host_memory(std::span<const ParticleArray> chosen) {
+    AttributeNumbers numbers = attribute_numbers(chosen);
+    for (unsigned i = 0; i < numbers.shape.amounts; ++i) {
+        AttributeNumber& number = numbers.of[i];
+        const ParticleArray& array = chosen[number.array];
+        if (number.type == ElementType::uint8) {
+            set_range_of_bytes(number);
+            continue;
+        }
+        if (array.data.empty()) continue;
+        std::uint32_t least = ~std::uint32_t{0}, greatest = 0;
+        const std::size_t step = array.element_bytes();
+        for (std::size_t at = 4 * std::size_t{number.component}; at < array.data.size(); at += step) {
+            std::uint32_t bits = 0;
+            std::memcpy(&bits, array.data.data() + at, sizeof bits);
+            const std::uint32_t ordered = ordered_bits(bits);
+            least = std::min(least, ordered);
+            greatest = std::max(greatest, ordered);
+        }
+        if (!is_finite_in_order(least) || !is_finite_in_order(greatest)) refuse_value(array, first_not_finite(array));
+        set_range(number, from_ordered_bits(least), from_ordered_bits(greatest));
+    }
+    return numbers;
+}
+
+}  // namespace meniscus

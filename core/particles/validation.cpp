@@ -1,0 +1,210 @@
+// Checks of what comes from outside, once, at the edge.
+#include "particles/validation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "lattice/coordinates.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/reconstructor.hpp"
+#include "meniscus/settings.hpp"
+#include "particles/attribute_choice.hpp"
+
+namespace meniscus {
+namespace {
+
+std::string text(double value) {
+    std::ostringstream out;
+    out.precision(9);
+    out << value;
+    return out.str();
+}
+
+void require_positive(const char* name, double value) {
+    if (!(std::isfinite(value) && value > 0.0))
+        throw InvalidInput(std::string(name) + " is " + text(value) + ", must be finite and greater than 0");
+}
+
+/// Limits far beyond any fluid, within which no quotient, product or sum leaves its type: lengths in the world
+/// (squared, cubed, and divided into units, in float64), kernels of their length and thresholds (in float32).
+struct Range {
+    double least, most;
+};
+constexpr Range world_lengths{1e-60, 1e60};
+constexpr Range smoothing_lengths{1e-6, 1e6};
+constexpr Range cell_sizes{1e-9, 1e9};
+constexpr double greatest_iso = 1e30;
+
+void require_range(const char* name, double value, const Range& range, const char* advice) {
+    if (value < range.least || value > range.most)
+        throw InvalidInput(std::string(name) + " is " + text(value) + ", must be " + text(range.least) + " to " +
+                           text(range.most) + ": " + advice);
+}
+
+void require_box(const char* name, const Box& box, bool may_be_flat) {
+    constexpr const char* axes[] = {"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const bool ordered = may_be_flat ? box.min[i] <= box.max[i] : box.min[i] < box.max[i];
+        if (!std::isfinite(box.min[i]) || !std::isfinite(box.max[i]) || !ordered)
+            throw InvalidInput(std::string(name) + " runs from " + text(box.min[i]) + " to " + text(box.max[i]) +
+                               " along " + axes[i] + ", must be finite and run upward");
+    }
+}
+
+void require(const CurvatureCriterion& criterion) {
+    if (criterion.tolerance) require_positive("tolerance", *criterion.tolerance);
+}
+void require(const CountCriterion& criterion) {
+    if (criterion.threshold < 1) throw InvalidInput("count threshold is 0, must be at least 1");
+}
+void require(const Interpolation&) {}
+void require(const Bisection& bisection) {
+    if (bisection.steps < 1 || bisection.steps > Bisection::max_steps)
+        throw InvalidInput("bisection steps are " + std::to_string(bisection.steps) + ", must be 1 to " +
+                           std::to_string(Bisection::max_steps));
+}
+
+/// Radii, with Field::smooth: beyond it the supports of particles alone are too few units of c/4096.
+constexpr double max_smooth_cell_size = 1024.0;
+
+/// What belongs to one field is refused with another, where it would change nothing.
+void require_field_settings(const Settings& s) {
+    if (s.field == Field::smooth) {
+        if (s.smoothing_length)
+            throw InvalidInput("the smoothing length is " + text(*s.smoothing_length) +
+                               ", but the field is smooth, which has none: leave it out and use --smoothness, or take "
+                               "--field color");
+        if (s.smoothness && (*s.smoothness < min_smoothness || *s.smoothness > max_smoothness))
+            throw InvalidInput("the smoothness is " + std::to_string(*s.smoothness) + ", must be " +
+                               std::to_string(min_smoothness) + " to " + std::to_string(max_smoothness));
+        if (s.cell_size > max_smooth_cell_size)
+            throw InvalidInput("the cell size is " + text(s.cell_size) + " radii, must be at most " +
+                               text(max_smooth_cell_size) + " with --field smooth: is the particle radius right?");
+        return;
+    }
+    const std::string field(name_of(s.field));
+    if (s.smoothing_length) {
+        require_positive("smoothing length", *s.smoothing_length);
+        require_range("smoothing length", *s.smoothing_length, smoothing_lengths, "it is in particle radii");
+    }
+    if (s.smoothness)
+        throw InvalidInput("the smoothness is " + std::to_string(*s.smoothness) + ", but the field is " + field +
+                           ", which has none: leave it out and use --smoothing-length, or take --field smooth");
+    if (s.spray != Spray::keep)
+        throw InvalidInput("spray is " + std::string(name_of(s.spray)) + ", but the field is " + field +
+                           ", which does not tell spray from water: take --spray keep or --field smooth");
+}
+
+/// The coarsest particle level's support must stay exact in float32.
+void require_support(const Settings& s, unsigned coarsest_level) {
+    const double cells = std::ldexp(support(s) / s.cell_size, static_cast<int>(coarsest_level));
+    if (cells > max_support_cells)
+        throw InvalidInput("the support of particle level " + std::to_string(coarsest_level) + " spans " + text(cells) +
+                           " cells, at most " + std::to_string(max_support_cells) +
+                           " are possible: use a larger cell size");
+}
+
+}  // namespace
+
+void validate(const Settings& s) {
+    require_positive("particle radius", s.particle_radius);
+    require_positive("cell size", s.cell_size);
+    require_positive("iso value", s.iso);
+    require_positive("cell size in world units", world_cell_size(s));
+    require_range("particle radius", s.particle_radius, world_lengths, "take another unit of length");
+    require_range("cell size", s.cell_size, cell_sizes, "it is in particle radii");
+    require_range("cell size in world units", world_cell_size(s), world_lengths, "take another unit of length");
+    if (s.iso > greatest_iso)
+        throw InvalidInput("iso value is " + text(s.iso) + ", must be at most " + text(greatest_iso) +
+                           ": inside a fluid the field is about 1");
+    // In float32 the iso value must remain above zero, or the outside would be inside.
+    if (static_cast<float>(s.iso) == 0.0F)
+        throw InvalidInput("iso value is " + text(s.iso) + ", must be greater than 0 as a float32, too");
+    require_field_settings(s);
+    require_support(s, 0);
+    std::visit([](const auto& criterion) { require(criterion); }, s.criterion);
+    std::visit([](const auto& edge_points) { require(edge_points); }, s.edge_points);
+    if (s.domain) require_box("domain", *s.domain, false);
+    validate_attribute_names(s);
+}
+
+void validate_lengths(const ParticleFrame& frame) {
+    if (!frame.positions.empty() && !frame.quantized.empty())
+        throw InvalidInput("the frame has both float and quantized positions, must have one of them");
+    const std::size_t numbers = frame.is_quantized() ? frame.quantized.size() : frame.positions.size();
+    if (numbers % 3 != 0)
+        throw InvalidInput("the frame has " + std::to_string(numbers) + " coordinates, must be three per particle");
+    const std::size_t count = frame.count();
+    if (count >= 0xFFFFFFFFULL)
+        throw LimitExceeded("the frame has " + std::to_string(count) +
+                            " particles, at most 4294967294 can be numbered: split it");
+    if (!frame.levels.empty() && frame.levels.size() != count)
+        throw InvalidInput("the frame has " + std::to_string(frame.levels.size()) + " levels for " +
+                           std::to_string(count) + " particles, must have one each or none");
+    if (frame.arrays.size() > max_particle_arrays)
+        throw LimitExceeded("the frame has " + std::to_string(frame.arrays.size()) + " arrays, at most " +
+                            std::to_string(max_particle_arrays) + " are possible: leave some out");
+    for (const ParticleArray& array : frame.arrays) {
+        if (array.element_bytes() < 1)
+            throw InvalidInput("array '" + std::string(array.name) + "' has 0 components, must have at least 1");
+        if (array.data.size() / array.element_bytes() != count || array.data.size() % array.element_bytes() != 0)
+            throw InvalidInput("array '" + std::string(array.name) + "' has " + std::to_string(array.data.size()) +
+                               " bytes, must have " + std::to_string(array.element_bytes()) + " for each of " +
+                               std::to_string(count) + " particles");
+    }
+}
+
+double farthest_coordinate(const Settings& settings) {
+    return static_cast<double>(max_cell) * world_cell_size(settings);
+}
+
+void require_level(const Settings& settings, std::uint64_t particle, unsigned level) {
+    if (level > max_particle_level)
+        throw InvalidInput("particle " + std::to_string(particle) + " has level " + std::to_string(level) +
+                           ", must be 0 to " + std::to_string(max_particle_level));
+    require_support(settings, level);
+}
+
+void refuse_coordinate(const Settings& settings, std::uint64_t coordinate, float value) {
+    const double p = static_cast<double>(value);
+    const std::string where =
+        "particle " + std::to_string(coordinate / 3) + " has " + "xyz"[coordinate % 3] + " = " + text(p);
+    if (!std::isfinite(p)) throw InvalidInput(where + ", positions must be finite");
+    throw InvalidInput(where + ", farther from the origin than the " + text(farthest_coordinate(settings)) +
+                       " that this cell size can address");
+}
+
+void validate(const ParticleFrame& frame, const Settings& settings) {
+    validate_lengths(frame);
+    const std::vector<ParticleArray> attributes = AttributeChoice(settings).of(frame);
+    validate_places(frame, settings);
+    numbers_in_host_memory(attributes);
+}
+
+void validate_places(const ParticleFrame& frame, const Settings& settings) {
+    if (!frame.levels.empty()) {
+        const auto coarsest = std::max_element(frame.levels.begin(), frame.levels.end());
+        require_level(settings, static_cast<std::uint64_t>(coarsest - frame.levels.begin()), *coarsest);
+    }
+    const double limit = farthest_coordinate(settings);
+    if (frame.is_quantized()) {
+        const Box& box = frame.quantization_box;
+        require_box("quantization box", box, true);
+        for (std::size_t i = 0; i < 3; ++i)
+            if (std::max(std::abs(box.min[i]), std::abs(box.max[i])) > limit)
+                throw InvalidInput("the quantization box reaches from " + text(box.min[i]) + " to " + text(box.max[i]) +
+                                   ", farther from the origin than the " + text(limit) +
+                                   " that this cell size can address");
+        return;
+    }
+    for (std::size_t i = 0; i < frame.positions.size(); ++i)
+        // Also false for a NaN.
+        if (!(std::abs(static_cast<double>(frame.positions[i])) <= limit))
+            refuse_coordinate(settings, i, frame.positions[i]);
+}
+
+}  // namespace meniscus

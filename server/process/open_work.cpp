@@ -1,0 +1,10 @@
+#include "process/open_work.hpp"
+
+namespace meniscus::server {
+
+OpenWork& open_work() {
+    static OpenWork work;
+    return work;
+}
+
+}  // namespace meniscus::server

@@ -1,0 +1,81 @@
+// One uploading stream in its session.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "meniscus/attribute_coding.hpp"
+#include "meniscus/codec.hpp"
+#include "sessions/limits/unreported_drops.hpp"
+#include "sessions/limits/upload_pace.hpp"
+#include "sessions/sending/output_queue.hpp"
+
+namespace meniscus::server {
+
+/// What happens to frames that come faster than they are reconstructed.
+enum class UploadPolicy {
+    every_frame,  ///< the simulator is slowed down
+    latest,       ///< the newest one replaces those that wait
+    every_nth,    ///< the first of every n is reconstructed; none of those is lost
+};
+
+/// How a stream's call has ended.
+enum class UploadEnd : std::uint8_t {
+    answered,  ///< with a status that it was sent
+    left,      ///< canceled, or its connection broke, after its simulator had said that nothing follows
+    vanished,  ///< the same while more was to come
+};
+
+struct UploadOptions {
+    bool receive_meshes = false;
+    int normal_bits = 0;
+    Codec codec = Codec::draco;
+    bool spray = false;                       ///< whether it comes beside the meshes
+    std::vector<AttributeWish> attributes{};  ///< that the meshes carry
+    UploadPolicy policy = UploadPolicy::every_frame;
+    std::uint32_t nth = 1;                   ///< at least 1; for UploadPolicy::every_nth
+    std::uint64_t run_id = 0;                ///< 0: a run of its own
+    std::chrono::milliseconds reconnect{0};  ///< for how long its simulator tries to come back
+};
+
+/// Frames that belong together, over one stream or over several, each of which resumed the run.
+struct Run {
+    std::uint64_t id = 0;
+    std::optional<std::uint64_t> last_shown = {};     ///< index of a frame; used by the reconstructing thread alone
+    std::optional<std::uint64_t> last_finished = {};  ///< index of a frame; used by the encoding thread alone
+};
+
+struct Upload {
+    using Clock = std::chrono::steady_clock;
+
+    /// wake: see OutputQueue. stop_receiving: called when the frame on its way in is to be the last. stop_at_once: when
+    /// it is not wanted any more; the stream then ends with the error.
+    Upload(
+        const UploadOptions& wishes, std::function<void()> wake, std::function<void()> stop_receiving,
+        std::function<void(std::exception_ptr)> stop_at_once = [](const std::exception_ptr&) {})
+        : options(wishes), output(std::move(wake)), drain(std::move(stop_receiving)), stop(std::move(stop_at_once)) {}
+
+    const UploadOptions options;
+    OutputQueue output;
+    const std::function<void()> drain;
+    const std::function<void(std::exception_ptr)> stop;
+    std::shared_ptr<Run> run;  ///< set once, before others see the upload
+
+    UploadPace pace;
+    std::uint64_t submitted = 0;  ///< frames, dropped ones included; with the session's lock held
+    UnreportedDrops unreported_drops;
+    std::atomic<std::uint64_t> owed{0};  ///< frames submitted and not yet answered
+    std::atomic<Clock::time_point> last_activity{Clock::now()};
+    std::atomic<bool> canceled{false};  ///< nobody reads its answers any more
+    std::atomic<bool> moves{
+        false};  ///< its simulator goes on with another server: the session ends after its last frame
+};
+
+}  // namespace meniscus::server

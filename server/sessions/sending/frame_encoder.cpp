@@ -1,0 +1,169 @@
+#include "sessions/sending/frame_encoder.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <span>
+#include <utility>
+
+#include "conversion/attribute_conversion.hpp"
+#include "conversion/codec_conversion.hpp"
+#include "meniscus/attribute_coding.hpp"
+#include "meniscus/brick_coding.hpp"
+#include "meniscus/v1/surface_service.pb.h"
+#include "sessions/limits/limits.hpp"
+#include "sessions/sending/begin_message.hpp"
+#include "sessions/sending/place_order.hpp"
+#include "sessions/sending/spray_messages.hpp"
+#include "sessions/sending/statistics_message.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// One serialization serves both RPCs, as the contract says of WatchResponse.
+static_assert(int{v1::StreamResponse::kMeshBeginFieldNumber} == int{v1::WatchResponse::kMeshBeginFieldNumber});
+static_assert(int{v1::StreamResponse::kMeshBrickFieldNumber} == int{v1::WatchResponse::kMeshBrickFieldNumber});
+static_assert(int{v1::StreamResponse::kSprayPointsFieldNumber} == int{v1::WatchResponse::kSprayPointsFieldNumber});
+static_assert(int{v1::StreamResponse::kFrameStatisticsFieldNumber} ==
+              int{v1::WatchResponse::kFrameStatisticsFieldNumber});
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+SharedMessage serialize(const v1::StreamResponse& response) {
+    return std::make_shared<const std::string>(response.SerializeAsString());
+}
+
+SharedBrick brick_messages(const EncodedBrick& brick, const ContentHash& content_hash) {
+    auto result = std::make_shared<BrickMessages>();
+    result->place = brick.coordinate;
+    result->content_hash = content_hash;
+    result->triangles = brick.triangles;
+    const auto* data = reinterpret_cast<const char*>(brick.data.data());
+    const std::size_t part_count = std::max<std::size_t>(1, (brick.data.size() + chunk_bytes - 1) / chunk_bytes);
+    result->messages.reserve(part_count);
+    for (std::size_t part = 0; part < part_count; ++part) {
+        v1::StreamResponse response;
+        v1::MeshBrick& wire = *response.mutable_mesh_brick();
+        wire.set_x(brick.coordinate[0]);
+        wire.set_y(brick.coordinate[1]);
+        wire.set_z(brick.coordinate[2]);
+        wire.set_vertex_count(brick.vertices);
+        wire.set_triangle_count(brick.triangles);
+        if (part == 0)
+            wire.set_cell_levels(reinterpret_cast<const char*>(brick.cell_levels.data()), brick.cell_levels.size());
+        const std::size_t first = part * chunk_bytes;
+        wire.set_codec(conversion::to_wire(brick.codec));
+        wire.set_data(data + first, std::min(chunk_bytes, brick.data.size() - first));
+        wire.set_part_index(static_cast<std::uint32_t>(part));
+        wire.set_part_count(static_cast<std::uint32_t>(part_count));
+        result->messages.push_back(serialize(response));
+        result->bytes += result->messages.back()->size();
+    }
+    return result;
+}
+
+/// The earlier frame's brick at this place; none if there was none.
+SharedBrick find_brick(const EncodedFrame* frame, const std::array<std::int32_t, 3>& place) {
+    if (frame == nullptr) return nullptr;
+    const auto found = std::ranges::lower_bound(frame->bricks, PlaceOrder(place), {},
+                                                [](const SharedBrick& brick) { return PlaceOrder(brick->place); });
+    return found != frame->bricks.end() && (*found)->place == place ? *found : nullptr;
+}
+
+google::protobuf::RepeatedPtrField<v1::MeshAttribute> announced(const Mesh& mesh,
+                                                                std::span<const AttributeRange> ranges,
+                                                                std::span<const CodedAttribute> coded) {
+    v1::MeshBegin begin;
+    conversion::to_wire(mesh, ranges, coded, begin);
+    return std::move(*begin.mutable_attributes());
+}
+
+FrameStatistics statistics_of(const ReconstructedFrame& frame, const MeshDownload& download) {
+    FrameStatistics statistics{frame.statistics};
+    statistics.frame_index = frame.index;
+    statistics.simulation_time = frame.simulation_time;
+    statistics.download_seconds = download.seconds();
+    statistics.latency_seconds = seconds_since(frame.received_at);
+    return statistics;
+}
+
+}  // namespace
+
+std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
+                                                 const EncodedFrame* before, WorkerPool& workers, ScratchPool& scratch,
+                                                 const MessageSink& sink, bool spray_to_sink) {
+    const MeshDownload& download = frame.download_at(format.max_level);
+    download.start();
+    // Spray lies beside the mesh as reconstructed, whatever its level cap.
+    const Array<Point>& spray = frame.mesh.spray;
+    if (!spray.empty()) frame.download.start();
+    const auto start = Clock::now();
+    const Mesh& mesh = *frame.mesh_at(format.max_level);
+    // Of the whole mesh, and announced before its first brick.
+    const std::vector<AttributeRange>& ranges = frame.ranges_at(format.max_level);
+    const CodingOptions coding{.normal_bits = format.normal_bits,
+                               .position_bits = format.position_bits,
+                               .codec = format.codec,
+                               .attributes = coded_attributes(mesh, ranges, format.attributes)};
+    auto encoded = std::make_shared<EncodedFrame>();
+    encoded->index = frame.index;
+    encoded->run_id = frame.run_id;
+    encoded->simulation_time = frame.simulation_time;
+    encoded->received_at = frame.received_at;
+    encoded->cell_size = mesh.cell_size;
+    encoded->offset_bits = encoded_offset_bits(mesh, coding);
+    encoded->spray_count = spray.size();
+    encoded->spray = spray_messages(spray);
+    encoded->attributes = announced(mesh, ranges, coding.attributes);
+    const auto emit = [&](const SharedMessage& message) {
+        if (sink) sink(message);
+    };
+    v1::StreamResponse begin = begin_response(*encoded);
+    begin.mutable_mesh_begin()->set_brick_count(static_cast<std::uint32_t>(mesh.bricks.size()));
+    begin.mutable_mesh_begin()->set_triangle_count(mesh.triangles.size());
+    encoded->begin = serialize(begin);
+    emit(encoded->begin);
+
+    std::mutex emitting;
+    std::uint64_t bytes = 0;
+    encoded->bricks.resize(mesh.bricks.size());
+    workers.for_each(mesh.bricks.size(), [&](std::size_t i) {
+        download.bring(i);
+        const BrickContent content = [&] {
+            ScratchPool::Loan loan(scratch);
+            return brick_content(mesh, i, coding, *loan);
+        }();
+        const ContentHash hash = content.hash();
+        SharedBrick brick = find_brick(before, content.coordinate);
+        if (!brick || brick->content_hash != hash) brick = brick_messages(encode_brick(content, coding), hash);
+        encoded->bricks[i] = brick;
+        const std::lock_guard lock(emitting);
+        bytes += brick->bytes;
+        for (const SharedMessage& message : brick->messages) emit(message);
+    });
+
+    if (spray_to_sink)
+        for (const SharedMessage& message : encoded->spray) emit(message);
+    encoded->statistics = statistics_of(frame, download);
+    encoded->statistics.encode_seconds = seconds_since(start);
+    encoded->statistics.encoded_bytes = bytes;
+    encoded->end = serialize(encoded->statistics);
+    emit(encoded->end);
+    return encoded;
+}
+
+FrameStatistics statistics_of(const ReconstructedFrame& frame) {
+    return statistics_of(frame, frame.download);
+}
+
+SharedMessage serialize(const FrameStatistics& statistics) {
+    v1::StreamResponse response;
+    *response.mutable_frame_statistics() = statistics_message(statistics);
+    return serialize(response);
+}
+
+}  // namespace meniscus::server

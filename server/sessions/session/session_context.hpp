@@ -1,0 +1,39 @@
+// What the parts of a session read and none of them changes.
+#pragma once
+
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "meniscus/settings.hpp"
+#include "meniscus/v1/session_service.pb.h"
+#include "sessions/limits/limits.hpp"
+#include "sessions/limits/name_account.hpp"
+#include "sessions/session/session_observer.hpp"
+#include "sessions/session/shared_resources.hpp"
+
+namespace meniscus::server {
+
+/// What a session is beside its settings; whoever joins it need not know.
+struct SessionKind {
+    v1::SessionDescription description{};
+    bool ephemeral = false;  ///< see Session::unused()
+};
+
+struct SessionIdentity {
+    std::string id;
+    std::string owner{};                     ///< the caller that created it; empty where callers have no names
+    std::shared_ptr<NameAccount> account{};  ///< that caller's; none: it has no limits of its own
+    SessionKind kind{};
+};
+
+struct SessionContext {
+    const SessionIdentity identity;
+    const Settings settings;
+    const Limits limits;
+    const SharedResources shared;
+    const std::shared_ptr<SessionObserver> observer;  ///< may be none
+    const std::stop_token closing{};                  ///< requested once the session ends
+};
+
+}  // namespace meniscus::server

@@ -1,0 +1,27 @@
+// What a session reports of its frames, to its recording.
+#pragma once
+
+#include <memory>
+
+#include "meniscus/attribute_coding.hpp"
+#include "sessions/intake/input_frame.hpp"
+#include "sessions/sending/encoded_frame.hpp"
+
+namespace meniscus::server {
+
+/// Called by the session's threads, which wait meanwhile: implementations return soon, and throw nothing.
+class SessionObserver {
+public:
+    /// Of the normals in the meshes that encoded() is called with.
+    static constexpr int normal_bits = 8;
+
+    virtual ~SessionObserver() = default;
+    /// Likewise of all attributes; see AttributeWish.
+    virtual int attribute_bits() const noexcept { return default_attribute_bits; }
+    /// A frame that was reconstructed, in the order of arrival. Borrowed.
+    virtual void reconstructed(const InputFrame& frame) noexcept = 0;
+    /// Its mesh, in the same order. Meanwhile the next frame may have been reconstructed, by another thread.
+    virtual void encoded(std::shared_ptr<const EncodedFrame> frame) noexcept = 0;
+};
+
+}  // namespace meniscus::server

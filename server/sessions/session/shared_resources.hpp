@@ -1,0 +1,27 @@
+// What a server's sessions share.
+#pragma once
+
+#include <memory>
+
+#include "meniscus/memory.hpp"
+#include "sessions/handover/deadlines.hpp"
+#include "sessions/handover/turns.hpp"
+#include "sessions/handover/worker_pool.hpp"
+#include "sessions/limits/bytes_in_flight.hpp"
+#include "sessions/sending/metrics.hpp"
+
+namespace meniscus::server {
+
+struct SharedResources {
+    std::shared_ptr<WorkerPool> workers;  ///< encode
+    std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>();
+    std::shared_ptr<Turns> turns = std::make_shared<Turns>();  ///< on the device that the session reconstructs on
+    /// Of all sessions' reconstructions, of what they encode in, and of what they keep of frames; may be none.
+    std::shared_ptr<SharedMemory> memory{};
+    /// Of what the device that the session reconstructs on copies from and to; none: it copies nothing by itself.
+    std::shared_ptr<PagePinning> pinning{};
+    std::shared_ptr<BytesInFlight> bytes_in_flight = std::make_shared<BytesInFlight>();
+    std::shared_ptr<Deadlines> deadlines = std::make_shared<Deadlines>();  ///< of frames on the device
+};
+
+}  // namespace meniscus::server
