@@ -54,7 +54,7 @@ std::string OptionReader::quoted(std::string_view name) const {
 }
 
 const std::string* OptionReader::find(std::string_view name) {
-    if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.push_back(name);
+    if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.emplace_back(name);
     if (options_ == nullptr) return nullptr;
     const auto found = options_->find(name);
     return found == options_->end() ? nullptr : &found->second;
@@ -129,7 +129,8 @@ void OptionReader::finish() const {
     for (const auto& [name, value] : *options_) {
         if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
         std::vector<std::string> named(known_.size());
-        std::transform(known_.begin(), known_.end(), named.begin(), naming_);
+        std::transform(known_.begin(), known_.end(), named.begin(),
+                       [this](const std::string& known) { return naming_(known); });
         throw InvalidInput(quoted(name) + " is not known here, must be " +
                            listed(std::vector<std::string_view>(named.begin(), named.end())));
     }

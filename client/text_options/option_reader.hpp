@@ -75,7 +75,7 @@ private:
 
     const Options* options_;
     OptionNaming naming_;
-    std::vector<std::string_view> known_;
+    std::vector<std::string> known_;
 };
 
 }  // namespace meniscus::text_options

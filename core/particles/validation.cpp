@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "lattice/coordinates.hpp"
@@ -24,25 +27,33 @@ std::string text(double value) {
     return out.str();
 }
 
-void require_positive(const char* name, double value) {
-    if (!(std::isfinite(value) && value > 0.0))
-        throw InvalidInput(std::string(name) + " is " + text(value) + ", must be finite and greater than 0");
+/// subject: such as "cell size is".
+template <class Number>
+void require_range(std::string_view subject, Number number, const Range& range) {
+    const auto value = static_cast<double>(number);
+    const auto refuse = [&](const std::string& limits) {
+        throw InvalidInput(std::string(subject) + " " + text(value) + ", must be " + limits);
+    };
+    if (std::is_floating_point_v<Number> && !(std::isfinite(value) && value > 0.0)) refuse("finite and greater than 0");
+    if (value >= range.least && value <= range.most) return;
+    std::string limits = text(range.least) + " to " + text(range.most);
+    if (std::isinf(range.most)) limits = "at least " + text(range.least);
+    if (range.least == 0.0) limits = "at most " + text(range.most);
+    refuse(limits + (range.advice.empty() ? "" : ": " + std::string(range.advice)));
 }
 
-/// Limits far beyond any fluid, within which no quotient, product or sum leaves its type: lengths in the world
-/// (squared, cubed, and divided into units, in float64), kernels of their length and thresholds (in float32).
-struct Range {
-    double least, most;
-};
-constexpr Range world_lengths{1e-60, 1e60};
-constexpr Range smoothing_lengths{1e-6, 1e6};
-constexpr Range cell_sizes{1e-9, 1e9};
-constexpr double greatest_iso = 1e30;
-
-void require_range(const char* name, double value, const Range& range, const char* advice) {
-    if (value < range.least || value > range.most)
-        throw InvalidInput(std::string(name) + " is " + text(value) + ", must be " + text(range.least) + " to " +
-                           text(range.most) + ": " + advice);
+/// As their rows have them.
+void require_ranges(const Settings& settings) {
+    for_each_row<Settings>([&]<class Row>(const Row& row) {
+        using Number = Held<typename Row::Type>;
+        if constexpr (std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>) {
+            const auto* const value = row.find(settings);
+            if (value == nullptr) return;
+            const std::optional<Number> number = *value;
+            const std::string subject(row.facts.subject.empty() ? words_of(row.name) + " is" : row.facts.subject);
+            if (number) require_range(subject, *number, row.facts.range);
+        }
+    });
 }
 
 void require_box(const char* name, const Box& box, bool may_be_flat) {
@@ -55,22 +66,6 @@ void require_box(const char* name, const Box& box, bool may_be_flat) {
     }
 }
 
-void require(const CurvatureCriterion& criterion) {
-    if (criterion.tolerance) require_positive("tolerance", *criterion.tolerance);
-}
-void require(const CountCriterion& criterion) {
-    if (criterion.threshold < 1) throw InvalidInput("count threshold is 0, must be at least 1");
-}
-void require(const Interpolation&) {}
-void require(const Bisection& bisection) {
-    if (bisection.steps < 1 || bisection.steps > Bisection::max_steps)
-        throw InvalidInput("bisection steps are " + std::to_string(bisection.steps) + ", must be 1 to " +
-                           std::to_string(Bisection::max_steps));
-}
-
-/// Radii, with Field::smooth: beyond it the supports of particles alone are too few units of c/4096.
-constexpr double max_smooth_cell_size = 1024.0;
-
 /// What belongs to one field is refused with another, where it would change nothing.
 void require_field_settings(const Settings& s) {
     if (s.field == Field::smooth) {
@@ -78,19 +73,9 @@ void require_field_settings(const Settings& s) {
             throw InvalidInput("the smoothing length is " + text(*s.smoothing_length) +
                                ", but the field is smooth, which has none: leave it out and use --smoothness, or take "
                                "--field color");
-        if (s.smoothness && (*s.smoothness < min_smoothness || *s.smoothness > max_smoothness))
-            throw InvalidInput("the smoothness is " + std::to_string(*s.smoothness) + ", must be " +
-                               std::to_string(min_smoothness) + " to " + std::to_string(max_smoothness));
-        if (s.cell_size > max_smooth_cell_size)
-            throw InvalidInput("the cell size is " + text(s.cell_size) + " radii, must be at most " +
-                               text(max_smooth_cell_size) + " with --field smooth: is the particle radius right?");
         return;
     }
     const std::string field(name_of(s.field));
-    if (s.smoothing_length) {
-        require_positive("smoothing length", *s.smoothing_length);
-        require_range("smoothing length", *s.smoothing_length, smoothing_lengths, "it is in particle radii");
-    }
     if (s.smoothness)
         throw InvalidInput("the smoothness is " + std::to_string(*s.smoothness) + ", but the field is " + field +
                            ", which has none: leave it out and use --smoothing-length, or take --field smooth");
@@ -98,6 +83,9 @@ void require_field_settings(const Settings& s) {
         throw InvalidInput("spray is " + std::string(name_of(s.spray)) + ", but the field is " + field +
                            ", which does not tell spray from water: take --spray keep or --field smooth");
 }
+
+/// Radii, with Field::smooth: beyond it the supports of particles alone are too few units of c/4096.
+constexpr double max_smooth_cell_size = 1024.0;
 
 /// The coarsest particle level's support must stay exact in float32.
 void require_support(const Settings& s, unsigned coarsest_level) {
@@ -111,23 +99,16 @@ void require_support(const Settings& s, unsigned coarsest_level) {
 }  // namespace
 
 void validate(const Settings& s) {
-    require_positive("particle radius", s.particle_radius);
-    require_positive("cell size", s.cell_size);
-    require_positive("iso value", s.iso);
-    require_positive("cell size in world units", world_cell_size(s));
-    require_range("particle radius", s.particle_radius, world_lengths, "take another unit of length");
-    require_range("cell size", s.cell_size, cell_sizes, "it is in particle radii");
-    require_range("cell size in world units", world_cell_size(s), world_lengths, "take another unit of length");
-    if (s.iso > greatest_iso)
-        throw InvalidInput("iso value is " + text(s.iso) + ", must be at most " + text(greatest_iso) +
-                           ": inside a fluid the field is about 1");
+    require_field_settings(s);
+    require_ranges(s);
+    require_range("cell size in world units is", world_cell_size(s), {1e-60, 1e60, "take another unit of length"});
     // In float32 the iso value must remain above zero, or the outside would be inside.
     if (static_cast<float>(s.iso) == 0.0F)
         throw InvalidInput("iso value is " + text(s.iso) + ", must be greater than 0 as a float32, too");
-    require_field_settings(s);
+    if (s.field == Field::smooth && s.cell_size > max_smooth_cell_size)
+        throw InvalidInput("the cell size is " + text(s.cell_size) + " radii, must be at most " +
+                           text(max_smooth_cell_size) + " with --field smooth: is the particle radius right?");
     require_support(s, 0);
-    std::visit([](const auto& criterion) { require(criterion); }, s.criterion);
-    std::visit([](const auto& edge_points) { require(edge_points); }, s.edge_points);
     if (s.domain) require_box("domain", *s.domain, false);
     validate_attribute_names(s);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/print/row_json.hpp"
 #include "meniscus/attribute_coding.hpp"
 
 namespace meniscus::cli {
@@ -17,35 +18,9 @@ const Statistics& median_run(const std::vector<Statistics>& runs) {
 }
 
 nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::string& mesh_sha256) {
-    const Statistics& s = median_run(runs);
-    nlohmann::ordered_json out;
-    out["particles"] = s.particles;
-    out["spray_particles"] = s.spray_particles;
-    out["vertices"] = s.vertices;
-    out["triangles"] = s.triangles;
-    for (const TriangleLevel level : choices<TriangleLevel>)
-        out["triangles_by_level"][std::string(name_of(level))] = s.triangles_by_level[static_cast<std::size_t>(level)];
-    for (std::size_t i = 0; i < s.base_cells_by_level.size(); ++i)
-        out["base_cells_by_level"][std::string(names<TriangleLevel>[i])] = s.base_cells_by_level[i];
-    out["vertices_without_particles"] = s.vertices_without_particles;
-    out["volume"] = s.volume;
-    out["particle_volume"] = s.particle_volume;
-    out["field_evaluations"] = s.field_evaluations;
-    for (const Stage stage : choices<Stage>)
-        out["stage_seconds"][std::string(name_of(stage))] = s.stage_seconds[static_cast<std::size_t>(stage)];
-    out["download_seconds"] = s.download_seconds;
-    out["total_seconds"] = s.total_seconds;
+    nlohmann::ordered_json out = rows_json(median_run(runs));
     out["first_seconds"] = runs.front().total_seconds;
-    out["peak_bytes"] = s.peak_bytes;
-    out["device_bytes"] = s.device_bytes;
-    out["device_peak_bytes"] = s.device_peak_bytes;
-    out["backend"] = s.backend;
-    out["threads"] = s.threads;
     out["mesh_sha256"] = mesh_sha256;
-    out["warnings"] = nlohmann::ordered_json::array();
-    for (const Warning& w : s.warnings)
-        out["warnings"].push_back(
-            {{"code", name_of(w.code)}, {"value", w.value}, {"limit", w.limit}, {"text", w.text}});
     return out;
 }
 

@@ -1,7 +1,10 @@
 // A frame's figures as they come.
 #pragma once
 
+#include <string_view>
+
 #include "conversion/statistics_conversion.hpp"
+#include "described/message_rows.hpp"
 #include "meniscus/client/client.hpp"
 
 namespace meniscus::client {
@@ -9,9 +12,7 @@ namespace meniscus::client {
 inline FrameStatistics frame_statistics(const v1::FrameStatistics& wire) {
     FrameStatistics statistics;
     static_cast<Statistics&>(statistics) = conversion::from_wire(wire);
-    statistics.encode_seconds = wire.encode_seconds();
-    statistics.latency_seconds = wire.latency_seconds();
-    statistics.encoded_bytes = wire.encoded_bytes();
+    described::fill_record(wire, statistics, [](std::string_view, int) {});
     return statistics;
 }
 

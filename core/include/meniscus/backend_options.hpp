@@ -6,6 +6,7 @@
 #include <memory>
 #include <string_view>
 
+#include "meniscus/described.hpp"
 #include "meniscus/memory.hpp"
 #include "meniscus/stop_flag.hpp"
 
@@ -45,6 +46,18 @@ struct BackendOptions {
     std::shared_ptr<SharedMemory> shared_device_memory{};  ///< of all on that GPU; may be none
     /// Of the arrays that meshes come down to from a GPU. None: a page_pinning() of the reconstructor's own.
     std::shared_ptr<PagePinning> pinning{};
+
+    /// Those that C, Python and files set by name.
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        using B = BackendOptions;
+        visit("backend", &B::backend, {.help = "where a reconstruction runs"});
+        visit("threads", &B::threads, {.help = "worker threads; 0: one per processor"});
+        visit("memory_limit", &B::memory_limit, {.help = "memory of the reconstruction; 0: no limit", .unit = "bytes"});
+        visit("device", &B::device, {.help = "index of the GPU"});
+        visit("device_memory_limit", &B::device_memory_limit,
+              {.help = "memory of the reconstruction on its GPU; 0: no limit", .unit = "bytes"});
+    }
 };
 
 }  // namespace meniscus

@@ -8,10 +8,12 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 namespace meniscus {
 
@@ -31,11 +33,11 @@ struct Facts {
     std::string_view subject{};   ///< of a refusal, "iso value is": if it is not the name in words
     std::string_view option{};    ///< name of the flag and of the option by text, if it is not `name`
     char letter = '\0';           ///< of the short flag
-    std::string_view argument{};  ///< the value's name in man pages
-    std::string_view manual{};    ///< the item of the man pages, names in backticks; empty: `help`
+    std::string_view argument{};  ///< the value in documents, where its type says too little: "X Y Z"
     std::string_view standard{};  ///< the default in words, where the member's own says too little
     std::string_view group{};     ///< heading of the flag in --help
-    bool by_hand = false;         ///< whether flags, texts and dicts show it by hand, since they join two members
+    std::span<const std::string_view> entries{};  ///< names of an array's elements
+    bool by_hand = false;                         ///< whether flags and texts show it by hand, as they do lists
 };
 
 namespace detail {
@@ -59,12 +61,16 @@ using Held = typename detail::Held<Value>::Type;
 template <class Record, class Value>
 using InForce = Held<Value> (*)(const Record&);
 
+/// By this name, since nvcc writes parentheses around others, of which gcc warns.
+template <class Record, class Value>
+using MemberPointer = std::type_identity_t<Value Record::*>;
+
 /// A member of a record. Value: its type, or that of a parameter of the alternative that a choice has.
 template <class Record, class Value>
 struct Row {
     using Type = Value;
     std::string_view name;
-    Value Record::*member;
+    MemberPointer<Record, Value> member;
     Facts facts;
     InForce<Record, Value> in_force = nullptr;
 
@@ -77,11 +83,11 @@ template <class Record, class Choice, class Alternative, class Value>
 struct ParameterRow {
     using Type = Value;
     std::string_view name;
-    Value Alternative::*member;
+    MemberPointer<Alternative, Value> member;
     Facts facts;
     InForce<Record, Value> in_force;
     std::string_view choice_name;
-    Choice Record::*choice;
+    MemberPointer<Record, Choice> choice;
 
     const Value* find(const Record& record) const {
         const auto* const chosen = std::get_if<Alternative>(&(record.*choice));
@@ -92,7 +98,19 @@ struct ParameterRow {
         return chosen == nullptr ? nullptr : &(chosen->*member);
     }
     static constexpr std::string_view alternative = Alternative::name;
+    Value standard() const { return Alternative{}.*member; }
 };
+
+/// A record that has rows.
+template <class T>
+concept Described = requires {
+    T::rows([](const auto&...) {});
+};
+
+template <class T>
+inline constexpr bool is_list = false;
+template <class T>
+inline constexpr bool is_list<std::vector<T>> = true;
 
 template <class T>
 inline constexpr bool is_variant = false;
@@ -117,7 +135,7 @@ void visit_alternatives(std::string_view name, std::variant<Alternative...> Reco
 }  // namespace detail
 
 /// Calls visit(row) for each row of a record, and after a choice for those of its alternatives' parameters.
-template <class Record, class Visit>
+template <Described Record, class Visit>
 void for_each_row(const Visit& visit) {
     Record::rows([&]<class Value>(std::string_view name, Value Record::*member, const Facts& facts,
                                   InForce<Record, Value> in_force = nullptr) {
@@ -126,22 +144,36 @@ void for_each_row(const Visit& visit) {
     });
 }
 
-/// The name of a row's flag, or of its option by text: "cell-size".
-template <class Row>
-std::string option_name(const Row& row) {
-    std::string name(row.facts.option.empty() ? row.name : row.facts.option);
-    for (char& c : name)
-        if (c == '_') c = '-';
-    return name;
+namespace detail {
+
+inline std::string with(std::string_view name, char from, char to) {
+    std::string out(name);
+    for (char& c : out)
+        if (c == from) c = to;
+    return out;
 }
 
-/// The name under which flat records of all settings have a row: "count_threshold".
+}  // namespace detail
+
+/// "cell size"
+inline std::string words_of(std::string_view name) {
+    return detail::with(name, '_', ' ');
+}
+
+/// The name of a flag, or of an option by text: "cell-size".
+inline std::string option_name_of(std::string_view name) {
+    return detail::with(name, '_', '-');
+}
+/// Of a row: "count-threshold".
+template <class Row>
+std::string option_name(const Row& row) {
+    return option_name_of(row.facts.option.empty() ? row.name : row.facts.option);
+}
+
+/// A row's name in flat lists of a whole record: "count_threshold".
 template <class Row>
 std::string flat_name(const Row& row) {
-    std::string name = option_name(row);
-    for (char& c : name)
-        if (c == '-') c = '_';
-    return name;
+    return detail::with(option_name(row), '-', '_');
 }
 
 }  // namespace meniscus

@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "meniscus/described.hpp"
+
 namespace meniscus {
 
 /// The scalar function whose iso-surface is the fluid surface: a sum over particles (core/README.md#fields).
@@ -61,12 +63,38 @@ constexpr std::string_view name_of(Mode mode) {
     return {};
 }
 
+struct Settings;
+
+// The settings in force: as given, or the default of the field.
+
+/// Radii.
+double smoothing_length(const Settings& settings);
+/// Radii.
+std::uint32_t smoothness(const Settings& settings);
+/// The distance from which no particle of level 0 counts, radii: twice the smoothing length, or the smoothness.
+double support(const Settings& settings);
+/// Finest cells, with CurvatureCriterion.
+double tolerance(const Settings& settings);
+/// All of them: the same settings with the defaults of their field written out, as a server answers them.
+Settings in_force(Settings settings);
+
 /// A base cell's level by how much the surface bends in the cell.
 struct CurvatureCriterion {
     static constexpr std::string_view name = "curvature";
     /// How far the surface may depart from that of the finest cells, in finest cells, > 0: about the 99th percentile of
     /// the distance between the two. None: as tolerance(Settings) has it for the field.
     std::optional<double> tolerance;
+
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        visit("tolerance", &CurvatureCriterion::tolerance,
+              {.help = "how far the surface may depart from that of the finest cells, in those; the default is that of "
+                       "the default field",
+               .unit = "finest cells",
+               .range = {.least = 0.0},
+               .when = "--criterion curvature"},
+              meniscus::tolerance);
+    }
     bool operator==(const CurvatureCriterion&) const = default;
 };
 
@@ -76,6 +104,16 @@ struct CountCriterion {
     /// A base cell is of level 3 if it holds 1 to this many particles; for adaptive SPH, if it holds at least this many
     /// particles of level 0. At least 1.
     std::uint32_t threshold = 1;
+
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        visit("threshold", &CountCriterion::threshold,
+              {.help = "particles per base cell that decide about level 3",
+               .range = {.least = 1.0},
+               .when = "--criterion count",
+               .subject = "count threshold is",
+               .option = "count-threshold"});
+    }
     bool operator==(const CountCriterion&) const = default;
 };
 
@@ -86,6 +124,9 @@ using Criterion = std::variant<CurvatureCriterion, CountCriterion>;
 struct Interpolation {
     static constexpr std::string_view name = "interpolate";
     std::uint32_t offset_bits() const { return 6; }
+
+    template <class Visit>
+    static void rows(const Visit&) {}
     bool operator==(const Interpolation&) const = default;
 };
 
@@ -96,18 +137,39 @@ struct Bisection {
     std::uint32_t steps = 5;  ///< iterations on a level-3 edge (one and two more on levels 2 and 1), 1 to max_steps
     /// Bisection ends in the middle of an interval of c / 2^steps.
     std::uint32_t offset_bits() const { return steps + 1; }
+
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        visit("steps", &Bisection::steps,
+              {.help = "iterations on a finest edge",
+               .range = {.least = 1.0, .most = max_steps},
+               .when = "--edge-points bisect",
+               .subject = "bisection steps are",
+               .option = "bisection-steps"});
+    }
     bool operator==(const Bisection&) const = default;
 };
 
 /// How the point on an edge that crosses the surface is found.
 using EdgePoints = std::variant<Interpolation, Bisection>;
 
+inline constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+
 /// An axis-aligned box, world units.
 struct Box {
     std::array<double, 3> min{};
     std::array<double, 3> max{};
+
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        visit("min", &Box::min, {.help = "Smallest corner", .unit = "world units", .entries = axes});
+        visit("max", &Box::max, {.help = "Largest corner", .unit = "world units", .entries = axes});
+    }
     bool operator==(const Box&) const = default;
 };
+
+inline constexpr std::uint32_t min_smoothness = 5;
+inline constexpr std::uint32_t max_smoothness = 7;
 
 /// All lengths but the first are in multiples of the particle radius, as in splashsurf.
 struct Settings {
@@ -133,14 +195,76 @@ struct Settings {
     /// Every array that the first frame brings becomes one, and further frames must bring it; `attributes` is empty.
     bool all_attributes = false;
 
+    /// Ranges lie far beyond any fluid; within them no quotient, product or sum leaves its type: lengths in the world
+    /// (squared, cubed, and divided into units, in float64), kernels of their length and thresholds (in float32).
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        constexpr std::string_view surface = "Surface", grid = "Grid";
+        visit("particle_radius", &Settings::particle_radius,
+              {.help = "Radius of the particles, world units",
+               .unit = "world units",
+               .range = {1e-60, 1e60, "take another unit of length"},
+               .letter = 'r',
+               .standard = "required",
+               .by_hand = true});
+        visit("cell_size", &Settings::cell_size,
+              {.help = "Edge of a finest cell, in particle radii",
+               .unit = "radii",
+               .range = {1e-9, 1e9, "it is in particle radii"},
+               .letter = 'c',
+               .group = surface});
+        visit("iso", &Settings::iso,
+              {.help = "Field value at the surface",
+               .range = {0.0, 1e30, "inside a fluid the field is about 1"},
+               .subject = "iso value is",
+               .letter = 't',
+               .group = surface});
+        visit("field", &Settings::field, {.help = "Function whose iso-surface is the fluid surface", .group = surface});
+        visit("smoothness", &Settings::smoothness,
+              {.help = "the widest support in particle radii, 5 to 7; more is smoother and slower",
+               .unit = "radii",
+               .range = {min_smoothness, max_smoothness},
+               .when = "--field smooth",
+               .subject = "the smoothness is",
+               .group = surface},
+              meniscus::smoothness);
+        visit("spray", &Settings::spray,
+              {.help = "particles without company become drops (keep), are left out (discard), or are left out and "
+                       "listed beside the surface (points)",
+               .when = "--field smooth",
+               .group = surface});
+        visit("attributes", &Settings::attributes,
+              {.help = "Array of the particles whose values the vertices get, such as velocity; once for each; all: "
+                       "every array that the first frame brings",
+               .option = "attribute",
+               .group = surface,
+               .by_hand = true});
+        visit("all_attributes", &Settings::all_attributes,
+              {.help = "Every array that the first frame brings becomes an attribute", .by_hand = true});
+        visit("smoothing_length", &Settings::smoothing_length,
+              {.help = "in particle radii; the kernel's support is twice that",
+               .unit = "radii",
+               .range = {1e-6, 1e6, "it is in particle radii"},
+               .when = "--field color or density",
+               .letter = 'l',
+               .group = surface},
+              meniscus::smoothing_length);
+        visit("mode", &Settings::mode, {.help = "Three levels of grid, or the finest cell everywhere", .group = grid});
+        visit("criterion", &Settings::criterion, {.help = "How the level of a base cell is decided", .group = grid});
+        visit("edge_points", &Settings::edge_points, {.help = "How the point on an edge is found", .group = grid});
+        visit("normals", &Settings::normals, {.help = "Whether vertices get normals (the default)", .group = surface});
+        visit("domain", &Settings::domain,
+              {.help = "crops the surface, world units",
+               .unit = "world units",
+               .argument = "X0 Y0 Z0 X1 Y1 Z1",
+               .group = surface});
+    }
+
     bool operator==(const Settings&) const = default;
 };
 
 /// Throws InvalidInput naming the first setting that is out of range, its value and the range.
 void validate(const Settings& settings);
-
-inline constexpr std::uint32_t min_smoothness = 5;
-inline constexpr std::uint32_t max_smoothness = 7;
 
 /// Settings that have a name; single ones may be changed afterwards.
 enum class Preset : std::uint8_t {
@@ -160,19 +284,6 @@ constexpr std::string_view name_of(Preset preset) {
     return {};
 }
 Settings preset(Preset preset, double particle_radius);
-
-// The settings in force: as given, or the default of the field.
-
-/// Radii.
-double smoothing_length(const Settings& settings);
-/// Radii.
-std::uint32_t smoothness(const Settings& settings);
-/// The distance from which no particle of level 0 counts, radii: twice the smoothing length, or the smoothness.
-double support(const Settings& settings);
-/// Finest cells, with CurvatureCriterion.
-double tolerance(const Settings& settings);
-/// All of them: the same settings with the defaults of their field written out, as a server answers them.
-Settings in_force(Settings settings);
 
 /// How far from the border of a part of a frame particles decide about the surface inside of it, radii of the coarsest
 /// particles: with all that lie within this margin of Settings::domain, the mesh is that of the whole frame to the bit

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "meniscus/described.hpp"
 #include "meniscus/names.hpp"
 
 namespace meniscus {
@@ -41,6 +42,14 @@ struct Warning {
     double value = 0.0;  ///< what was found, as the code says
     double limit = 0.0;  ///< what it is held against, as the code says
     std::string text;    ///< the same in words, with what to do: one line of English
+
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        visit("code", &Warning::code, {.help = "such as radius_too_small"});
+        visit("value", &Warning::value, {.help = "what was found"});
+        visit("limit", &Warning::limit, {.help = "what it is held against"});
+        visit("text", &Warning::text, {.help = "the same in words, with what to do"});
+    }
 
     bool operator==(const Warning&) const = default;
 };

@@ -39,6 +39,17 @@ struct ParticleWatchOptions {
     std::chrono::milliseconds route_check{2000};
     ReconnectHandler on_reconnect{};
     std::stop_token stop{};
+
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        using P = ParticleWatchOptions;
+        visit("max_particles", &P::max_particles, {.help = "particles of a frame that are sent, at most; 0: all"});
+        visit("reconnect", &P::reconnect,
+              {.help = "time for which a broken connection or a restarting server is tried again; 0: no retries",
+               .unit = "s"});
+        visit("route_check", &P::route_check,
+              {.help = "time between looks whether the session goes on with another server; 0: never", .unit = "s"});
+    }
 };
 
 /// Receives a session's particles, always the newest; frames that came while the caller was busy are skipped by the

@@ -21,6 +21,14 @@ struct OpenOptions {
     /// nothing behind. False: a session that rests, or is watched between two streams, stays until the Session goes.
     bool ephemeral = true;
     std::stop_token stop{};  ///< when a stop is requested while the session is opened: ServerError (canceled)
+
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        using O = OpenOptions;
+        visit("id", &O::id, {.help = "UUID of the session to create, or to join if it is there", .option = "session"});
+        visit("description", &O::description, {.help = "what people call the session, and how viewers show it"});
+        visit("ephemeral", &O::ephemeral, {.help = "whether the server ends the session soon after its stream"});
+    }
 };
 
 /// A session on the server, from Client::open_session(). When it goes, it ends the session if it has created it, itself

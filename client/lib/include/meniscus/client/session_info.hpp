@@ -41,6 +41,14 @@ struct SessionDescription {
     std::string name = {};  ///< UTF-8, 1 to 64 characters without control and direction characters; empty: none
     UpAxis up_axis = UpAxis::unspecified;
     std::string length_unit = {};  ///< of the coordinates, such as "m": 1 to 16 characters; empty: not said
+
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        using D = SessionDescription;
+        visit("name", &D::name, {.help = "what people call the session, 1 to 64 characters"});
+        visit("up_axis", &D::up_axis, {.help = "axis that viewers show upright"});
+        visit("length_unit", &D::length_unit, {.help = "unit of the coordinates, such as m, 1 to 16 characters"});
+    }
 };
 
 /// What a session is beside its settings. None of it need be equal to join a session.

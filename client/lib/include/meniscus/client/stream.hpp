@@ -68,6 +68,24 @@ struct StreamOptions {
     /// When a stop is requested: as cancel(); while the stream is opened: ServerError (canceled), or a stream that has
     /// been canceled.
     std::stop_token stop{};
+
+    /// Those that C, Python and files set by name.
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        using S = StreamOptions;
+        visit("receive_meshes", &S::receive_meshes, {.help = "whether meshes come back", .option = "meshes"});
+        visit("normal_bits", &S::normal_bits,
+              {.help = "bits per component of the normals, 2 to 16; 0: no normals", .range = {.least = 0.0}});
+        visit("waiting_limit", &S::waiting_limit,
+              {.help = "received frames that wait to be taken, at most; 0: no limit"});
+        visit("policy", &S::policy,
+              {.help = "what the server does with frames that come faster than they are reconstructed"});
+        visit("nth", &S::nth, {.help = "one of this many frames is reconstructed", .when = "--policy every-nth"});
+        visit("reconnect", &S::reconnect,
+              {.help = "time for which a server that is out of reach is tried again; 0: no retries", .unit = "s"});
+        visit("route_check", &S::route_check,
+              {.help = "time between looks whether the session goes on with another server; 0: never", .unit = "s"});
+    }
 };
 
 /// Uploads frames and receives their meshes, in order. Reads on a thread of its own, so that a caller that only pushes

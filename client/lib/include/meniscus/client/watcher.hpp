@@ -41,6 +41,28 @@ struct WatchOptions {
     /// try_next() was called: in a thread of the library's, which waits for it.
     ReconnectHandler on_reconnect{};
     std::stop_token stop{};  ///< when a stop is requested: as cancel()
+
+    /// Those that C, Python and files set by name.
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        using W = WatchOptions;
+        visit("max_level", &W::max_level,
+              {.help = "finest level of grid, 1 to 3: a coarser surface, as closed", .range = {.least = 0.0}});
+        visit("normal_bits", &W::normal_bits,
+              {.help = "bits per component of the normals, 2 to 16; 0: no normals", .range = {.least = 0.0}});
+        visit("position_bits", &W::position_bits,
+              {.help = "vertices lie on multiples of the cell size / 2^BITS, 2 or more"});
+        visit("region", &W::region, {.help = "only bricks that touch this box", .unit = "world units"});
+        visit("spray", &W::spray, {.help = "whether the particles left out of the surface come beside it"});
+        visit("bytes_per_second", &W::bytes_per_second,
+              {.help = "bandwidth in the mean: frames are skipped to keep it; 0: no limit"});
+        visit("viewpoint", &W::viewpoint, {.help = "the nearest bricks are sent first", .unit = "world units"});
+        visit("reconnect", &W::reconnect,
+              {.help = "time for which a broken connection or a restarting server is tried again; 0: no retries",
+               .unit = "s"});
+        visit("route_check", &W::route_check,
+              {.help = "time between looks whether the session goes on with another server; 0: never", .unit = "s"});
+    }
 };
 
 /// How a session's newest mesh is wished for; as in WatchOptions.
@@ -50,6 +72,17 @@ struct SnapshotOptions {
     int max_level = 3;
     std::vector<AttributeWish> attributes{};
     std::stop_token stop{};  ///< when a stop is requested: ServerError (canceled)
+
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        using S = SnapshotOptions;
+        visit("max_level", &S::max_level,
+              {.help = "finest level of grid, 1 to 3: a coarser surface, as closed", .range = {.least = 0.0}});
+        visit("normal_bits", &S::normal_bits,
+              {.help = "bits per component of the normals, 2 to 16; 0: no normals", .range = {.least = 0.0}});
+        visit("position_bits", &S::position_bits,
+              {.help = "vertices lie on multiples of the cell size / 2^BITS, 2 or more"});
+    }
 };
 
 /// Receives a session's meshes, always the newest; frames that came while the caller was busy are skipped by the
