@@ -1,9 +1,11 @@
 // meniscus info: version, backend and limits of a server, or the backend of this process.
 #include <CLI/CLI.hpp>
+#include <iomanip>
 #include <iostream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examples.hpp"
@@ -13,16 +15,6 @@
 
 namespace meniscus::cli {
 namespace {
-
-std::string limit(std::uint64_t value) {
-    return value == 0 ? "no limit" : std::to_string(value);
-}
-
-std::string seconds_limit(double value) {
-    std::ostringstream text;
-    text << value;
-    return value == 0.0 ? "no limit" : text.str();
-}
 
 /// Those of a server and of this process alike.
 void print_backend(const std::string& version, const std::string& name, const std::string& reason,
@@ -48,34 +40,23 @@ void print_server(const ServerFlags& server) {
     print_backend(info.version, info.backend, info.backend_reason, info.device);
     std::cout << "health                 " << (client.serving() ? "serving" : "shutting down") << '\n'
               << "threads                " << info.threads << '\n'
-              << "codecs                 " << codec_names(info.codecs) << '\n'
-              << "sessions               " << limit(info.max_sessions) << '\n'
-              << "watchers per session   " << limit(info.max_watchers_per_session) << '\n'
-              << "  formats of them      " << limit(info.max_formats_per_session) << '\n'
-              << "particles per frame    " << limit(info.max_particles_per_frame) << '\n'
-              << "work per frame         " << seconds_limit(info.max_frame_work) << '\n'
-              << "seconds per frame      " << seconds_limit(info.max_frame_seconds) << '\n'
-              << "bytes per session      " << limit(info.max_bytes_per_session) << '\n'
-              << "GPU bytes per session  " << limit(info.max_device_bytes_per_session) << '\n'
-              << "bytes in flight        " << limit(info.max_bytes_in_flight) << '\n'
-              << "frames per second      " << limit(info.max_frames_per_second) << '\n'
-              << "chunks per frame       " << limit(info.max_chunks_per_frame) << '\n'
-              << "bytes per message      " << info.max_message_bytes << '\n'
-              << "idle seconds           " << seconds_limit(info.max_idle_seconds) << '\n'
-              << "upload seconds         " << seconds_limit(info.max_upload_seconds) << '\n'
-              << "upload bytes/second    " << limit(info.min_upload_bytes_per_second) << '\n'
-              << "orphan seconds         " << seconds_limit(info.max_orphan_seconds) << '\n'
-              << "bytes of all sessions  " << limit(info.max_total_bytes) << '\n'
-              << "  on one GPU           " << limit(info.max_total_device_bytes) << '\n'
-              << "idle buffers seconds   " << seconds_limit(info.max_idle_buffers_seconds) << '\n'
-              << "connections            " << limit(info.max_connections) << '\n'
-              << "  from one address     " << limit(info.max_connections_per_peer) << '\n'
-              << "readers of recordings  " << limit(info.max_recording_readers) << '\n'
-              << "of one name, or of one address where the server asks for no tokens:\n"
-              << "  sessions             " << limit(info.max_sessions_per_name) << '\n'
-              << "  watchers per session " << limit(info.max_watchers_per_name) << '\n'
-              << "  frames per second    " << limit(info.max_frames_per_second_per_name) << '\n'
-              << "  bytes in flight      " << limit(info.max_bytes_in_flight_per_name) << '\n';
+              << "codecs                 " << codec_names(info.codecs) << '\n';
+    std::string_view heading;
+    for_each_row<client::ServerInfo>([&](const auto& row) {
+        const auto value = *row.find(info);
+        const std::string_view group = row.facts.group;
+        if (group.starts_with("of one") && heading.empty()) {
+            heading = group;
+            std::cout << heading << ":\n";
+        }
+        constexpr int width = 23;
+        const std::string label = (group.empty() ? "" : "  ") + std::string(row.facts.help);
+        std::cout << std::left << std::setw(width) << label;
+        if (value == 0)
+            std::cout << "no limit\n";
+        else
+            std::cout << value << '\n';
+    });
 }
 
 void print_this_process(Backend choice) {

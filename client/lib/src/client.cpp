@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "connection/connection.hpp"
+#include "described/message_rows.hpp"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "particle_watcher_impl.hpp"
 #include "receiving/session_description.hpp"
@@ -71,32 +72,11 @@ ServerInfo Client::server_info(const std::stop_token& stop) {
     info.device = response.device();
     info.backend_reason = response.backend_reason();
     info.threads = response.threads();
-    info.max_sessions = response.limits().sessions();
-    info.max_watchers_per_session = response.limits().watchers_per_session();
-    info.max_particles_per_frame = response.limits().particles_per_frame();
-    info.max_frame_work = response.limits().frame_work();
-    info.max_frame_seconds = response.limits().frame_seconds();
-    info.max_bytes_per_session = response.limits().bytes_per_session();
-    info.max_device_bytes_per_session = response.limits().device_bytes_per_session();
-    info.max_bytes_in_flight = response.limits().bytes_in_flight();
-    info.max_frames_per_second = response.limits().frames_per_second();
-    info.max_chunks_per_frame = response.limits().chunks_per_frame();
-    info.max_idle_seconds = response.limits().idle_seconds();
-    info.max_upload_seconds = response.limits().upload_seconds();
-    info.min_upload_bytes_per_second = response.limits().upload_bytes_per_second();
-    info.max_orphan_seconds = response.limits().orphan_seconds();
-    info.max_total_bytes = response.limits().total_bytes();
-    info.max_total_device_bytes = response.limits().total_device_bytes();
-    info.max_idle_buffers_seconds = response.limits().idle_buffers_seconds();
-    info.max_sessions_per_name = response.limits().sessions_per_name();
-    info.max_watchers_per_name = response.limits().watchers_per_name();
-    info.max_frames_per_second_per_name = response.limits().frames_per_second_per_name();
-    info.max_bytes_in_flight_per_name = response.limits().bytes_in_flight_per_name();
-    info.max_connections = response.limits().connections();
-    info.max_connections_per_peer = response.limits().connections_per_peer();
-    info.max_formats_per_session = response.limits().formats_per_session();
-    info.max_recording_readers = response.limits().recording_readers();
-    info.max_message_bytes = response.limits().message_bytes();
+    ServerInfo::rows([&](std::string_view name, auto member, const Facts& facts) {
+        constexpr std::size_t prefix = 4;  // max_ and min_
+        const v1::Limits& limits = response.limits();
+        described::read(limits, described::Field(limits, name.substr(prefix)), facts, name, info.*member, {});
+    });
     info.codecs.assign(response.codecs().begin(), response.codecs().end());
     return info;
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <string_view>
 
+#include "row_dict.hpp"
 #include "settings.hpp"
 #include "statistics.hpp"
 
@@ -45,37 +46,6 @@ void describe(py::dict& out, const client::SessionDescription& description) {
     out["length_unit"] = description.length_unit;
 }
 
-py::dict limits_of(const client::ServerInfo& server) {
-    py::dict out;
-    out["max_sessions"] = server.max_sessions;
-    out["max_watchers_per_session"] = server.max_watchers_per_session;
-    out["max_particles_per_frame"] = server.max_particles_per_frame;
-    out["max_frame_work"] = server.max_frame_work;
-    out["max_frame_seconds"] = server.max_frame_seconds;
-    out["max_bytes_per_session"] = server.max_bytes_per_session;
-    out["max_device_bytes_per_session"] = server.max_device_bytes_per_session;
-    out["max_bytes_in_flight"] = server.max_bytes_in_flight;
-    out["max_frames_per_second"] = server.max_frames_per_second;
-    out["max_chunks_per_frame"] = server.max_chunks_per_frame;
-    out["max_idle_seconds"] = server.max_idle_seconds;
-    out["max_upload_seconds"] = server.max_upload_seconds;
-    out["min_upload_bytes_per_second"] = server.min_upload_bytes_per_second;
-    out["max_orphan_seconds"] = server.max_orphan_seconds;
-    out["max_total_bytes"] = server.max_total_bytes;
-    out["max_total_device_bytes"] = server.max_total_device_bytes;
-    out["max_idle_buffers_seconds"] = server.max_idle_buffers_seconds;
-    out["max_sessions_per_name"] = server.max_sessions_per_name;
-    out["max_watchers_per_name"] = server.max_watchers_per_name;
-    out["max_frames_per_second_per_name"] = server.max_frames_per_second_per_name;
-    out["max_bytes_in_flight_per_name"] = server.max_bytes_in_flight_per_name;
-    out["max_connections"] = server.max_connections;
-    out["max_connections_per_peer"] = server.max_connections_per_peer;
-    out["max_recording_readers"] = server.max_recording_readers;
-    out["max_formats_per_session"] = server.max_formats_per_session;
-    out["max_message_bytes"] = server.max_message_bytes;
-    return out;
-}
-
 }  // namespace
 
 py::dict to_dict(const client::ServerInfo& server) {
@@ -85,7 +55,7 @@ py::dict to_dict(const client::ServerInfo& server) {
     out["device"] = server.device;
     out["backend_reason"] = server.backend_reason;
     out["threads"] = server.threads;
-    out["limits"] = limits_of(server);
+    out["limits"] = rows_dict(server);
     return out;
 }
 

@@ -3,7 +3,10 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "meniscus/described.hpp"
 
 namespace meniscus::client {
 
@@ -40,6 +43,45 @@ struct ServerInfo {
     std::uint32_t max_formats_per_session = 0;  ///< of meshes, and numbers of particles, that its watchers wish for
     std::uint64_t max_message_bytes = 0;
     std::vector<std::uint32_t> codecs;  ///< numbers of those that the server encodes with; codec.hpp names them
+
+    /// The limits, in the order in which people read them, with their labels. On the wire they have no max_ and min_.
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        using S = ServerInfo;
+        constexpr std::string_view of_the_former = "of the former";
+        constexpr std::string_view of_one_name = "of one name, or of one address where the server asks for no tokens";
+        visit("max_sessions", &S::max_sessions, {.help = "sessions"});
+        visit("max_watchers_per_session", &S::max_watchers_per_session, {.help = "watchers per session"});
+        visit("max_formats_per_session", &S::max_formats_per_session,
+              {.help = "formats of them", .group = of_the_former});
+        visit("max_particles_per_frame", &S::max_particles_per_frame, {.help = "particles per frame"});
+        visit("max_frame_work", &S::max_frame_work, {.help = "work per frame"});
+        visit("max_frame_seconds", &S::max_frame_seconds, {.help = "seconds per frame"});
+        visit("max_bytes_per_session", &S::max_bytes_per_session, {.help = "bytes per session"});
+        visit("max_device_bytes_per_session", &S::max_device_bytes_per_session, {.help = "GPU bytes per session"});
+        visit("max_bytes_in_flight", &S::max_bytes_in_flight, {.help = "bytes in flight"});
+        visit("max_frames_per_second", &S::max_frames_per_second, {.help = "frames per second"});
+        visit("max_chunks_per_frame", &S::max_chunks_per_frame, {.help = "chunks per frame"});
+        visit("max_message_bytes", &S::max_message_bytes, {.help = "bytes per message"});
+        visit("max_idle_seconds", &S::max_idle_seconds, {.help = "idle seconds"});
+        visit("max_upload_seconds", &S::max_upload_seconds, {.help = "upload seconds"});
+        visit("min_upload_bytes_per_second", &S::min_upload_bytes_per_second, {.help = "upload bytes/second"});
+        visit("max_orphan_seconds", &S::max_orphan_seconds, {.help = "orphan seconds"});
+        visit("max_total_bytes", &S::max_total_bytes, {.help = "bytes of all sessions"});
+        visit("max_total_device_bytes", &S::max_total_device_bytes, {.help = "on one GPU", .group = of_the_former});
+        visit("max_idle_buffers_seconds", &S::max_idle_buffers_seconds, {.help = "idle buffers seconds"});
+        visit("max_connections", &S::max_connections, {.help = "connections"});
+        visit("max_connections_per_peer", &S::max_connections_per_peer,
+              {.help = "from one address", .group = of_the_former});
+        visit("max_recording_readers", &S::max_recording_readers, {.help = "readers of recordings"});
+        visit("max_sessions_per_name", &S::max_sessions_per_name, {.help = "sessions", .group = of_one_name});
+        visit("max_watchers_per_name", &S::max_watchers_per_name,
+              {.help = "watchers per session", .group = of_one_name});
+        visit("max_frames_per_second_per_name", &S::max_frames_per_second_per_name,
+              {.help = "frames per second", .group = of_one_name});
+        visit("max_bytes_in_flight_per_name", &S::max_bytes_in_flight_per_name,
+              {.help = "bytes in flight", .group = of_one_name});
+    }
 };
 
 }  // namespace meniscus::client
