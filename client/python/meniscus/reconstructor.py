@@ -18,23 +18,30 @@ class Reconstructor:
     ``particle_radius`` is in world units, all other lengths are in particle radii. Keywords are the settings:
 
     preset              "smooth" (the defaults), "paper" or "splashsurf"; single ones override it
-    cell_size           0.5: edge of a finest cell
-    iso                 0.6: field value at the surface
-    field               "smooth", "color" or "density"
-    smoothness          6, with "smooth": the widest support, 5, 6 or 7
-    spray               "keep", "discard" or "points": what becomes of particles without company, with "smooth"
-    smoothing_length    2.0, with "color" and "density"
-    mode                "adaptive" or "uniform"
-    criterion           "curvature" or "count"
-    tolerance           0.15, with "curvature": how far the surface may depart from the finest one, in finest cells
-    count_threshold     1, with "count"
-    edge_points         "interpolate" or "bisect"
-    bisection_steps     5, with "bisect"
-    normals             True
-    domain              None: no limit; or ((x0, y0, z0), (x1, y1, z1)), world units: crops the surface
     attributes          "all", which is every array that the first frame brings, or names
 
-    and how it is computed: ``backend`` ("auto", "cpu", "cuda"), ``threads`` (0: one for each processor),
+    .. rows: settings
+
+    cell_size           0.5: edge of a finest cell, in particle radii
+    iso                 0.6: field value at the surface
+    field               "smooth": function whose iso-surface is the fluid surface; "color", "density", "smooth"
+    smoothness          6: with smooth, the widest support in particle radii, 5 to 7; more is smoother and slower
+    spray               "keep": with smooth, particles without company become drops (keep), are left out (discard),
+                        or are left out and listed beside the surface (points); "keep", "discard", "points"
+    smoothing_length    2: with color or density, in particle radii; the kernel's support is twice that
+    mode                "adaptive": three levels of grid, or the finest cell everywhere; "adaptive", "uniform"
+    criterion           "curvature": how the level of a base cell is decided; "curvature", "count"
+    tolerance           0.15: with curvature, how far the surface may depart from that of the finest cells, in
+                        those; the default is that of the default field
+    count_threshold     1: with count, particles per base cell that decide about level 3
+    edge_points         "interpolate": how the point on an edge is found; "interpolate", "bisect"
+    bisection_steps     5: with bisect, iterations on a finest edge
+    normals             True: whether vertices get normals (the default)
+    domain              None: crops the surface, world units
+
+    .. end of rows
+
+    A ``domain`` is ((x0, y0, z0), (x1, y1, z1)). Further keywords say how it is computed: ``backend`` ("auto", "cpu", "cuda"), ``threads`` (0: one for each processor),
     ``memory_limit`` (bytes, 0: none), ``device`` (index of the GPU), ``device_memory_limit``.
 
     Raises InvalidInput for settings that are out of range or not known. Calls of several threads take turns. The
