@@ -7,23 +7,14 @@
 #include <string_view>
 
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus {
 namespace {
 
-constexpr std::size_t longest_name = 64;
-
-std::string quoted(std::string_view name) {
-    // What a stranger sends may be long, and hold what a terminal would obey.
-    std::string shown(name.substr(0, longest_name));
-    std::replace_if(
-        shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    return "'" + shown + (name.size() > longest_name ? "...'" : "'");
-}
-
 void require_name(std::string_view name) {
     const auto is_allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
-    if (name.empty() || name.size() > longest_name || !std::all_of(name.begin(), name.end(), is_allowed))
+    if (name.empty() || name.size() > max_array_name_bytes || !std::all_of(name.begin(), name.end(), is_allowed))
         throw InvalidInput("the attribute " + quoted(name) +
                            " has a name that no array can have: 1 to 64 of the characters a-z, 0-9 and _");
     if (name == "position" || name == "level")

@@ -8,13 +8,10 @@
 #include "conversion/particle_arrays.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::conversion {
 namespace {
-
-std::string quoted(const std::string& name) {
-    return "'" + name + "'";
-}
 
 enum class EmptyName { refused, allowed };
 

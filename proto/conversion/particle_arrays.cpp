@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::conversion {
 
@@ -48,10 +49,6 @@ constexpr std::array level_forms{Form{v1::ELEMENT_TYPE_UINT8, 1}};
 constexpr KnownArray position_array{"position", position_forms};
 constexpr KnownArray level_array{"level", level_forms};
 constexpr std::array known_arrays{position_array, level_array};
-
-std::string quoted(std::string_view name) {
-    return "'" + std::string(name) + "'";
-}
 
 /// "float32 x 3 or uint16 x 3".
 std::string text(std::span<const Form> forms) {

@@ -4,14 +4,11 @@
 #include <string_view>
 
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::client {
 
 namespace {
-
-std::string quoted(std::string_view name) {
-    return "'" + std::string(name) + "'";
-}
 
 const ParticleArray* find_once(std::span<const ParticleArray> arrays, std::string_view name) {
     const auto array = std::ranges::find(arrays, name, &ParticleArray::name);
@@ -29,10 +26,9 @@ void require_form(const ParticleArray& array) {
 }
 
 bool can_be_named(std::string_view name) {
-    constexpr std::size_t longest = 64;
     const auto is_allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
-    return !name.empty() && name.size() <= longest && std::ranges::all_of(name, is_allowed) && name != "position" &&
-           name != "level";
+    return !name.empty() && name.size() <= max_array_name_bytes && std::ranges::all_of(name, is_allowed) &&
+           name != "position" && name != "level";
 }
 
 }  // namespace
