@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "meniscus/array_form.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/quoted.hpp"
 
@@ -22,11 +23,6 @@ void require_name(std::string_view name) {
                            " is what the surface is made from: name arrays of other values");
 }
 
-std::string form_of(ElementType type, std::size_t components) {
-    return std::string(name_of(type)) + " of " + std::to_string(components) +
-           (components == 1 ? " component" : " components");
-}
-
 /// The array of a name; none if there is none.
 const ParticleArray* find(const ParticleFrame& frame, std::string_view name) {
     const ParticleArray* found = nullptr;
@@ -37,7 +33,7 @@ const ParticleArray* find(const ParticleFrame& frame, std::string_view name) {
     }
     if (found != nullptr && !can_be_attribute(found->type, found->components))
         throw InvalidInput("array " + quoted(name) + " is " + form_of(found->type, found->components) +
-                           ", an attribute must be float32 or uint8 of 1, 3 or 4 components, or int32 or uint32 of 1");
+                           ", an attribute must be " + std::string(attribute_forms));
     return found;
 }
 

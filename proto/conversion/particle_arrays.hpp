@@ -31,7 +31,7 @@ struct FurtherArray {
 
     bool can_be_attribute() const { return type && meniscus::can_be_attribute(*type, components); }
 };
-/// Its form, such as "float32 x 3".
+/// Its form, such as "float32 of 3 components".
 std::string form_of(const FurtherArray& array);
 
 /// Positions come first.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "meniscus/array_form.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/quoted.hpp"
 
@@ -20,9 +21,8 @@ const ParticleArray* find_once(std::span<const ParticleArray> arrays, std::strin
 
 void require_form(const ParticleArray& array) {
     if (can_be_attribute(array.type, array.components)) return;
-    throw InvalidInput("array " + quoted(array.name) + " is " + std::string(name_of(array.type)) + " x " +
-                       std::to_string(array.components) +
-                       "; an attribute is float32 or uint8 x 1, 3 or 4, or int32 or uint32 x 1");
+    throw InvalidInput("array " + quoted(array.name) + " is " + form_of(array.type, array.components) +
+                       "; an attribute is " + std::string(attribute_forms));
 }
 
 bool can_be_named(std::string_view name) {
