@@ -62,7 +62,7 @@ void Base64Reader::decode(const ByteCursor& at, std::string_view what) {
         if (c == '=' && characters >= 2)
             ++padding;
         else if (digit == no_digit || padding > 0)
-            at.fail(std::string(what) + ": " + quote({&c, 1}) + " is no digit of base64 here");
+            at.fail(std::string(what) + ": " + quoted({&c, 1}) + " is no digit of base64 here");
         bits = bits << 6U | (c == '=' ? 0U : std::uint32_t{digit});
         ++characters;
     }

@@ -97,7 +97,7 @@ Attribute read_attribute(Bytes& in, const ByteCursor& at) {
             return attribute;
         }
         default:
-            at.fail("attribute " + quote(attribute.name) + " has type " + std::to_string(kind) +
+            at.fail("attribute " + quoted(attribute.name) + " has type " + std::to_string(kind) +
                     "; 0 (float), 1 (int), 4 (index of a string) and 5 (vector) are read");
     }
     in.take(number_bytes * attribute.size, "default of an attribute");

@@ -91,7 +91,7 @@ private:
     void expect_text(std::string_view mark) {
         const std::size_t place = in_.position();
         if (const std::string_view found = text(); found != mark)
-            in_.fail("damaged at byte " + std::to_string(place) + ": " + quote(found) + " where " + quote(mark) +
+            in_.fail("damaged at byte " + std::to_string(place) + ": " + quoted(found) + " where " + quoted(mark) +
                      " begins the next part");
     }
 
@@ -127,7 +127,7 @@ private:
                 continue;
             }
             const auto type = bi4_type(number_of_type);
-            if (!type) in_.fail("value " + quote(name) + " has the unknown type " + std::to_string(number_of_type));
+            if (!type) in_.fail("value " + quoted(name) + " has the unknown type " + std::to_string(number_of_type));
             const double value = load_scalar(type->type, in_.take(type->bytes()).data(), order_);
             if (name == "CaseNfixed" || name == "CaseNmoving" || name == "CaseNfloat") first_fluid_id_ += value;
             if (name == "Npiece" && value > 1)
@@ -144,13 +144,13 @@ private:
         const auto number_of_type = static_cast<std::int32_t>(number());
         array.type = bi4_type(number_of_type);
         if (!array.type && number_of_type != bi4_text)
-            in_.fail("array " + quote(array.name) + " has the unknown type " + std::to_string(number_of_type));
+            in_.fail("array " + quoted(array.name) + " has the unknown type " + std::to_string(number_of_type));
         const std::uint64_t count = size();
         const std::uint64_t bytes = size();
         if (array.type) {
-            in_.expect(count, array.type->bytes(), "values of array " + quote(array.name));
+            in_.expect(count, array.type->bytes(), "values of array " + quoted(array.name));
             if (bytes != count * array.type->bytes())
-                in_.fail("array " + quote(array.name) + " has " + std::to_string(count) + " values of " +
+                in_.fail("array " + quoted(array.name) + " has " + std::to_string(count) + " values of " +
                          std::to_string(array.type->bytes()) + " bytes in " + std::to_string(bytes) + " bytes");
         }
         array.count = count;
@@ -191,7 +191,7 @@ Particles read_bi4(const std::string& name, std::string_view bytes) {
     const Bi4File file(name, bytes);
     const Bi4Array& place = *(file.find("Posd") != nullptr ? file.find("Posd") : file.find("Pos"));
     if (!place.type || place.type->components != 3 || is_integer(place.type->type))
-        file.at().fail("array " + quote(place.name) + " has no three coordinates a particle");
+        file.at().fail("array " + quoted(place.name) + " has no three coordinates a particle");
     const std::vector<std::size_t> rows = fluid_rows(file, place.count);
     const auto number = [&](const Bi4Array& array, std::size_t row, std::size_t component) {
         return load_scalar(array.type->type,

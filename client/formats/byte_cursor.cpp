@@ -82,21 +82,15 @@ void ByteCursor::fail(const std::string& message) const {
     throw InvalidInput(name_ + ": " + message);
 }
 
-std::string quote(std::string_view text) {
-    std::string out = "'";
-    for (const char c : text.substr(0, 40)) out += c >= ' ' && c <= '~' ? c : '?';
-    return out + (text.size() > 40 ? "...'" : "'");
-}
-
 double to_number(std::string_view text, const ByteCursor& at, std::string_view what) {
     std::string_view digits = text;
     if (digits.size() > 1 && digits.front() == '+') digits.remove_prefix(1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error == std::errc::result_out_of_range && end == digits.data() + digits.size())
-        at.fail(std::string(what) + " " + quote(text) + " is beyond what a float64 can hold");
+        at.fail(std::string(what) + " " + quoted(text) + " is beyond what a float64 can hold");
     if (error != std::errc() || end != digits.data() + digits.size())
-        at.fail(std::string(what) + ": " + quote(text) + " is not a number");
+        at.fail(std::string(what) + ": " + quoted(text) + " is not a number");
     return value;
 }
 
@@ -104,7 +98,7 @@ std::size_t to_count(std::string_view text, const ByteCursor& at, std::string_vi
     std::size_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
-        at.fail(std::string(what) + ": " + quote(text) + " is not a count");
+        at.fail(std::string(what) + ": " + quoted(text) + " is not a count");
     return value;
 }
 

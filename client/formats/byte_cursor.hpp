@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "meniscus/quoted.hpp"  // for messages about arbitrary bytes
+
 namespace meniscus::formats {
 
 /// The file's bytes. most_bytes: more are not read. Throws InvalidInput if it does not exist, is not a regular file, is
@@ -52,9 +54,6 @@ private:
     std::string_view bytes_;
     std::size_t position_ = 0;
 };
-
-/// `text` as one printable line of at most 40 characters, in quotes, for messages about arbitrary bytes.
-std::string quote(std::string_view text);
 
 /// Throws InvalidInput, naming `what`, unless the whole of `text` is a number.
 double to_number(std::string_view text, const ByteCursor& at, std::string_view what);

@@ -184,13 +184,13 @@ private:
     /// All numbers, as float64: exact for what is kept of them, but for integers beyond 2^53.
     std::vector<double> numbers(hid_t set, const Dataset& shape, const std::string& name) {
         if (shape.columns != 0 && shape.rows > budget_.left() / sizeof(double) / shape.columns)
-            at_.fail("dataset " + quote(name) + " has " + std::to_string(shape.rows) + " x " +
+            at_.fail("dataset " + quoted(name) + " has " + std::to_string(shape.rows) + " x " +
                      std::to_string(shape.columns) + " numbers, more than the file may take in memory");
         const std::size_t count = shape.rows * shape.columns;
-        budget_.take(sizeof(double) * count, at_, "dataset " + quote(name));
+        budget_.take(sizeof(double) * count, at_, "dataset " + quoted(name));
         std::vector<double> values(count);
         if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-            at_.fail("dataset " + quote(name) + " is damaged, or compressed by what this build of HDF5 does not know");
+            at_.fail("dataset " + quoted(name) + " is damaged, or compressed by what this build of HDF5 does not know");
         budget_.give_back(sizeof(double) * count);
         return values;
     }
@@ -202,14 +202,14 @@ private:
             Dataset shape;
             const Handle set = open(group, name, shape);
             if (!set.there() || !shape.type || shape.columns != 1)
-                at_.fail("dataset " + quote(name) + " is no list of numbers");
+                at_.fail("dataset " + quoted(name) + " is no list of numbers");
             const std::vector<double> values = numbers(set, shape, name);
             if (axis == 0) {
                 budget_.take(3 * sizeof(float) * values.size(), at_, "the positions");
                 particles.positions.resize(3 * values.size());
             }
             if (values.size() != particles.count())
-                at_.fail("dataset " + quote(name) + " has " + std::to_string(values.size()) + " numbers, x has " +
+                at_.fail("dataset " + quoted(name) + " has " + std::to_string(values.size()) + " numbers, x has " +
                          std::to_string(particles.count()));
             for (std::size_t i = 0; i < values.size(); ++i) set_coordinate(particles, 3 * i + axis, values[i], at_);
         }
@@ -231,7 +231,7 @@ private:
                 name, std::to_string(shape.rows) + " rows for " + std::to_string(count) + " particles");
         ArrayBuilder array(name, *shape.type, shape.columns, 0);
         if (array.wanted()) {
-            budget_.take(sizeof(float) * count * shape.columns, at_, "dataset " + quote(name));
+            budget_.take(sizeof(float) * count * shape.columns, at_, "dataset " + quoted(name));
             array = ArrayBuilder(name, *shape.type, shape.columns, count);
             for (const double value : numbers(set, shape, name)) array.add(value);
         }

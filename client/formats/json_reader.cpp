@@ -34,7 +34,7 @@ public:
     bool key(std::string&) override { return false; }
     bool end_object() override { return false; }
     bool parse_error(std::size_t position, const std::string& token, const nlohmann::json::exception&) override {
-        at_.fail("no JSON at byte " + std::to_string(position) + ", at " + quote(token));
+        at_.fail("no JSON at byte " + std::to_string(position) + ", at " + quoted(token));
     }
 
 private:

@@ -194,7 +194,7 @@ TriangleMesh read_obj(const std::string& name, std::string_view bytes) {
             append_polygon(mesh, corners);
             if (level >= 0) mesh.levels.resize(mesh.triangles.size(), static_cast<std::uint8_t>(level));
         } else if (!is_ignored(keyword)) {
-            in.fail(quote(keyword) + " is no keyword of an OBJ file");
+            in.fail(quoted(keyword) + " is no keyword of an OBJ file");
         }
     }
     expect_addressable(mesh.positions.size(), in);

@@ -38,14 +38,14 @@ public:
     /// Behind 'KEY':
     std::string_view after(std::string_view key) const {
         for (const char mark : {'\'', '"'}) {
-            const std::string quoted = mark + std::string(key) + mark;
-            const std::size_t place = text_.find(quoted);
+            const std::string key_text = mark + std::string(key) + mark;
+            const std::size_t place = text_.find(key_text);
             if (place == std::string_view::npos) continue;
-            std::string_view rest = trimmed(text_.substr(place + quoted.size()));
+            std::string_view rest = trimmed(text_.substr(place + key_text.size()));
             if (!rest.starts_with(':')) break;
             return trimmed(rest.substr(1));
         }
-        at_.fail("an .npy header without " + quote(key));
+        at_.fail("an .npy header without " + quoted(key));
     }
 
     std::string_view string(std::string_view key) const {
@@ -65,7 +65,7 @@ public:
             std::size_t value = 0;
             const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
             if (error != std::errc() || out.size() == most_dimensions)
-                at_.fail("an .npy header whose " + std::string(key) + " has " + quote(rest.substr(0, 20)) +
+                at_.fail("an .npy header whose " + std::string(key) + " has " + quoted(rest.substr(0, 20)) +
                          " where a size is expected");
             out.push_back(value);
             rest = trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
@@ -114,7 +114,7 @@ void set_npy_type(NpyArray& array, std::string_view name) {
     else if (name.starts_with('O'))
         array.unread = "pickled Python objects";
     else
-        array.unread = name.empty() ? "structures" : "numbers of type " + quote(name);
+        array.unread = name.empty() ? "structures" : "numbers of type " + quoted(name);
 }
 
 NpyArray read_npy_array(const ByteCursor& at, std::string_view bytes) {

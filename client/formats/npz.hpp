@@ -34,7 +34,7 @@ public:
     template <class Use>
     void with(std::string_view name, const Use& use) {
         std::string held;
-        const ByteCursor place(at_.name() + ": array " + quote(name), {});
+        const ByteCursor place(at_.name() + ": array " + quoted(name), {});
         use(read_npy_array(place, contents(member(name), place, budget_, held)), place);
         budget_.give_back(held.size());
     }

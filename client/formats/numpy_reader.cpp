@@ -53,8 +53,8 @@ void read_pysph(NpzReader& file, Particles& particles) {
             const std::string_view name = std::string_view("xyz").substr(axis, 1);
             const auto found =
                 std::find_if(arrays.begin(), arrays.end(), [&](const auto& a) { return a.name == name; });
-            if (found == arrays.end()) place.fail("has no array " + quote(name));
-            if (!found->array.unread.empty()) place.fail("array " + quote(name) + ": " + found->array.unread);
+            if (found == arrays.end()) place.fail("has no array " + quoted(name));
+            if (!found->array.unread.empty()) place.fail("array " + quoted(name) + ": " + found->array.unread);
             file.budget().take(sizeof(float) * (found->array.data.size() / size_of(found->array.type)), place,
                                "what it holds");
             fill_axis(particles, axis, found->array, place);

@@ -59,7 +59,7 @@ void require_arrays(const std::string& file, const Particles& particles, std::sp
     for (const std::string& name : names)
         if (std::none_of(particles.arrays.begin(), particles.arrays.end(),
                          [&](const NamedValues& array) { return array.name == name; }))
-            throw InvalidInput(file + ": no array " + quote(name) + "; the file " +
+            throw InvalidInput(file + ": no array " + quoted(name) + "; the file " +
                                described(particles.arrays, particles.left_out));
 }
 
@@ -131,7 +131,7 @@ void set_coordinate(Particles& particles, std::size_t index, double value, const
 
 std::string array_name(std::string_view name) {
     std::string out;
-    for (const char c : name.substr(0, 64)) {
+    for (const char c : name.substr(0, max_array_name_bytes)) {
         if (c >= 'A' && c <= 'Z')
             out += static_cast<char>(c - 'A' + 'a');
         else

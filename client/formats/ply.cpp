@@ -28,7 +28,7 @@ ScalarType type_by_name(std::string_view name, const ByteCursor& at) {
     }};
     for (const auto& [key, type] : types)
         if (key == name) return type;
-    at.fail(quote(name) + " is no type of a PLY file");
+    at.fail(quoted(name) + " is no type of a PLY file");
 }
 
 PlyProperty parse_property(ByteCursor& words) {
@@ -76,7 +76,7 @@ PlyReader::PlyReader(const std::string& name, std::string_view bytes) : in_(name
             else if (format == "binary_big_endian")
                 binary_ = std::endian::big;
             else if (format != "ascii")
-                in_.fail("PLY format " + quote(format) + " is not known");
+                in_.fail("PLY format " + quoted(format) + " is not known");
             has_format = true;
         } else if (keyword == "element") {
             PlyElement element;
@@ -87,7 +87,7 @@ PlyReader::PlyReader(const std::string& name, std::string_view bytes) : in_(name
             if (elements_.empty()) in_.fail("a property before the first element");
             elements_.back().properties.push_back(parse_property(words));
         } else {
-            in_.fail(quote(keyword) + " is no keyword of a PLY header");
+            in_.fail(quoted(keyword) + " is no keyword of a PLY header");
         }
     }
     if (!has_format) in_.fail("a PLY header without format");
@@ -97,7 +97,7 @@ void PlyReader::expect_rows(const PlyElement& element) const {
     std::size_t bytes = 0;
     for (const PlyProperty& p : element.properties) bytes += binary_ ? size_of(p.list_count_type.value_or(p.type)) : 2;
     if (bytes == 0) {
-        if (element.count > 0) in_.fail("element " + quote(element.name) + " has no properties");
+        if (element.count > 0) in_.fail("element " + quoted(element.name) + " has no properties");
         return;
     }
     // In ascii the last number of the file needs no separator after it.

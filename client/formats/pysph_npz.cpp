@@ -53,7 +53,7 @@ NpyArray numpy_array(const ByteCursor& at, const Pickle& pickle, std::string_vie
     for (const Pickle::Id size : state->shape->items) {
         const Value& edge = pickle[size];
         if (edge.kind != Kind::integer || edge.number < 0)
-            at.fail("array " + quote(name) + " has a shape that is none");
+            at.fail("array " + quoted(name) + " has a shape that is none");
         array.shape.push_back(static_cast<std::size_t>(edge.number));
     }
     array.fortran = state->fortran->number != 0;
@@ -63,7 +63,7 @@ NpyArray numpy_array(const ByteCursor& at, const Pickle& pickle, std::string_vie
     for (const std::size_t size : array.shape)
         if (__builtin_mul_overflow(bytes, size, &bytes)) bytes = std::numeric_limits<std::size_t>::max();
     if (bytes != state->data->text.size())
-        at.fail("array " + quote(name) + " of shape " + shape_text(array.shape) + " has " +
+        at.fail("array " + quoted(name) + " of shape " + shape_text(array.shape) + " has " +
                 std::to_string(state->data->text.size()) + " bytes");
     array.data = state->data->text;
     return array;

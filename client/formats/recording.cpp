@@ -45,7 +45,7 @@ public:
 
 private:
     void begin(const v1::RecordingBegin& begin) {
-        if (!is_session_id(begin.session_id())) file_.fail("its session id is " + quote(begin.session_id()));
+        if (!is_session_id(begin.session_id())) file_.fail("its session id is " + quoted(begin.session_id()));
         try {
             recording_.settings_ = conversion::from_wire(begin.settings());
             validate(recording_.settings_);

@@ -76,11 +76,11 @@ private:
         const std::string_view version = in_.line().substr(magic.size());
         const std::size_t dot = version.find('.');
         const std::size_t major = to_count(version.substr(0, dot), in_, "VTK version");
-        if (major < 1 || major > 5) in_.fail("VTK version " + quote(version) + "; 1.0 to 5.1 are read");
+        if (major < 1 || major > 5) in_.fail("VTK version " + quoted(version) + "; 1.0 to 5.1 are read");
         offsets_ = major >= 5;
         in_.line();  // title
         const std::string encoding = upper(in_.word());
-        if (encoding != "ASCII" && encoding != "BINARY") in_.fail("neither ASCII nor BINARY but " + quote(encoding));
+        if (encoding != "ASCII" && encoding != "BINARY") in_.fail("neither ASCII nor BINARY but " + quoted(encoding));
         binary_ = encoding == "BINARY";
     }
 
@@ -88,7 +88,7 @@ private:
         if (keyword == "DATASET") {
             const std::string kind = upper(in_.word());
             if (kind != "UNSTRUCTURED_GRID" && kind != "POLYDATA")
-                in_.fail("DATASET " + quote(kind) + " holds no particles; UNSTRUCTURED_GRID and POLYDATA are read");
+                in_.fail("DATASET " + quoted(kind) + " holds no particles; UNSTRUCTURED_GRID and POLYDATA are read");
         } else if (keyword == "POINTS") {
             points();
         } else if (keyword == "CELLS") {
@@ -246,7 +246,7 @@ private:
         if (keyword == "TENSORS6") components = 6;
         if (keyword == "GLOBAL_IDS" || keyword == "PEDIGREE_IDS" || keyword == "EDGE_FLAGS") components = 1;
         if (components == 0 && keyword != "TEXTURE_COORDINATES")
-            in_.fail(quote(keyword) + " at byte " + std::to_string(in_.position() - keyword.size()) +
+            in_.fail(quoted(keyword) + " at byte " + std::to_string(in_.position() - keyword.size()) +
                      " is no keyword of a VTK file");
         const std::string_view name = in_.word();
         if (components == 0) components = in_.count("number of texture coordinates");
@@ -296,7 +296,7 @@ private:
                     double scale = 1.0) {
         const std::size_t values = product(components, tuples);
         if (point_data_ && tuples != out_.points.size())
-            in_.fail("point data " + quote(name) + " has " + std::to_string(tuples) + " values for " +
+            in_.fail("point data " + quoted(name) + " has " + std::to_string(tuples) + " values for " +
                      std::to_string(out_.points.size()) + " points");
         begin_data(values, type, "values");
         if (point_data_ && components > 0) {
@@ -316,7 +316,7 @@ private:
     ScalarType data_type() {
         const std::string_view name = in_.word();
         const auto type = type_by_name(upper(name));
-        if (!type) in_.fail("arrays of type " + quote(name) + " are not read");
+        if (!type) in_.fail("arrays of type " + quoted(name) + " are not read");
         return *type;
     }
 
@@ -351,7 +351,7 @@ private:
 
     void expect_word(std::string_view expected) {
         const std::string word = upper(in_.word());
-        if (word != expected) in_.fail("expected " + std::string(expected) + ", found " + quote(word));
+        if (word != expected) in_.fail("expected " + std::string(expected) + ", found " + quoted(word));
     }
 
     std::size_t product(std::size_t a, std::size_t b) const {

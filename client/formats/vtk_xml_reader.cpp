@@ -62,7 +62,7 @@ public:
         header(file);
         const std::string kind = file.attribute("type").value();
         if (kind != "UnstructuredGrid" && kind != "PolyData")
-            at_.fail("VTKFile of type " + quote(kind) +
+            at_.fail("VTKFile of type " + quoted(kind) +
                      " holds no particles and no faces; UnstructuredGrid and PolyData are read");
         const pugi::xml_node body = file.child(kind.c_str());
         if (!body) at_.fail("VTKFile has no element " + kind);
@@ -118,11 +118,11 @@ private:
     void header(const pugi::xml_node& file) {
         const std::string_view order = file.attribute("byte_order").as_string("LittleEndian");
         if (order != "LittleEndian" && order != "BigEndian")
-            at_.fail("byte_order " + quote(order) + "; LittleEndian and BigEndian are read");
+            at_.fail("byte_order " + quoted(order) + "; LittleEndian and BigEndian are read");
         order_ = order == "BigEndian" ? std::endian::big : std::endian::little;
         const std::string_view type = file.attribute("header_type").as_string("UInt32");
         if (type != "UInt32" && type != "UInt64")
-            at_.fail("header_type " + quote(type) + "; UInt32 and UInt64 are read");
+            at_.fail("header_type " + quoted(type) + "; UInt32 and UInt64 are read");
         header_type_ = type == "UInt64" ? ScalarType::uint64 : ScalarType::uint32;
         compressor_ = file.attribute("compressor").value();
     }
@@ -167,7 +167,7 @@ private:
     }
 
     static std::string named(const Piece& p, const pugi::xml_node& array) {
-        return p.name + ", array " + quote(array.attribute("Name").value());
+        return p.name + ", array " + quoted(array.attribute("Name").value());
     }
 
     /// Calls take(value) for each of `values` numbers of the array. make_room: called before the first, once it is
@@ -197,7 +197,7 @@ private:
     }
 
     [[noreturn]] std::string_view unknown_format(const std::string& what, std::string_view format) const {
-        at_.fail(what + ": format " + quote(format) + "; ascii, binary and appended are read");
+        at_.fail(what + ": format " + quoted(format) + "; ascii, binary and appended are read");
     }
 
     /// The name of a cursor in an array.
@@ -244,7 +244,7 @@ private:
     std::string_view decompressed(const TakeBytes& take, std::size_t most, const std::string& what, std::uint64_t bytes,
                                   std::string& held) {
         if (compressor_ != "vtkZLibDataCompressor")
-            at_.fail("arrays are compressed by " + quote(compressor_) + "; vtkZLibDataCompressor is read");
+            at_.fail("arrays are compressed by " + quoted(compressor_) + "; vtkZLibDataCompressor is read");
         const std::size_t word = size_of(header_type_);
         const std::uint64_t blocks = header_numbers(take(word), 1)[0];
         if (blocks > most / word)
@@ -304,8 +304,8 @@ private:
         const auto form = form_of(array, what);
         if (!form || form->components != 3)
             at_.fail(what + ": 3 components of a number are needed, not " +
-                     quote(array.attribute("NumberOfComponents").value()) + " of " +
-                     quote(array.attribute("type").value()));
+                     quoted(array.attribute("NumberOfComponents").value()) + " of " +
+                     quoted(array.attribute("type").value()));
         out_.wide = out_.wide || form->type == ScalarType::float64;
         std::size_t next = 3 * out_.points.size();
         read(
@@ -405,7 +405,7 @@ private:
             const std::string what = named(*first, array);
             const auto form = form_of(array, what);
             if (!form || form->components == 0) {
-                out_.arrays.leave_out(name, "type " + quote(array.attribute("type").value()));
+                out_.arrays.leave_out(name, "type " + quoted(array.attribute("type").value()));
                 continue;
             }
             // Before memory is taken: at most 4 bytes for each number. What cannot be an attribute takes none.
@@ -424,7 +424,7 @@ private:
         const std::string what = named(p, array);
         const auto own = array ? form_of(array, what) : std::nullopt;
         if (!own || own->type != form.type || own->components != form.components)
-            at_.fail(p.name + " has no array " + quote(name) + " like that of the pieces before");
+            at_.fail(p.name + " has no array " + quoted(name) + " like that of the pieces before");
         read(
             array, what, form.type, p.points * form.components, [] {}, [&](double x) { values.add(x); });
     }

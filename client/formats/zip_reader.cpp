@@ -88,9 +88,9 @@ ZipMember next_member(std::string_view& directory, const ByteCursor& at, std::st
     ZipMember member;
     member.name = entry.substr(entry_bytes, name_bytes);
     const unsigned flags = number_at<std::uint16_t>(entry, 8), method = number_at<std::uint16_t>(entry, 10);
-    if ((flags & 1U) != 0) at.fail("member " + quote(member.name) + " is encrypted");
+    if ((flags & 1U) != 0) at.fail("member " + quoted(member.name) + " is encrypted");
     if (method != 0 && method != Z_DEFLATED)
-        at.fail("member " + quote(member.name) + " is compressed by method " + std::to_string(method) +
+        at.fail("member " + quoted(member.name) + " is compressed by method " + std::to_string(method) +
                 "; stored and deflated members are read");
     member.deflated = method == Z_DEFLATED;
     member.crc = number_at<std::uint32_t>(entry, 16);
@@ -98,7 +98,7 @@ ZipMember next_member(std::string_view& directory, const ByteCursor& at, std::st
     member.size = wide.of(number_at<std::uint32_t>(entry, 24), at);
     const std::uint64_t stored = wide.of(number_at<std::uint32_t>(entry, 20), at);
     const std::uint64_t first = wide.of(number_at<std::uint32_t>(entry, 42), at);
-    const std::string what = "member " + quote(member.name);
+    const std::string what = "member " + quoted(member.name);
     const auto header = piece_of(bytes, first, local_bytes, at, what);
     if (!header.starts_with(local_mark)) at.fail(what + " does not begin where the zip directory says");
     const std::size_t skipped =
@@ -125,7 +125,7 @@ std::vector<ZipMember> zip_members(const ByteCursor& at, std::string_view bytes)
 }
 
 std::string_view contents(const ZipMember& member, const ByteCursor& at, ReadBudget& budget, std::string& held) {
-    const std::string what = "member " + quote(member.name);
+    const std::string what = "member " + quoted(member.name);
     std::string_view bytes = member.stored;
     if (member.deflated) {
         if (member.size / most_deflation > member.stored.size())

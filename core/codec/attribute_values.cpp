@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 
+#include "meniscus/array_form.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus {
@@ -79,9 +80,8 @@ float CodedRange::value(std::uint32_t number) const {
 
 void require_codable(const CodedAttribute& form) {
     if (!can_be_attribute(form.type, form.components))
-        throw InvalidInput("attribute '" + form.name + "' is " + std::string(name_of(form.type)) + " x " +
-                           std::to_string(form.components) +
-                           ", must be float32 or uint8 x 1, 3 or 4, or int32 or uint32 x 1");
+        throw InvalidInput("attribute '" + form.name + "' is " + form_of(form.type, form.components) + ", must be " +
+                           std::string(attribute_forms));
     if (form.bits < 0 || form.bits > max_attribute_bits || (form.bits != 0 && form.type != ElementType::float32))
         throw InvalidInput("attribute '" + form.name + "' of " + std::string(name_of(form.type)) +
                            " is to be coded with " + std::to_string(form.bits) +

@@ -14,6 +14,7 @@
 #include "codec/normal_rounding.hpp"
 #include "codec/round_position.hpp"
 #include "codec/triangle_levels.hpp"
+#include "meniscus/array_form.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/error.hpp"
 
@@ -107,8 +108,8 @@ const MeshAttribute& attribute_of(const Mesh& mesh, const CodedAttribute& form) 
     if (attribute == mesh.attributes.end() || attribute->type != form.type ||
         attribute->components != form.components ||
         attribute->data.size() != mesh.vertices.size() * attribute->element_bytes())
-        throw InvalidInput("the mesh has no attribute '" + form.name + "' of " + std::string(name_of(form.type)) +
-                           " x " + std::to_string(form.components) + " for each vertex");
+        throw InvalidInput("the mesh has no attribute '" + form.name + "', " + form_of(form.type, form.components) +
+                           " for each vertex");
     require_codable(form);
     return *attribute;
 }

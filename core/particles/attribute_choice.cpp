@@ -6,34 +6,21 @@
 #include <cstring>
 #include <string_view>
 
+#include "meniscus/array_form.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus {
 namespace {
 
-constexpr std::size_t longest_name = 64;
-
-std::string quoted(std::string_view name) {
-    // What a stranger sends may be long, and hold what a terminal would obey.
-    std::string shown(name.substr(0, longest_name));
-    std::replace_if(
-        shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    return "'" + shown + (name.size() > longest_name ? "...'" : "'");
-}
-
 void require_name(std::string_view name) {
     const auto is_allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
-    if (name.empty() || name.size() > longest_name || !std::all_of(name.begin(), name.end(), is_allowed))
+    if (name.empty() || name.size() > max_array_name_bytes || !std::all_of(name.begin(), name.end(), is_allowed))
         throw InvalidInput("the attribute " + quoted(name) +
                            " has a name that no array can have: 1 to 64 of the characters a-z, 0-9 and _");
     if (name == "position" || name == "level")
         throw InvalidInput("the attribute " + quoted(name) +
                            " is what the surface is made from: name arrays of other values");
-}
-
-std::string form_of(ElementType type, std::size_t components) {
-    return std::string(name_of(type)) + " of " + std::to_string(components) +
-           (components == 1 ? " component" : " components");
 }
 
 /// The array of a name; none if there is none.
@@ -46,7 +33,7 @@ const ParticleArray* find(const ParticleFrame& frame, std::string_view name) {
     }
     if (found != nullptr && !can_be_attribute(found->type, found->components))
         throw InvalidInput("array " + quoted(name) + " is " + form_of(found->type, found->components) +
-                           ", an attribute must be float32 or uint8 of 1, 3 or 4 components, or int32 or uint32 of 1");
+                           ", an attribute must be " + std::string(attribute_forms));
     return found;
 }
 

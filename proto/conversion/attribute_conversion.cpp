@@ -6,15 +6,13 @@
 #include <string>
 
 #include "conversion/particle_arrays.hpp"
+#include "meniscus/array_form.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::conversion {
 namespace {
-
-std::string quoted(const std::string& name) {
-    return "'" + name + "'";
-}
 
 enum class EmptyName { refused, allowed };
 
@@ -69,9 +67,8 @@ CodedAttribute checked(const v1::MeshAttribute& wire) {
     }
     attribute.components = wire.components();
     if (!can_be_attribute(attribute.type, attribute.components))
-        throw InvalidInput(what + " is " + std::string(name_of(attribute.type)) + " x " +
-                           std::to_string(attribute.components) +
-                           ", must be float32 or uint8 x 1, 3 or 4, or int32 or uint32 x 1");
+        throw InvalidInput(what + " is " + form_of(attribute.type, attribute.components) + ", must be " +
+                           std::string(attribute_forms));
     if (wire.minimum_size() != 0 || wire.maximum_size() != 0)
         require_range(wire.minimum(), wire.maximum(), attribute.components, "the range of " + what);
     attribute.bits = checked_bits(wire.bits(), "attribute", wire.name());

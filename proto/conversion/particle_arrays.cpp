@@ -8,7 +8,9 @@
 #include <string_view>
 #include <utility>
 
+#include "meniscus/array_form.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::conversion {
 
@@ -49,16 +51,12 @@ constexpr KnownArray position_array{"position", position_forms};
 constexpr KnownArray level_array{"level", level_forms};
 constexpr std::array known_arrays{position_array, level_array};
 
-std::string quoted(std::string_view name) {
-    return "'" + std::string(name) + "'";
-}
-
-/// "float32 x 3 or uint16 x 3".
+/// "float32 of 3 components or uint16 of 3 components".
 std::string text(std::span<const Form> forms) {
     std::string out;
     for (const Form& form : forms) {
         const auto element = std::ranges::find(elements, form.type, &Element::type);
-        out += (out.empty() ? "" : " or ") + std::string(element->name) + " x " + std::to_string(form.components);
+        out += (out.empty() ? "" : " or ") + meniscus::form_of(element->name, form.components);
     }
     return out;
 }
@@ -111,7 +109,7 @@ void add(ParticleArrays& arrays, std::string_view name, const Form& form) {
 
 std::string form_of(const FurtherArray& array) {
     const auto element = std::ranges::find(elements, array.type, &Element::in_core);
-    return std::string(element->name) + " x " + std::to_string(array.components);
+    return meniscus::form_of(element->name, array.components);
 }
 
 ParticleLayout particle_layout(const ParticleArrays& arrays) {

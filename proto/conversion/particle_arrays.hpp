@@ -20,7 +20,6 @@ using ParticleArrays = google::protobuf::RepeatedPtrField<v1::ParticleArray>;
 /// Positions, levels, and as many more as a ParticleFrame can bring.
 inline constexpr int max_announced_arrays = 2 + static_cast<int>(max_particle_arrays);
 inline constexpr std::uint32_t max_array_components = 16;
-inline constexpr std::size_t max_array_name_bytes = 64;
 
 /// An array beside positions and levels.
 struct FurtherArray {
@@ -32,7 +31,7 @@ struct FurtherArray {
 
     bool can_be_attribute() const { return type && meniscus::can_be_attribute(*type, components); }
 };
-/// Its form, such as "float32 x 3".
+/// Its form, such as "float32 of 3 components".
 std::string form_of(const FurtherArray& array);
 
 /// Positions come first.

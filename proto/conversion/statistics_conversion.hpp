@@ -14,7 +14,7 @@ void to_wire(const Statistics& statistics, v1::FrameStatistics& wire);
 /// Of one frame, of those that come: what follows is left out.
 inline constexpr std::size_t max_warnings = 16;
 /// Of a warning's text.
-inline constexpr std::size_t max_warning_bytes = 500;
+inline constexpr std::size_t max_warning_characters = 500;
 /// Warnings are bounded, and their texts printable lines, whatever the other side sends.
 Statistics from_wire(const v1::FrameStatistics& wire);
 

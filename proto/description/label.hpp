@@ -1,4 +1,4 @@
-// The texts in a session's description: what may be one, and how it is shown.
+// The texts in a session's description: what may be one, and how long it is.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +16,6 @@ inline constexpr std::size_t max_unit_characters = 16;
 /// InvalidInput, which says what is wrong with `what`.
 void require_name(std::string_view name, std::string_view what = "the session's name");
 void require_length_unit(std::string_view unit, std::string_view what = "the session's unit of length");
-
-/// For a log, a table or a message: as it is, but what no label may have as \u{XXXX}, bytes that are not UTF-8 as \xNN,
-/// and a backslash and a double quote behind a backslash.
-std::string escaped(std::string_view text);
-/// The same in double quotes.
-std::string quoted(std::string_view text);
 
 /// Characters (code points) of it; a byte that is not UTF-8 counts as one.
 std::size_t count_characters(std::string_view text);

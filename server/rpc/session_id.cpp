@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "meniscus/error.hpp"
-#include "rpc/escaped.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::server {
 
@@ -17,10 +17,9 @@ namespace {
 constexpr std::string_view metadata_key = "x-session-id";
 
 void require_session_id(std::string_view name, std::string_view id) {
-    constexpr std::size_t shown = 64;
     if (!is_session_id(id))
-        throw InvalidInput(fmt::format("{} is \"{}\"; it must be a UUID of 8-4-4-4-12 lower-case hexadecimal digits",
-                                       name, escaped(id.substr(0, shown))));
+        throw InvalidInput(fmt::format("{} is {}; it must be a UUID of 8-4-4-4-12 lower-case hexadecimal digits", name,
+                                       quoted(id, '"')));
 }
 
 }  // namespace

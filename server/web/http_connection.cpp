@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 #include "rpc/session_id.hpp"
 #include "security/web_peer.hpp"
 #include "web/beast_text.hpp"
@@ -33,8 +34,6 @@ namespace {
 /// What a client may still be sending while it is answered for the last time.
 constexpr std::size_t linger_bytes = std::size_t{1} << 20;
 constexpr auto linger_time = std::chrono::seconds(2);
-/// Of what a client sent, in what it is told.
-constexpr std::size_t shown_bytes = 64;
 
 constexpr std::string_view not_tls =
     "HTTP/1.1 400 Bad Request\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: 49\r\nConnection: "
@@ -144,7 +143,7 @@ void HttpConnection::answer() {
         return refuse(
             421,
             fmt::format("This server is not known as {0}; use its address, or start it with --web-origin http://{0}\n",
-                        host.substr(0, shown_bytes)));
+                        escaped(host)));
     if (is_call_) {
         if (!passes_origin("POST")) return;
         if (request.method() == http::verb::post) return receive_call();
@@ -165,8 +164,7 @@ bool HttpConnection::passes_origin(std::string_view methods) {
     const auto& request = parser_->get();
     const std::string_view origin = view(request[http::field::origin]);
     if (!content_.grpc_web.origins.admits(origin, view(request[http::field::host])))
-        refuse(403, fmt::format("Pages of {} may not call this server; --web-origin allows them.\n",
-                                origin.substr(0, shown_bytes)));
+        refuse(403, fmt::format("Pages of {} may not call this server; --web-origin allows them.\n", escaped(origin)));
     else if (request.method() == http::verb::options)
         write(preflight_page(origin, methods), request.keep_alive());
     else
@@ -177,7 +175,7 @@ bool HttpConnection::passes_origin(std::string_view methods) {
 grpc::Status HttpConnection::call_refusal(std::string_view path) {
     if (!content_.grpc_web.serves(path))
         return {grpc::StatusCode::UNIMPLEMENTED,
-                fmt::format("{} is not served to browsers, only what reads", path.substr(0, shown_bytes))};
+                fmt::format("{} is not served to browsers, only what reads", escaped(path))};
     if (content_.grpc_web.needs_certificate && !stream_.has_client_certificate())
         return {grpc::StatusCode::UNAUTHENTICATED, "calls need a client's certificate"};
     if (is_stream(path) && !observer_.may_stream())
@@ -192,8 +190,8 @@ grpc::Status HttpConnection::call_refusal(std::string_view path) {
 void HttpConnection::receive_call() {
     const auto& request = parser_->get();
     if (!is_grpc_web(request))
-        return refuse(415, fmt::format("The content type is \"{}\"; application/grpc-web+proto is taken.\n",
-                                       view(request[http::field::content_type]).substr(0, shown_bytes)));
+        return refuse(415, fmt::format("The content type is {}; application/grpc-web+proto is taken.\n",
+                                       quoted(view(request[http::field::content_type]), '"')));
     if (const grpc::Status refusal = call_refusal(view(request.target())); !refusal.ok()) return refuse_call(refusal);
     call_parser_.emplace(std::move(*parser_));
     call_parser_->body_limit(limits_.body_bytes);

@@ -6,6 +6,7 @@
 
 #include "conversion/attribute_conversion.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::server {
 
@@ -21,14 +22,13 @@ std::string_view path_of(std::string_view target) {
 }
 
 void add_parameter(std::string_view parameter, MeshRequest& asked) {
-    constexpr std::size_t shown_bytes = 64;
     if (parameter == "draco")
         asked.draco = true;
     else if (parameter.starts_with(attribute_is) && parameter != attribute_is)
         asked.attributes.emplace_back(parameter.substr(attribute_is.size()));
     else
-        throw InvalidInput(fmt::format("the parameter \"{}\" is not known; there are draco and attribute=NAME",
-                                       parameter.substr(0, shown_bytes)));
+        throw InvalidInput(
+            fmt::format("the parameter {} is not known; there are draco and attribute=NAME", quoted(parameter, '"')));
 }
 
 }  // namespace

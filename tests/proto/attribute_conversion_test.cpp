@@ -125,9 +125,10 @@ TEST(AttributeConversion, BelievesNothingThatAServerAnnounces) {
     expect_refused("the name of attribute 0", [](Begin& m) { m.mutable_attributes(0)->set_name("a b"); });
     expect_refused("type 0", [](Begin& m) { m.mutable_attributes(0)->set_type(v1::ATTRIBUTE_TYPE_UNSPECIFIED); });
     expect_refused("type 9", [](Begin& m) { m.mutable_attributes(0)->set_type(static_cast<v1::AttributeType>(9)); });
-    expect_refused("float32 x 2", [](Begin& m) { m.mutable_attributes(0)->set_components(2); });
-    expect_refused("float32 x 4294967295", [](Begin& m) { m.mutable_attributes(0)->set_components(0xFFFFFFFF); });
-    expect_refused("uint32 x 3", [](Begin& m) { m.mutable_attributes(2)->set_components(3); });
+    expect_refused("float32 of 2 components", [](Begin& m) { m.mutable_attributes(0)->set_components(2); });
+    expect_refused("float32 of 4294967295 components",
+                   [](Begin& m) { m.mutable_attributes(0)->set_components(0xFFFFFFFF); });
+    expect_refused("uint32 of 3 components", [](Begin& m) { m.mutable_attributes(2)->set_components(3); });
     expect_refused("must have 3 of each", [](Begin& m) { m.mutable_attributes(0)->add_minimum(1.0); });
     expect_refused("finite and ascending", [](Begin& m) { m.mutable_attributes(3)->set_minimum(0, 9.0); });
     expect_refused("finite and ascending", [&](Begin& m) { m.mutable_attributes(3)->set_maximum(0, infinity); });

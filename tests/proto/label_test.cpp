@@ -1,4 +1,4 @@
-// Names of sessions: what may be one, and how they are shown.
+// Names of sessions: what may be one, and how long it is.
 #include "description/label.hpp"
 
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include <string>
 
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::description {
 namespace {
@@ -50,7 +51,7 @@ TEST(SessionName, HasNoControlsNorMarksOfDirectionNorOtherInvisibleCharacters) {
           std::string("\u202e"), std::string("\u2066"), std::string("\u2069"), std::string("\ufeff"),
           std::string("\U000E0041")}) {
         const std::string why = refusal("water" + bad + "fall");
-        EXPECT_NE(why, "") << escaped(bad);
+        EXPECT_NE(why, "") << meniscus::escaped(bad);
         for (const unsigned char c : why) EXPECT_TRUE(c >= ' ' && c < 0x7f) << why;
     }
 }
@@ -64,12 +65,6 @@ TEST(SessionName, IsUtf8) {
 TEST(SessionName, CanBeSeen) {
     for (const std::string blank : {" ", "   ", "\u00a0", "\u3000", "\u200d", "\u3164"})
         EXPECT_NE(refusal(blank).find("can be seen"), std::string::npos) << refusal(blank);
-}
-
-TEST(SessionName, EndsNeitherItsQuotesNorItsLineWhereItIsShown) {
-    EXPECT_EQ(quoted("w\u00e4ter"), "\"w\u00e4ter\"");
-    EXPECT_EQ(quoted("a\" b\\"), "\"a\\\" b\\\\\"");
-    EXPECT_EQ(escaped("a\nb\u202e\x1b\xff"), "a\\u{000a}b\\u{202e}\\u{001b}\\xff");
 }
 
 TEST(SessionName, IsCountedAndCutByCharacters) {

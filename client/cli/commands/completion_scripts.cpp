@@ -15,7 +15,7 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 /// One word of a shell, whatever is in it.
-std::string quoted(const std::string& text) {
+std::string shell_word(const std::string& text) {
     std::string out = "'";
     for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return out + "'";
@@ -46,10 +46,10 @@ std::string zsh_option(const CompletedOption& option) {
     std::string values;
     for (std::size_t i = 0; i < option.values; ++i) values += ":value:" + zsh_action(option.choices);
     const std::string rest = zsh_explanation(option.description) + values;
-    if (option.names.size() == 1) return quoted(option.names.front() + rest);
+    if (option.names.size() == 1) return shell_word(option.names.front() + rest);
     std::string braces;
     for (const std::string& name : option.names) braces += (braces.empty() ? "{" : ",") + name;
-    return quoted("(" + joined(option.names) + ")") + braces + "}" + quoted(rest);
+    return shell_word("(" + joined(option.names) + ")") + braces + "}" + shell_word(rest);
 }
 
 }  // namespace
@@ -101,11 +101,11 @@ std::string bash_completion(const CompletedCommand& program, const std::vector<C
 std::string zsh_completion(const CompletedCommand& program, const std::vector<CompletedCommand>& commands) {
     std::string list, cases;
     for (const CompletedCommand& command : commands) {
-        list += "        " + quoted(command.name + ":" + command.description) + "\n";
+        list += "        " + shell_word(command.name + ":" + command.description) + "\n";
         cases += "        " + command.name + ")\n            _arguments";
         for (const CompletedOption& option : command.options) cases += " \\\n                " + zsh_option(option);
         for (const CompletedOption& argument : command.arguments)
-            cases += " \\\n                " + quoted(":argument:" + zsh_action(argument.choices));
+            cases += " \\\n                " + shell_word(":argument:" + zsh_action(argument.choices));
         cases += "\n            ;;\n";
     }
     std::string options;

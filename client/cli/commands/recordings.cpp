@@ -14,15 +14,15 @@
 #include "cli/print/settings_json.hpp"
 #include "cli/print/times.hpp"
 #include "cli/sequence/recording_files.hpp"
-#include "description/label.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::cli {
 namespace {
 
 /// For a line of text: with a space before it; empty where there is none.
 std::string after_space(const std::string& name) {
-    return name.empty() ? "" : " " + description::quoted(name);
+    return name.empty() ? "" : " " + quoted(name, '"');
 }
 
 nlohmann::ordered_json describe(const client::SessionDescription& description) {

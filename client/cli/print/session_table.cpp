@@ -6,6 +6,7 @@
 
 #include "cli/print/times.hpp"
 #include "description/label.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -43,8 +44,8 @@ std::string wait_of(const client::SessionInfo& session) {
 std::string attributes_of(const Settings& settings) {
     if (settings.all_attributes) return "all";
     std::string names;
-    for (const std::string& name : settings.attributes) names += (names.empty() ? "" : ",") + name;
-    return names.empty() ? "-" : description::escaped(names);
+    for (const std::string& name : settings.attributes) names += (names.empty() ? "" : ",") + escaped(name);
+    return names.empty() ? "-" : names;
 }
 
 Line line_of(const SessionRow& row, std::chrono::system_clock::time_point now) {
@@ -52,7 +53,7 @@ Line line_of(const SessionRow& row, std::chrono::system_clock::time_point now) {
     const std::string& name = session.description.name;
     const bool has_age = session.created_at != std::chrono::system_clock::time_point();  // an older server tells none
     Line line{session.id,
-              name.empty() ? "-" : description::escaped(name),
+              name.empty() ? "-" : escaped(name),
               session.owner.empty() ? "-" : session.owner,
               session.uploading ? "uploading" : "idle",
               wait_of(session),

@@ -2,17 +2,10 @@
 
 #include <algorithm>
 
+#include "meniscus/array_form.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {
-namespace {
-
-std::string text_of(ElementType type, std::size_t components) {
-    return std::string(name_of(type)) + " of " + std::to_string(components) +
-           (components == 1 ? " component" : " components");
-}
-
-}  // namespace
 
 void ArrayForms::require(std::span<const ParticleArray> arrays) {
     for (const ParticleArray& array : arrays) {
@@ -21,8 +14,8 @@ void ArrayForms::require(std::span<const ParticleArray> arrays) {
         if (form == forms_.end())
             forms_.push_back({std::string(array.name), array.type, array.components});
         else if (form->type != array.type || form->components != array.components)
-            throw InvalidInput("array '" + form->name + "' is " + text_of(array.type, array.components) +
-                               ", must be as in the frames before: " + text_of(form->type, form->components));
+            throw InvalidInput("array '" + form->name + "' is " + form_of(array.type, array.components) +
+                               ", must be as in the frames before: " + form_of(form->type, form->components));
     }
 }
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "description/label.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -24,17 +24,17 @@ bool has_form_of_id(const std::string& text) {
 
 std::string session_id_of(client::Client& client, const std::string& id_or_name) {
     if (has_form_of_id(id_or_name)) return id_or_name;
-    const std::string quoted = description::quoted(id_or_name);
+    const std::string shown = quoted(id_or_name, '"');
     std::vector<std::string> ids;
     // An empty name is none.
     if (!id_or_name.empty())
         for (const client::SessionInfo& session : client.sessions())
             if (session.description.name == id_or_name) ids.push_back(session.id);
-    if (ids.empty()) throw InvalidInput("no session has the name or id " + quoted + " (meniscus sessions lists them)");
+    if (ids.empty()) throw InvalidInput("no session has the name or id " + shown + " (meniscus sessions lists them)");
     if (ids.size() == 1) return ids.front();
     std::string list;
     for (const std::string& id : ids) list += (list.empty() ? "" : ", ") + id;
-    throw InvalidInput(std::to_string(ids.size()) + " sessions have the name " + quoted +
+    throw InvalidInput(std::to_string(ids.size()) + " sessions have the name " + shown +
                        "; say which by its id: " + list);
 }
 

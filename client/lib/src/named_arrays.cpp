@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <string_view>
 
+#include "meniscus/array_form.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::client {
 
 namespace {
-
-std::string quoted(std::string_view name) {
-    return "'" + std::string(name) + "'";
-}
 
 const ParticleArray* find_once(std::span<const ParticleArray> arrays, std::string_view name) {
     const auto array = std::ranges::find(arrays, name, &ParticleArray::name);
@@ -23,16 +21,14 @@ const ParticleArray* find_once(std::span<const ParticleArray> arrays, std::strin
 
 void require_form(const ParticleArray& array) {
     if (can_be_attribute(array.type, array.components)) return;
-    throw InvalidInput("array " + quoted(array.name) + " is " + std::string(name_of(array.type)) + " x " +
-                       std::to_string(array.components) +
-                       "; an attribute is float32 or uint8 x 1, 3 or 4, or int32 or uint32 x 1");
+    throw InvalidInput("array " + quoted(array.name) + " is " + form_of(array.type, array.components) +
+                       "; an attribute is " + std::string(attribute_forms));
 }
 
 bool can_be_named(std::string_view name) {
-    constexpr std::size_t longest = 64;
     const auto is_allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
-    return !name.empty() && name.size() <= longest && std::ranges::all_of(name, is_allowed) && name != "position" &&
-           name != "level";
+    return !name.empty() && name.size() <= max_array_name_bytes && std::ranges::all_of(name, is_allowed) &&
+           name != "position" && name != "level";
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ inline constexpr unsigned max_particle_level = 3;
 
 /// Most arrays that a frame can bring beside positions and levels.
 inline constexpr std::size_t max_particle_arrays = 16;
+/// Most characters of the name of an array that becomes an attribute; they are of a-z, 0-9 and _.
+inline constexpr std::size_t max_array_name_bytes = 64;
 
 /// A value that every particle carries beside its position and level, such as a velocity; borrowed.
 struct ParticleArray {

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <string>
 
+#include "meniscus/array_form.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::server {
@@ -42,9 +43,8 @@ std::vector<FurtherArray> arrays_to_keep(const conversion::ParticleLayout& layou
                 name, names_of(layout.further)));
         if (!found->can_be_attribute())
             throw InvalidInput(
-                fmt::format("array '{}' is {}, and the session's settings name it as an attribute; that is float32 "
-                            "or uint8 x 1, 3 or 4, or int32 or uint32 x 1",
-                            name, conversion::form_of(*found)));
+                fmt::format("array '{}' is {}, and the session's settings name it as an attribute; that is {}", name,
+                            conversion::form_of(*found), attribute_forms));
         arrays.push_back(*found);
     }
     std::ranges::sort(arrays, {}, &FurtherArray::after);

@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "description/label.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::server {
 
 /// The name in quotation marks, with a space behind it; empty where there is none.
 inline std::string named(const std::string& name) {
-    return name.empty() ? "" : description::quoted(name) + " ";
+    return name.empty() ? "" : quoted(name, '"') + " ";
 }
 
 }  // namespace meniscus::server

@@ -333,7 +333,9 @@ TEST(AttributeBricks, AreRefusedUnlessTheyAreWhatWasAnnounced) {
     EXPECT_NE(refused([](auto& all) { all[1].bits = 0; }).find(lacks), std::string::npos);
     EXPECT_NE(refused([](auto& all) { all[7].type = ElementType::float32; }).find("lacks the attribute 'id'"),
               std::string::npos);
-    EXPECT_NE(refused([](auto& all) { all[1].type = ElementType::uint32; }).find("'velocity' is uint32 x 3, must be"),
+    EXPECT_NE(refused([](auto& all) {
+                  all[1].type = ElementType::uint32;
+              }).find("'velocity' is uint32 of 3 components, must be"),
               std::string::npos);
     EXPECT_NE(refused([](auto& all) { all[1].bits = 40; }).find("is to be coded with 40 bits"), std::string::npos);
     EXPECT_NE(refused([](auto& all) { all[0].bits = 2; }).find("in 2 bits"), std::string::npos);

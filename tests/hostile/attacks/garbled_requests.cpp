@@ -11,6 +11,7 @@
 #include "../attacks.hpp"
 #include "../target.hpp"
 #include "connection/connection.hpp"
+#include "meniscus/characters.hpp"
 
 namespace meniscus::hostile {
 
@@ -55,7 +56,12 @@ std::vector<Figure> garbled_requests(const std::string& program) {
             grpc::internal::BlockingUnaryCall(connection.channel.get(), method, &context, request, &response);
         if (status.ok()) continue;
         wordless += status.error_message().empty() ? 1 : 0;
-        raw += std::ranges::any_of(status.error_message(), [](char c) { return c < ' ' || c > '~'; }) ? 1 : 0;
+        bool is_raw = false;
+        for_each_character(status.error_message(), [&](const Character& character) {
+            is_raw = is_raw || !character.code_point || is_control(*character.code_point) ||
+                     is_filler(*character.code_point);
+        });
+        raw += is_raw ? 1 : 0;
     }
     return {{"refusals without a word, of 3000 requests", static_cast<double>(wordless), 0.0, ""},
             {"refusals with characters that are not visible", static_cast<double>(raw), 0.0, ""}};

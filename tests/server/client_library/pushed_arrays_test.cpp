@@ -156,7 +156,7 @@ TEST_F(PushedArrays, AreRefusedByNameBeforeTheyAreSent) {
     expect_refused("array 'id' comes twice", [](Carrying& c) { c.arrays.push_back(c.arrays[1]); });
     expect_refused("array 'velocity' has",
                    [](Carrying& c) { c.arrays[0].data = c.arrays[0].data.first(c.arrays[0].data.size() - 12); });
-    expect_refused("array 'velocity' is float32 x 2", [](Carrying& c) {
+    expect_refused("array 'velocity' is float32 of 2 components", [](Carrying& c) {
         c.arrays[0].components = 2;
         c.arrays[0].data = c.arrays[0].data.first(8 * c.count);
     });

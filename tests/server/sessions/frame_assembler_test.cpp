@@ -279,11 +279,12 @@ TEST_F(ArraysOfAFrame, AreRefusedByNameWhereOneIsMissingOrCannotBeAnAttribute) {
     SentArray pair = sent_velocity;
     pair.components = 2;
     EXPECT_EQ(refusal(receiver, {sent_positions, sent_id, pair}),
-              "frame 0: array 'velocity' is float32 x 2, and the session's settings name it as an attribute; that is "
-              "float32 or uint8 x 1, 3 or 4, or int32 or uint32 x 1");
+              "frame 0: array 'velocity' is float32 of 2 components, and the session's settings name it as an "
+              "attribute; that is "
+              "float32 or uint8 of 1, 3 or 4 components, or int32 or uint32 of 1");
     SentArray half = sent_half;
     half.name = "velocity";
-    EXPECT_NE(refusal(receiver, {sent_positions, sent_id, half}).find("array 'velocity' is uint16 x 1, and"),
+    EXPECT_NE(refusal(receiver, {sent_positions, sent_id, half}).find("array 'velocity' is uint16 of 1 component, and"),
               std::string::npos);
     EXPECT_EQ(refusal(receiver, {sent_positions, sent_id, sent_velocity, sent_id}),
               "frame 0: array 'id' comes twice; each comes once");

@@ -84,11 +84,14 @@ std::vector<BadInputCase> array_cases() {
          arrays({positions, levels, levels})},
         {"AnArrayThatTheSessionDoesNotName", ok, "", arrays({positions, {"velocity", v1::ELEMENT_TYPE_FLOAT32, 3}})},
         {"PositionsOfTwoComponents", invalid,
-         "frame 11: array 'position' is float32 x 2; it must be float32 x 3 or uint16 x 3",
+         "frame 11: array 'position' is float32 of 2 components; it must be float32 of 3 components or uint16 of 3 "
+         "components",
          arrays({{"position", v1::ELEMENT_TYPE_FLOAT32, 2}})},
-        {"PositionsOfInt32", invalid, "frame 11: array 'position' is int32 x 3; it must be float32 x 3 or uint16 x 3",
+        {"PositionsOfInt32", invalid,
+         "frame 11: array 'position' is int32 of 3 components; it must be float32 of 3 components or uint16 of 3 "
+         "components",
          arrays({{"position", v1::ELEMENT_TYPE_INT32, 3}})},
-        {"LevelsOfUint32", invalid, "frame 11: array 'level' is uint32 x 1; it must be uint8 x 1",
+        {"LevelsOfUint32", invalid, "frame 11: array 'level' is uint32 of 1 component; it must be uint8 of 1 component",
          arrays({positions, {"level", v1::ELEMENT_TYPE_UINT32, 1}})},
         {"AnElementTypeOfTheFuture", invalid,
          "frame 11: array 'position' has the element type 6, which this version does not know",
@@ -122,12 +125,13 @@ std::vector<BadInputCase> array_cases() {
         {"AnAttributesArrayOfAnotherLength", invalid, "frame 11: 24 bytes for 1 particles; 28 were announced",
          arrays_for_velocity({positions, other_number, velocity}, std::string(24, '\0'))},
         {"AnAttributesArrayOfUint16", invalid,
-         "frame 11: array 'velocity' is uint16 x 3, and the session's settings name it as an attribute; that is "
-         "float32 or uint8 x 1, 3 or 4, or int32 or uint32 x 1",
+         "frame 11: array 'velocity' is uint16 of 3 components, and the session's settings name it as an attribute; "
+         "that is "
+         "float32 or uint8 of 1, 3 or 4 components, or int32 or uint32 of 1",
          arrays_for_velocity({positions, {"velocity", v1::ELEMENT_TYPE_UINT16, 3}})},
-        {"AnAttributesArrayOfTwoComponents", invalid, "frame 11: array 'velocity' is float32 x 2, and",
+        {"AnAttributesArrayOfTwoComponents", invalid, "frame 11: array 'velocity' is float32 of 2 components, and",
          arrays_for_velocity({positions, {"velocity", v1::ELEMENT_TYPE_FLOAT32, 2}})},
-        {"IdsOfThreeComponents", invalid, "frame 11: array 'velocity' is uint32 x 3, and",
+        {"IdsOfThreeComponents", invalid, "frame 11: array 'velocity' is uint32 of 3 components, and",
          arrays_for_velocity({positions, {"velocity", v1::ELEMENT_TYPE_UINT32, 3}})},
         {"AnAttributesArrayOfMoreComponentsThanThereAre", invalid,
          "frame 11: array 'velocity' has 4294967295 components; it must have 1 to 16",

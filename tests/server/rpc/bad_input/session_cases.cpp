@@ -232,7 +232,7 @@ std::vector<BadInputCase> session_cases() {
          })},
         {"ACreatedSessionWithoutId", invalid, "the message's session id is \"\"; it must be a UUID", id("")},
         {"ACreatedSessionWithAnIdThatMovesTheCursor", invalid,
-         "the message's session id is \"a\\x0a\\x1b[2J\\x00b\\xc2\\x9b\\\\\"; it must be a UUID",
+         "the message's session id is \"a\\u{000a}\\u{001b}[2J\\u{0000}b\\u{009b}\\\\\"; it must be a UUID",
          id(std::string("a\n\x1b[2J\0b\xc2\x9b\\", 11))},
         {"BytesThatAreNoCreateSessionRequest", invalid, "a message of 3 bytes is not a CreateSessionRequest",
          bytes_to("/meniscus.v1.SessionService/CreateSession", "\x0a\x7f!")},
