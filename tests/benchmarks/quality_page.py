@@ -16,17 +16,27 @@ SPLASHING, SETTLED = "frame_040", "frame_258"
 
 
 class Figures:
-    """The rows of all reports, by what they are of."""
+    """The rows of all reports, by part, subject, field, mode, cell size and figure."""
 
     def __init__(self, rows):
         self.rows = rows
         self.values = {}
+        self.shown = set()
         for row in rows:
-            key = (row["part"], row["subject"], row["field"], row["mode"], float(row["cell_size"]), row["figure"])
-            self.values.setdefault(key, {})[row["sampling"]] = row["value"]
+            self.values.setdefault(self.key_of(row), {})[row["sampling"]] = row["value"]
+
+    @staticmethod
+    def key_of(row):
+        return row["part"], row["subject"], row["field"], row["mode"], float(row["cell_size"]), row["figure"]
+
+    def shown_rows(self):
+        """The rows that samplings() has returned values of."""
+        return [row for row in self.rows if self.key_of(row) in self.shown]
 
     def samplings(self, part, subject, field, mode, figure, cell_size=0.5):
-        return self.values.get((part, subject, field, mode, cell_size, figure), {})
+        key = (part, subject, field, mode, cell_size, figure)
+        self.shown.add(key)
+        return self.values.get(key, {})
 
     def mean(self, *key, **more):
         values = self.samplings(*key, **more).values()
