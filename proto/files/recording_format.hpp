@@ -9,7 +9,7 @@
 // of a frame but what it is asked for.
 //
 // Each entry ends with a checksum of itself, and has one of the messages that follow it: see recording_checksums.hpp. A
-// reader verifies the entries that it hops over, and a frame when it reads it. Recordings of before have no checksums.
+// reader verifies the entries that it hops over, and a frame when it reads it. Older recordings have no checksums.
 //
 // The version rises with a change that an earlier reader would misunderstand. Readers skip fields of messages, and
 // kinds of entries, that they do not know, so new ones do not raise it. Version 1 had frames without a list of arrays

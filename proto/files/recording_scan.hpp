@@ -20,7 +20,7 @@ public:
     explicit RecordingScan(const RandomAccessFile& file);
 
     const v1::RecordingBegin& begin() const noexcept { return begin_; }
-    /// Whether its entries and frames can be told from damaged ones.
+    /// Whether damage to its entries and frames can be found.
     bool has_checksums() const noexcept { return has_checksums_; }
 
     struct Item {
