@@ -146,7 +146,7 @@ describe('colors', { skip: missing }, () => {
     }
   });
 
-  it('that a session does not have are told of in the panel, and its own are offered', async () => {
+  it('that a session does not have are reported in the panel, and its own are offered', async () => {
     const server = await startServer();
     const args = 'simulate --scene dam-break --particles 500 --frames 100000 --attribute age';
     const simulator = startUploader(server, args.split(' '));

@@ -71,7 +71,7 @@ export class App {
         this.tools.rendered();
       },
       drawn: (frame, triangles, particles) => {
-        // For those who look from outside: tests, and assistive tools.
+        // For readers outside of the page: tests, and assistive tools.
         this.canvas.dataset.frame = String(frame.index);
         this.canvas.dataset.triangles = String(triangles);
         if (particles) this.canvas.dataset.particles = String(particles.index);
@@ -316,7 +316,7 @@ export class App {
       this.open(state);
       return;
     }
-    // The watch goes on, and what it has told holds: a page may move the camera as often as it likes.
+    // The watch goes on, and its last report holds: a page may move the camera as often as it likes.
     if (this.handingFailed) this.banner.say('');
     this.handingFailed = false;
     this.linked = state;

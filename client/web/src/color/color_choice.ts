@@ -1,4 +1,4 @@
-// What a person has chosen to color by, and how the link tells it.
+// A person's choice of a quantity to color by, and its form in the link.
 import { isColorMap, type ColorMap } from './color_maps';
 
 export const componentNames = ['x', 'y', 'z', 'w'] as const;

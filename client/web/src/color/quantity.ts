@@ -51,8 +51,8 @@ export class Quantity {
   /** Of a frame's numbers; none without any. */
   rangeOf({ frame, bricks }: Shown): ValueRange | undefined {
     if (this.kind !== 'number') return undefined;
-    const told = frame.attributes.find(({ name }) => name === this.form.name);
-    if (this.component !== undefined) return told && announced(told, this.component);
+    const attribute = frame.attributes.find(({ name }) => name === this.form.name);
+    if (this.component !== undefined) return attribute && announced(attribute, this.component);
     return unionOfRanges([...bricks.values()].map(({ decoded }) => this.of(decoded)?.range));
   }
 

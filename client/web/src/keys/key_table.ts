@@ -2,7 +2,7 @@
 // and needs nothing else; or it names an action of its own, which goes into the record that the Keyboard is given.
 
 interface KeyOf {
-  /** Values of KeyboardEvent.key, letters in lower case. An action is told which of them was pressed. */
+  /** Values of KeyboardEvent.key, letters in lower case. The action gets the one that was pressed. */
   readonly keys: readonly string[];
   /** With Shift, which otherwise is not held: of keys that are named and of letters. Shift is a part of other characters. */
   readonly shift?: boolean;

@@ -13,7 +13,7 @@ export function givenName({ description }: Described): string {
   return /^.{0,64}/su.exec(name)![0];
 }
 
-/** Of a UUID, enough to tell a few apart. */
+/** The beginning of a UUID, enough to distinguish a few. */
 export function shortId(id: string): string {
   return id.slice(0, 8);
 }

@@ -8,7 +8,7 @@ interface Entry {
 
 export class ThumbnailSchedule {
   private readonly entries = new Map<string, Entry>();
-  /** May be told before the list that has them. */
+  /** Ids of sessions on the screen; they may come before the list that has them. */
   private readonly visible = new Set<string>();
 
   /** every: ms between two pictures of one session. */

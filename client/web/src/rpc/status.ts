@@ -1,4 +1,4 @@
-// gRPC statuses, and what to tell a person about them.
+// gRPC statuses, and a text for people about each.
 
 export const Code = {
   ok: 0,

@@ -1,4 +1,5 @@
-// How many frames of a run were not shown: replaced by newer ones at the server, on the way or here. The gaps in their indices tell.
+// Counts the frames of a run that were not shown, by the gaps in their indices: newer ones replaced them at the server, on the way or
+// here.
 import type { Frame } from '../bricks/frame';
 
 export class SkippedFrames {

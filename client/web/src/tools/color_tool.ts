@@ -18,7 +18,7 @@ export interface ColoredPane {
 }
 
 export interface ColorToolEvents {
-  /** What the link tells. */
+  /** The state that the link has. */
   changed(): void;
   /** Vertices are to carry another attribute, or none. */
   attribute(name: string | undefined): void;
@@ -37,13 +37,13 @@ export class ColorTool {
   private readonly rangeSelect = element('color-range', HTMLSelectElement);
   private readonly ends = [element('color-low', HTMLInputElement), element('color-high', HTMLInputElement)] as const;
   private current: ColorChoice | undefined;
-  /** Of the choice, once a frame has told what the attribute is. */
+  /** The quantity of the choice, once a frame has announced the attribute. */
   private quantity: Quantity | undefined;
   /** Of all frames that were shown. */
   private seen: ValueRange | undefined;
   private range: ValueRange | undefined;
-  /** Whether it was told that the attribute is not there. */
-  private toldAbsent = false;
+  /** Whether the panel has shown that the attribute is not there. */
+  private absenceShown = false;
 
   constructor(private readonly events: ColorToolEvents) {
     this.mapSelect.replaceChildren(...colorMapNames.map((name) => new Option(name)));
@@ -70,7 +70,7 @@ export class ColorTool {
       end.addEventListener('change', () => {
         const range = this.ends.map(({ valueAsNumber }) => valueAsNumber);
         if (this.current && isRange(range)) this.choose({ ...this.current, range });
-        else this.tell();
+        else this.writeRange();
       });
   }
 
@@ -98,7 +98,7 @@ export class ColorTool {
       this.seen = undefined;
     }
     this.current = choice;
-    this.toldAbsent = false;
+    this.absenceShown = false;
     this.events.attribute(choice?.attribute);
     this.refresh();
   }
@@ -197,13 +197,13 @@ export class ColorTool {
     for (const select of [this.mapSelect, this.rangeSelect]) select.parentElement!.hidden = !scaled;
     this.showRange(scaled ? this.current?.range : undefined);
     if (this.current) this.mapSelect.value = this.current.map;
-    this.tell();
+    this.writeRange();
     const absent = frame !== undefined && this.current !== undefined && !attribute;
-    if (absent && !this.toldAbsent) {
+    if (absent && !this.absenceShown) {
       this.setPanel(true);
       this.events.absent(this.problem()!);
     }
-    this.toldAbsent = absent;
+    this.absenceShown = absent;
   }
 
   /** The names, and the one that is chosen whether it is there or not. */
@@ -238,10 +238,10 @@ export class ColorTool {
       });
   }
 
-  /** The range, and in words what hinders. */
-  private tell(): void {
+  /** The range, and any problem in words. */
+  private writeRange(): void {
     write('color-numbers', this.range ? rangeText(this.range) : '');
-    // Said aloud, when it changes, to those that cannot see it.
+    // Screen readers read it aloud when it changes.
     write('color-problem', this.problem() ?? '');
   }
 

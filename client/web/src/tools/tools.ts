@@ -12,7 +12,7 @@ import type { WatchState } from '../stream/watch_state';
 import { download } from '../ui/download';
 import type { PageState } from '../ui/link';
 import { element } from '../ui/page';
-import { coveredMargins, tellHeightOfControls } from '../ui/panels';
+import { coveredMargins, keepPanelsAboveControls } from '../ui/panels';
 import type { Playback } from '../ui/playback';
 import { decimalsOf, lengthText } from '../ui/texts';
 import type { ToolsState } from '../ui/tools_link';
@@ -32,7 +32,7 @@ import { RulerTool } from './ruler_tool';
 import { VideoTool } from './video_tool';
 
 export interface ToolsEvents {
-  /** What the link tells. */
+  /** The state that the link has. */
   changed(): void;
   /** The camera, in the second picture. */
   moving(moving: boolean): void;
@@ -182,7 +182,7 @@ export class Tools {
     });
     this.follow(water, () => this.main);
     this.follow(element('view-beside', HTMLCanvasElement), () => this.beside.pane);
-    tellHeightOfControls(() => {
+    keepPanelsAboveControls(() => {
       this.viewer.resize();
     });
   }

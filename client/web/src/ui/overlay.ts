@@ -45,7 +45,7 @@ export class Overlay {
   frameDrawn(frame: Frame, levels: readonly number[]): void {
     set('frame', `${countText(frame.index)} (${frame.simulationTime.toFixed(2)} s)`);
     const { sprayParticles, volume, particleVolume } = frame.statistics;
-    // Recordings of before have no volumes.
+    // Older recordings have no volumes.
     set('spray', particleVolume > 0 ? countText(sprayParticles) : unknown);
     set('volume', particleVolume > 0 ? volumeText(volume, particleVolume) : unknown);
     set('triangles', countText(frame.triangleCount));

@@ -20,7 +20,7 @@ export function coveredMargins(water: HTMLCanvasElement): Margins {
 }
 
 /** Lays the panels above the controls, however many lines these have. */
-export function tellHeightOfControls(changed: () => void): void {
+export function keepPanelsAboveControls(changed: () => void): void {
   const [controls, panels] = [element('controls', HTMLElement), element('panels', HTMLElement)];
   const observer = new ResizeObserver(() => {
     element('watch', HTMLElement).style.setProperty('--controls', `${controls.offsetHeight}px`);

@@ -16,7 +16,7 @@ export interface Reel {
 export class Playback {
   private readonly pauseButton = element('pause', HTMLButtonElement);
   private readonly scrub = element('scrub', HTMLInputElement);
-  /** For those who see the slider. */
+  /** The frame, in words, beside the slider. */
   private readonly text = element('at', HTMLElement);
   private reel: Reel | undefined;
   private isPaused = false;

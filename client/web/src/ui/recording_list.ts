@@ -53,7 +53,7 @@ export class RecordingList {
       this.fill(recordings);
     } catch (error) {
       if (showing !== this.showing) return;
-      // Other errors are the list of sessions' to tell.
+      // The list of sessions shows other errors.
       if (error instanceof RpcError && error.code === Code.unimplemented) {
         this.fill([]);
         return;

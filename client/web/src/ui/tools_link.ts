@@ -1,4 +1,4 @@
-// What the link tells of the tools.
+// The state of the tools in the link.
 import type { Point } from '../view/bounds';
 import type { Cut } from '../view/cut';
 import { readColorLink, writeColorLink, type ColorChoice } from '../color/color_choice';

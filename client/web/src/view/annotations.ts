@@ -46,7 +46,7 @@ export class Annotations {
     const nothing = empty || (!marks.scale && !marks.probe && marks.ruler.length === 0 && !marks.legend);
     if (nothing && !this.drawn) return;
     this.drawn = !nothing;
-    this.tellLegend(nothing ? undefined : marks.legend);
+    this.describeLegend(nothing ? undefined : marks.legend);
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const density = Math.min(2, devicePixelRatio);
     const [pixelsX, pixelsY] = [Math.round(width * density), Math.round(height * density)];
@@ -77,7 +77,7 @@ export class Annotations {
     const { length, pixels } = scaleBar(worldPerPixel(this.viewer.viewDistance, camera.fov, height));
     drawScaleBar(pen, [inset, bottom], pixels, marks.scaleText(length));
     drawAxes(pen, [inset + 34, bottom - 66], this.viewer.upAxis, camera.quaternion);
-    // For those who look from outside: tests, and assistive tools.
+    // For readers outside of the page: tests, and assistive tools.
     this.canvas.dataset.scale = marks.scaleText(length);
   }
 
@@ -90,8 +90,8 @@ export class Annotations {
     drawColorLegend(pen, [scale && !above ? beside : inset, right, above ? bottom - scaleHeight : bottom], legend);
   }
 
-  /** For those who look from outside: tests, and assistive tools. */
-  private tellLegend(legend: ColorLegend | undefined): void {
+  /** For readers outside of the page: tests, and assistive tools. */
+  private describeLegend(legend: ColorLegend | undefined): void {
     if (legend) this.canvas.dataset.legend = legendText(legend);
     else delete this.canvas.dataset.legend;
   }

@@ -44,7 +44,7 @@ export interface CameraPlace {
 export interface ViewerEvents {
   /** A picture has been drawn, of a frame or of nothing. The canvas can be read until this returns. */
   rendered(): void;
-  /** A picture of the frame has been drawn, with so many triangles, or with particles. */
+  /** A picture of the frame has been drawn, of its triangles (their number), or of particles. */
   drawn(frame: Frame, triangles: number, particles: Particles | undefined): void;
   moving(moving: boolean): void;
   /** The browser has taken the graphics hardware away, or given it back. */
@@ -335,7 +335,7 @@ export class Viewer {
   lookAlong(axis: Axis): void {
     const direction = toScene(alongAxis(axis), [0, 0, 0], this.up);
     if (this.following && this.direction.dot(direction) > 0.99) direction.negate();
-    // Straight up and down there is no telling what is right and left.
+    // A view straight up or down has no right and left.
     if (direction.y !== 0) direction.z += 1e-3;
     this.lookFrom(direction.normalize());
   }
