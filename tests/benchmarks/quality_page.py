@@ -342,7 +342,7 @@ Triangles adaptive over uniform, distance between the two surfaces, components l
     "times": """
 Times, warm, one thread:""",
     "heights": """
-Triangles adaptive over uniform of frame 258, moved along y by so many cells:""",
+Triangles adaptive over uniform of frame 258, by its shift along y in cells:""",
 }
 
 

@@ -72,9 +72,9 @@ double processor_seconds_here(const Frames& frames, const Settings& settings, co
 }
 
 void stream_frames(client::Client& client, const std::string& session, const Frames& frames, int normal_bits) {
-    client::StreamOptions wishes;
-    wishes.normal_bits = normal_bits;
-    auto stream = client.stream(session, wishes);
+    client::StreamOptions stream_options;
+    stream_options.normal_bits = normal_bits;
+    auto stream = client.stream(session, stream_options);
     for (std::size_t i = 0; i < frames.size(); ++i) stream.push(frame_of(frames[i]), i, 0.0);
     stream.finish();
     while (stream.next()) {

@@ -9,7 +9,7 @@ namespace meniscus::benchmarks {
 
 struct RepeatLimits {
     unsigned runs = 5;      ///< warm runs, at least 1
-    double seconds = 60.0;  ///< no further warm run begins after so long
+    double seconds = 60.0;  ///< after which no further warm run begins
 };
 
 struct WarmRuns {

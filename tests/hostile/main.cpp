@@ -1,4 +1,4 @@
-// meniscus-hostile: attacks servers that it starts, and tells what became of them.
+// meniscus-hostile: attacks servers that it starts, and prints a verdict for each figure.
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>

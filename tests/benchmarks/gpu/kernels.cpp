@@ -65,8 +65,8 @@ void add_total(GrowingTable& table, const std::string& name, double median_us, d
     table.add(row);
 }
 
-/// Launch by launch, in one stream: nothing overlaps, and an event lies between any two. A profiler that is told to
-/// wait for it begins here: before a frame is warm, most of its launches find too little room and do nothing.
+/// Launch by launch, in one stream: nothing overlaps, and an event lies between any two. A profiler that waits for the
+/// application begins here: before a frame is warm, most of its launches find too little room and do nothing.
 std::vector<TimedLaunch> time_launches(WarmFrame& frame, unsigned repeats, std::vector<double>& whole) {
     LaunchTimes times(LaunchTimes::What::kernels_and_calls);
     std::vector<TimedLaunch> launches;

@@ -37,7 +37,7 @@ public:
         try {
             timed_[used_++].end.record(launch.stream);
         } catch (const std::exception&) {
-            // The device has failed, which the launch itself or whoever waits for it tells.
+            // The device has failed: the launch itself reports that, or the wait for it.
         }
     }
 

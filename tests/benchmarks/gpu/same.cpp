@@ -75,7 +75,7 @@ public:
         : backend_(cuda::make_reconstruction(settings, BackendOptions{}, std::make_shared<MemoryAccount>(),
                                              std::make_shared<MemoryAccount>())) {}
 
-    /// expected: the CPU's mesh of the frame, whose lattice is told and not found by a backend.
+    /// expected: the CPU's mesh of the frame, whose lattice this one gets, since no backend finds it.
     const Mesh& reconstruct(const ParticleFrame& frame, const Mesh& expected) {
         mesh_.cell_size = expected.cell_size;
         mesh_.offset_bits = expected.offset_bits;

@@ -146,7 +146,7 @@ for (const overlay of overlays) {
         assert.equal(
           one(all, spec.scaleTargetRef.kind, spec.scaleTargetRef.name).spec.replicas,
           undefined,
-          'it is the autoscaler who says',
+          'the autoscaler chooses the number',
         );
       }
       for (const monitor of of(all, 'ServiceMonitor')) {

@@ -96,7 +96,7 @@ std::vector<Figure> announcements(const std::string& program) {
             own.create_session(id, settings_of_attacks());
             RawStream stream(target.address(), id);
             stream.begin(0, frame_limit / 12);
-            // Somebody has to read: gRPC tells a client late that only writes.
+            // Something has to read: gRPC reports the end late to a client that only writes.
             std::atomic<bool> ended{false};
             std::thread reader([&] {
                 stream.finish();

@@ -40,7 +40,7 @@ Positions evenly_spread(int count, float apart = 2.0F) {
     return positions;
 }
 
-/// So many clumps, 50 radii apart, of particles within a distance of their middles.
+/// `number` clumps of `of` particles each, 50 radii apart; a particle lies up to `size` from its clump's middle on each axis.
 Positions clumps(int number, int of, float size) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> place(-size, size);
