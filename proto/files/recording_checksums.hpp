@@ -15,7 +15,7 @@ namespace meniscus::files {
 struct RecordedRange {
     std::uint64_t first = 0;                ///< byte
     std::uint64_t size = 0;                 ///< bytes
-    std::optional<std::uint64_t> checksum;  ///< of these bytes; none in older recordings
+    std::optional<std::uint64_t> checksum;  ///< checksum of these bytes; none in older recordings
 };
 
 std::uint64_t checksum(std::string_view bytes);

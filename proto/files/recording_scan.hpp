@@ -40,7 +40,7 @@ public:
     [[noreturn]] void fail(const std::string& what) const;
 
 private:
-    /// Of an entry that does not have its checksum, though it should.
+    /// Throws for an entry that should have its checksum and does not.
     void require_sealed(const std::string& bytes, const v1::RecordingEntry& entry) const;
 
     const RandomAccessFile& file_;

@@ -1,4 +1,4 @@
-// What a benchmark reconstructs with.
+// The backend and the threads of a benchmark.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -47,9 +47,9 @@ ParticleFrame frame_of(const std::vector<float>& positions) {
     return frame;
 }
 
-/// Of one frame, in this process: one thread reconstructs while another one encodes the frame before. Two cores may be
-/// one core's two threads, and each then takes more processor time than alone: as in the server, so that the two
-/// compare.
+/// Processor time of one frame in this process, seconds: one thread reconstructs while another one encodes the frame
+/// before. Two cores may be one core's two threads, and each then takes more processor time than alone: as in the
+/// server, so that the two compare.
 double processor_seconds_here(const Frames& frames, const Settings& settings, const CodingOptions& coding) {
     Reconstructor reconstructor(settings, one_cpu_thread);
     std::array<Mesh, 2> meshes;
@@ -81,7 +81,7 @@ void stream_frames(client::Client& client, const std::string& session, const Fra
     }
 }
 
-/// Of one frame, in meniscusd.
+/// Processor time of one frame in meniscusd, seconds.
 double processor_seconds_served(const Frames& frames, const Settings& settings, const ServiceOptions& options) {
     const ServerProgram server(options.program, {"--threads", "1", "--backend", "cpu", "--log-level", "warning"});
     client::Client client(server.address());

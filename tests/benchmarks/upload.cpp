@@ -72,7 +72,7 @@ private:
     std::string address_;
 };
 
-/// Of particle data, over frames that are all answered.
+/// Rate of particle data, over frames that are all answered.
 double upload_bytes_per_second(const std::string& address, const UploadOptions& options) {
     client::Client client(address);
     const std::string id = client::new_session_id();

@@ -13,7 +13,7 @@ struct RepeatLimits {
 };
 
 struct WarmRuns {
-    Statistics first;    ///< of a new reconstructor, whose memory is not there yet
+    Statistics first;    ///< run of a new reconstructor, whose memory is not there yet
     Statistics median;   ///< the warm run of median total time (the lower of two in the middle)
     unsigned count = 0;  ///< warm runs
 };
@@ -22,7 +22,7 @@ struct WarmRuns {
 WarmRuns reconstruct_repeatedly(const ParticleFrame& frame, const Settings& settings, const BackendOptions& options,
                                 const RepeatLimits& limits, Mesh& mesh);
 
-/// Of the values, at least one; the lower of two in the middle.
+/// The median of at least one value; the lower of two in the middle.
 double median(std::vector<double> values);
 
 }  // namespace meniscus::benchmarks

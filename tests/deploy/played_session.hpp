@@ -169,7 +169,7 @@ private:
     std::optional<client::Stream> stream_;
     std::optional<client::Watcher> watcher_;
 
-    mutable std::mutex mutex_;  ///< for what follows
+    mutable std::mutex mutex_;  ///< guards the members below
     std::condition_variable changed_;
     bool in_step_ = true;
     bool finished_ = false;

@@ -20,7 +20,7 @@
 
 namespace meniscus::server::test {
 
-/// Of a server, in words such as "127.0.0.1:50051".
+/// The port in a server's address, such as "127.0.0.1:50051".
 inline std::string port_of(const std::string& address) {
     return address.substr(address.rfind(':') + 1);
 }

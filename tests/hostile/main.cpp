@@ -19,7 +19,7 @@ namespace {
 
 using namespace meniscus::hostile;
 
-constexpr unsigned most_seconds = 600;  ///< of one attack
+constexpr unsigned most_seconds = 600;  ///< time limit of one attack
 
 /// Prints a line for each figure. Whether all hold.
 bool report(const Attack& attack, const std::vector<Figure>& figures) {

@@ -26,7 +26,7 @@ struct TimedLaunch {
     std::vector<double> seconds;
 };
 
-/// What a kernel takes of a multiprocessor.
+/// Adds a kernel's grid, registers and shared memory.
 void add_resources(Row& row, const cuda::Launch& launch) {
     if (launch.kind != cuda::LaunchKind::kernel) {
         row["blocks"] = nullptr;

@@ -1,4 +1,4 @@
-// What the adaptive grid saves, and what it costs: its surfaces against those of the finest cells, and their times.
+// Gain and cost of the adaptive grid: its surfaces against those of the finest cells, and their times.
 #pragma once
 
 #include <vector>

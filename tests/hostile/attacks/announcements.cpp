@@ -22,7 +22,7 @@ constexpr double upload_seconds = 3.0;
 
 struct Honest {
     int refused = 0;
-    double slowest = 0.0;  ///< of a frame, seconds
+    double slowest = 0.0;  ///< longest time of a frame, seconds
 };
 
 /// Frames of several sizes, in a session of its own each.
