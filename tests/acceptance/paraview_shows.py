@@ -1,7 +1,7 @@
 """In pvpython: a session is simulated and shown, live, as a recording and as files; then its server is killed.
 
-paraview_shows.py PASSED FAILED: numbers of earlier checks. PYTHONPATH has the package meniscus and client/paraview. SERVER: the
-process of a meniscusd that listens on /files/socket and records to /files/recordings.
+paraview_shows.py PASSED FAILED: numbers of earlier checks. PYTHONPATH has the package meniscus and client/paraview.
+SERVER: the process of a meniscusd that listens on /files/socket and records to /files/recordings.
 """
 
 import glob

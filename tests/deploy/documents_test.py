@@ -70,7 +70,11 @@ class Documents(unittest.TestCase):
 
     def test_every_path_in_backticks_exists(self):
         # The changelog names files of earlier versions, results those of the commit that was measured.
-        pages = {*files_named("README.md"), *files_named("CONTRIBUTING.md"), *files_named("*.md", REPOSITORY / "deploy")}
+        pages = {
+            *files_named("README.md"),
+            *files_named("CONTRIBUTING.md"),
+            *files_named("*.md", REPOSITORY / "deploy"),
+        }
         rooms = "|".join(map(re.escape, ROOMS))
         paths = 0
         for page in sorted(pages):

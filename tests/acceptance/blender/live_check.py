@@ -50,7 +50,9 @@ def state_has(part, is_error):
 
 bpy.ops.meniscus.connect()
 check(
-    "a session that is not there yet is reported", wait_until(state_has("no session 'wave' yet", True)), status.of(obj.name)
+    "a session that is not there yet is reported",
+    wait_until(state_has("no session 'wave' yet", True)),
+    status.of(obj.name),
 )
 
 client = meniscus.Client(ADDRESS)
