@@ -191,7 +191,7 @@ series.UpdatePipelineInformation()
 check("a series of files has a timeline", len(series.TimestepValues) == 5)
 same("series at its third file", shown(series, series.TimestepValues[2]), pushed[2].mesh)
 
-# What is wrong is an error in ParaView, in our words, and no surface.
+# A wrong property is an error in ParaView, in our words, and gives no surface.
 for name, wrong, says in (
     ("no such session", lambda: load_meniscus.MeniscusSession(Address=address, Session="nobody"), "'nobody'"),
     ("no such recording", lambda: load_meniscus.MeniscusRecording(Address=address, Number=7), "no recording 7"),

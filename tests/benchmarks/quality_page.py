@@ -74,7 +74,7 @@ def with_samplings(figures, part, subject, figure, digits, unit=""):
 
 
 def goals(figures):
-    """What was to be reached, and what was.
+    """The goals, and the figures reached.
 
     "At least" is what the prototype of the field had: supports of 3 to 6 r by the particle's company, weights raised to
     a field of 0.75 at each particle. This bench measured it before any constant was changed (but for the times, which

@@ -30,7 +30,7 @@ async function restingSession(server, folder) {
   await page.waitForFunction(() => Number(document.getElementById('view').dataset.frame) >= 20);
   await simulator.kill();
   await page.close();
-  // What the server still works on comes first.
+  // Frames that the server still works on come first.
   for (let before; ;) {
     const to = mkdtempSync(join(folder, 'received-'));
     const watch = ['watch', simulator.session, '--server', server.address, '-o', to, '--frames', '1'];

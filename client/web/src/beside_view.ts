@@ -12,7 +12,7 @@ import type { Viewer } from './view/viewer';
 export interface BesideViewEvents {
   shown(box: WorldBox | undefined): void;
   domain(box: WorldBox | undefined): void;
-  /** What there is to say of it; empty: nothing. */
+  /** A remark about the second session; empty: none. */
   says(text: string): void;
 }
 

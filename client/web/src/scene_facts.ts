@@ -10,7 +10,7 @@ import type { UpAxis } from './view/up_axis';
 export interface SceneFacts {
   /** None: not said. */
   readonly up: UpAxis | undefined;
-  /** Of lengths; empty: not said. */
+  /** The unit of lengths; empty: not said. */
   readonly unit: string;
   /** The box to which the surface is cropped. A recording does not have it. */
   readonly domain: WorldBox | undefined;

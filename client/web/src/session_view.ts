@@ -184,7 +184,7 @@ export class SessionView {
     this.particlesFailing = false;
   }
 
-  /** Those that belong to the mesh on the screen. */
+  /** Shows the particles that belong to the mesh on the screen. */
   showParticles(): void {
     const { shown } = this.screen;
     this.screen.showParticles(this.particlesWanted && shown ? this.particles.nearest(shown.frame) : undefined);

@@ -10,7 +10,7 @@ const press = (key: string, held: { shiftKey?: boolean; repeat?: boolean } = {})
   repeat: false,
   ...held,
 });
-/** What the key does, by its row. */
+/** The action of the key, by its row. */
 const does = (key: string, held = {}): string | undefined => {
   const found = rowOf<KeyRow>(keyTable, press(key, held));
   return found && rowWith(found.row);

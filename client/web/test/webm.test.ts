@@ -3,7 +3,7 @@ import { writeWebm, type EncodedPicture } from '../src/save/webm';
 
 interface Element {
   readonly id: number;
-  /** Of its first byte in the file, and of its content's. */
+  /** The place of its first byte in the file, and of its content's. */
   readonly begins: number;
   readonly content: Uint8Array;
   readonly contentBegins: number;

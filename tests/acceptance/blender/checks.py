@@ -1,4 +1,4 @@
-"""What the checks in Blender have in common: counting, pictures, and a scene to render in."""
+"""The common parts of the checks in Blender: counting, pictures, and a scene to render in."""
 
 import os
 import sys

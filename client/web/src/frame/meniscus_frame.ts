@@ -13,7 +13,7 @@ export interface View {
   /** An attribute that the session's settings name, or a component of one: "velocity", "velocity.x". Without one: water. */
   readonly color?: string;
   readonly map?: 'viridis' | 'magma' | 'plasma' | 'cividis' | 'coolwarm';
-  /** What the ends of the map stand for: without it the least and the greatest of the session so far. */
+  /** The values at the ends of the map: without it the least and the greatest of the session so far. */
   readonly range?: 'frame' | 'session' | readonly [number, number];
   /** Where the server asks for one: of the role watcher, since every script of the page can read it. */
   readonly token?: string;

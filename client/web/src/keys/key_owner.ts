@@ -3,7 +3,7 @@
 /** The parts of an element that decide. */
 export interface Focused {
   readonly tagName: string;
-  /** Of an input. */
+  /** The type of an input. */
   readonly type?: string;
   readonly isContentEditable?: boolean;
   readonly scrollHeight: number;

@@ -1,4 +1,4 @@
-// What people call a session.
+// The name of a session on the page.
 
 interface Described {
   readonly description?: { readonly name: string } | undefined;

@@ -14,7 +14,7 @@ export class ThumbnailSchedule {
   /** every: ms between two pictures of one session. */
   constructor(private readonly every: number) {}
 
-  /** What the list holds now. */
+  /** Takes the sessions that the list holds now. */
   update(sessions: readonly { readonly id: string; readonly frames: bigint }[]): void {
     const ids = new Set(sessions.map(({ id }) => id));
     for (const kept of [this.entries, this.visible]) for (const id of kept.keys()) if (!ids.has(id)) kept.delete(id);

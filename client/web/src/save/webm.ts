@@ -116,7 +116,7 @@ function sizeOf(size: number): Bytes {
   return bytes;
 }
 
-/** Of one length, whatever the value: what lies behind keeps its place. */
+/** A number of one length, whatever the value: the bytes behind keep their place. */
 function uint(value: number): Bytes {
   return bytesOf(value, 6);
 }

@@ -29,7 +29,7 @@ export class LinkSpeed {
     return this.bytesPerMs === undefined ? 0 : this.fullBytes / this.bytesPerMs / 1000;
   }
 
-  /** Of the mesh as reconstructed; 0 while nothing is known. */
+  /** The offset bits of the mesh as reconstructed; 0 while nothing is known. */
   get offsetBits(): number {
     return this.fullOffsetBits;
   }

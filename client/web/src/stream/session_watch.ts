@@ -22,7 +22,7 @@ export interface WatchServer {
 export interface WatchEvents {
   frame(frame: Frame): void;
   state(state: WatchState): void;
-  /** Of every message, as it comes. */
+  /** The size of every message, as it comes. */
   received(bytes: number): void;
 }
 

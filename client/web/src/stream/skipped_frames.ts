@@ -16,7 +16,7 @@ export class SkippedFrames {
     this.last = frame;
   }
 
-  /** What comes between here and the next frame was not wanted. */
+  /** Frames between now and the next one are not wanted, and do not count. */
   pause(): void {
     this.last = undefined;
   }

@@ -1,4 +1,4 @@
-// What the surface is colored by: the choice, its panel, and what follows from it for each picture.
+// The color of the surface: the choice of a quantity, its panel, and the consequences for each picture.
 import type { VertexAttribute } from '../bricks/attributes';
 import type { Shown } from '../bricks/brick_store';
 import { colorText, componentNames, isRange, type ColorChoice, type ComponentName } from '../color/color_choice';
@@ -22,7 +22,7 @@ export interface ColorToolEvents {
   changed(): void;
   /** Vertices are to carry another attribute, or none. */
   attribute(name: string | undefined): void;
-  /** What is looked at does not have the attribute that was chosen. */
+  /** The session or the recording does not have the attribute that was chosen. */
   absent(reason: string): void;
   /** The first one is of what is looked at. */
   panes(): readonly ColoredPane[];
@@ -39,7 +39,7 @@ export class ColorTool {
   private current: ColorChoice | undefined;
   /** The quantity of the choice, once a frame has announced the attribute. */
   private quantity: Quantity | undefined;
-  /** Of all frames that were shown. */
+  /** The range over all frames that were shown. */
   private seen: ValueRange | undefined;
   private range: ValueRange | undefined;
   /** Whether the panel has shown that the attribute is not there. */
@@ -113,7 +113,7 @@ export class ColorTool {
     this.show();
   }
 
-  /** Of the picture; none where it is not colored. */
+  /** The legend of the picture; none where it is not colored. */
   legend(viewer: Viewer): ColorLegend | undefined {
     const { quantity, current, range } = this;
     if (!quantity || !current || !viewer.colored) return undefined;
@@ -147,7 +147,7 @@ export class ColorTool {
     return isRange(ends) ? ends : [round(low), round(low) + 1];
   }
 
-  /** What the attribute is, from the first frame that has it. */
+  /** Takes the form of the attribute from the first frame that has it. */
   private learn(panes: readonly ColoredPane[]): void {
     const { current } = this;
     if (!current || this.quantity) return;

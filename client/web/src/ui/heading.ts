@@ -1,4 +1,4 @@
-// What is looked at, by name, and whether it is live: in the page's head and in the tab's title.
+// The name of the session or the recording, and whether it is live: in the page's head and in the tab's title.
 import type { Recording } from '../gen/meniscus/v1/recording_service_pb';
 import type { Session } from '../gen/meniscus/v1/session_service_pb';
 import { givenName, shortId } from '../list/session_name';
@@ -44,13 +44,13 @@ export class Heading {
     this.say(`Recording ${recordingNameText(name)}`, `Recording of ${shortId(name.session)}`);
   }
 
-  /** Of the recording that is shown. */
+  /** Takes the description of the recording that is shown. */
   described(recording: Recording): void {
     const name = givenName(recording);
     if (name !== '') this.say(`Recording ${recording.number} of ${name}`, `Recording of ${name}`);
   }
 
-  /** Of the session that is shown. */
+  /** Takes the state of the watch of the session that is shown. */
   watching(state: WatchState): void {
     if (this.session === undefined) return;
     this.watch = state;

@@ -9,13 +9,13 @@ import { linkNumber, numbers, readToolsLink, writeToolsLink, type ToolsState } f
 export interface PageState extends ToolsState {
   readonly session?: string;
   readonly recording?: RecordingName;
-  /** Of a recording's frame, by its place. */
+  /** The place of a recording's frame. */
   readonly position?: number;
   readonly camera?: CameraPlace;
   readonly look?: Look;
   /** None: what the session says. */
   readonly up?: UpAxis;
-  /** What it names that cannot be, in words. */
+  /** A session or a recording in it that cannot be, in words. */
   readonly problem?: string;
 }
 

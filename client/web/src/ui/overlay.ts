@@ -57,7 +57,7 @@ export class Overlay {
     this.warnings.show(frame.statistics.warnings);
   }
 
-  /** What is drawn of the frame's particles, if any are. */
+  /** Takes the particles of the frame that are drawn, if any are. */
   particlesDrawn(frame: Frame, drawn: Particles | undefined): void {
     const part = drawn && drawn.stride > 1 ? `, 1 in ${drawn.stride} drawn` : '';
     const other = drawn && drawn.index !== frame.index ? `, drawn of frame ${countText(drawn.index)}` : '';

@@ -1,4 +1,4 @@
-// What of the picture the panels cover.
+// The part of the picture that the panels cover.
 import type { Margins } from '../view/fit';
 import { element } from './page';
 

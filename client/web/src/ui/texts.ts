@@ -63,7 +63,7 @@ export function rateText(perSecond: number): string {
   return `${perSecond < 10 ? Number(perSecond.toFixed(1)) : Math.round(perSecond)} frames/s`;
 }
 
-/** Of this day, on this machine's clock. at: ms since 1970. */
+/** A time of this day, on this machine's clock. at: ms since 1970. */
 export function clockText(at: number): string {
   return new Date(at).toLocaleTimeString('en-GB');
 }

@@ -1,4 +1,4 @@
-// What is drawn over a picture: scale bar, axes, ruler, probe. On a canvas of their own, which pictures and videos are made of as well.
+// The annotations over a picture: scale bar, axes, ruler, probe. On a canvas of their own, which pictures and videos are made of as well.
 import { drawAxes } from './axes_gizmo';
 import type { Point } from './bounds';
 import { drawColorLegend, legendText, type ColorLegend } from './color_legend';
@@ -14,7 +14,7 @@ export interface Marks {
   readonly probe: Point | undefined;
   /** None, one or two points. */
   readonly ruler: readonly Point[];
-  /** Of a length on the scale bar, and of one on the ruler. */
+  /** The text of a length on the scale bar, and of one on the ruler. */
   readonly scaleText: (length: number) => string;
   readonly rulerText: string;
   /** None where nothing is colored. */
@@ -23,7 +23,7 @@ export interface Marks {
 
 /** CSS pixels, from the left and from what covers the bottom. */
 const inset = 18;
-/** Of scale bar and axes, and above them. */
+/** The room of scale bar and axes, and above them. */
 const scaleWidth = 140;
 const scaleHeight = 125;
 /** Narrower, the legend lies above the scale. */
