@@ -10,7 +10,7 @@ namespace meniscus::load {
 struct LoadResult {
     client::ServerInfo server;
     Schedule schedule;
-    double seconds = 0.0;  ///< from the first frame's time to the last answer
+    double seconds = 0.0;  ///< time from the first frame's due time to the last answer
     UploadOutcome uploads;
     WatchOutcome watchers;
     WatchOutcome slow;

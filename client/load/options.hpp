@@ -30,7 +30,7 @@ struct LoadOptions {
     double warm_up = 1.0;   ///< seconds at the beginning whose latencies do not count
     client::StreamOptions stream;
 
-    std::size_t particles = 16000;   ///< of a frame of moving water
+    std::size_t particles = 16000;   ///< number of them in a frame of moving water
     std::vector<std::string> files;  ///< particle files in place of moving water, one after the other and over again
     double particle_radius = 0.025;  ///< world units
     cli::SettingsOptions settings;

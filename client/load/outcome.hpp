@@ -23,7 +23,7 @@ struct UploadOutcome {
     Latencies send_delay;  ///< from the time at which a frame was due to the begin of its upload
     std::uint64_t sent = 0;
     std::uint64_t answered = 0;
-    std::uint64_t dropped = 0;   ///< by the upload policy, as the server reported
+    std::uint64_t dropped = 0;   ///< frames that the upload policy dropped, by the server's reports
     std::uint64_t not_sent = 0;  ///< due, but the run had ended or the stream had failed
     std::uint64_t particles = 0;
     std::uint64_t upload_bytes = 0;

@@ -10,7 +10,7 @@ std::uint64_t bytes_of(const ParticleFrame& frame) {
     return frame.positions.size_bytes() + frame.quantized.size_bytes() + frame.levels.size_bytes();
 }
 
-/// Everything but what the answers tell.
+/// The outcome without the figures that come with the answers.
 UploadOutcome send(client::Stream& stream, const Frames& frames, const Schedule& schedule) {
     UploadOutcome outcome;
     std::uint64_t frame = 0;

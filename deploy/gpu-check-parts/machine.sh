@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2034,SC2154  # the parts share variables
-# What gpu-check runs on.
+# The machine that gpu-check runs on.
 
 # value_of NAME FILE: what follows NAME in the first line of FILE that begins with it.
 value_of() {

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2034,SC2154  # the parts share variables
-# What was found: steps, and tables of rows. results.json is written anew after each step and after each row, so that a
-# run that is killed leaves all that it has found.
+# The findings: steps, and tables of rows. results.json is written anew after each step and after each row, so that a
+# run that is killed leaves all of them.
 
 steps=()          # JSON objects
 declare -A tables # by name: JSON objects, with commas between them

@@ -25,7 +25,7 @@ step_service() {
     fi
   done
   if [ $ready = yes ]; then
-    # What it says from now on goes to its log, so that it never waits for a reader.
+    # Its output from now on goes to its log, so that it never waits for a reader.
     cat <&"$output" >>"$out/meniscusd.log" &
     seconds_left "$step_end"
     run "$out/service.log" "$answer" ignore_line "${command[@]}"
@@ -44,7 +44,7 @@ step_service() {
   fi
   kill "$server" 2>/dev/null
   exec {output}<&-
-  # What comes next has the GPU to itself.
+  # The next step has the GPU to itself.
   for ((i = 0; i < 160; ++i)); do
     kill -0 "$server" 2>/dev/null || break
     sleep 0.1

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2034,SC2154  # the parts share variables
 # Steps that ask whether the GPU is right: tests, comparisons, sanitizers. A case that fails runs again in other ways, which
-# tell what is at fault.
+# narrow the fault down.
 
 failed_cases_again=2 # of a step
 seconds_per_case_again=30
@@ -206,8 +206,8 @@ sanitize() {
     record "$2" "not run" 0 0 0 0 "compute-sanitizer --tool $1" "compute-sanitizer is not installed"
     return
   fi
-  # An overrun within one allocation for all arrays is none to memcheck. (initcheck would tell of scans, too, which
-  # read on to an array's capacity.)
+  # An overrun within one allocation for all arrays is none to memcheck. (With separate arrays initcheck would report
+  # scans, too, which read on to an array's capacity.)
   [ "$1" != memcheck ] || arrays=separate
   run_tests "$2" "$3" env MENISCUS_DEVICE_ARRAYS=$arrays "$sanitizer" --tool "$1" --error-exitcode 86
 }

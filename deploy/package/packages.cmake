@@ -59,7 +59,7 @@ This package has the library behind the C interface, for programs that were
 built with it.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${control}/library/triggers)
-# For the packages of those programs, which are then told that they need this one.
+# For the packages of those programs: their dependency on this one follows.
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 

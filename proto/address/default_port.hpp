@@ -6,7 +6,7 @@
 
 namespace meniscus::address {
 
-/// The port that meniscusd listens on unless told otherwise.
+/// The port of meniscusd where none is given.
 inline constexpr std::string_view default_port = "50051";
 
 /// "HOST" and "[IPV6]" with the default port; as it is what names a port, a Unix socket, or a scheme of gRPC's.
@@ -16,7 +16,7 @@ std::string with_port(const std::string& address);
 /// port. False for what has a scheme of gRPC's, and for a host alone.
 bool has_bad_port(const std::string& address);
 
-/// Whether this looks like an IPv6 address without the brackets that would tell it from a port.
+/// Whether this looks like an IPv6 address without the brackets that separate it from a port.
 bool is_bare_ipv6(const std::string& address);
 
 }  // namespace meniscus::address

@@ -12,7 +12,7 @@ namespace meniscus::files {
 
 class DelimitedMessages {
 public:
-    /// Those between the bytes `first` and `end` of the file, which outlives this object.
+    /// Reads the messages between the bytes `first` and `end` of the file, which outlives this object.
     DelimitedMessages(const RandomAccessFile& file, std::uint64_t first, std::uint64_t end)
         : file_(&file), position_(first), end_(end) {}
 

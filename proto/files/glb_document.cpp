@@ -46,7 +46,7 @@ void set_bounds(Json& accessor, const GlbBounds& bounds) {
     accessor["max"] = bounds.high;
 }
 
-/// Of at least one position in float32.
+/// The bounds of at least one position in float32.
 GlbBounds bounds_of(const GlbVertices& positions) {
     GlbBounds bounds;
     for (std::size_t i = 0; i < positions.bytes.size() / sizeof(float); ++i) {

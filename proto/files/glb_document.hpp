@@ -15,7 +15,7 @@
 
 namespace meniscus::files {
 
-/// Of positions, as the file holds them.
+/// The bounds of positions, as the file holds them.
 struct GlbBounds {
     std::array<double, 3> low{}, high{};
 };
@@ -23,11 +23,11 @@ struct GlbBounds {
 /// A mesh that Draco has coded.
 struct GlbDracoMesh {
     struct Attribute {
-        GlbVertices form;  ///< without bytes
+        GlbVertices form;  ///< the attribute, its bytes left out
         std::uint32_t id = 0;
     };
     std::string_view bytes{};
-    std::size_t points = 0;  ///< as Draco decodes it
+    std::size_t points = 0;  ///< number of points that Draco decodes
     std::size_t triangles = 0;
     std::vector<Attribute> attributes{};  ///< the positions first
     GlbBounds bounds{};

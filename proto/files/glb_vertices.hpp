@@ -1,4 +1,4 @@
-// What vertices carry, as glTF has it.
+// The values that vertices carry, in glTF's form.
 //
 // An attribute NAME is `_NAME`, uint8 colors are COLOR_0. glTF has no 32-bit integers at vertices: ids are float32
 // where that holds all of them exactly, otherwise two uint16, the low one first.
@@ -19,11 +19,11 @@ enum class GlbComponent { unsigned_byte = 5121, unsigned_short = 5123, unsigned_
 
 /// Numbers of the vertices.
 struct GlbVertices {
-    std::string name;  ///< of the attribute in glTF
+    std::string name;  ///< the attribute's name in glTF
     GlbComponent type = GlbComponent::single;
     std::size_t components = 3;
     bool normalized = false;
-    std::string bytes{};  ///< without gaps between the vertices
+    std::string bytes{};  ///< the values, without gaps between the vertices
 
     std::size_t component_bytes() const {
         return type == GlbComponent::unsigned_byte ? 1 : type == GlbComponent::unsigned_short ? 2 : 4;

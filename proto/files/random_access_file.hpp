@@ -21,7 +21,7 @@ public:
     std::uint64_t size() const noexcept { return size_; }
     /// Whether its writer has it open: see writing_mark.hpp.
     bool being_written() const noexcept;
-    /// Whether it is known that its writer has not: false also where the file system cannot tell.
+    /// Whether its writer is known to have closed it: false also where the file system keeps no marks.
     bool is_closed() const noexcept;
     /// `size` bytes from `first` on, all of which the file has. Throws InvalidInput if it has been cut since.
     std::string read(std::uint64_t first, std::size_t size) const;

@@ -15,7 +15,7 @@ namespace meniscus::files {
 struct RecordedRange {
     std::uint64_t first = 0;                ///< byte
     std::uint64_t size = 0;                 ///< bytes
-    std::optional<std::uint64_t> checksum;  ///< of these bytes; none in recordings of before
+    std::optional<std::uint64_t> checksum;  ///< checksum of these bytes; none in older recordings
 };
 
 std::uint64_t checksum(std::string_view bytes);
@@ -25,7 +25,7 @@ std::string seal(v1::RecordingEntry entry);
 /// Whether the bytes end with the checksum of those before it.
 bool is_sealed(std::string_view entry);
 
-/// Reads the range, a piece at a time. False if its bytes are not those that were written; true where nothing tells.
+/// Reads the range, a piece at a time. False if its bytes are not those that were written; true without a checksum.
 bool is_whole(const RandomAccessFile& file, const RecordedRange& range);
 
 }  // namespace meniscus::files

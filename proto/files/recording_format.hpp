@@ -9,7 +9,7 @@
 // of a frame but what it is asked for.
 //
 // Each entry ends with a checksum of itself, and has one of the messages that follow it: see recording_checksums.hpp. A
-// reader verifies the entries that it hops over, and a frame when it reads it. Recordings of before have no checksums.
+// reader verifies the entries that it hops over, and a frame when it reads it. Older recordings have no checksums.
 //
 // The version rises with a change that an earlier reader would misunderstand. Readers skip fields of messages, and
 // kinds of entries, that they do not know, so new ones do not raise it. Version 1 had frames without a list of arrays
@@ -29,9 +29,9 @@ namespace meniscus::files {
 inline constexpr std::string_view recording_magic = "Meniscus recording\n";
 inline constexpr std::string_view recording_extension = ".recording";
 inline constexpr std::uint32_t recording_version = 2;
-/// Of an entry alone, without the messages that follow it.
+/// Most bytes of an entry alone, without the messages that follow it.
 inline constexpr std::size_t max_recording_entry_bytes = 4096;
-/// Of one of the messages that follow: a chunk or a part of a brick of 1 MiB, and room for its other fields.
+/// Most bytes of one of the messages that follow: a chunk or a part of a brick of 1 MiB, and room for its other fields.
 inline constexpr std::size_t max_recorded_message_bytes = std::size_t{2} << 20;
 
 }  // namespace meniscus::files

@@ -34,7 +34,7 @@ std::optional<RecordingScan::Item> RecordingScan::next() {
         if (!item.entry.ParseFromString(*bytes)) fail("no entry of a recording");
         if (item.entry.has_begin()) fail("a second beginning");
         const bool known = item.entry.entry_case() != v1::RecordingEntry::ENTRY_NOT_SET;
-        // What a later version writes has fields that this one does not know. An empty entry is a run of zeros, as some
+        // An entry of a later version has fields that this one does not know. An empty entry is a run of zeros, as some
         // file systems leave them after a crash.
         if (!known && v1::RecordingEntry::GetReflection()->GetUnknownFields(item.entry).empty())
             fail("an entry of no kind");

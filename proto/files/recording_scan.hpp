@@ -20,7 +20,7 @@ public:
     explicit RecordingScan(const RandomAccessFile& file);
 
     const v1::RecordingBegin& begin() const noexcept { return begin_; }
-    /// Whether its entries and frames can be told from damaged ones.
+    /// Whether damage to its entries and frames can be found.
     bool has_checksums() const noexcept { return has_checksums_; }
 
     struct Item {
@@ -40,7 +40,7 @@ public:
     [[noreturn]] void fail(const std::string& what) const;
 
 private:
-    /// Of an entry that does not have its checksum, though it should.
+    /// Throws for an entry that should have its checksum and does not.
     void require_sealed(const std::string& bytes, const v1::RecordingEntry& entry) const;
 
     const RandomAccessFile& file_;

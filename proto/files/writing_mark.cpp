@@ -7,7 +7,7 @@ namespace meniscus::files {
 
 namespace {
 
-/// Of the whole file. Open file description locks: those of fcntl's other kind do not show within one process.
+/// A lock of the whole file, of its open file description: locks of fcntl's other kind do not show within one process.
 struct flock whole_file(short type) {
     struct flock lock {};
     lock.l_type = type;

@@ -1,7 +1,7 @@
 """In pvpython: a session is simulated and shown, live, as a recording and as files; then its server is killed.
 
-paraview_shows.py PASSED FAILED: checks of before. PYTHONPATH has the package meniscus and client/paraview. SERVER: the
-process of a meniscusd that listens on /files/socket and records to /files/recordings.
+paraview_shows.py PASSED FAILED: numbers of earlier checks. PYTHONPATH has the package meniscus and client/paraview.
+SERVER: the process of a meniscusd that listens on /files/socket and records to /files/recordings.
 """
 
 import glob
@@ -66,7 +66,7 @@ def shown(source, time=None):
     return Fetch(source)
 
 
-def told(data, name):
+def field_value(data, name):
     return data.GetFieldData().GetArray(name).GetTuple1(0)
 
 
@@ -81,7 +81,7 @@ def wait_until(holds):
 
 
 def errors_of(work):
-    """What ParaView is told to be wrong meanwhile."""
+    """The errors that ParaView reports during work()."""
     window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
     vtkOutputWindow.SetInstance(window)
     try:
@@ -123,7 +123,7 @@ check("a live source sees a new frame", wait_until(source.GetNeedsUpdate))
 data = shown(live)
 same("live", data, client.snapshot(session.id).mesh)
 check("live: as many points as here", data.GetNumberOfPoints() == len(here.vertices))
-check("live: time and number", (told(data, "time"), told(data, "frame")) == (1.0, 0.0))
+check("live: time and number", (field_value(data, "time"), field_value(data, "frame")) == (1.0, 0.0))
 check("a live source sees nothing new", not source.GetNeedsUpdate())
 
 coarse = load_meniscus.MeniscusSession(Address=address, Session=session.id, MaxLevel=1)
@@ -139,7 +139,7 @@ for step in range(1, 5):
 check("the last three frames are kept", list(live.TimestepValues) == [1.5, 1.75, 2.0])
 for step in (3, 2, 4):
     same(f"live at {1 + 0.25 * step}", shown(live, 1 + 0.25 * step), pushed[step].mesh)
-check("between frames the one before is shown", told(shown(live, 1.74), "time") == 1.5)
+check("between frames the one before is shown", field_value(shown(live, 1.74), "time") == 1.5)
 
 live.FramesKept = 0
 display = simple.Show(live)
@@ -172,7 +172,7 @@ recording.UpdatePipelineInformation()
 check("a recording's timeline has its frames", list(recording.TimestepValues) == [0, 1, 2, 3, 4])
 for step in (2, 0, 4):
     data = shown(recording, step)
-    check(f"recording at {step}: time", told(data, "time") == 1 + 0.25 * step)
+    check(f"recording at {step}: time", field_value(data, "time") == 1 + 0.25 * step)
     same(f"recording at {step}", data, pushed[step].mesh)
 recording.Timeline = "Simulation Time"
 recording.UpdatePipelineInformation()
@@ -191,7 +191,7 @@ series.UpdatePipelineInformation()
 check("a series of files has a timeline", len(series.TimestepValues) == 5)
 same("series at its third file", shown(series, series.TimestepValues[2]), pushed[2].mesh)
 
-# What is wrong is an error in ParaView, in our words, and no surface.
+# A wrong property is an error in ParaView, in our words, and gives no surface.
 for name, wrong, says in (
     ("no such session", lambda: load_meniscus.MeniscusSession(Address=address, Session="nobody"), "'nobody'"),
     ("no such recording", lambda: load_meniscus.MeniscusRecording(Address=address, Number=7), "no recording 7"),

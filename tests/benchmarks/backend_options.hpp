@@ -1,4 +1,4 @@
-// What a benchmark reconstructs with.
+// The backend and the threads of a benchmark.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ class App;
 
 namespace meniscus::benchmarks {
 
-/// Unless told otherwise.
+/// The default.
 inline const BackendOptions one_cpu_thread{.backend = Backend::cpu, .threads = 1};
 
 /// The flags --backend and --threads.

@@ -68,7 +68,7 @@ double best_rate(double amount, cudaStream_t stream, const Work& work) {
     return best;
 }
 
-constexpr int sums = 8;  ///< that begin differently, or they would be one; enough to hide the latency of an addition
+constexpr int sums = 8;  ///< sums that begin differently, or they would be one; enough to hide an addition's latency
 constexpr int rounds = 8192;
 
 __global__ void multiply_add(float factor, float summand, float* out) {

@@ -37,7 +37,7 @@ struct Series {
 
     Reconstructor reconstructor;
     Mesh mesh;
-    std::vector<Statistics> runs;    ///< of the frame in work
+    std::vector<Statistics> runs;    ///< runs of the frame in work
     std::vector<Statistics> frames;  ///< its median runs
 
     void run(const ParticleFrame& frame) {

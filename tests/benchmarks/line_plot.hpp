@@ -19,7 +19,7 @@ struct LinePlot {
     std::vector<Line> lines;
 };
 
-/// An image without background, in colors that are told apart on white and on black. The y axis starts at 0.
+/// An image without background, in colors that are distinct on white and on black. The y axis starts at 0.
 std::string to_svg(const LinePlot& plot);
 
 }  // namespace meniscus::benchmarks

@@ -1,4 +1,4 @@
-// What this machine's processor can do at best, measured.
+// The peaks of this machine's processor, measured.
 #pragma once
 
 namespace meniscus::benchmarks {
@@ -8,7 +8,7 @@ struct MachinePeaks {
     double copied_bytes_per_second = 0.0;   ///< memory to memory: bytes that were read and written once
 };
 
-/// Of one core, with the widest instructions that the library uses. Takes about a second.
+/// The peaks of one core, with the widest instructions that the library uses. Takes about a second.
 MachinePeaks measure_peaks();
 
 }  // namespace meniscus::benchmarks

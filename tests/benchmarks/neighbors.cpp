@@ -14,7 +14,7 @@ std::int64_t cell_of(double coordinate, double edge) {
     return static_cast<std::int64_t>(std::floor(coordinate / edge));
 }
 
-/// Of the cell (x, y, z), each within 2^20 of the origin.
+/// The key of the cell (x, y, z), each within 2^20 of the origin.
 std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
     constexpr std::int64_t half = 1 << 20;
     return static_cast<std::uint64_t>(x + half) << 42U | static_cast<std::uint64_t>(y + half) << 21U |

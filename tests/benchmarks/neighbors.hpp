@@ -39,7 +39,7 @@ private:
     double radius_;
     double widest_;
     std::vector<std::uint32_t> order_;                      ///< the particles cell by cell
-    std::unordered_map<std::uint64_t, std::size_t> first_;  ///< of a cell, in order_
+    std::unordered_map<std::uint64_t, std::size_t> first_;  ///< begin of a cell in order_
     std::unordered_map<std::uint32_t, double> supports_;    ///< those found so far
 };
 

@@ -1,4 +1,4 @@
-// What a program of benchmarks does with its arguments.
+// The run of a program of benchmarks, by its arguments.
 #pragma once
 
 namespace CLI {
@@ -11,7 +11,7 @@ namespace meniscus::benchmarks {
 /// where there is no GPU for a command that needs one.
 int run_program(CLI::App& app, int argc, char** argv);
 
-/// Those of run_program().
+/// The arguments of run_program().
 char* const* program_arguments();
 
 }  // namespace meniscus::benchmarks

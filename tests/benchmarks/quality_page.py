@@ -16,17 +16,27 @@ SPLASHING, SETTLED = "frame_040", "frame_258"
 
 
 class Figures:
-    """The rows of all reports, by what they are of."""
+    """The rows of all reports, by part, subject, field, mode, cell size and figure."""
 
     def __init__(self, rows):
         self.rows = rows
         self.values = {}
+        self.shown = set()
         for row in rows:
-            key = (row["part"], row["subject"], row["field"], row["mode"], float(row["cell_size"]), row["figure"])
-            self.values.setdefault(key, {})[row["sampling"]] = row["value"]
+            self.values.setdefault(self.key_of(row), {})[row["sampling"]] = row["value"]
+
+    @staticmethod
+    def key_of(row):
+        return row["part"], row["subject"], row["field"], row["mode"], float(row["cell_size"]), row["figure"]
+
+    def shown_rows(self):
+        """The rows that samplings() has returned values of."""
+        return [row for row in self.rows if self.key_of(row) in self.shown]
 
     def samplings(self, part, subject, field, mode, figure, cell_size=0.5):
-        return self.values.get((part, subject, field, mode, cell_size, figure), {})
+        key = (part, subject, field, mode, cell_size, figure)
+        self.shown.add(key)
+        return self.values.get(key, {})
 
     def mean(self, *key, **more):
         values = self.samplings(*key, **more).values()
@@ -64,7 +74,7 @@ def with_samplings(figures, part, subject, figure, digits, unit=""):
 
 
 def goals(figures):
-    """What was to be reached, and what was.
+    """The goals, and the figures reached.
 
     "At least" is what the prototype of the field had: supports of 3 to 6 r by the particle's company, weights raised to
     a field of 0.75 at each particle. This bench measured it before any constant was changed (but for the times, which
@@ -332,7 +342,7 @@ Triangles adaptive over uniform, distance between the two surfaces, components l
     "times": """
 Times, warm, one thread:""",
     "heights": """
-Triangles adaptive over uniform of frame 258, moved along y by so many cells:""",
+Triangles adaptive over uniform of frame 258, by its shift along y in cells:""",
 }
 
 

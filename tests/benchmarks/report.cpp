@@ -17,9 +17,9 @@ namespace {
 std::string command_line;
 
 /// The commit that the sources are at, "-dirty" if they were changed since, "unknown" outside of a checkout. Where this
-/// program runs without its sources, MENISCUS_COMMIT may tell.
+/// program runs without its sources, MENISCUS_COMMIT may name it.
 std::string commit() {
-    if (const char* told = std::getenv("MENISCUS_COMMIT")) return told;
+    if (const char* given = std::getenv("MENISCUS_COMMIT")) return given;
     const std::unique_ptr<FILE, int (*)(FILE*)> git(
         popen("git -C '" MENISCUS_SOURCE_DIR "' describe --always --dirty --abbrev=12 --exclude='*' 2>/dev/null", "r"),
         &pclose);

@@ -19,8 +19,8 @@ using Rows = nlohmann::ordered_json;
 /// Kept for the reports, with only the last part of absolute paths: the rest says nothing elsewhere.
 void remember_command(const std::string& program, int argc, const char* const* argv);
 
-/// What a reconstruction takes, in seconds: on a GPU between CUDA's events, from the upload on, without the mesh's way
-/// to the host.
+/// The time of a reconstruction, seconds: on a GPU between CUDA's events, from the upload on, without the mesh's way to
+/// the host.
 double reconstruction_seconds(const Statistics& statistics);
 /// The bytes that it takes place in: of the GPU, or of the host with the mesh.
 std::uint64_t reconstruction_bytes(const Statistics& statistics);

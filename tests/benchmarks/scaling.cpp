@@ -73,9 +73,9 @@ Neighborhood sample_neighborhood(const std::vector<float>& positions, const Mesh
     return {mean(sums.of_particle, particles.size()), mean(sums.of_vertex, vertices.size())};
 }
 
-/// What could not be done in less time: the kernel for every pair within a particle's own support (the sums at the
-/// particles, the field at its points, whose neighborhoods are taken to be like the vertices'), and one pass over the
-/// memory.
+/// Adds the work that no faster program could avoid: the kernel for every pair within a particle's own support (the
+/// sums at the particles, the field at its points, whose neighborhoods are taken to be like the vertices'), and one
+/// pass over the memory.
 void add_floor(Row& row, const Statistics& s, const Settings& settings, const Neighborhood& neighbors,
                const MachinePeaks& peaks) {
     const double kernels = static_cast<double>(s.particles) * neighbors.of_particle +

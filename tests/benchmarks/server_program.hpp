@@ -17,7 +17,7 @@ public:
     ServerProgram& operator=(const ServerProgram&) = delete;
 
     const std::string& address() const noexcept { return address_; }
-    /// Of all its threads, so far.
+    /// Processor time of all its threads so far, seconds.
     double processor_seconds() const;
 
 private:
@@ -25,7 +25,7 @@ private:
     pid_t pid_ = -1;
 };
 
-/// Of all threads of this process, so far.
+/// Processor time of all threads of this process so far, seconds.
 double processor_seconds();
 
 }  // namespace meniscus::benchmarks

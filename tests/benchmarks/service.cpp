@@ -47,9 +47,9 @@ ParticleFrame frame_of(const std::vector<float>& positions) {
     return frame;
 }
 
-/// Of one frame, in this process: one thread reconstructs while another one encodes the frame before. Two cores may be
-/// one core's two threads, and each then takes more processor time than alone: as in the server, so that the two
-/// compare.
+/// Processor time of one frame in this process, seconds: one thread reconstructs while another one encodes the frame
+/// before. Two cores may be one core's two threads, and each then takes more processor time than alone: as in the
+/// server, so that the two compare.
 double processor_seconds_here(const Frames& frames, const Settings& settings, const CodingOptions& coding) {
     Reconstructor reconstructor(settings, one_cpu_thread);
     std::array<Mesh, 2> meshes;
@@ -72,16 +72,16 @@ double processor_seconds_here(const Frames& frames, const Settings& settings, co
 }
 
 void stream_frames(client::Client& client, const std::string& session, const Frames& frames, int normal_bits) {
-    client::StreamOptions wishes;
-    wishes.normal_bits = normal_bits;
-    auto stream = client.stream(session, wishes);
+    client::StreamOptions stream_options;
+    stream_options.normal_bits = normal_bits;
+    auto stream = client.stream(session, stream_options);
     for (std::size_t i = 0; i < frames.size(); ++i) stream.push(frame_of(frames[i]), i, 0.0);
     stream.finish();
     while (stream.next()) {
     }
 }
 
-/// Of one frame, in meniscusd.
+/// Processor time of one frame in meniscusd, seconds.
 double processor_seconds_served(const Frames& frames, const Settings& settings, const ServiceOptions& options) {
     const ServerProgram server(options.program, {"--threads", "1", "--backend", "cpu", "--log-level", "warning"});
     client::Client client(server.address());

@@ -72,17 +72,17 @@ private:
     std::string address_;
 };
 
-/// Of particle data, over frames that are all answered.
+/// Rate of particle data, over frames that are all answered.
 double upload_bytes_per_second(const std::string& address, const UploadOptions& options) {
     client::Client client(address);
     const std::string id = client::new_session_id();
     Settings settings;
     settings.particle_radius = 0.1;
     client.create_session(id, settings);
-    client::StreamOptions wishes;
-    wishes.receive_meshes = false;
-    wishes.reconnect = std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * options.reconnect));
-    auto stream = client.stream(id, wishes);
+    client::StreamOptions stream_options;
+    stream_options.receive_meshes = false;
+    stream_options.reconnect = std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * options.reconnect));
+    auto stream = client.stream(id, stream_options);
     const std::vector<float> positions(3 * options.particles, 0.5F);
     ParticleFrame frame;
     frame.positions = positions;

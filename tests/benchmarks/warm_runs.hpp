@@ -9,11 +9,11 @@ namespace meniscus::benchmarks {
 
 struct RepeatLimits {
     unsigned runs = 5;      ///< warm runs, at least 1
-    double seconds = 60.0;  ///< no further warm run begins after so long
+    double seconds = 60.0;  ///< after which no further warm run begins
 };
 
 struct WarmRuns {
-    Statistics first;    ///< of a new reconstructor, whose memory is not there yet
+    Statistics first;    ///< run of a new reconstructor, whose memory is not there yet
     Statistics median;   ///< the warm run of median total time (the lower of two in the middle)
     unsigned count = 0;  ///< warm runs
 };
@@ -22,7 +22,7 @@ struct WarmRuns {
 WarmRuns reconstruct_repeatedly(const ParticleFrame& frame, const Settings& settings, const BackendOptions& options,
                                 const RepeatLimits& limits, Mesh& mesh);
 
-/// Of the values, at least one; the lower of two in the middle.
+/// The median of at least one value; the lower of two in the middle.
 double median(std::vector<double> values);
 
 }  // namespace meniscus::benchmarks

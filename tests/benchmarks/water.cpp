@@ -11,7 +11,7 @@ namespace meniscus::benchmarks {
 namespace {
 
 // Lengths in rest distances (two radii) until the particle is stored.
-constexpr std::size_t side = 40;  ///< of a basin
+constexpr std::size_t side = 40;  ///< edge of a basin
 constexpr std::size_t calm_layers = basin_particles / (side * side);
 constexpr std::size_t splashing_layers = calm_layers / 2;
 constexpr float gap = 2.0F;        ///< between basins

@@ -21,7 +21,7 @@ constexpr std::string_view name_of(WaterKind kind) {
     return {};
 }
 
-/// What one basin holds.
+/// Particles of one basin.
 inline constexpr std::size_t basin_particles = 16000;
 
 /// x y z per particle, y up, particles two radii apart: as many full basins as `particles` fill, at least one, next to

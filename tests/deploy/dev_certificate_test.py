@@ -114,7 +114,7 @@ class Certificates(unittest.TestCase):
         self.make("--force", self.folder)
         after = self.contents()
         changed = {name for name in before if before[name] != after[name]}
-        self.assertEqual(changed, {"server.pem", "server.key"}, "those who trust the CA go on")
+        self.assertEqual(changed, {"server.pem", "server.key"}, "the CA stays, and clients that trust it")
         self.file("ca.key").unlink()
         self.assertIn("a CA without ca.key", self.refused("--force", self.folder))
 

@@ -1,4 +1,4 @@
-"""Links of the documents, and what the documents promise of themselves: documents_test.py REPOSITORY."""
+"""Links and paths of the documents, and what the documents promise of themselves: documents_test.py REPOSITORY."""
 
 import re
 import sys
@@ -7,6 +7,7 @@ from pathlib import Path
 
 REPOSITORY = Path(sys.argv.pop()).resolve()
 GENERATED = {".build", ".git", "node_modules", "out"}
+ROOMS = ("core", "proto", "server", "client", "tests", "deploy", ".github")
 
 
 def files_named(pattern, folder=REPOSITORY):
@@ -18,9 +19,17 @@ def files_named(pattern, folder=REPOSITORY):
             yield path
 
 
+FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
+
+
 def prose_of(page):
     """Its text without fenced code, in which brackets are no links."""
-    return re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.MULTILINE | re.DOTALL)
+    return FENCED.sub("", page.read_text())
+
+
+def code_of(page):
+    """Its texts in backticks, fenced or within a line."""
+    return FENCED.findall(page.read_text()) + re.findall(r"`[^`\n]+`", prose_of(page))
 
 
 def anchors_of(page):
@@ -58,6 +67,23 @@ class Documents(unittest.TestCase):
                         self.assert_leads_somewhere(page, target)
                     links += 1
         self.assertGreater(links, 100)
+
+    def test_every_path_in_backticks_exists(self):
+        # The changelog names files of earlier versions, results those of the commit that was measured.
+        pages = {
+            *files_named("README.md"),
+            *files_named("CONTRIBUTING.md"),
+            *files_named("*.md", REPOSITORY / "deploy"),
+        }
+        rooms = "|".join(map(re.escape, ROOMS))
+        paths = 0
+        for page in sorted(pages):
+            for code in code_of(page):
+                for path in re.findall(rf"(?<![\w./$-])(?:{rooms})/[\w./-]*", code):
+                    with self.subTest(path):
+                        self.assertTrue((REPOSITORY / path).exists(), f"{name(page)} names {path}, which is not there")
+                    paths += 1
+        self.assertGreater(paths, 30)
 
     def test_every_heading_that_a_comment_cites_exists(self):
         for pattern in ("*.hpp", "*.cpp", "*.cu", "*.c", "*.h", "*.proto"):

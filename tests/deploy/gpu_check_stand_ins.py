@@ -70,7 +70,7 @@ case $name in
     row "$particles,calm,smooth,uniform,1,frame 1,same,0.5,0,"
     hang
     result=${FAKE_MESHES:-same}
-    # What only happens with graphs.
+    # A difference with graphs alone.
     [ "$graph$result" != 1different ] || result=same
     row "$particles,splashing,smooth,uniform,1,frame 1,$result,0.5,0,vertex 7"
     row "$particles,splashing,smooth,uniform,1,frame 4 (graph),$result,0.5,0,vertex 7"

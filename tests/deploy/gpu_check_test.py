@@ -86,7 +86,7 @@ class GpuCheck(unittest.TestCase):
         return failed[0]
 
     def asked(self):
-        """What the programs were called with, after the environment's choice of graphs and of arrays."""
+        """The calls of the programs, each after the environment's choice of graphs and of arrays."""
         return (self.folder / "asked").read_text().splitlines()
 
     def test_passes_where_everything_does_the_most_valuable_first(self):

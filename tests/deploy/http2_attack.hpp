@@ -78,7 +78,7 @@ private:
     static constexpr std::uint8_t settings = 4;
     static constexpr std::uint8_t continuation = 9;
     static constexpr std::uint8_t end_headers = 4;
-    /// What first_headers() has put into the table of headers.
+    /// The headers that first_headers() has put into the table, by their indices there.
     static constexpr std::string_view later_headers = "\x83\x86\xc1\xc0\xbf\xbe";
 
     static std::string frame(std::uint8_t type, std::uint8_t flags, std::uint32_t stream, std::string_view content) {

@@ -1,4 +1,4 @@
-// A simulator and a watcher, each with a connection of its own, who note what they get and when.
+// A simulator and a watcher, each with a connection of its own, that note their frames and the times of these.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -38,8 +38,7 @@ public:
 
     const std::string& id() const { return id_; }
 
-    /// From now on frames are pushed without waiting for the watcher, who may miss some: there are several on their
-    /// way.
+    /// From now on frames are pushed without waiting for the watcher, which may miss some: several are under way.
     void stop_waiting_for_the_watcher() {
         const std::lock_guard lock(mutex_);
         in_step_ = false;
@@ -123,12 +122,12 @@ private:
         return {};
     }
 
-    void note_errors(const std::string& who, const std::function<void()>& work) {
+    void note_errors(const std::string& role, const std::function<void()>& work) {
         try {
             work();
         } catch (const std::exception& error) {
             const std::lock_guard lock(mutex_);
-            errors_.push_back(who + ": " + error.what());
+            errors_.push_back(role + ": " + error.what());
             in_step_ = false;
             changed_.notify_all();
         }
@@ -170,7 +169,7 @@ private:
     std::optional<client::Stream> stream_;
     std::optional<client::Watcher> watcher_;
 
-    mutable std::mutex mutex_;  ///< for what follows
+    mutable std::mutex mutex_;  ///< guards the members below
     std::condition_variable changed_;
     bool in_step_ = true;
     bool finished_ = false;

@@ -20,7 +20,7 @@
 
 namespace meniscus::server::test {
 
-/// Of a server, in words such as "127.0.0.1:50051".
+/// The port in a server's address, such as "127.0.0.1:50051".
 inline std::string port_of(const std::string& address) {
     return address.substr(address.rfind(':') + 1);
 }
@@ -68,7 +68,7 @@ private:
         return text + rest;
     }
 
-    /// What a distribution's nginx.conf has around the file, for a user who may not write where that does.
+    /// The part of a distribution's nginx.conf around the file, with paths that any user may write.
     std::string nginx_around(const std::string& configuration) const {
         return "daemon off; master_process off; error_log stderr crit; pid " + (folder_ / "pid") +
                "; events { worker_connections 4096; }\nhttp { client_body_temp_path " + (folder_ / "body") +

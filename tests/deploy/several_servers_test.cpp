@@ -1,4 +1,4 @@
-// Three servers behind a real proxy: who meets where, and what happens when a server goes and comes back.
+// Three servers behind a real proxy: simulator and watcher meet on one of them, also when a server goes and comes back.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -132,7 +132,7 @@ bool has_all(const ServerProcess& server, const std::set<std::string>& ids) {
            }) == static_cast<std::ptrdiff_t>(ids.size());
 }
 
-/// The longest that somebody who comes to watch has to try until there is a frame, from now until told to stop.
+/// The longest time that a new watcher waits for a frame, from now until `stop`.
 Clock::duration longest_way_to_a_frame(const std::string& address, const std::string& id,
                                        const std::atomic<bool>& stop) {
     constexpr std::chrono::seconds patience(30);

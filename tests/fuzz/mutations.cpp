@@ -19,7 +19,7 @@ namespace {
 
 using meniscus::fuzz::Target;
 
-/// What a crash leaves: read by the signal handler.
+/// The input in work and the name of a file: the signal handler writes the input there at a crash.
 std::string current;
 std::string current_name;
 

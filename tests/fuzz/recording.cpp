@@ -57,7 +57,7 @@ void recording(Bytes bytes) {
     });
 }
 
-/// Entries of before checksums, so that mutations of them are read instead of refused at once.
+/// Entries in the older form without checksums, so that mutations of them are read instead of refused at once.
 std::string without_checksums(const std::string& bytes) {
     const MemoryFile memory(bytes);
     const files::RandomAccessFile file(memory.path());

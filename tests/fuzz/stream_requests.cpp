@@ -70,7 +70,7 @@ void stream_requests(Bytes bytes) {
     server::Limits limits;
     limits.particles_per_frame = 100'000;
     limits.bytes_per_session = std::size_t{1} << 20;
-    // Of the sessions, one in three makes no attributes.
+    // One session in three makes no attributes.
     Settings settings;
     Front front(bytes);
     const std::uint64_t kind = front.number(1) % 3;

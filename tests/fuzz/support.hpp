@@ -1,4 +1,4 @@
-// What the targets share.
+// Parts that the targets share.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace meniscus::fuzz {
 
-/// What must hold of whatever was accepted.
+/// Ends the program unless a property of accepted input holds.
 inline void require(bool holds, const char* what) {
     if (holds) return;
     std::fprintf(stderr, "broken: %s\n", what);

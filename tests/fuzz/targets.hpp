@@ -1,4 +1,4 @@
-// What reads bytes that nobody vouches for. Each target takes any bytes: it may refuse them, and must not crash, hang
+// Readers of untrusted bytes. Each target takes any bytes: it may refuse them, and must not crash, hang
 // or ask for memory that the bytes do not justify. libFuzzer makes the bytes (tests/fuzz/run); the test suite tries the
 // seeds and damage to them.
 #pragma once
@@ -48,7 +48,7 @@ Seeds brick_seeds();
 void brick_with_attributes(Bytes bytes);
 Seeds brick_with_attributes_seeds();
 
-/// What a client sends to the HTTP port, on one connection.
+/// Bytes of a client to the HTTP port, on one connection.
 void http(Bytes bytes);
 Seeds http_seeds();
 
@@ -79,7 +79,7 @@ void particle_json(Bytes bytes);
 Seeds particle_json_seeds();
 void bi4(Bytes bytes);
 Seeds bi4_seeds();
-/// What PySPH's .npz has inside.
+/// The pickle inside PySPH's .npz.
 void pickle(Bytes bytes);
 Seeds pickle_seeds();
 void mesh_vtk(Bytes bytes);

@@ -1,4 +1,4 @@
-// What an attack is, and what it has measured.
+// An attack, and the figures that it measures.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// meniscus-hostile: attacks servers that it starts, and tells what became of them.
+// meniscus-hostile: attacks servers that it starts, and prints a verdict for each figure.
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace meniscus::hostile;
 
-constexpr unsigned most_seconds = 600;  ///< of one attack
+constexpr unsigned most_seconds = 600;  ///< time limit of one attack
 
 /// Prints a line for each figure. Whether all hold.
 bool report(const Attack& attack, const std::vector<Figure>& figures) {

@@ -16,12 +16,12 @@ namespace meniscus::hostile {
 struct TargetOptions {
     std::vector<std::string> arguments;  ///< beside --listen and --http, which are on free ports of loopback
     std::optional<rlim_t> descriptors;   ///< its limit, soft and hard
-    std::string listen = "127.0.0.1:0";  ///< for a server that comes again where one was
+    std::string listen = "127.0.0.1:0";  ///< address; that of an earlier server for one that takes its place
 };
 
 /// How a server ended.
 struct End {
-    double seconds = 0.0;  ///< from SIGTERM on
+    double seconds = 0.0;  ///< time from SIGTERM on
     int exit_code = 0;     ///< 128 + the signal that has killed it
 };
 
@@ -39,7 +39,7 @@ public:
     pid_t process() const noexcept { return process_; }
     soak::ProcessSize size() const { return soak::process_size(process_); }
     std::size_t peak_bytes() const;    ///< the most that has been resident, files and shared memory with it
-    double processor_seconds() const;  ///< of all its threads, so far
+    double processor_seconds() const;  ///< processor time of all its threads so far
 
     /// Sends SIGTERM and waits for its end.
     End terminate();
@@ -50,10 +50,10 @@ private:
 
     pid_t process_ = -1;
     int output_ = -1;
-    std::string buffer_;  ///< of output that is not a whole line yet
+    std::string buffer_;  ///< output that is not a whole line yet
     std::string address_;
     std::string http_address_;
-    std::thread reader_;  ///< of the output after the addresses, so that the server never waits for it
+    std::thread reader_;  ///< reads the output after the addresses, so that the server never waits for a reader
 };
 
 }  // namespace meniscus::hostile

@@ -156,8 +156,8 @@ TEST(SettingsConversion, RefusesASmoothnessOutOfRangeAndASprayThatItDoesNotKnow)
     EXPECT_EQ(refusal(wire), "settings.spray has the value 9, which this version does not know");
 }
 
-/// Settings of a session that a client of before the smooth field made, as it sent them: everything was spelled out.
-TEST(SettingsConversion, UnderstandsClientsOfBeforeTheSmoothField) {
+/// Settings of a client older than the smooth field, as it sent them: everything was spelled out.
+TEST(SettingsConversion, UnderstandsClientsOlderThanTheSmoothField) {
     v1::Settings wire = wire_of(v1::FIELD_COLOR);
     wire.set_smoothing_length(2.0);
     wire.set_cell_size(0.5);

@@ -6,8 +6,8 @@
 
 namespace meniscus::soak {
 
-/// So many connections, a few at a time, each on a socket of its own: most ask what the server is, some open a session,
-/// stream a frame and leave without a word, some watch and break off. Throws what the first failure was.
+/// Makes `connections`, a few at a time, each on a socket of its own: most ask for the server's information, some open
+/// a session, stream a frame and leave without a word, some watch and break off. Throws the first failure.
 void connect_many(const std::string& server, std::uint64_t connections);
 
 }  // namespace meniscus::soak

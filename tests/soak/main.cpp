@@ -19,8 +19,8 @@ namespace {
 using namespace meniscus::soak;
 
 constexpr std::uint64_t rounds = 40;
-constexpr std::uint64_t warm_up_rounds = 10;  ///< until buffers, pools and the heap have their size
-/// What the heap may move by; less than 42 bytes for each of 10^5 connections, 5 for each of 10^6 frames.
+constexpr std::uint64_t warm_up_rounds = 10;  ///< rounds until buffers, pools and the heap have their size
+/// Most growth of the heap; less than 42 bytes for each of 10^5 connections, 5 for each of 10^6 frames.
 constexpr double allowed_bytes = 4 << 20;
 
 struct Arguments {

@@ -1,4 +1,4 @@
-// What a process holds, as Linux tells it.
+// The memory and descriptors of a process, from Linux.
 #pragma once
 
 #include <sys/types.h>

@@ -13,7 +13,7 @@ class TinyFrames {
 public:
     explicit TinyFrames(const std::string& server);
 
-    /// Sends so many frames, some at a time, and waits until each is answered. Throws what the stream ends with, or
+    /// Sends `frames`, some at a time, and waits until each is answered. Throws the error that the stream ends with, or
     /// std::runtime_error for an answer that is not the next.
     void send(std::uint64_t frames);
 

@@ -9,7 +9,7 @@ import { link, open, state, surface } from './support/viewer.mjs';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
-/** What breaks the rules of WCAG 2.2, levels A and AA. */
+/** The violations of WCAG 2.2, levels A and AA. */
 async function violations(page) {
   await page.evaluate(axe);
   return page.evaluate(async () => {

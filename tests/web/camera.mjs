@@ -75,7 +75,7 @@ describe('the camera', { skip: missing }, () => {
     );
     assert.ok(
       asked.length >= 2 && asked[0] > asked.at(-1),
-      `wishes of ${asked} bytes: some while it moves, none when it rests`,
+      `requests of ${asked} bytes: some while it moves, none when it rests`,
     );
   });
 });

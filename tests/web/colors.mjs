@@ -30,7 +30,7 @@ async function restingSession(server, folder) {
   await page.waitForFunction(() => Number(document.getElementById('view').dataset.frame) >= 20);
   await simulator.kill();
   await page.close();
-  // What the server still works on comes first.
+  // Frames that the server still works on come first.
   for (let before; ;) {
     const to = mkdtempSync(join(folder, 'received-'));
     const watch = ['watch', simulator.session, '--server', server.address, '-o', to, '--frames', '1'];
@@ -146,7 +146,7 @@ describe('colors', { skip: missing }, () => {
     }
   });
 
-  it('that a session does not have are told of in the panel, and its own are offered', async () => {
+  it('that a session does not have are reported in the panel, and its own are offered', async () => {
     const server = await startServer();
     const args = 'simulate --scene dam-break --particles 500 --frames 100000 --attribute age';
     const simulator = startUploader(server, args.split(' '));

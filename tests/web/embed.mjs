@@ -71,7 +71,7 @@ describe('the viewer in a page of others', { skip: missing }, () => {
         assert.equal(await frame.locator(`#${id}`).isVisible(), false, id);
       assert.equal(await frame.locator('#banner').isVisible(), false);
       assert.equal(frame.url(), `${server.url}?embed=${encodeURIComponent(`http://localhost:${port}`)}`);
-      // Of another site's frame the browser may keep nothing at all.
+      // The browser may keep nothing at all for another site's frame.
       const kept = await frame.evaluate(() => {
         try {
           return sessionStorage.length + localStorage.length;

@@ -6,7 +6,7 @@ import { describe, it } from 'node:test';
 import validator from 'gltf-validator';
 import { run, startServer, startUploader } from './support/programs.mjs';
 
-/** What Khronos's validator has to say against a file; what is only worth knowing is left out. */
+/** The complaints of Khronos's validator about a file, hints left out. */
 async function complaints(bytes) {
   const { issues } = await validator.validateBytes(new Uint8Array(bytes));
   return issues.messages.filter(({ severity }) => severity < 2);

@@ -85,7 +85,7 @@ describe('the list', { skip: missing }, () => {
     );
   });
 
-  it('tells an address that cannot be from a session that has gone', async () => {
+  it('has another text for an address that cannot be than for a session that has gone', async () => {
     const server = await startServer();
     const page = await open(`${server.url}#session=0000-not-a-uuid`);
     await page.getByText('names the session "0000-not-a-uuid", which cannot be').waitFor();
@@ -118,7 +118,7 @@ describe('a session', { skip: missing }, () => {
       assert.match(page.url(), new RegExp(`#recording=${replay.session}/1`));
       assert.equal(await page.locator('#open-recording').isVisible(), false);
 
-      // An address of before leads there, too.
+      // An address in the older form leads there, too.
       await page.context().close();
       const later = await open(link(server, replay.session));
       await later.locator('#open-recording').waitFor();

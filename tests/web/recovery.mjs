@@ -35,7 +35,7 @@ describe('errors', { skip: missing }, () => {
     await page.waitForSelector('#banner', { state: 'hidden' });
   });
 
-  it('tell that a server shuts down', async () => {
+  it('say that a server shuts down', async () => {
     const server = await startServer();
     const simulator = await startReplay(server);
     const page = await open(link(server, simulator.session));
@@ -45,7 +45,7 @@ describe('errors', { skip: missing }, () => {
     await screenshot(page, 'server-stopped');
   });
 
-  it('tell of a session that is not there', async () => {
+  it('say that a session is not there', async () => {
     const server = await startServer();
     const page = await open(link(server, '00000000-0000-4000-8000-000000000000'));
     await says(page, /There is no such session.*Trying again in/);
@@ -81,7 +81,7 @@ describe('errors', { skip: missing }, () => {
     }
   });
 
-  it('tell of graphics that the browser has taken away, and pass when it gives them back', async () => {
+  it('say that the browser has taken the graphics away, and pass when it gives them back', async () => {
     const server = await startServer();
     const simulator = await startReplay(server);
     const page = await open(link(server, simulator.session));
@@ -99,7 +99,7 @@ describe('errors', { skip: missing }, () => {
     assert.ok((await shown(page)).triangles > 0);
   });
 
-  it('tell what is missing in a browser without WebGL', async () => {
+  it('name what is missing in a browser without WebGL', async () => {
     const server = await startServer();
     const plain = await launch('--disable-gpu', '--disable-3d-apis');
     try {

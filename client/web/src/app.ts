@@ -49,7 +49,7 @@ export class App {
   private readonly recordingView: RecordingView;
   private readonly list: SessionList;
   private readonly recordings: RecordingList;
-  /** What is looked at. */
+  /** The session, or the recording and the place in it, that is shown. */
   private at: Pick<PageState, 'session' | 'recording' | 'position'> = {};
   private look: Look = 'water';
   private particles = false;
@@ -57,7 +57,7 @@ export class App {
   private linked: PageState = {};
   /** Whether nothing is tried any more. */
   private watchIsOver = false;
-  /** What the page around has handed over last cannot be. */
+  /** Whether the last state that the page around handed over cannot be. */
   private handingFailed = false;
 
   constructor() {
@@ -71,7 +71,7 @@ export class App {
         this.tools.rendered();
       },
       drawn: (frame, triangles, particles) => {
-        // For those who look from outside: tests, and assistive tools.
+        // For readers outside of the page: tests, and assistive tools.
         this.canvas.dataset.frame = String(frame.index);
         this.canvas.dataset.triangles = String(triangles);
         if (particles) this.canvas.dataset.particles = String(particles.index);
@@ -172,7 +172,7 @@ export class App {
   private go(state: PageState): void {
     history.pushState(null, '', writeLink(state));
     this.open(state);
-    // What was chosen with the keyboard goes on with the keyboard.
+    // A choice by the keyboard leaves the focus where the keyboard goes on.
     if (!state.session && !state.recording) element('list-heading', HTMLElement).focus();
     else this.canvas.focus();
   }
@@ -316,7 +316,7 @@ export class App {
       this.open(state);
       return;
     }
-    // The watch goes on, and what it has told holds: a page may move the camera as often as it likes.
+    // The watch goes on, and its last report holds: a page may move the camera as often as it likes.
     if (this.handingFailed) this.banner.say('');
     this.handingFailed = false;
     this.linked = state;
@@ -396,7 +396,7 @@ export class App {
   }
 
   private writeAddress(): void {
-    // What a page hands over is not to be found in an address.
+    // The state that a page hands over stays out of the address.
     if (this.embedding || !this.screen.shown || !this.looking) return;
     history.replaceState(
       null,

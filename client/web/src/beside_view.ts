@@ -3,7 +3,7 @@ import { BrickStore, type Shown } from './bricks/brick_store';
 import type { DecodePool } from './decode/decode_pool';
 import type { Server } from './rpc/server';
 import { askForFacts } from './scene_facts';
-import { wishesOf } from './stream/quality';
+import { watchOptions } from './stream/quality';
 import { SessionWatch } from './stream/session_watch';
 import type { WatchState } from './stream/watch_state';
 import type { WorldBox } from './view/bounds';
@@ -12,7 +12,7 @@ import type { Viewer } from './view/viewer';
 export interface BesideViewEvents {
   shown(box: WorldBox | undefined): void;
   domain(box: WorldBox | undefined): void;
-  /** What there is to say of it; empty: nothing. */
+  /** A remark about the second session; empty: none. */
   says(text: string): void;
 }
 
@@ -51,12 +51,12 @@ export class BesideView {
     if (name === this.attribute) return;
     this.attribute = name;
     this.store.setAttribute(name);
-    this.watch?.setWishes(wishesOf('full', 0, name));
+    this.watch?.setOptions(watchOptions('full', 0, name));
   }
 
   start(session: string): void {
     this.stop();
-    const watch = new SessionWatch(this.server, session, wishesOf('full', 0, this.attribute), {
+    const watch = new SessionWatch(this.server, session, watchOptions('full', 0, this.attribute), {
       frame: (frame) => {
         this.store.show(frame);
       },

@@ -1,4 +1,4 @@
-// What the server tells of a session or a recording that matters to its picture.
+// Facts about a session or a recording that matter to its picture.
 import type { Recording } from './gen/meniscus/v1/recording_service_pb';
 import { UpAxis as WireUpAxis, type Session, type SessionDescription } from './gen/meniscus/v1/session_service_pb';
 import type { Box } from './gen/meniscus/v1/settings_pb';
@@ -10,9 +10,9 @@ import type { UpAxis } from './view/up_axis';
 export interface SceneFacts {
   /** None: not said. */
   readonly up: UpAxis | undefined;
-  /** Of lengths; empty: not said. */
+  /** The unit of lengths; empty: not said. */
   readonly unit: string;
-  /** To which the surface is cropped. A recording does not tell. */
+  /** The box to which the surface is cropped. A recording does not have it. */
   readonly domain: WorldBox | undefined;
 }
 
@@ -32,7 +32,7 @@ export function factsOfRecording({ description }: Recording): SceneFacts {
   return { ...described(description), domain: undefined };
 }
 
-/** None where the server knows nothing of it, or cannot be asked: that is told elsewhere. */
+/** None where the server knows nothing of it, or cannot be asked: the watch reports that. */
 export async function askForFacts(
   server: Server,
   { session, recording }: { readonly session?: string; readonly recording?: RecordingName },

@@ -1,4 +1,4 @@
-// What is on the screen: one frame whole, its figures.
+// The screen: one frame whole, its figures.
 import { BrickStore, type Shown } from './bricks/brick_store';
 import type { Frame } from './bricks/frame';
 import { levelCount } from './decode/decoded_brick';
@@ -48,7 +48,7 @@ export class Screen {
     return this.store.shown;
   }
 
-  /** Of vertices, to be decoded with the bricks that carry it. */
+  /** Sets the attribute of vertices that is decoded with the bricks that carry it. */
   setAttribute(name: string | undefined): void {
     this.store.setAttribute(name);
   }

@@ -6,7 +6,7 @@ import type { Server } from './rpc/server';
 import type { Screen } from './screen';
 import { LinkSpeed } from './stream/link_speed';
 import { ParticleWatch } from './stream/particle_watch';
-import { chooseQuality, wishesOf, type Quality } from './stream/quality';
+import { chooseQuality, watchOptions, type Quality } from './stream/quality';
 import { SessionWatch } from './stream/session_watch';
 import { SkippedFrames } from './stream/skipped_frames';
 import type { WatchState } from './stream/watch_state';
@@ -52,7 +52,7 @@ export class SessionView {
     this.stop();
     this.link = new LinkSpeed();
     this.skipped = new SkippedFrames();
-    this.watch = new SessionWatch(this.server, session, wishesOf('full', 0, this.attribute), {
+    this.watch = new SessionWatch(this.server, session, watchOptions('full', 0, this.attribute), {
       frame: (frame) => {
         this.take(frame);
       },
@@ -103,7 +103,7 @@ export class SessionView {
   setAttribute(name: string | undefined): void {
     if (name === this.attribute) return;
     this.attribute = name;
-    this.watch?.setWishes(wishesOf(this.quality, this.link.offsetBits, name));
+    this.watch?.setOptions(watchOptions(this.quality, this.link.offsetBits, name));
   }
 
   /** Whether particles are shown, in place of the surface. */
@@ -157,7 +157,7 @@ export class SessionView {
     const quality = chooseQuality(this.moving, this.link.secondsPerFullMesh, this.quality);
     if (quality === this.quality) return;
     this.setQuality(quality);
-    this.watch.setWishes(wishesOf(quality, this.link.offsetBits, this.attribute));
+    this.watch.setOptions(watchOptions(quality, this.link.offsetBits, this.attribute));
   }
 
   private setQuality(quality: Quality): void {
@@ -184,7 +184,7 @@ export class SessionView {
     this.particlesFailing = false;
   }
 
-  /** Those that belong to the mesh on the screen. */
+  /** Shows the particles that belong to the mesh on the screen. */
   showParticles(): void {
     const { shown } = this.screen;
     this.screen.showParticles(this.particlesWanted && shown ? this.particles.nearest(shown.frame) : undefined);

@@ -8,7 +8,7 @@ import { decodeBrick } from '../src/decode/decode_brick';
 import { pointCount, type DecodedBrick } from '../src/decode/decoded_brick';
 import { AttributeType, MeshAttributeSchema } from '../src/gen/meniscus/v1/mesh_pb';
 import { create, type MessageInitShape } from '@bufbuild/protobuf';
-import { wishesOf } from '../src/stream/quality';
+import { watchOptions } from '../src/stream/quality';
 import { dracoDecoder, encodeBrick, flat, type BrickOptions } from './support/draco';
 import { frame } from './support/messages';
 
@@ -93,7 +93,7 @@ describe('attributes of a brick', () => {
   ])('are refused where the brick lies: %s', async (words, lie) => {
     const brick = await encodeBrick({ ...placed, attributes: [{ ...color, form: { ...color.form, ...lie } }] });
     if (lie.type === 'uint32') {
-      // Four bytes: by their form nothing tells them from an id.
+      // Four bytes: their form is that of an id.
       expect(decodeBrick(draco, brick, offsetBits, 'color').attribute!.values).toBeInstanceOf(Uint32Array);
       return;
     }
@@ -276,10 +276,10 @@ describe('the store of bricks', () => {
   });
 });
 
-describe('wishes', () => {
+describe('options of a watch', () => {
   it('name an attribute where one is chosen, with fewer bits on the way to less', () => {
-    expect(wishesOf('full', 6)).toEqual({});
-    expect(wishesOf('full', 0, 'age')).toEqual({ attributes: [{ name: 'age', bits: 12 }] });
-    expect(wishesOf('light', 6, 'age')).toMatchObject({ positionBits: 4, attributes: [{ name: 'age', bits: 8 }] });
+    expect(watchOptions('full', 6)).toEqual({});
+    expect(watchOptions('full', 0, 'age')).toEqual({ attributes: [{ name: 'age', bits: 12 }] });
+    expect(watchOptions('light', 6, 'age')).toMatchObject({ positionBits: 4, attributes: [{ name: 'age', bits: 8 }] });
   });
 });

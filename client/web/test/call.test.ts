@@ -87,7 +87,7 @@ describe('a call', () => {
     expect((await failure(server.info())).code).toBe(Code.unauthenticated);
   });
 
-  it('tells a token that the server does not know from none', async () => {
+  it('explains a token that the server does not know in other words than a missing one', async () => {
     const refusal = { ...grpcWeb, 'grpc-status': '16', 'grpc-message': 'no' };
     const server = serverThat(() => new Response(null, { headers: refusal }));
     expect(explain(await failure(server.info()))).toBe('The server asks for a token.');

@@ -18,7 +18,7 @@ describe('color maps', () => {
         ([, map, color]) => map ?? color!,
       );
     const ours = table(read('../src/color/color_maps.ts'), /\n {2}(\w+):\n/);
-    const theirs = table(read('../../cli/color_maps.cpp'), /case ColorMap::(\w+):/);
+    const theirs = table(read('../../picture/color_maps.cpp'), /case ColorMap::(\w+):/);
     expect(ours).toHaveLength(5 * 53);
     expect(theirs).toEqual(ours);
     expect(ours.filter((word) => !/^[0-9a-f]{6}$/.test(word))).toEqual(colorMapNames);
@@ -67,7 +67,7 @@ describe('ranges', () => {
     expect(ticks({ low: 1e6, high: 1e6 + 1 }, 3)).toEqual([1e6, 1e6 + 0.5, 1e6 + 1]);
   });
 
-  it('are written with the digits that tell, and no more', () => {
+  it('are written with the digits that differ, and no more', () => {
     expect(valueText(0.1 + 0.2, 5)).toBe('0.3');
     expect(valueText(1e6 + 0.25, 1)).toBe('1000000.25');
     expect([valueText(-0, 1), valueText(1e-9, 1), valueText(0, 0)]).toEqual(['0', '0', '0']);
@@ -118,12 +118,15 @@ describe('a quantity', () => {
     expect(new Quantity(velocity, { component: 'w' }).title).toBe('velocity, magnitude');
   });
 
-  it('has the range that the mesh tells of a component, and that of its vertices of a magnitude', () => {
-    const told = { ...velocity, minimum: [-9, 0, 0], maximum: [9, 5, 6] };
+  it('has the range that the mesh announces for a component, and that of its vertices for a magnitude', () => {
+    const announced = { ...velocity, minimum: [-9, 0, 0], maximum: [9, 5, 6] };
     const still = brick('velocity', 3, Float32Array.of(0, 0, 0.5));
-    expect(new Quantity(told, { component: 'x' }).rangeOf(shown([told], moving))).toEqual({ low: -9, high: 9 });
-    expect(new Quantity(told, {}).rangeOf(shown([told], moving, still))).toEqual({ low: 0.5, high: 5 });
-    expect(new Quantity(told, {}).rangeOf(shown([told]))).toBeUndefined();
+    expect(new Quantity(announced, { component: 'x' }).rangeOf(shown([announced], moving))).toEqual({
+      low: -9,
+      high: 9,
+    });
+    expect(new Quantity(announced, {}).rangeOf(shown([announced], moving, still))).toEqual({ low: 0.5, high: 5 });
+    expect(new Quantity(announced, {}).rangeOf(shown([announced]))).toBeUndefined();
   });
 
   it('is interpolated in a triangle; of an id it is that of the nearest vertex', () => {

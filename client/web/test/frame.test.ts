@@ -58,7 +58,7 @@ describe('the viewer in a frame', () => {
     ...changes,
   });
 
-  it('tells the page of that origin alone that it listens', () => {
+  it('says that it listens to the page of that origin alone', () => {
     expect(parent.postMessage.mock.calls).toEqual([[{ meniscus: 'ready', nonce: 'nonce' }, page]]);
   });
 
@@ -156,7 +156,7 @@ describe('the page around', () => {
   const hear = (nonce: string, { origin = viewer, source = frameWindow as unknown } = {}): void => {
     listener?.({ data: { meniscus: 'ready', nonce }, origin, source } as MessageEvent<unknown>);
   };
-  const told = (): unknown[] => frameWindow.postMessage.mock.calls;
+  const posted = (): unknown[] => frameWindow.postMessage.mock.calls;
 
   it('writes neither session nor token into the address', () => {
     expect(iframe.src).toBe(`${viewer}/?embed=${encodeURIComponent(page)}`);
@@ -164,24 +164,24 @@ describe('the page around', () => {
   });
 
   it('hands them to the viewer that says it listens, and to its origin alone', async () => {
-    expect(told()).toEqual([]);
+    expect(posted()).toEqual([]);
     hear('one');
     await frame.ready;
     const message = { meniscus: 'show', nonce: 'one', number: 1, session, camera, token: 'secret' };
-    expect(told()).toEqual([[message, viewer]]);
+    expect(posted()).toEqual([[message, viewer]]);
     frame.show({ session: other });
-    expect(told()[1]).toEqual([{ meniscus: 'show', nonce: 'one', number: 2, session: other, token: '' }, viewer]);
+    expect(posted()[1]).toEqual([{ meniscus: 'show', nonce: 'one', number: 2, session: other, token: '' }, viewer]);
     frame.show({ session: other, color: 'velocity', map: 'magma', range: 'frame' });
-    expect(told()[2]).toMatchObject([{ number: 3, color: 'velocity', map: 'magma', range: 'frame' }, viewer]);
+    expect(posted()[2]).toMatchObject([{ number: 3, color: 'velocity', map: 'magma', range: 'frame' }, viewer]);
     // Loaded again.
     hear('two');
-    expect(told()[3]).toMatchObject([{ nonce: 'two', number: 4, session: other }, viewer]);
+    expect(posted()[3]).toMatchObject([{ nonce: 'two', number: 4, session: other }, viewer]);
   });
 
   it('answers no other origin and no other window', () => {
     for (const origin of ['https://water.example', 'https://evil.example', 'null']) hear('one', { origin });
     for (const source of [null, {}]) hear('one', { source });
-    expect(told()).toEqual([]);
+    expect(posted()).toEqual([]);
   });
 
   it('warns a page that waits for nothing, without an error that nobody handles', async () => {
@@ -189,7 +189,7 @@ describe('the page around', () => {
     process.on('unhandledRejection', unhandled);
     await vi.advanceTimersByTimeAsync(10_000);
     vi.useRealTimers();
-    // Node tells of it once no promise has anything left to do.
+    // Node reports it once no promise has anything left to do.
     await new Promise((resolve) => setTimeout(resolve, 0));
     process.off('unhandledRejection', unhandled);
     expect(unhandled).not.toHaveBeenCalled();

@@ -35,7 +35,7 @@ interface GoldenBrick {
     coded_minimum?: number[];
     coded_maximum?: number[];
   }[];
-  /** Of each, one vertex after the other, in their order. */
+  /** The values of each, one vertex after the other, in their order. */
   attribute_values?: number[][];
 }
 

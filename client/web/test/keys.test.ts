@@ -10,7 +10,7 @@ const press = (key: string, held: { shiftKey?: boolean; repeat?: boolean } = {})
   repeat: false,
   ...held,
 });
-/** What the key does, by its row. */
+/** The action of the key, by its row. */
 const does = (key: string, held = {}): string | undefined => {
   const found = rowOf<KeyRow>(keyTable, press(key, held));
   return found && rowWith(found.row);
@@ -25,7 +25,7 @@ describe('the table of keys', () => {
     for (const { shown, words } of keyTable) expect(Math.min(shown.length, words.length)).toBeGreaterThan(0);
   });
 
-  it('finds a key whatever Caps Lock, and tells Shift from none', () => {
+  it('finds a key whatever Caps Lock, and with Shift another than without', () => {
     expect([does('f'), does('F'), does('F', { shiftKey: true })]).toEqual(['fit', 'fit', undefined]);
     expect([does('ArrowLeft'), does('ArrowLeft', { shiftKey: true })]).toEqual(['turn', 'shift']);
     expect([does('?'), does('?', { shiftKey: true })]).toEqual(['show-keys', 'show-keys']);
@@ -134,7 +134,7 @@ describe('the keyboard', () => {
   };
   const body = { ...flat, tagName: 'BODY' };
 
-  it('acts wherever the focus is, and tells an action its key', () => {
+  it('acts wherever the focus is, and hands an action its key', () => {
     for (const on of [body, { ...flat, tagName: 'CANVAS' }, button, input('range')]) send('keydown', 'f', on);
     send('keydown', 'ArrowLeft', button);
     send('keydown', 'ArrowLeft', input('range'));

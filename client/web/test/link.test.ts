@@ -72,7 +72,7 @@ describe('the link', () => {
     expect(readLink('#camera=1,,3,4,5,6')).toEqual({});
   });
 
-  it('tells a session or a recording that cannot be from one that has gone', () => {
+  it('has a problem for a session or a recording that cannot be, and none for one that has gone', () => {
     for (const hash of ['#session=../../etc', '#session=', `#session=${state.session.slice(1)}`]) {
       const { problem, ...rest } = readLink(hash);
       expect(problem).toMatch(/session ".*", which cannot be/);

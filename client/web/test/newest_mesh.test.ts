@@ -6,7 +6,7 @@ import type { Received } from '../src/rpc/call';
 import { begin, brick } from './support/messages';
 
 describe('the mesh of a thumbnail', () => {
-  /** Of a session whose surface has so many triangles, and so many bricks at each level that is asked for. */
+  /** A session whose surface has these numbers of triangles, and of bricks at each level that is asked for. */
   async function meshOf(triangles: bigint, bricksAt: Record<number, number>): Promise<[number[], number | undefined]> {
     const asked: number[] = [];
     async function* snapshot(maxLevel: number): AsyncGenerator<Received<WatchResponse>> {

@@ -201,16 +201,16 @@ describe('ParticleWatch', () => {
     expect(server.signals.map(({ aborted }) => aborted)).toEqual([true]);
   });
 
-  it('tries again, and tells of what only it meets', async () => {
+  it('tries again, and reports errors that it alone meets', async () => {
     server.error = new RpcError(Code.resourceExhausted, '8 watchers');
     watch.setWanted(true);
     await vi.advanceTimersByTimeAsync(60_000);
     expect(server.signals.length).toBeGreaterThan(3);
     expect(reasons.at(-1)).toContain('8 watchers');
-    const told = reasons.length;
+    const reported = reasons.length;
     server.error = new RpcError(Code.unavailable, 'gone');
     await vi.advanceTimersByTimeAsync(60_000);
-    expect(reasons).toHaveLength(told);
+    expect(reasons).toHaveLength(reported);
     watch.setWanted(false);
     const calls = server.signals.length;
     await vi.advanceTimersByTimeAsync(60_000);

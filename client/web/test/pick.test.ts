@@ -57,7 +57,7 @@ describe('a pick', () => {
     });
   });
 
-  it('tells where in its triangle the point lies', () => {
+  it('finds the place of the point in its triangle', () => {
     const { place, spot } = pick(shown, along([100, 14, 13], [-1, 0, 0]), undefined)!;
     const { brick, points, weights } = spot!;
     // The face x = 80, in steps of a quarter.

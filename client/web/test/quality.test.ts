@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import type { Frame } from '../src/bricks/frame';
 import { Backoff } from '../src/stream/backoff';
 import { LinkSpeed } from '../src/stream/link_speed';
-import { chooseQuality, wishesOf } from '../src/stream/quality';
+import { chooseQuality, watchOptions } from '../src/stream/quality';
 import { SkippedFrames } from '../src/stream/skipped_frames';
 
 describe('quality', () => {
@@ -33,9 +33,9 @@ describe('quality', () => {
   });
 
   it('never asks for more bits than the mesh has', () => {
-    expect(wishesOf('light', 2).positionBits).toBe(2);
-    expect(wishesOf('coarse', 8)).toMatchObject({ positionBits: 3, maxLevel: 2 });
-    expect(wishesOf('full', 8)).toEqual({});
+    expect(watchOptions('light', 2).positionBits).toBe(2);
+    expect(watchOptions('coarse', 8)).toMatchObject({ positionBits: 3, maxLevel: 2 });
+    expect(watchOptions('full', 8)).toEqual({});
   });
 });
 
@@ -49,7 +49,7 @@ describe('LinkSpeed', () => {
       bricks: new Map([['0', { data: { length: meshBytes } }]]),
     }) as unknown as Frame;
 
-  it('tells how long the whole mesh would take, from differences as well', () => {
+  it('estimates the time of the whole mesh, from differences as well', () => {
     const link = new LinkSpeed();
     link.add(frame(100_000, 50, 1_000_000), true);
     expect(link.secondsPerFullMesh).toBeCloseTo(0.5);

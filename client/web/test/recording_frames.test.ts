@@ -6,12 +6,12 @@ interface Call {
   readonly position: number;
   readonly count: number;
   readonly signal: AbortSignal;
-  /** Sends so many of its frames. */
+  /** Sends `count` of its frames. */
   send(count: number): Promise<void>;
   fail(error: Error): Promise<void>;
 }
 
-/** A recording whose frames have the tenfold of their places as indices, and a brick of so many bytes each. */
+/** A recording whose frames have the tenfold of their places as indices, and a brick of `brickBytes` each. */
 function recording(length: number, limits: Partial<RecordingFramesLimits> = {}, brickBytes = 10) {
   const calls: Call[] = [];
   const shown: number[] = [];
@@ -152,7 +152,7 @@ describe('RecordingFrames', () => {
     expect(large.shown).toEqual([0]);
   });
 
-  it('tells of a failure only where a frame is waited for, and tries again when it is wanted', async () => {
+  it('reports a failure only where a frame is waited for, and tries again when it is wanted', async () => {
     const { frames, calls, shown, failed } = recording(100);
     frames.show(0);
     await calls[0]!.send(1);

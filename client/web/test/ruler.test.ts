@@ -10,7 +10,7 @@ describe('the ruler', () => {
 });
 
 describe('lengths', () => {
-  it('have as many digits as tell a hundredth of a cell, and their unit where there is one', () => {
+  it('have the digits that show a hundredth of a cell, and their unit where there is one', () => {
     expect([1, 0.0125, 1e-9, 500].map(decimalsOf)).toEqual([2, 4, 11, 0]);
     expect(lengthText(1.23456, 'm', 3)).toBe('1.235 m');
     expect(lengthText(0.2, '')).toBe('0.2');
@@ -19,7 +19,7 @@ describe('lengths', () => {
 });
 
 describe('the slider', () => {
-  it('tells frame and time', () => {
+  it('has frame and time', () => {
     expect(frameText({ index: 1234n, simulationTime: 24.678 })).toBe('frame 1234, 24.68 s');
   });
 });

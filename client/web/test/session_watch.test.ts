@@ -3,7 +3,7 @@ import type { Frame } from '../src/bricks/frame';
 import type { WatchResponse } from '../src/gen/meniscus/v1/surface_service_pb';
 import type { Received } from '../src/rpc/call';
 import { Code, RpcError } from '../src/rpc/status';
-import { SessionWatch, type WatchServer, type Wishes } from '../src/stream/session_watch';
+import { SessionWatch, type WatchServer, type WatchOptions } from '../src/stream/session_watch';
 import type { WatchState } from '../src/stream/watch_state';
 import { begin, draining, frame } from './support/messages';
 
@@ -13,7 +13,7 @@ class Call {
   private wake: () => void = () => undefined;
 
   constructor(
-    readonly request: Wishes,
+    readonly request: WatchOptions,
     readonly signal: AbortSignal,
     readonly open: () => void,
   ) {}
@@ -46,7 +46,7 @@ class Call {
 class FakeServer implements WatchServer {
   readonly calls: Call[] = [];
   watch(
-    request: Wishes & { sessionId: string },
+    request: WatchOptions & { sessionId: string },
     signal: AbortSignal,
     opened: () => void,
   ): AsyncIterable<Received<WatchResponse>> {
@@ -96,7 +96,7 @@ describe('SessionWatch', () => {
     expect(states.map(({ kind }) => kind)).toEqual(['connecting', 'live']);
   });
 
-  it('tells a session without a mesh from a server that does not answer', async () => {
+  it('has another state for a session without a mesh than for a server that does not answer', async () => {
     expect(state().kind).toBe('connecting');
     server.last.open();
     expect(state().kind).toBe('connected');
@@ -108,7 +108,7 @@ describe('SessionWatch', () => {
     expect(state().kind).toBe('paused');
   });
 
-  it('connects again by itself after the time that it tells, and starts from a whole mesh', async () => {
+  it('connects again by itself after the time that it reports, and starts from a whole mesh', async () => {
     await server.last.send(...frame({ index: 1 }), begin({ index: 2, base: 1 }));
     await server.last.end(unavailable);
     const waiting = state();
@@ -148,10 +148,10 @@ describe('SessionWatch', () => {
     expect(frames.map(({ index }) => index)).toEqual([5n, 5n, 6n, 1n]);
   });
 
-  it('asks anew when its wishes change, and takes nothing more of the old call', async () => {
+  it('asks anew when its options change, and takes nothing more of the old call', async () => {
     await server.last.send(...frame({ index: 1 }));
     const old = server.last;
-    watch.setWishes({ positionBits: 3 });
+    watch.setOptions({ positionBits: 3 });
     expect(old.signal.aborted).toBe(true);
     expect(server.last.request).toMatchObject({ positionBits: 3, sessionId: 'an-id' });
     await old.send(...frame({ index: 2, base: 1 }));
@@ -198,7 +198,7 @@ describe('SessionWatch', () => {
     expect(server.calls.length > 1).toBe(kind === 'waiting' || kind === 'absent');
   });
 
-  it('keeps telling when the session ended, also to those who pause, and after the server was out of reach', async () => {
+  it('keeps reporting when the session ended, also to a paused page, and after the server was out of reach', async () => {
     await server.last.send(...frame({ index: 1 }));
     await server.last.end();
     const ended = state();

@@ -10,7 +10,7 @@ describe('a volume', () => {
   });
 });
 
-it('an age is told in its largest unit, and never in the future', () => {
+it('an age has its largest unit, and is never in the future', () => {
   const ages = [-5, 0.9, 59, 60, 3599, 3600, 86_399, 86_400, 1e7].map(ageText);
   expect(ages).toEqual(['0 s', '0 s', '59 s', '1 min', '59 min', '1 h', '23 h', '1 d', '115 d']);
 });

@@ -24,7 +24,7 @@ describe('a video', () => {
     expect(taken).toEqual([0n, 10n, 20n, 30n, 40n]);
   });
 
-  it('that the browser cannot make is told of, and why', () => {
+  it('that the browser cannot make is refused with the reason', () => {
     expect(whyNoEncoder({ VideoEncoder: Object, isSecureContext: true })).toBeUndefined();
     expect(whyNoEncoder({ isSecureContext: true })).toMatch(/no WebCodecs/);
     expect(whyNoEncoder({ isSecureContext: false })).toMatch(/HTTPS/);
@@ -77,7 +77,7 @@ describe('a live video', () => {
     expect(ended).not.toHaveBeenCalled();
   });
 
-  it('tells that the browser has stopped it, and gives what there is', async () => {
+  it('reports that the browser has stopped it, and gives the part so far', async () => {
     const live = begin();
     FakeRecorder.last.stop();
     expect(ended).toHaveBeenCalledExactlyOnceWith(expect.stringContaining('stopped recording'));

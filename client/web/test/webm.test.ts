@@ -3,7 +3,7 @@ import { writeWebm, type EncodedPicture } from '../src/save/webm';
 
 interface Element {
   readonly id: number;
-  /** Of its first byte in the file, and of its content's. */
+  /** The place of its first byte in the file, and of its content's. */
   readonly begins: number;
   readonly content: Uint8Array;
   readonly contentBegins: number;
@@ -38,7 +38,7 @@ const only = (elements: Element[], id: number): Element => {
 };
 const uintOf = ({ content }: Element): number => content.reduce((sum, byte) => sum * 256 + byte, 0);
 
-/** Of one byte each, which tells their number; each k-th is a key picture. */
+/** Pictures of one byte each, their number; each k-th is a key picture. */
 function pictures(count: number, every: number): EncodedPicture[] {
   return Array.from({ length: count }, (_, i) => ({ data: new Uint8Array([i]), key: i % every === 0 }));
 }
@@ -70,7 +70,7 @@ describe('a WebM file', () => {
     );
   });
 
-  it('tells size, codec and duration', () => {
+  it('has size, codec and duration', () => {
     const segment = inside(only(parse(writeWebm({ ...options, rate: 25, pictures: pictures(100, 50) })), 0x18538067));
     const duration = only(inside(only(segment, 0x1549a966)), 0x4489).content;
     expect(new DataView(duration.buffer, duration.byteOffset).getFloat64(0)).toBe(4000);
@@ -92,7 +92,7 @@ describe('a WebM file', () => {
     expect(cues).toEqual(clusters.map(({ begins }, i) => [2000 * i, begins - segment.contentBegins]));
   });
 
-  it('refuses pictures that no time of the format can tell', () => {
+  it('refuses pictures whose time the format cannot hold', () => {
     expect(() => writeWebm({ ...options, rate: 1, pictures: pictures(40, 40) })).toThrow(
       'picture 31 comes more than 30000 ms after the last key picture',
     );

@@ -1,4 +1,4 @@
-"""What the checks in Blender have in common: counting, pictures, and a scene to render in."""
+"""The common parts of the checks in Blender: counting, pictures, and a scene to render in."""
 
 import os
 import sys
@@ -11,8 +11,8 @@ FOLDER = os.environ["MENISCUS_CHECKS"]
 _counts = {True: 0, False: 0}
 
 
-def check(name, holds, told=""):
-    print("ok  " if holds else "FAIL", name, "" if holds else f"({told})", flush=True)
+def check(name, holds, shown=""):
+    print("ok  " if holds else "FAIL", name, "" if holds else f"({shown})", flush=True)
     _counts[bool(holds)] += 1
 
 

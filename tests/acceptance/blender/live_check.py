@@ -42,15 +42,17 @@ def frame_positions(number):
 def state_has(part, is_error):
     def holds():
         live_objects.update(obj)
-        told = status.of(obj.name)
-        return part in told.text and (told.kind == "ERROR") == is_error
+        shown = status.of(obj.name)
+        return part in shown.text and (shown.kind == "ERROR") == is_error
 
     return holds
 
 
 bpy.ops.meniscus.connect()
 check(
-    "a session that is not there yet is told", wait_until(state_has("no session 'wave' yet", True)), status.of(obj.name)
+    "a session that is not there yet is reported",
+    wait_until(state_has("no session 'wave' yet", True)),
+    status.of(obj.name),
 )
 
 client = meniscus.Client(ADDRESS)
@@ -103,7 +105,7 @@ stream.finish()
 stream.close()
 session.end()
 check(
-    "the end of the session is told",
+    "the end of the session is reported",
     wait_until(state_has("has ended", False)) or wait_until(state_has("no session", True)),
 )
 check("the last surface stays", len(mesh.polygons) == counts[-1])
@@ -138,5 +140,5 @@ obj.meniscus.live.token = "secret-of-mine"
 bpy.ops.wm.save_as_mainfile(filepath=path("live.blend"), compress=False)
 with open(path("live.blend"), "rb") as saved:
     check("the token is not saved with the file", b"secret-of-mine" not in saved.read())
-print("told of the dead server:", status.of(obj.name))
+print("status with the server dead:", status.of(obj.name))
 end()

@@ -16,10 +16,10 @@ check("the add-on is enabled", "meniscus_blender" in bpy.context.preferences.add
 tag = f"cp{sys.version_info[0]}{sys.version_info[1]}"
 try:
     package.meniscus()
-    told = ""
+    text = ""
 except package.PackageMissing as error:
-    told = str(error)
-check("it names the wheel", f"meniscus-*-{tag}-{tag}-linux_" in told and "none is installed" in told, told)
+    text = str(error)
+check("it names the wheel", f"meniscus-*-{tag}-{tag}-linux_" in text and "none is installed" in text, text)
 
 try:
     bpy.ops.meniscus.import_sequence(filepath=path("frames", "frame_040.vtk"))

@@ -1,4 +1,4 @@
-"""What `blender -b -a` has rendered of the saved file is what the add-on's own run has."""
+"""The pictures of `blender -b -a` of the saved file are those of the add-on's own run."""
 
 import os
 import sys

@@ -70,7 +70,7 @@ check(
     all(seen[frame] > 2 * viewport[frame] > 1000 for frame in (1, 2, 3)),
     (seen, viewport),
 )
-check("the status tells the counts", "11,492 particles" in status.of(obj.name).text, status.of(obj.name))
+check("the status has the counts", "11,492 particles" in status.of(obj.name).text, status.of(obj.name))
 check("the radius fits, so nothing warns", status.of(obj.name).kind == "INFO")
 rotated = obj.matrix_world @ Vector((0, 1, 0))
 check("y of the file points upward", rotated.z > 0.99, rotated)
@@ -106,11 +106,11 @@ bpy.ops.wm.save_as_mainfile(filepath=path("water.blend"))
 
 os.rename(path("frames", "frame_041.vtk"), path("frames", "away"))
 scene.frame_set(2)
-told = status.of(obj.name)
+shown = status.of(obj.name)
 check(
     "a missing file is named",
-    told.kind == "ERROR" and "frame_{}.vtk: there is no file with the number 41" in told.text,
-    told,
+    shown.kind == "ERROR" and "frame_{}.vtk: there is no file with the number 41" in shown.text,
+    shown,
 )
 check("and nothing old is shown in its place", len(mesh.polygons) == 0)
 scene.frame_set(3)
@@ -126,9 +126,9 @@ os.replace(path("away"), path("frames", "frame_042.vtk"))
 
 obj.meniscus.sequence.particle_radius = 0.005
 scene.frame_set(1)
-told = status.of(obj.name)
-check("a radius that does not fit is a warning", told.kind == "WARNING" and 0.015 < told.fitting_radius < 0.04, told)
-bpy.ops.meniscus.use_fitting_radius(radius=told.fitting_radius)
+shown = status.of(obj.name)
+check("a radius that does not fit is a warning", shown.kind == "WARNING" and 0.015 < shown.fitting_radius < 0.04, shown)
+bpy.ops.meniscus.use_fitting_radius(radius=shown.fitting_radius)
 scene.frame_set(1)
 check("which is mended by a button", status.of(obj.name).kind == "INFO", status.of(obj.name))
 obj.meniscus.sequence.particle_radius = 0.025

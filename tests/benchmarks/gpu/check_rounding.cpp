@@ -36,7 +36,7 @@ bool are_same(float a, float b) {
     return std::memcmp(&a, &b, sizeof(a)) == 0 || (std::isnan(a) && std::isnan(b));
 }
 
-/// Of a part of the arguments.
+/// The differences within a part of the arguments.
 struct Differences {
     std::uint64_t count = 0;
     std::uint64_t first = 0;

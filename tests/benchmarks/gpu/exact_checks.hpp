@@ -1,4 +1,4 @@
-// What `meniscus-bench exact` checks.
+// The checks of `meniscus-bench exact`.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ struct Checked {
 };
 using OnChecked = std::function<void(const Checked&)>;
 
-/// The device's roots and reciprocals, of so many bit patterns (a power of two up to 2^32, which are all), and so many
-/// quotients and fused sums at random, against the host's, to the bit; where both are no numbers they are the same.
+/// Compares the device with the host to the bit: roots and reciprocals of `one_argument` bit patterns (a power of two
+/// up to 2^32, which are all), quotients and fused sums of `more_arguments` random numbers. Two NaNs are the same.
 void check_rounding(std::uint64_t one_argument, std::uint64_t more_arguments, const OnChecked& on_checked);
 
 /// CUB's sorts and sums as the backend calls them (engine/cuda/scans.hpp), against std:: at sizes up to `most`.

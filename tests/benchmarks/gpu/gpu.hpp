@@ -1,5 +1,4 @@
-// What the commands that compare or measure a GPU share. The program on the software device (emulated_main.cpp) has the
-// same commands.
+// The commands that compare or measure a GPU. The program on the software device (emulated_main.cpp) has the same ones.
 #pragma once
 
 #include <stdexcept>

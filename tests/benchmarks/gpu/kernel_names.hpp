@@ -5,10 +5,10 @@
 
 namespace meniscus::benchmarks {
 
-/// Of a mangled name, such as `place_listed<true ParticleField<Poly6>>`; without commas, for tables.
+/// The plain form of a mangled name, such as `place_listed<true ParticleField<Poly6>>`; without commas, for tables.
 std::string plain_kernel_name(const char* mangled);
 
-/// Of a kernel's address. Throws DeviceError if CUDA does not know it.
+/// The plain name of the kernel at this address. Throws DeviceError if CUDA does not know it.
 std::string kernel_name(const void* kernel);
 
 }  // namespace meniscus::benchmarks

@@ -26,7 +26,7 @@ struct TimedLaunch {
     std::vector<double> seconds;
 };
 
-/// What a kernel takes of a multiprocessor.
+/// Adds a kernel's grid, registers and shared memory.
 void add_resources(Row& row, const cuda::Launch& launch) {
     if (launch.kind != cuda::LaunchKind::kernel) {
         row["blocks"] = nullptr;
@@ -65,8 +65,8 @@ void add_total(GrowingTable& table, const std::string& name, double median_us, d
     table.add(row);
 }
 
-/// Launch by launch, in one stream: nothing overlaps, and an event lies between any two. A profiler that is told to
-/// wait for it begins here: before a frame is warm, most of its launches find too little room and do nothing.
+/// Launch by launch, in one stream: nothing overlaps, and an event lies between any two. A profiler that waits for the
+/// application begins here: before a frame is warm, most of its launches find too little room and do nothing.
 std::vector<TimedLaunch> time_launches(WarmFrame& frame, unsigned repeats, std::vector<double>& whole) {
     LaunchTimes times(LaunchTimes::What::kernels_and_calls);
     std::vector<TimedLaunch> launches;

@@ -1,4 +1,4 @@
-// What a frame launches, and the time of each launch on the GPU, by an event before and behind it.
+// The launches of a frame, and the time of each on the GPU, by an event before and behind it.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ class LaunchTimes final : public cuda::LaunchObserver {
 public:
     enum class What : std::uint8_t { kernels_and_calls, graphs };
 
-    /// Of this thread's launches until the end of this object.
+    /// Times this thread's launches until the end of this object.
     explicit LaunchTimes(What what) : what_(what) { cuda::launch_observer = this; }
     ~LaunchTimes() { cuda::launch_observer = nullptr; }
     LaunchTimes(const LaunchTimes&) = delete;
@@ -37,7 +37,7 @@ public:
         try {
             timed_[used_++].end.record(launch.stream);
         } catch (const std::exception&) {
-            // The device has failed, which the launch itself or whoever waits for it tells.
+            // The device has failed: the launch itself reports that, or the wait for it.
         }
     }
 

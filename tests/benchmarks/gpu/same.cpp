@@ -46,7 +46,7 @@ struct Case {
     WaterKind water;
     Settings settings;
 
-    /// What its time grows with.
+    /// A measure that its time grows with.
     double size() const { return static_cast<double>(particles) / (settings.cell_size * settings.cell_size); }
     Row row(const std::string& run) const {
         return {{"particles", particles},         {"water", name_of(water)},         {"field", name_of(settings.field)},
@@ -75,7 +75,7 @@ public:
         : backend_(cuda::make_reconstruction(settings, BackendOptions{}, std::make_shared<MemoryAccount>(),
                                              std::make_shared<MemoryAccount>())) {}
 
-    /// expected: the CPU's mesh of the frame, whose lattice is told and not found by a backend.
+    /// expected: the CPU's mesh of the frame, whose lattice this one gets, since no backend finds it.
     const Mesh& reconstruct(const ParticleFrame& frame, const Mesh& expected) {
         mesh_.cell_size = expected.cell_size;
         mesh_.offset_bits = expected.offset_bits;
@@ -243,7 +243,7 @@ private:
     const SameOptions& options_;
     GrowingTable table_;
     TimeBudget budget_;
-    double seconds_per_size_ = 0.0;  ///< of the slowest case so far
+    double seconds_per_size_ = 0.0;  ///< time over size() of the slowest case so far
     std::size_t different_ = 0;
     std::size_t left_out_ = 0;
 };

@@ -11,7 +11,7 @@ public:
     explicit TimeBudget(double seconds) : seconds_(seconds) {}
 
     double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-    /// Whether so many more seconds fit.
+    /// Whether `more` seconds fit.
     bool allows(double more) const { return seconds_ <= 0.0 || elapsed() + more < seconds_; }
 
 private:

@@ -16,7 +16,7 @@ namespace meniscus::benchmarks {
 namespace {
 
 struct KernelTime {
-    unsigned launches = 0;       ///< in a frame
+    unsigned launches = 0;       ///< number of them in a frame
     std::vector<double> frames;  ///< milliseconds of all launches in each frame
 };
 

@@ -1,4 +1,4 @@
-// What each kernel of a frame takes.
+// The time of each kernel of a frame.
 #pragma once
 
 #include "meniscus/particle_frame.hpp"

@@ -74,7 +74,7 @@ LabOptions read_lab_options(int argc, const char* const* argv) {
         else if (flag == "--runs")
             options.runs = number(flag, values_of(flag, rest).back(), 1U);
         else
-            throw InvalidInput("'" + std::string(flag) + "' is not known; kernel-lab --help tells what is");
+            throw InvalidInput("'" + std::string(flag) + "' is not known; see kernel-lab --help");
     }
     return options;
 }

@@ -1,4 +1,4 @@
-// What the kernel lab tries, from its command line. Without CLI11, so that it builds where nothing is installed.
+// The cases of the kernel lab, from its command line. Without CLI11, so that it builds where nothing is installed.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,9 @@ struct LabOptions {
     std::vector<Mode> modes{Mode::uniform, Mode::adaptive};
     std::vector<WaterKind> waters{WaterKind::splashing};
     Backend backend = Backend::cuda;  ///< the one that is compared with the CPU and timed
-    unsigned runs = 20;               ///< of a warm frame, of which the median counts
+    unsigned runs = 20;               ///< runs of a warm frame, of which the median counts
     bool compare = true;
-    bool kernels = false;  ///< also what each kernel takes
+    bool kernels = false;  ///< whether each kernel is timed, too
 };
 
 /// Throws InvalidInput for what is not known, with what is.

@@ -1,4 +1,4 @@
-// What of a GPU's memory a launch has asked for: for counts alone, no bytes.
+// The parts of a GPU's memory that a launch has asked for: for counts alone, no bytes.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What the model knows of GPUs: a row of gpus.csv for each, and a row of instructions.csv for each kind of instruction.
+// The model's constants: a row of gpus.csv for each GPU, and one of instructions.csv for each kind of instruction.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +26,13 @@ private:
 enum class Pipe : std::uint8_t { none, fp32, integer, half, fp64, memory, shuffle };
 inline constexpr std::size_t pipe_count = 7;
 
-/// What an opcode of PTX becomes.
+/// The cost of an opcode of PTX.
 struct InstructionCost {
-    std::string pattern;          ///< of an opcode's beginning
+    std::string pattern;          ///< beginning of the opcode
     double issued = 0.0;          ///< machine instructions
-    double cycles_of_pipe = 0.0;  ///< of those, how many go to the pipe
+    double cycles_of_pipe = 0.0;  ///< number of those that go to the pipe
     Pipe pipe = Pipe::none;
-    double latency = 0.0;  ///< cycles until the result can be used; of memory see gpus.csv
+    double latency = 0.0;  ///< cycles until the result can be used; for memory see gpus.csv
 };
 
 class InstructionCosts {

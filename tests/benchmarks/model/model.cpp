@@ -87,7 +87,7 @@ struct Counted {
 /// Runs kernels from their PTX while it is there, and keeps what the newest frame has launched.
 class CountingDevice final : public cuda::LaunchObserver {
 public:
-    /// processors: as many as the backend is told of.
+    /// processors: the number of multiprocessors that the backend sees.
     CountingDevice(CompiledKernels& kernels, const GpuConstants& gpu, unsigned processors)
         : kernels_(kernels), gpu_(gpu) {
         runner_.processors = processors;
@@ -199,7 +199,7 @@ void run_model(const KernelsOptions& options) {
     setenv("MENISCUS_NO_GRAPH", "1", 1);  // launch by launch
 
     const std::size_t counted_particles = options.counted == 0 ? options.particles : options.counted;
-    // A frame of so many basins on as many multiprocessors is so many times this one on its part of them.
+    // A frame of n basins on all multiprocessors costs n times the counted basin on one n-th of them.
     const double times = static_cast<double>(options.particles) / static_cast<double>(counted_particles);
     const auto processors = static_cast<unsigned>(std::max(1.0, std::round(gpu["processors"] / times)));
     CountingDevice device(kernels, gpu, processors);

@@ -53,7 +53,7 @@ Price price_launch(const LaunchCounts& counts, double times, const KernelResourc
                    unsigned threads, const GpuConstants& gpu) {
     const double processors = gpu["processors"];
     const double cycles_a_us = 1e3 * gpu["clock_ghz"];
-    // What the assembler makes of this kernel's PTX, beside what the table of costs says: it folds and it adds.
+    // Machine instructions of this kernel over those by the table of costs: the assembler folds and it adds.
     const double as_compiled = static_issued > 0.0 ? kernel.instructions / static_issued : 1.0;
     Price price;
     price.issue = times * counts.issued * as_compiled / (processors * gpu["issue"] * cycles_a_us);

@@ -8,28 +8,28 @@
 
 namespace meniscus::benchmarks {
 
-/// Of a kernel as compiled.
+/// The resources of a kernel as compiled.
 struct KernelResources {
     unsigned registers = 0;     ///< a thread
     unsigned shared_bytes = 0;  ///< a block
-    double instructions = 0.0;  ///< of its machine code
+    double instructions = 0.0;  ///< number of them in its machine code
 };
 
 /// Microseconds, each as if nothing else took time.
 struct Price {
-    double issue = 0.0;  ///< to issue all instructions
-    double pipe = 0.0;   ///< in the busiest pipe
+    double issue = 0.0;  ///< time to issue all instructions
+    double pipe = 0.0;   ///< time in the busiest pipe
     std::string pipe_name;
     double memory = 0.0;  ///< passes through the first cache and shared memory
     double second_cache = 0.0;
     double device_memory = 0.0;
     double latency = 0.0;  ///< warps that wait, as many at once as fit
     double longest_warp = 0.0;
-    double barriers = 0.0;  ///< of the whole grid
+    double barriers = 0.0;  ///< time of the barriers of the whole grid
 
     /// The greatest, and the barriers.
     double total() const;
-    /// What the greatest is.
+    /// The name of the greatest.
     std::string bound() const;
 };
 

@@ -1,4 +1,4 @@
-// What PTX's arithmetic computes, lane by lane. Rounding is the host's, which is that of PTX for all that is used here.
+// PTX's arithmetic, lane by lane. Rounding is the host's, which is that of PTX for all operations here.
 #pragma once
 
 #include <bit>
@@ -248,7 +248,7 @@ void extend(const PtxInstruction& i, PtxLanes* slots, u32 mask) {
     const u64* const a = slots[i.from[0]].of;
     each_lane(i, slots, mask, [&](int l) { return put(static_cast<To>(get<From>(a[l]))); });
 }
-/// Of a vector's parts, the lowest first.
+/// Packs a vector's parts into one value, the lowest first.
 template <class Part>
 void pack(const PtxInstruction& i, PtxLanes* slots, u32 mask) {
     each_lane(i, slots, mask, [&](int l) {

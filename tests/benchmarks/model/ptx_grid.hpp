@@ -14,17 +14,17 @@
 
 namespace meniscus::benchmarks {
 
-/// Of all warps of a launch.
+/// Counts over all warps of a launch.
 struct LaunchCounts {
     double issued = 0.0;           ///< machine instructions of warps, by the costs of PTX
-    double pipe[pipe_count] = {};  ///< of those, by pipe
+    double pipe[pipe_count] = {};  ///< number of those that go to each pipe
     double ptx = 0.0;              ///< PTX instructions of warps
     double lanes = 0.0;            ///< lanes in use, summed over these
     double memory_passes = 0.0;    ///< 128-byte lines and shared memory's banks that are asked one after another
-    double sectors = 0.0;          ///< of 32 bytes that warps ask global memory for
-    double missed_sectors = 0.0;   ///< of those, not in the first cache
+    double sectors = 0.0;          ///< sectors of 32 bytes that warps ask global memory for
+    double missed_sectors = 0.0;   ///< those that are not in the first cache
     double own_sectors = 0.0;      ///< different ones
-    double warp_cycles = 0.0;      ///< summed: how long each would take alone on the GPU
+    double warp_cycles = 0.0;      ///< sum of the cycles that each would take alone on the GPU
     double longest_warp = 0.0;     ///< cycles
     double grid_barriers = 0.0;
     std::uint64_t warps = 0;
@@ -38,7 +38,7 @@ struct PtxLaunch {
     unsigned blocks = 1;
     unsigned threads = 256;
     bool is_cooperative = false;
-    unsigned blocks_of_processor = 1;  ///< that share a first cache
+    unsigned blocks_of_processor = 1;  ///< blocks that share a first cache
 };
 
 /// A kernel whose costs are known.
@@ -59,7 +59,7 @@ public:
 
 private:
     PtxKernel kernel_;
-    std::vector<InstructionCost> cost_;  ///< of each instruction
+    std::vector<InstructionCost> cost_;  ///< cost of each instruction
     std::vector<std::uint64_t> executed_;
 };
 

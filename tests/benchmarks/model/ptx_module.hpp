@@ -43,15 +43,15 @@ struct PtxInstruction {
     bool guard_is_negated = false;
     bool is_acquire = false;  ///< a load on which a thread may wait for others
     std::uint8_t element_bytes = 0;
-    std::uint8_t elements = 1;  ///< of a vector
+    std::uint8_t elements = 1;  ///< elements of a vector
     bool is_signed = false;
-    std::uint8_t detail = 0;  ///< of a shuffle or an atomic operation
+    std::uint8_t detail = 0;  ///< kind of a shuffle or an atomic operation
     std::uint8_t to_count = 0;
     std::uint8_t from_count = 0;
     std::int32_t guard = -1;  ///< slot of the predicate
     std::int32_t to[4] = {-1, -1, -1, -1};
-    std::int32_t from[5] = {-1, -1, -1, -1, -1};  ///< of a load and a store the address comes first
-    std::int64_t offset = 0;                      ///< of the address
+    std::int32_t from[5] = {-1, -1, -1, -1, -1};  ///< for a load and a store the address comes first
+    std::int64_t offset = 0;                      ///< offset to the address
     std::int32_t target = -1;
     PtxCompute compute = nullptr;
     std::string opcode;
@@ -72,7 +72,7 @@ struct PtxPreset {
     };
     std::int32_t slot;
     What what;
-    std::uint64_t value;  ///< of a constant, or a parameter's number
+    std::uint64_t value;  ///< a constant's value, or a parameter's number
 };
 
 struct PtxKernel {
@@ -87,7 +87,7 @@ struct PtxKernel {
 /// The kernels of a text. Throws std::runtime_error for an instruction that the interpreter does not know, with it.
 std::vector<PtxKernel> read_ptx(std::string_view text);
 
-/// What an opcode computes, by ptx_operations.cpp; null if it is not known there.
+/// The function that computes an opcode, from ptx_operations.cpp; null if it is not known there.
 PtxCompute find_computation(const std::string& opcode);
 
 }  // namespace meniscus::benchmarks

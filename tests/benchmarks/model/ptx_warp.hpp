@@ -15,14 +15,14 @@ namespace meniscus::benchmarks {
 
 constexpr unsigned warp_lanes = 32;
 
-/// What the warps of a launch share.
+/// The state that the warps of a launch share.
 struct PtxGrid {
     const PtxLaunch& launch;
     void* const* parameters;
     const GpuConstants& gpu;
     LaunchCounts counts;
     Footprint footprint;
-    std::uint32_t workspace[2] = {0, 0};  ///< of grid barriers: the second word is their counter
+    std::uint32_t workspace[2] = {0, 0};  ///< memory of grid barriers: the second word is their counter
     double first_cache_latency, second_cache_latency, shared_latency, atomic_latency;
 
     PtxGrid(const PtxLaunch& l, void* const* p, const GpuConstants& g)
@@ -74,7 +74,7 @@ private:
     struct Group {
         std::int32_t at;
         std::uint32_t mask;
-        bool waits;  ///< for other lanes, to do something together
+        bool waits;  ///< whether it waits for other lanes, to act together
     };
 
     PtxLanes& slot(std::int32_t i) { return slots_[static_cast<std::size_t>(i)]; }

@@ -1,4 +1,4 @@
-// What a warp does with memory: bytes, and counts of what that asks a GPU for.
+// A warp's use of memory: bytes, and counts of the accesses that a GPU would make for them.
 #include <algorithm>
 #include <array>
 #include <bit>

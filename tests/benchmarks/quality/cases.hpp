@@ -1,4 +1,4 @@
-// What is measured: particles, and figures of their surfaces.
+// The cases that are measured: particles, and figures of their surfaces.
 #pragma once
 
 #include <functional>

@@ -25,7 +25,7 @@ private:
     std::vector<std::pair<std::string, Value>> entries_;
 };
 
-using Values = std::vector<double>;  ///< by sampling
+using Values = std::vector<double>;  ///< one for each sampling
 
 std::string with_mean(const Values& values) {
     std::ostringstream out;

@@ -1,4 +1,4 @@
-// What was measured, as rows.
+// Figures that were measured, as rows.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@ namespace meniscus::benchmarks::quality {
 
 /// One figure of a subject: of a shape, of a group, of a frame.
 struct Figure {
-    std::string name;  ///< with its unit where it has one: "offset_radii"
+    std::string name;  ///< name, with its unit where it has one: "offset_radii"
     double value = 0.0;
 };
 
-/// What a figure belongs to.
+/// The subject of a figure.
 struct Subject {
     std::string part;      ///< "shapes", "groups", "frames", "motion", "levels" or "times"
     std::string name;      ///< "ball10", "frame_040"
-    std::string sampling;  ///< of several whose mean counts; empty: of one alone
+    std::string sampling;  ///< name of one of several whose mean counts; empty: there is one alone
 };
 
 class Figures {

@@ -31,9 +31,9 @@ bool matches(unsigned number, const std::string& wanted) {
 
 FrameFiles::FrameFiles(std::filesystem::path folder) {
     if (folder.empty()) {
-        const char* told = std::getenv("MENISCUS_DATA");
-        if (told == nullptr) return;
-        folder = told;
+        const char* named = std::getenv("MENISCUS_DATA");
+        if (named == nullptr) return;
+        folder = named;
     }
     if (!std::filesystem::is_directory(folder)) throw InvalidInput("--data is " + folder.string() + ", but no folder");
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

@@ -18,7 +18,7 @@ struct Range {
     int last = -1;
 };
 
-/// Of the places low + (i + 1/2) step, those between two coordinates.
+/// The places low + (i + 1/2) step between two coordinates.
 Range places_between(double from, double to, double low, int count) {
     return {std::max(static_cast<int>(std::ceil((from - low) / step - 0.5)), 0),
             std::min(static_cast<int>(std::floor((to - low) / step - 0.5)), count - 1)};

@@ -16,7 +16,7 @@ using compare::cross;
 using compare::dot;
 using compare::subtract;
 
-/// What lies on one side of a plane across an axis: above `limit` if sign is 1, below if it is -1.
+/// The part of a polygon on one side of a plane across an axis: above `limit` if sign is 1, below if it is -1.
 std::vector<Point> clip(const std::vector<Point>& polygon, std::size_t axis, double limit, double sign) {
     std::vector<Point> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -11,7 +11,7 @@ namespace meniscus::benchmarks::quality {
 /// Means are over the surface's area. Lengths in radii; positive is outside of the shape.
 struct Deviation {
     double offset = 0.0;            ///< mean of the signed distances of the triangles' centers from the true surface
-    double rms = 0.0;               ///< of the same, without their mean
+    double rms = 0.0;               ///< rms of the same, without their mean
     double worst = 0.0;             ///< the largest distance of a vertex
     double degrees = 0.0;           ///< rms angle between the normal at a vertex and the true one next to it
     double triangle_degrees = 0.0;  ///< the same of the triangles' own normals, at their centers

@@ -9,7 +9,7 @@
 namespace meniscus::benchmarks::quality {
 namespace {
 
-constexpr std::size_t samples = 200'000;  ///< of `meniscus compare`
+constexpr std::size_t samples = 200'000;  ///< those of `meniscus compare`
 constexpr int heights = 8;
 constexpr double height_step = 0.5;  ///< cells
 
@@ -27,7 +27,7 @@ struct Pair {
     }
     Method uniform;
     Method adaptive;
-    Method both;  ///< what rows about the two call them
+    Method both;  ///< the name of the two in rows about both
 };
 
 Cloud move_up(const Cloud& frame, double distance) {

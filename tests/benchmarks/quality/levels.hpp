@@ -1,4 +1,4 @@
-// What the adaptive grid saves, and what it costs: its surfaces against those of the finest cells, and their times.
+// Gain and cost of the adaptive grid: its surfaces against those of the finest cells, and their times.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ void measure_levels(const std::vector<Settings>& fields, const std::vector<Cloud
 /// matters.
 void measure_heights_on_lattice(const std::vector<Settings>& fields, const Cloud& frame, Figures& figures);
 
-/// Warm times of both modes, on one thread: medians of so many runs, all fields and modes in turn.
+/// Warm times of both modes, on one thread: medians of `runs`, all fields and modes in turn.
 void measure_times(const std::vector<Settings>& fields, const std::vector<Cloud>& frames, unsigned runs,
                    Figures& figures);
 

@@ -20,7 +20,7 @@ namespace {
 using namespace quality;
 
 constexpr std::array<std::string_view, 6> parts{"shapes", "groups", "frames", "motion", "levels", "times"};
-/// Of the frame whose height on the lattice matters.
+/// Number of the frame whose height on the lattice matters.
 constexpr unsigned calm_frame = 258;
 
 struct QualityOptions {
@@ -116,7 +116,7 @@ void measure_cases(const QualityOptions& options, const std::vector<Case>& cases
         }
 }
 
-/// What holds one mode against the other, at the cell size and at twice that.
+/// Measures that hold one mode against the other, at the cell size and at twice that.
 void measure_modes(const QualityOptions& options, const FrameFiles& files, Figures& figures) {
     std::vector<Cloud> frames;
     for (const unsigned number : files.choose(options.frames)) frames.push_back(files.read(number));

@@ -19,10 +19,10 @@ constexpr int steps = 300;
 constexpr double mobility = 0.4;
 constexpr double range = 1.5 * spacing;
 constexpr double depth = 1.0;
-/// Of a spacing in a layer that thins out, over `spacing`.
+/// The widest spacing in a layer that thins out, over `spacing`.
 constexpr double widest = 3.0;
 
-/// Of the spacing: a layer thinner than a spacing holds the same volume per particle farther apart.
+/// The factor of the spacing: a layer thinner than a spacing holds the same volume per particle farther apart.
 double widening(const Shape& shape, const Point& p) {
     if (!shape.layer) return 1.0;
     const double thickness = shape.layer->thickness(p[0]);

@@ -10,7 +10,7 @@ namespace meniscus::benchmarks::quality {
 
 struct Rest {
     std::vector<Point> places;  ///< radii, on the surface and carried along with the water to the next frame
-    double share = 0.0;         ///< of the places that were looked at
+    double share = 0.0;         ///< share of the places that were looked at
 };
 
 /// Places spread over the surface around which the water keeps its shape until the next frame: it rests, or moves as a

@@ -11,8 +11,8 @@ struct Roughness {
     double median = 0.0;  ///< over the area
 };
 
-/// Of the vertices that face up (y), farther than 10 r from the walls at the ends of the surface's extent in x and z.
-/// surface: in radii, with at least one such vertex.
+/// The roughness at the vertices that face up (y), farther than 10 r from the walls at the ends of the surface's extent
+/// in x and z. surface: in radii, with at least one such vertex.
 Roughness roughness_of(compare::SurfaceView surface);
 
 }  // namespace meniscus::benchmarks::quality

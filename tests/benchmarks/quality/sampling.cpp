@@ -22,7 +22,7 @@ constexpr double jitter = 0.2 * spacing;
 /// Before the relaxation: anywhere in the particle's cell of the lattice, so that nothing of the lattice remains.
 constexpr double scatter = 0.5 * spacing;
 
-/// Of no direction that a lattice favors.
+/// A rotation that favors no direction of a lattice.
 const Rotation generic = rotation({1.0, 2.0, 3.0}, 0.7);
 
 /// The points of a turned lattice that lie in the shape.

@@ -11,8 +11,8 @@ namespace {
 using compare::dot;
 using compare::subtract;
 
-/// Of a patch of a layer, and of the part in its middle that is judged. Whatever the rims change ends two of the widest
-/// supports (7 r) from them.
+/// Half the edge of a patch of a layer, and of the part in its middle that is judged. The influence of the rims ends
+/// two of the widest supports (7 r) from them.
 constexpr double half_patch = 32.0;
 constexpr double rim = 14.0;
 constexpr double half_inner = half_patch - rim;

@@ -33,7 +33,7 @@ struct Rectangle {
 struct Layer {
     std::function<double(double)> thickness;  ///< radii, at x; 0 or less: no water
     Rectangle patch;                          ///< all particles
-    Rectangle inner;                          ///< what is judged: far enough from the rims that they do not count
+    Rectangle inner;                          ///< the part that is judged: far enough from the rims to be free of them
     double inner_volume = 0.0;                ///< radii cubed
     bool level = true;                        ///< the same thickness everywhere
 };

@@ -38,7 +38,7 @@ struct Surface {
     std::vector<Point> positions;
     std::vector<Normal> normals;  ///< empty, or one per position
     std::vector<Triangle> triangles;
-    std::optional<Statistics> statistics;  ///< of its reconstruction; none: read from a file
+    std::optional<Statistics> statistics;  ///< statistics of its reconstruction; none: read from a file
 
     compare::SurfaceView view() const { return {positions, triangles}; }
 };

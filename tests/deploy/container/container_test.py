@@ -1,4 +1,4 @@
-"""What the Dockerfile promises, by the programs that the image holds: container_test.py SOURCE MENISCUSD MENISCUS."""
+"""The Dockerfile's promises, by the programs that the image holds: container_test.py SOURCE MENISCUSD MENISCUS."""
 
 import array
 import json

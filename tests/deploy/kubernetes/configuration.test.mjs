@@ -1,4 +1,4 @@
-// The settings of each overlay, told to the real server.
+// The real server takes the settings of each overlay.
 import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
 import { once } from 'node:events';

@@ -1,4 +1,4 @@
-// What Envoy would say of its configuration, by the messages that it is made of, as @grpc/grpc-js-xds has them.
+// Envoy's verdict on its configuration, by the messages that it is made of, as @grpc/grpc-js-xds has them.
 import { existsSync, readdirSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';

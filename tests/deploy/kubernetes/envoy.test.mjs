@@ -24,7 +24,7 @@ test('its listeners and clusters have names of their own, and it names no other 
   assert.deepEqual([...new Set(named)].sort(), names('clusters').sort());
 });
 
-test('what Envoy does not understand is told', () => {
+test('a setting that Envoy does not understand is reported', () => {
   const cases = [
     [
       (cluster) => {

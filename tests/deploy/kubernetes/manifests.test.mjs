@@ -1,4 +1,4 @@
-// What the objects of each overlay say of each other.
+// The objects of each overlay agree with each other.
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { named, of, one, overlays, podsOf, portNumber, render, settings, workloads } from './manifests.mjs';
@@ -146,7 +146,7 @@ for (const overlay of overlays) {
         assert.equal(
           one(all, spec.scaleTargetRef.kind, spec.scaleTargetRef.name).spec.replicas,
           undefined,
-          'it is the autoscaler who says',
+          'the autoscaler chooses the number',
         );
       }
       for (const monitor of of(all, 'ServiceMonitor')) {

@@ -1,4 +1,4 @@
-// What Kubernetes would say of an object, by its schemas as kubernetes-models has them: as types, which know every field there is,
+// Kubernetes' verdict on an object, by its schemas as kubernetes-models has them: as types, which know every field there is,
 // and as functions, which know how a value must look.
 import ts from 'typescript';
 

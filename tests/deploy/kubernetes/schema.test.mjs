@@ -8,7 +8,7 @@ for (const overlay of overlays) {
   test(`${overlay} keeps to the schemas`, async () => assert.deepEqual(await problemsOf(render(overlay)), []));
 }
 
-test('what does not keep to them is told', async () => {
+test('objects that do not keep to them are reported', async () => {
   const pod = (spec) =>
     objects(`
 apiVersion: v1

@@ -28,7 +28,7 @@ def choices_of(help_text):
 
 class Bash(unittest.TestCase):
     def completions(self, *words):
-        """Of the last word, which may be empty."""
+        """The completions of the last word, which may be empty."""
         script = (
             'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _meniscus; printf "%s\\n" "${COMPREPLY[@]}"'
         )

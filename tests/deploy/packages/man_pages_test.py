@@ -25,9 +25,22 @@ class ManPages(unittest.TestCase):
             if default is not None:
                 self.assertIn(f"Default: {default}.", items[flag].replace("\n", " "), f"{name} --{flag}")
 
-    def test_each_program_has_exactly_the_flags_of_its_page_with_their_defaults(self):
-        for program, page in ((MENISCUSD, "meniscusd.8"), (MENISCUS_LOAD, "meniscus-load.1")):
-            self.assert_says_what_help_says(items_of((PAGES / page).read_text()), help_of(program), page)
+    def test_the_server_has_exactly_the_flags_of_its_page_with_their_defaults(self):
+        items = items_of((PAGES / "meniscusd.8").read_text())
+        self.assert_says_what_help_says(items, help_of(MENISCUSD), "meniscusd.8")
+
+    def test_the_load_generator_has_exactly_the_flags_of_its_page_and_of_the_sections_it_refers_to(self):
+        page = (PAGES / "meniscus-load.1").read_text()
+        sections = subsections_of((PAGES / "meniscus.1").read_text())
+        references = re.findall(
+            r"^\.Xr meniscus 1\nunder\n\.Dq (.*?) [.,]\n(?:except for\n\.Fl -([a-z-]+) \.\n)?", page, re.MULTILINE
+        )
+        self.assertEqual(len(references), 2)
+        items = items_of(page)
+        for section, exception in references:
+            shared = items_of(sections[section])
+            items |= {flag: shared[flag] for flag in shared.keys() - items.keys() - {exception}}
+        self.assert_says_what_help_says(items, help_of(MENISCUS_LOAD), "meniscus-load.1")
 
     def test_each_command_has_exactly_the_flags_of_its_section_and_of_those_it_refers_to(self):
         sections = subsections_of((PAGES / "meniscus.1").read_text())

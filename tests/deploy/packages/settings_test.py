@@ -26,7 +26,7 @@ FIELDS = {
     "count-threshold": "CountCriterion.threshold",
     "bisection-steps": "Bisection.steps",
 }
-# What a frame, not a session, is uploaded with.
+# Options of a frame's upload, not of a session.
 NOT_OF_THE_SESSION = {"positions"}
 # Nor is a preset: clients spell its settings out.
 NOT_IN_THE_CONTRACT = NOT_OF_THE_SESSION | {"preset"}

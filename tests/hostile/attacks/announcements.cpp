@@ -22,7 +22,7 @@ constexpr double upload_seconds = 3.0;
 
 struct Honest {
     int refused = 0;
-    double slowest = 0.0;  ///< of a frame, seconds
+    double slowest = 0.0;  ///< longest time of a frame, seconds
 };
 
 /// Frames of several sizes, in a session of its own each.
@@ -96,7 +96,7 @@ std::vector<Figure> announcements(const std::string& program) {
             own.create_session(id, settings_of_attacks());
             RawStream stream(target.address(), id);
             stream.begin(0, frame_limit / 12);
-            // Somebody has to read: gRPC tells a client late that only writes.
+            // Something has to read: gRPC reports the end late to a client that only writes.
             std::atomic<bool> ended{false};
             std::thread reader([&] {
                 stream.finish();

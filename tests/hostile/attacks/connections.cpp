@@ -42,7 +42,7 @@ double seconds_until_served(const Target& target) {
     return seconds_since(begin);
 }
 
-/// What a check of the port finds in so long a time is told by /healthz.
+/// Answers of /healthz, within the time of a check of the port, that the server is dead.
 int deaths_while_full(const Target& target) {
     int deaths = 0;
     for (const auto begin = Clock::now(); seconds_since(begin) < 1.5;)

@@ -22,8 +22,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int megabyte = 87'000;                  ///< particles of 12 bytes
 constexpr double frame_seconds = 10.0;            ///< --max-frame-seconds of the first server
-constexpr double least_seconds = 2.0;             ///< that a frame may always take
-constexpr double times_of_an_evenly_spread = 20;  ///< and as a share
+constexpr double least_seconds = 2.0;             ///< time that a frame may always take
+constexpr double times_of_an_evenly_spread = 20;  ///< limit over the time of an evenly spread frame
 
 using Positions = std::vector<float>;
 
@@ -40,7 +40,8 @@ Positions evenly_spread(int count, float apart = 2.0F) {
     return positions;
 }
 
-/// So many clumps, 50 radii apart, of particles within a distance of their middles.
+/// `number` clumps of `of` particles each, 50 radii apart; a particle lies up to `size` from its clump's middle on each
+/// axis.
 Positions clumps(int number, int of, float size) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> place(-size, size);

@@ -51,7 +51,7 @@ std::vector<std::string> hashes(client::Client& client, const std::string& id) {
         auto reader = client.read_recording(id, 1);
         while (const auto frame = reader.next()) hashes.push_back(mesh_sha256(frame->mesh()));
     } catch (const client::ServerError&) {
-        // What was sent before it.
+        // The frames before the error count.
     }
     return hashes;
 }

@@ -36,7 +36,7 @@ int threads_of(pid_t process) {
     return 0;
 }
 
-/// What bob is refused, while alice has all that she can get.
+/// 1 if bob is refused a session or a frame while alice has all sessions that she can get, else 0.
 int refused_to_bob(const std::string& address) {
     client::Client alice(address, {.token = alices});
     client::Client bob(address, {.token = bobs});

@@ -32,7 +32,7 @@ Proxy proxy_of(ProxyKind kind, const Target& target) {
     return {kind, std::move(ports)};
 }
 
-/// Processor time of the server for resets on so many connections, one after the other.
+/// Processor time of the server, seconds, for resets on `connections`, one after the other.
 double seconds_of_resets(ProxyKind kind, const std::string& program, std::size_t connections) {
     const Target target(program);
     const Proxy proxy = proxy_of(kind, target);

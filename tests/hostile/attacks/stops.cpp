@@ -73,7 +73,7 @@ void watch(const std::string& address, const std::string& id) {
     }
 }
 
-/// Particles that move so much that every brick is sent anew.
+/// Particles that move far enough that every brick is sent anew.
 std::vector<float> particles(std::uint64_t frame) {
     std::vector<float> positions;
     for (int x = 0; x < 24; ++x)
@@ -103,7 +103,7 @@ void simulate(const std::string& address, const std::string& id, const std::vect
     }
 }
 
-/// What becomes of them before the server is told to end.
+/// The state of the clients when the server gets the signal to end.
 enum class Fate { stay_stopped, killed, killed_and_deleted };
 
 double seconds_to_end(const std::string& program, Fate fate) {

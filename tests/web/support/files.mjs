@@ -1,4 +1,4 @@
-// What the viewer saves.
+// The files that the viewer saves.
 import { readFileSync } from 'node:fs';
 
 /** Its bytes and its name. */
@@ -7,7 +7,7 @@ export async function save(page, button) {
   return { bytes: readFileSync(await download.path()), name: download.suggestedFilename() };
 }
 
-/** Of a PNG: its size, and the colors at some places, parts of its width and height. */
+/** A PNG's size, and the colors at some places, parts of its width and height. */
 export async function readPng(page, bytes, places) {
   return page.evaluate(
     async ([base64, at]) => {
@@ -26,7 +26,7 @@ export async function readPng(page, bytes, places) {
   );
 }
 
-/** Of a video: its size, its seconds, and that its middle can be sought. page: a blank one, since the viewer's policy lets no video in. */
+/** A video's size, its seconds, and whether its middle can be sought. page: a blank one, since the viewer's policy lets no video in. */
 export async function readVideo(page, bytes) {
   return page.evaluate(async (base64) => {
     const video = document.createElement('video');

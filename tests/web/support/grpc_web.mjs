@@ -17,7 +17,7 @@ function varint(value) {
   return Buffer.from([...bytes, value]);
 }
 
-/** What page.route() fulfills a call with. */
+/** The response with which page.route() fulfills a call. */
 export function answer(message) {
   const framed = (flags, data) => {
     const header = Buffer.alloc(5);

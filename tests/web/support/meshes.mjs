@@ -35,19 +35,19 @@ export async function reload(page, glb) {
   });
 }
 
-/** Of a binary PLY of floats as the viewer writes it: min x y z, max x y z. */
+/** The bounds of a binary PLY of floats as the viewer writes it: min x y z, max x y z. */
 export function boundsOfPly(ply) {
   const vertices = verticesOfPly(ply);
   const each = (pick) => [0, 1, 2].map((axis) => vertices.reduce((a, v) => pick(a, v[axis]), vertices[0][axis]));
   return [...each(Math.min), ...each(Math.max)];
 }
 
-/** Of such a file: x y z each. */
+/** The vertices of such a file: x y z each. */
 export function verticesOfPly(ply) {
   return vertexProperties(ply, ['x', 'y', 'z']);
 }
 
-/** Of such a file, the properties of these names, of each vertex. */
+/** The properties of these names at each vertex of such a file. */
 export function vertexProperties(ply, names) {
   const end = 'end_header\n';
   const header = ply.subarray(0, ply.indexOf(end) + end.length);

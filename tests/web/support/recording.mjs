@@ -38,7 +38,7 @@ export function recordedFile() {
   return (recorded ??= record());
 }
 
-/** faster: than the rate above. loop: for ever. frames: so many of them alone. session: as it is to be named. */
+/** faster: times the rate above. loop: for ever. frames: number of the first ones to send. session: its name. */
 export async function startReplay(server, { faster = 1, loop = true, frames = frameCount, session } = {}) {
   const { file, speed, triangles } = await recordedFile();
   const args = ['replay', file, '--speed', `${speed * faster}`, '--to', `${frames - 1}`];

@@ -1,4 +1,4 @@
-// What the tests of the viewer have in common: one browser, pages that fail by any error, real servers.
+// The common parts of the tests of the viewer: one browser, pages that fail by any error, real servers.
 import assert from 'node:assert/strict';
 import { after, afterEach, before } from 'node:test';
 import { launch, missing, openPage } from './browser.mjs';

@@ -1,4 +1,4 @@
-// What a mesh announces that its vertices carry.
+// The attributes that a mesh announces for its vertices.
 import { AttributeType, type MeshAttribute } from '../gen/meniscus/v1/mesh_pb';
 import { ProtocolError } from './protocol_error';
 
@@ -13,7 +13,7 @@ export interface AttributeForm {
 }
 
 export interface VertexAttribute extends AttributeForm {
-  /** Of each component over the whole mesh; empty for a mesh without vertices. */
+  /** Least value of each component over the whole mesh; empty for a mesh without vertices. */
   readonly minimum: readonly number[];
   readonly maximum: readonly number[];
   /** Whether the frame's bricks have it. */

@@ -10,7 +10,7 @@ export interface ShownBrick {
   readonly decoded: DecodedBrick;
 }
 
-/** What is to change on the screen, in one go. */
+/** A frame and its bricks, which change on the screen in one go. */
 export interface Shown {
   readonly frame: Frame;
   readonly bricks: ReadonlyMap<BrickKey, ShownBrick>;

@@ -11,7 +11,7 @@ export interface EncodedBrick {
   readonly codec: Codec;
   /** As the codec writes it. */
   readonly data: Uint8Array;
-  /** What its vertices carry, in the order in which the codec has them. */
+  /** The attributes that its vertices carry, in the codec's order. */
   readonly attributes: readonly CodedAttribute[];
 }
 
@@ -35,7 +35,7 @@ export interface Frame {
   readonly brickCells: number;
   readonly bricks: ReadonlyMap<BrickKey, EncodedBrick>;
   readonly triangleCount: number;
-  /** What its vertices have; the bricks carry those alone that were asked for. */
+  /** The attributes of its vertices; the bricks carry those alone that were asked for. */
   readonly attributes: readonly VertexAttribute[];
   /** Particles that the surface leaves out: x y z each, world units. */
   readonly spray: Float32Array;

@@ -16,7 +16,7 @@ interface Arriving {
   readonly begin: MeshBegin;
   readonly beganAt: number;
   readonly attributes: readonly VertexAttribute[];
-  /** Of the bricks that arrive. */
+  /** The coded attributes of the bricks that arrive. */
   readonly coded: readonly CodedAttribute[];
   readonly bricks: Map<BrickKey, EncodedBrick>;
   readonly arrived: Set<BrickKey>;
@@ -88,7 +88,7 @@ export class FrameReceiver {
     };
   }
 
-  /** What stays of the base. */
+  /** The bricks that stay from the base. */
   private baseBricks(begin: MeshBegin, name: string): Map<BrickKey, EncodedBrick> {
     if (begin.baseFrameIndex === undefined) {
       if (begin.vanished.length > 0) throw new ProtocolError(`${name} has bricks that vanished, but no base`);

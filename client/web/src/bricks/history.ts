@@ -3,7 +3,7 @@ import type { EncodedBrick, Frame } from './frame';
 
 export interface HistoryLimits {
   readonly frames: number;
-  /** Of encoded bricks and spray. */
+  /** Most bytes of encoded bricks and spray. */
   readonly bytes: number;
 }
 
@@ -18,7 +18,7 @@ export class History {
     return this.kept;
   }
 
-  /** Of the spray and of the encoded bricks, each counted once however many frames share it. */
+  /** The size of the spray and of the encoded bricks, each counted once however many frames share it. */
   get bytes(): number {
     return this.held;
   }

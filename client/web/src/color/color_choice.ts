@@ -1,10 +1,10 @@
-// What a person has chosen to color by, and how the link tells it.
+// A person's choice of a quantity to color by, and its form in the link.
 import { isColorMap, type ColorMap } from './color_maps';
 
 export const componentNames = ['x', 'y', 'z', 'w'] as const;
 export type ComponentName = (typeof componentNames)[number];
 
-/** Of each frame; of all that have been seen of what is looked at; or by hand: the lower one, then the upper one. */
+/** The range of each frame; that of all frames seen of the session or the recording; or by hand: the lower end, then the upper one. */
 export type RangeChoice = 'frame' | 'session' | readonly [number, number];
 
 export interface ColorChoice {
@@ -34,7 +34,7 @@ export function colorText({ attribute, component }: Pick<ColorChoice, 'attribute
   return component === undefined ? attribute : `${attribute}.${component}`;
 }
 
-/** What is not understood is as if it were not there. */
+/** A field that cannot be read is as if it were not there. */
 export function readColorLink(fields: URLSearchParams): ColorChoice | undefined {
   const map = fields.get('map') ?? '';
   return colorBy(fields.get('color') ?? '', isColorMap(map) ? map : undefined, readRange(fields.get('range')));

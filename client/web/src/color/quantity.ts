@@ -8,11 +8,11 @@ import { unionOfRanges, valueText, type ValueRange } from './value_range';
 
 export type QuantityKind = 'number' | 'color' | 'id';
 
-/** Of a brick's points. */
+/** The values of a brick's points. */
 export interface PointValues {
   /** Numbers; or red, green, blue and a padding each, 0 to 255. */
   readonly values: Float32Array | Uint8Array;
-  /** Of numbers. */
+  /** The range of numbers. */
   readonly range: ValueRange | undefined;
 }
 
@@ -48,11 +48,11 @@ export class Quantity {
     return values;
   }
 
-  /** Of a frame's numbers; none without any. */
+  /** The range of a frame's numbers; none without any. */
   rangeOf({ frame, bricks }: Shown): ValueRange | undefined {
     if (this.kind !== 'number') return undefined;
-    const told = frame.attributes.find(({ name }) => name === this.form.name);
-    if (this.component !== undefined) return told && announced(told, this.component);
+    const attribute = frame.attributes.find(({ name }) => name === this.form.name);
+    if (this.component !== undefined) return attribute && announced(attribute, this.component);
     return unionOfRanges([...bricks.values()].map(({ decoded }) => this.of(decoded)?.range));
   }
 

@@ -5,7 +5,7 @@ export interface ValueRange {
   readonly high: number;
 }
 
-/** Of those that there are; none of none. */
+/** The union of the ranges that are there; none of none. */
 export function unionOfRanges(ranges: readonly (ValueRange | undefined)[]): ValueRange | undefined {
   const there = ranges.filter((range) => range !== undefined);
   if (there.length === 0) return undefined;

@@ -10,7 +10,7 @@ import { requirePlausible } from './draco_header';
 import { groupTriangles } from './group_triangles';
 import { triangleGroups } from './triangle_levels';
 
-/** Of generic attributes, as the contract has them: their places follow. */
+/** The first id of generic attributes, by the contract: their places follow. */
 const firstAttributeId = 16;
 
 /** name: of the attribute that is decoded, too, where the brick carries it. Throws an Error that names the brick. */
@@ -85,7 +85,7 @@ function readAttribute(
   throw new Error(`it has no attribute ${name}, which was announced`);
 }
 
-/** What `fill` has written to the decoder's memory, copied out of it. */
+/** A copy of the bytes that `fill` has written to the decoder's memory. */
 function copyOut(draco: DracoModule, bytes: number, fill: (to: number) => boolean): ArrayBuffer {
   const address = draco._malloc(bytes);
   try {

@@ -1,4 +1,4 @@
-// What a Draco mesh claims of itself, compared with what was announced before Draco allocates by it.
+// The counts in a Draco mesh's header, compared with the announced ones before Draco allocates by them.
 import type { EncodedBrick } from '../bricks/frame';
 import { maxBrickTriangles } from '../bricks/lattice';
 

@@ -1,11 +1,11 @@
-// What the page and its decoding workers say to each other: one answer per request, in order.
+// The messages between the page and its decoding workers: one answer per request, in order.
 import type { EncodedBrick } from '../bricks/frame';
 import type { DecodedBrick } from './decoded_brick';
 
 export interface DecodeRequest {
   readonly brick: EncodedBrick;
   readonly offsetBits: number;
-  /** Of those that the brick carries, the one that is decoded. */
+  /** The one attribute that is decoded, of those that the brick carries. */
   readonly attribute: string | undefined;
 }
 

@@ -1,4 +1,4 @@
-// A triangle's level, told by where its vertices lie: a crack triangle lies in a face plane of the base-cell grid, any other inside one
+// A triangle's level, from the places of its vertices: a crack triangle lies in a face plane of the base-cell grid, any other inside one
 // base cell, whose level is its own.
 import { baseCellSize, brickBaseCells } from '../bricks/lattice';
 

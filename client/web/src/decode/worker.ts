@@ -15,7 +15,7 @@ async function answer(request: DecodeRequest): Promise<DecodeAnswer> {
   try {
     return { decoded: decodeBrick(await draco, request.brick, request.offsetBits, request.attribute) };
   } catch (error) {
-    // What a brick that lies has left of the decoder's memory is not used again.
+    // A brick that lies may have broken the decoder's memory, which is not used again.
     draco = startDecoder();
     return { error: error instanceof Error ? error.message : String(error) };
   }

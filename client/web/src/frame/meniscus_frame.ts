@@ -13,7 +13,7 @@ export interface View {
   /** An attribute that the session's settings name, or a component of one: "velocity", "velocity.x". Without one: water. */
   readonly color?: string;
   readonly map?: 'viridis' | 'magma' | 'plasma' | 'cividis' | 'coolwarm';
-  /** What the ends of the map stand for: without it the least and the greatest of the session so far. */
+  /** The values at the ends of the map: without it the least and the greatest of the session so far. */
   readonly range?: 'frame' | 'session' | readonly [number, number];
   /** Where the server asks for one: of the role watcher, since every script of the page can read it. */
   readonly token?: string;
@@ -49,7 +49,7 @@ export function showMeniscus(place: Element, server: string, view: View): Menisc
   let listens: () => void;
   const listening = new Promise<void>((resolve) => (listens = resolve));
 
-  const tell = (): void => {
+  const handOver = (): void => {
     if (nonce === undefined) return;
     const { session, camera, look, up, color, map, range, token = '' } = shown;
     const message: Show = {
@@ -72,7 +72,7 @@ export function showMeniscus(place: Element, server: string, view: View): Menisc
     if (origin !== viewer || source !== element.contentWindow || !isReady(data)) return;
     nonce = data.nonce;
     listens();
-    tell();
+    handOver();
   };
   addEventListener('message', listen);
   let timer: ReturnType<typeof setTimeout>;
@@ -88,7 +88,7 @@ export function showMeniscus(place: Element, server: string, view: View): Menisc
   const ready = Promise.race([listening, late]).finally(() => {
     clearTimeout(timer);
   });
-  // A page that waits for nothing is told, too, and not by an error that nobody has handled.
+  // A page that does not wait for `ready` gets a warning, not an error without a handler.
   ready.catch((error: unknown) => {
     console.warn(error instanceof Error ? error.message : error);
   });
@@ -99,7 +99,7 @@ export function showMeniscus(place: Element, server: string, view: View): Menisc
     ready,
     show: (next) => {
       shown = next;
-      tell();
+      handOver();
     },
     remove: () => {
       removeEventListener('message', listen);

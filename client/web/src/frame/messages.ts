@@ -1,4 +1,4 @@
-// What a page and the viewer in a frame of it say to each other, by postMessage. Both know the other's origin beforehand.
+// The messages between a page and the viewer in a frame of it, by postMessage. Both know the other's origin beforehand.
 //
 // The viewer begins, each time that it is loaded, with a number drawn at random. What the page answers carries it, and a number
 // that rises: so nothing that was said before, to this viewer or to one before it, can be said again by another.
@@ -24,11 +24,11 @@ export interface Show {
   readonly camera?: { readonly position: readonly number[]; readonly target: readonly number[] };
   readonly look?: 'water' | 'levels';
   readonly up?: 'x' | 'y' | 'z';
-  /** Of the attributes that the session's settings name: one, or a component of one, as "velocity.x". */
+  /** An attribute that the session's settings name, or a component of one, as "velocity.x". */
   readonly color?: string;
-  /** Of colors; without one viridis. */
+  /** The map of colors; without one viridis. */
   readonly map?: string;
-  /** Of each frame, of the session so far, or of two numbers; without one of the session so far. */
+  /** The range of each frame, that of the session so far, or two numbers; without one that of the session so far. */
   readonly range?: 'frame' | 'session' | readonly [number, number];
   /** Empty: none. */
   readonly token: string;

@@ -1,9 +1,9 @@
 // Whether a key belongs to what has the focus: what is typed into a field, or would move a slider, is not for the page.
 
-/** The parts of an element that tell. */
+/** The parts of an element that decide. */
 export interface Focused {
   readonly tagName: string;
-  /** Of an input. */
+  /** The type of an input. */
   readonly type?: string;
   readonly isContentEditable?: boolean;
   readonly scrollHeight: number;

@@ -1,8 +1,8 @@
-// What the keys do. The handler, the list of keys and the buttons' hints are made from these rows. A new one presses a button,
+// The keys and their actions. The handler, the list of keys and the buttons' hints are made from these rows. A new one presses a button,
 // and needs nothing else; or it names an action of its own, which goes into the record that the Keyboard is given.
 
 interface KeyOf {
-  /** Values of KeyboardEvent.key, letters in lower case. An action is told which of them was pressed. */
+  /** Values of KeyboardEvent.key, letters in lower case. The action gets the one that was pressed. */
   readonly keys: readonly string[];
   /** With Shift, which otherwise is not held: of keys that are named and of letters. Shift is a part of other characters. */
   readonly shift?: boolean;
@@ -50,7 +50,7 @@ export function keysOf(embedded: boolean): readonly (typeof keyTable)[number][] 
   return embedded ? keyTable.filter((row) => !('panel' in row)) : keyTable;
 }
 
-/** What a table asks for that no button does. */
+/** The actions of a table that no button does. */
 export type ActionOf<Row> = Row extends { readonly action: infer Name extends string } ? Name : never;
 
 export interface KeyPress {

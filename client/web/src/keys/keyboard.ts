@@ -18,7 +18,7 @@ export interface KeyTarget {
 }
 
 export class Keyboard<Row extends KeyRow> {
-  /** What a pointer has pressed, for as long as Tab does not move the focus: also after a dialog that gives the focus back. */
+  /** The control that a pointer has pressed, until Tab moves the focus: also after a dialog that gives the focus back. */
   private pointed: EventTarget | null = null;
   /** Space, of which a button would take the release for a press. */
   private taken: string | undefined;
@@ -55,7 +55,7 @@ export class Keyboard<Row extends KeyRow> {
     if (focused && ownsKey(focused, event.key, focused === this.pointed)) return;
     const found = rowOf(this.table, event);
     if (!found) {
-      // Of a key that is held: what was done for it is not to be done by the button.
+      // The repeats of a key that is held: the button must not do its action once more.
       if (event.repeat && event.key === this.taken) event.preventDefault();
       return;
     }
@@ -68,7 +68,7 @@ export class Keyboard<Row extends KeyRow> {
   }
 }
 
-/** What is clicked may be a part of the control, which has the focus. */
+/** The control, which has the focus, around an element that was clicked. */
 function controlOf(target: EventTarget | null): EventTarget | null {
   const element = target as (EventTarget & { closest?: (selector: string) => Element | null }) | null;
   return element?.closest?.('button, summary, a, input, textarea, select, [tabindex]') ?? target;

@@ -1,4 +1,4 @@
-// What people call a session.
+// The name of a session on the page.
 
 interface Described {
   readonly description?: { readonly name: string } | undefined;
@@ -13,7 +13,7 @@ export function givenName({ description }: Described): string {
   return /^.{0,64}/su.exec(name)![0];
 }
 
-/** Of a UUID, enough to tell a few apart. */
+/** The beginning of a UUID, enough to distinguish a few. */
 export function shortId(id: string): string {
   return id.slice(0, 8);
 }

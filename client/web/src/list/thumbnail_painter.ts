@@ -24,13 +24,13 @@ export class ThumbnailPainter {
     this.canvas.setAttribute('aria-hidden', 'true');
   }
 
-  /** Of the pictures from now on. */
+  /** Sets the theme of the pictures from now on. */
   setTheme(theme: Theme): void {
     this.theme = theme;
     this.viewer?.setTheme(theme);
   }
 
-  /** Of the session's newest mesh. Throws RpcError, and Error where the browser cannot. */
+  /** Draws the session's newest mesh. Throws RpcError, and Error where the browser cannot. */
   async draw(session: string, up: UpAxis, target: HTMLCanvasElement, signal: AbortSignal): Promise<void> {
     const shown = await this.newest(session, signal);
     if (!shown || shown.bricks.size === 0 || signal.aborted) return;

@@ -8,13 +8,13 @@ interface Entry {
 
 export class ThumbnailSchedule {
   private readonly entries = new Map<string, Entry>();
-  /** May be told before the list that has them. */
+  /** Ids of sessions on the screen; they may come before the list that has them. */
   private readonly visible = new Set<string>();
 
   /** every: ms between two pictures of one session. */
   constructor(private readonly every: number) {}
 
-  /** What the list holds now. */
+  /** Takes the sessions that the list holds now. */
   update(sessions: readonly { readonly id: string; readonly frames: bigint }[]): void {
     const ids = new Set(sessions.map(({ id }) => id));
     for (const kept of [this.entries, this.visible]) for (const id of kept.keys()) if (!ids.has(id)) kept.delete(id);

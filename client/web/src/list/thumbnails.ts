@@ -59,7 +59,7 @@ export class Thumbnails {
     }, thumbnailPatience);
     void this.draw(session, call.abort.signal)
       .catch((error: unknown) => {
-        // After whatever else went wrong the next picture may come: the list tells of what concerns it as well.
+        // After any other error the next picture may come; the list shows the errors that concern it, too.
         if (error instanceof RpcError && error.code === Code.unimplemented) this.none = true;
         if (this.call === call) this.schedule.missed(session);
       })

@@ -20,7 +20,7 @@ export class KeptParticles {
       this.bytes -= size(this.kept.shift()!);
   }
 
-  /** Those of the frame, or else of the frame nearest to it in its run: the two streams may skip different frames. */
+  /** The particles of the frame, or else of the frame nearest to it in its run: the two streams may skip different frames. */
   nearest(frame: Pick<Frame, 'runId' | 'index'>): Particles | undefined {
     let best: Particles | undefined;
     for (const particles of this.kept)

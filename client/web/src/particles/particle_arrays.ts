@@ -19,7 +19,7 @@ const forms: ReadonlyMap<string, { readonly type: ElementType; readonly componen
 ]);
 
 export interface ParticleLayout {
-  /** Of all arrays, bytes per particle. */
+  /** The size of all arrays, bytes per particle. */
   readonly particleBytes: number;
   /** Bytes per particle of the arrays before the levels; undefined: without levels. Positions come first. */
   readonly levelsAfter: number | undefined;

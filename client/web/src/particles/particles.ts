@@ -12,6 +12,6 @@ export interface Particles {
   readonly max: readonly [number, number, number];
   /** One per particle, 0 to 3; none: all of level 0. A particle of level k has 2^k times the radius. */
   readonly levels: Uint8Array | undefined;
-  /** Of level 0, world units. */
+  /** The radius at level 0, world units. */
   readonly radius: number;
 }

@@ -16,7 +16,7 @@ export interface RecordingFramesEvents {
   frame(frame: Frame, position: number): void;
   /** The one that is wanted could not be fetched; nothing is tried until show(). */
   failed(error: unknown): void;
-  /** Of every message, as it comes. */
+  /** The size of every message, as it comes. */
   received(bytes: number): void;
 }
 
@@ -25,7 +25,7 @@ export interface RecordingFramesLimits {
   readonly ahead: number;
   /** Kept, those used last; more than `ahead`. */
   readonly frames: number;
-  /** Of encoded bricks and spray. */
+  /** Most bytes of encoded bricks and spray. */
   readonly bytes: number;
 }
 
@@ -66,7 +66,7 @@ export class RecordingFrames {
     this.fetchAhead();
   }
 
-  /** What is known of a frame without fetching it. */
+  /** A frame as far as it is known without fetching it. */
   at(position: number): Frame | undefined {
     return this.kept.get(position);
   }
@@ -106,7 +106,7 @@ export class RecordingFrames {
     } catch (error) {
       if (signal.aborted) return;
       this.fetch = undefined;
-      // What was fetched ahead is asked for again when it is wanted.
+      // A frame that is fetched ahead is asked for again when it is wanted.
       if (this.wanted !== undefined) this.events.failed(error);
     }
   }

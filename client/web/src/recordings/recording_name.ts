@@ -3,7 +3,7 @@
 export interface RecordingName {
   /** UUID. */
   readonly session: string;
-  /** Of the session's recordings, from 1. */
+  /** The number among the session's recordings, from 1. */
   readonly number: number;
 }
 

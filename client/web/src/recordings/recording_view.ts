@@ -125,7 +125,7 @@ export class RecordingView {
         this.show(at);
       },
       paused: (paused) => {
-        this.tellState();
+        this.reportState();
         if (paused) this.events.restsAt(this.position);
         else if (this.position > 0 && this.position === frames.length - 1) this.show(0);
         else this.goOn();
@@ -144,7 +144,7 @@ export class RecordingView {
 
   private take(frame: Frame, position: number): void {
     this.backoff.reset();
-    this.tellState();
+    this.reportState();
     this.playback.moveTo(position);
     this.screen.show(frame);
   }
@@ -166,7 +166,7 @@ export class RecordingView {
     );
   }
 
-  private tellState(): void {
+  private reportState(): void {
     this.events.state({ kind: this.playback.paused ? 'paused' : 'live' });
   }
 

@@ -18,7 +18,7 @@ const maxMessageBytes = 4 << 20;
 const contentType = 'application/grpc-web+proto';
 
 export interface Endpoint {
-  /** What the path of a call is appended to: "" for the page's own server. */
+  /** The URL before the path of a call: "" for the page's own server. */
   readonly base: string;
   readonly fetch: typeof fetch;
 }

@@ -29,7 +29,7 @@ export class Server {
 
   constructor(private readonly endpoint: Endpoint) {}
 
-  /** Of the link, ms: the shortest time that a call has taken to be answered; 0 before the first. */
+  /** The link's round trip, ms: the shortest time from a call to its answer; 0 before the first. */
   get roundTrip(): number {
     return Number.isFinite(this.shortestAnswer) ? this.shortestAnswer : 0;
   }

@@ -1,4 +1,4 @@
-// gRPC statuses, and what to tell a person about them.
+// gRPC statuses, and a text for people about each.
 
 export const Code = {
   ok: 0,
@@ -59,7 +59,7 @@ export function codeOfHttpStatus(status: number): Code {
   }
 }
 
-/** What a person should read. The server's own words say what was wrong; this says what it means for the viewer. */
+/** The text for a person. The server's own words name the error; this names its meaning for the viewer. */
 export function explain(error: unknown): string {
   if (!(error instanceof RpcError)) return error instanceof Error ? error.message : String(error);
   switch (error.code) {

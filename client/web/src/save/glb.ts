@@ -1,6 +1,6 @@
 // A mesh as GLB: the Draco bytes as they came (KHR_draco_mesh_compression), positions in brick-local integers
 // (KHR_mesh_quantization), a node for each brick that puts them in place. What the surface is colored by lies beside the Draco bytes, in
-// the order of their points: in them it is the steps of a range, which glTF cannot tell.
+// the order of their points: in them it is the steps of a range, for which glTF has no words.
 import type { ShownBrick, Shown } from '../bricks/brick_store';
 import { brickEdge } from '../bricks/frame';
 import { pointCount } from '../decode/decoded_brick';

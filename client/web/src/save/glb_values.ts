@@ -1,4 +1,4 @@
-// What the surface is colored by, as glTF has it. It has no 32-bit integers at vertices: ids are float32 where that holds all of them exactly,
+// The values of the surface's colors, in glTF's form. It has no 32-bit integers at vertices: ids are float32 where that holds all of them exactly,
 // otherwise two uint16, the low one first, as `meniscus` writes them.
 import type { AttributeForm } from '../bricks/attributes';
 import type { AttributeArray } from '../decode/attribute_values';
@@ -16,9 +16,9 @@ export interface GlbValues {
   readonly name: string;
   readonly componentType: number;
   readonly type: string;
-  /** Of one vertex. */
+  /** Bytes of one vertex. */
   readonly stride: number;
-  /** Of each brick. */
+  /** The values of each brick. */
   readonly bytes: readonly Uint8Array[];
 }
 

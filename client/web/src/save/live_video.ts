@@ -51,7 +51,7 @@ export class LiveVideo {
     this.picture.take(pane);
   }
 
-  /** What is on the screen now. */
+  /** Takes the pictures of all panes as they are now. */
   takeAll(): void {
     this.picture.takeAll();
   }
@@ -69,7 +69,7 @@ export class LiveVideo {
   }
 }
 
-/** Of the browser: what was drawn before is in the stream by then. */
+/** Resolves after two pictures of the browser: the stream then has the drawing before. */
 function twoPictures(): Promise<void> {
   return new Promise((resolve) => {
     requestAnimationFrame(() => {

@@ -6,7 +6,7 @@ const codecs = [
   { name: 'vp09.00.51.08', id: 'V_VP9' },
   { name: 'vp8', id: 'V_VP8' },
 ] as const;
-/** Of the compressed video, where pictures are as restless as water. */
+/** The rate of the compressed video, where pictures are as restless as water. */
 const bitsPerPixel = 0.2;
 /** From one picture that can be sought to the next one. */
 const keySeconds = 2;
@@ -43,7 +43,7 @@ export class VideoFile {
       },
       error: (error) => {
         this.failure = error;
-        // What waits for room need not wait any more.
+        // A waiter for room need not wait any more.
         this.encoder.dispatchEvent(new Event('dequeue'));
       },
     });

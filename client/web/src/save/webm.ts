@@ -20,7 +20,7 @@ export interface Video {
 
 /** Times in the file are counted in these: nanoseconds. */
 const tick = 1_000_000;
-/** A cluster's blocks tell their times in 16 bits, relative to that of the cluster: ms. */
+/** A cluster's blocks have their times in 16 bits, relative to that of the cluster: ms. */
 const longestCluster = 30_000;
 /** Digits of a size that is not known before what follows it. */
 const sizeBytes = 8;
@@ -109,14 +109,14 @@ function element(id: number, content: Bytes | readonly Bytes[]): Bytes {
   return concatenate([bytesOf(id, Math.ceil((32 - Math.clz32(id)) / 8)), sizeOf(size), ...parts]);
 }
 
-/** In seven bytes of digits behind the one that tells how many follow. */
+/** A size in seven bytes of digits, behind a byte with their number. */
 function sizeOf(size: number): Bytes {
   const bytes = bytesOf(size, sizeBytes);
   bytes[0] = 0x01;
   return bytes;
 }
 
-/** Of one length, whatever the value: what lies behind keeps its place. */
+/** A number of one length, whatever the value: the bytes behind keep their place. */
 function uint(value: number): Bytes {
   return bytesOf(value, 6);
 }

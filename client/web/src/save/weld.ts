@@ -10,9 +10,9 @@ export interface WeldedMesh {
   /** x y z, times 32767; empty if some brick has none. */
   readonly normals: number[];
   readonly triangles: number[];
-  /** Of each triangle: 1, 2, 3; crack filling 0. */
+  /** The level of each triangle: 1, 2, 3; crack filling 0. */
   readonly levels: number[];
-  /** What all vertices have, of what was decoded: its numbers, one vertex after the other. */
+  /** The attribute that was decoded for all vertices: its numbers, one vertex after the other. */
   readonly attribute: { readonly form: AttributeForm; readonly values: number[] } | undefined;
 }
 
@@ -45,7 +45,7 @@ export function weld({ frame, bricks }: Shown): WeldedMesh {
   return mesh;
 }
 
-/** Of the attribute that every brick was decoded with; none if there is none. */
+/** The form of the attribute that every brick was decoded with; none if there is none. */
 export function decodedForm(
   bricks: readonly ShownBrick[],
   announced: readonly AttributeForm[],

@@ -6,9 +6,9 @@ export interface BackoffLimits {
   readonly longest: number;
 }
 
-/** Of a server that is out of reach: soon after it is back, so is its viewer. */
+/** For a server that is out of reach: soon after it is back, so is its viewer. */
 export const reconnecting: BackoffLimits = { first: 250, longest: 1000 };
-/** Of a session that has ended, and may never come again. */
+/** For a session that has ended, and may never come again. */
 export const resting: BackoffLimits = { first: 500, longest: 8000 };
 
 export class Backoff {

@@ -3,7 +3,7 @@ import type { Frame } from '../bricks/frame';
 
 /** Weight of the newest frame. */
 const weight = 0.3;
-/** Below this a frame tells more of timers than of the link. */
+/** The time of a smaller frame depends more on timers than on the link. */
 const smallestBytes = 16 << 10;
 
 export class LinkSpeed {
@@ -29,7 +29,7 @@ export class LinkSpeed {
     return this.bytesPerMs === undefined ? 0 : this.fullBytes / this.bytesPerMs / 1000;
   }
 
-  /** Of the mesh as reconstructed; 0 while nothing is known. */
+  /** The offset bits of the mesh as reconstructed; 0 while nothing is known. */
   get offsetBits(): number {
     return this.fullOffsetBits;
   }

@@ -23,8 +23,8 @@ export interface ParticleWatchEvents {
   received(bytes: number): void;
 }
 
-/** The watch of the meshes tells of these, too. */
-const toldElsewhere: ReadonlySet<Code> = new Set([
+/** The watch of the meshes reports these, too. */
+const reportedElsewhere: ReadonlySet<Code> = new Set([
   Code.unavailable,
   Code.notFound,
   Code.unauthenticated,
@@ -70,7 +70,7 @@ export class ParticleWatch {
       }
     } catch (error) {
       if (signal.aborted) return;
-      if (!(error instanceof RpcError && toldElsewhere.has(error.code))) this.events.failed(explain(error));
+      if (!(error instanceof RpcError && reportedElsewhere.has(error.code))) this.events.failed(explain(error));
     }
     if (!signal.aborted) this.retry = setTimeout(() => void this.run(signal), this.backoff.next());
   }

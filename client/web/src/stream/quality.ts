@@ -1,5 +1,5 @@
-// What to ask the server for: by whether the camera moves, and by how long a whole mesh takes to come.
-import type { Wishes } from './session_watch';
+// The quality of the meshes to ask for: it depends on the movement of the camera and on the time that a whole mesh takes.
+import type { WatchOptions } from './session_watch';
 
 export type Quality = 'full' | 'light' | 'coarse';
 
@@ -16,21 +16,21 @@ export function chooseQuality(moving: boolean, secondsPerFullMesh: number, befor
   return secondsPerFullMesh > (before === 'full' ? 1 : margin) * stillSeconds ? 'light' : 'full';
 }
 
-/** Of an attribute, per component: a still picture tells more shades apart than there are colors, for the probe. */
+/** Bits of an attribute, per component: a still picture has more steps than there are colors, for the probe. */
 const attributeBits: Record<Quality, number> = { full: 12, light: 8, coarse: 8 };
 
 /**
- * offsetBits: of the mesh as reconstructed; fewer bits than it has are smaller, more are not to be had. attribute: what vertices are
- * to carry.
+ * offsetBits: of the mesh as reconstructed; fewer bits than it has are smaller, more are not to be had. attribute: the name of the
+ * one that vertices are to carry.
  */
-export function wishesOf(quality: Quality, offsetBits: number, attribute?: string): Wishes {
-  const wishes = meshWishes(quality, offsetBits);
+export function watchOptions(quality: Quality, offsetBits: number, attribute?: string): WatchOptions {
+  const options = meshOptions(quality, offsetBits);
   return attribute === undefined
-    ? wishes
-    : { ...wishes, attributes: [{ name: attribute, bits: attributeBits[quality] }] };
+    ? options
+    : { ...options, attributes: [{ name: attribute, bits: attributeBits[quality] }] };
 }
 
-function meshWishes(quality: Quality, offsetBits: number): Wishes {
+function meshOptions(quality: Quality, offsetBits: number): WatchOptions {
   switch (quality) {
     case 'full':
       return {};

@@ -1,4 +1,4 @@
-// Watches one session for as long as it is wanted: connects, reconnects, changes its wishes, pauses.
+// Watches one session until it is stopped: connects, reconnects, changes its options, pauses.
 import { FrameReceiver } from '../bricks/frame_receiver';
 import type { Frame } from '../bricks/frame';
 import { Code, explain, RpcError } from '../rpc/status';
@@ -9,11 +9,11 @@ import { Backoff, reconnecting, resting } from './backoff';
 import { FrameOrder } from './frame_order';
 import type { WatchState } from './watch_state';
 
-export type Wishes = Omit<WatchRequestInit, 'sessionId'>;
+export type WatchOptions = Omit<WatchRequestInit, 'sessionId'>;
 
 export interface WatchServer {
   watch(
-    request: Wishes & { sessionId: string },
+    request: WatchOptions & { sessionId: string },
     signal: AbortSignal,
     opened: () => void,
   ): AsyncIterable<Received<WatchResponse>>;
@@ -22,7 +22,7 @@ export interface WatchServer {
 export interface WatchEvents {
   frame(frame: Frame): void;
   state(state: WatchState): void;
-  /** Of every message, as it comes. */
+  /** The size of every message, as it comes. */
   received(bytes: number): void;
 }
 
@@ -42,41 +42,41 @@ export class SessionWatch {
   private readonly order = new FrameOrder();
   private call: AbortController | undefined;
   private retry: ReturnType<typeof setTimeout> | undefined;
-  private wishes: Wishes;
+  private options: WatchOptions;
   private paused = false;
   /** Whether nothing is tried any more. */
   private over = false;
   /** When the session ended, ms since 1970; its simulator may make it again. */
   private endedAt: number | undefined;
-  /** What was told last. */
-  private told: WatchState['kind'] | undefined;
+  /** The kind of the last state that was reported. */
+  private reported: WatchState['kind'] | undefined;
 
   constructor(
     private readonly server: WatchServer,
     private readonly sessionId: string,
-    wishes: Wishes,
+    options: WatchOptions,
     private readonly events: WatchEvents,
   ) {
-    this.wishes = wishes;
+    this.options = options;
   }
 
   start(): void {
     this.stop();
     this.over = false;
     if (this.paused) {
-      // An end stays one, also for those who look at what came before it.
-      if (!this.tellEnd()) this.tell({ kind: 'paused' });
+      // An end stays one, also while a frame before it is looked at.
+      if (!this.reportEnd()) this.report({ kind: 'paused' });
       return;
     }
     const call = new AbortController();
     this.call = call;
-    if (this.endedAt === undefined) this.tell({ kind: 'connecting' });
+    if (this.endedAt === undefined) this.report({ kind: 'connecting' });
     void this.run(call.signal);
   }
 
-  /** Takes effect at once: the meshes that follow are as wished. */
-  setWishes(wishes: Wishes): void {
-    this.wishes = wishes;
+  /** Takes effect at once: the meshes that follow have these options. */
+  setOptions(options: WatchOptions): void {
+    this.options = options;
     if (this.call) this.start();
   }
 
@@ -97,11 +97,12 @@ export class SessionWatch {
   private async run(signal: AbortSignal): Promise<void> {
     const receiver = new FrameReceiver();
     const opened = (): void => {
-      if (!signal.aborted && (this.endedAt === undefined || this.told !== 'ended')) this.tell({ kind: 'connected' });
+      if (!signal.aborted && (this.endedAt === undefined || this.reported !== 'ended'))
+        this.report({ kind: 'connected' });
     };
     try {
       for await (const { message, bytes } of this.server.watch(
-        { ...this.wishes, sessionId: this.sessionId },
+        { ...this.options, sessionId: this.sessionId },
         signal,
         opened,
       )) {
@@ -110,7 +111,7 @@ export class SessionWatch {
       }
       if (signal.aborted) return;
       this.endedAt = Date.now();
-      this.tellEnd();
+      this.reportEnd();
       this.scheduleRetry();
     } catch (error) {
       if (!signal.aborted) this.fail(error);
@@ -120,12 +121,12 @@ export class SessionWatch {
   private take(receiver: FrameReceiver, message: WatchResponse, bytes: number): void {
     this.events.received(bytes);
     if (message.message.case === 'draining') {
-      this.tell({ kind: 'draining', seconds: message.message.value.seconds });
+      this.report({ kind: 'draining', seconds: message.message.value.seconds });
       return;
     }
     if (message.message.case === 'meshBegin' && !receiver.begun) {
       this.endedAt = undefined;
-      this.tell({ kind: 'live' });
+      this.report({ kind: 'live' });
     }
     const frame = receiver.take(message, bytes, performance.now());
     if (!frame) return;
@@ -143,9 +144,9 @@ export class SessionWatch {
       });
     else if (error.code === Code.unauthenticated || error.code === Code.permissionDenied)
       this.end({ kind: 'token', reason });
-    else if (error.code === Code.notFound && this.tellEnd()) this.scheduleRetry();
-    else if (error.code === Code.notFound) this.tell({ kind: 'absent', retryAt: this.scheduleRetry(), reason });
-    else if (passing.has(error.code)) this.tell({ kind: 'waiting', retryAt: this.scheduleRetry(), reason });
+    else if (error.code === Code.notFound && this.reportEnd()) this.scheduleRetry();
+    else if (error.code === Code.notFound) this.report({ kind: 'absent', retryAt: this.scheduleRetry(), reason });
+    else if (passing.has(error.code)) this.report({ kind: 'waiting', retryAt: this.scheduleRetry(), reason });
     else this.end({ kind: 'refused', reason });
   }
 
@@ -159,21 +160,21 @@ export class SessionWatch {
     return performance.now() + wait;
   }
 
-  private tell(state: WatchState): void {
-    this.told = state.kind;
+  private report(state: WatchState): void {
+    this.reported = state.kind;
     this.events.state(state);
   }
 
-  /** Unless that is what was told last; a server that was out of reach meanwhile is not the last word. False: it has not ended. */
-  private tellEnd(): boolean {
+  /** Reports the end, unless that was the last report; false: the session has not ended. After a failed try the end is reported again. */
+  private reportEnd(): boolean {
     if (this.endedAt === undefined) return false;
-    if (this.told !== 'ended') this.tell({ kind: 'ended', at: this.endedAt });
+    if (this.reported !== 'ended') this.report({ kind: 'ended', at: this.endedAt });
     return true;
   }
 
   private end(state: WatchState): void {
     this.call = undefined;
     this.over = true;
-    this.tell(state);
+    this.report(state);
   }
 }

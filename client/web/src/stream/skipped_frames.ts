@@ -1,4 +1,5 @@
-// How many frames of a run were not shown: replaced by newer ones at the server, on the way or here. The gaps in their indices tell.
+// Counts the frames of a run that were not shown, by the gaps in their indices: newer ones replaced them at the server, on the way or
+// here.
 import type { Frame } from '../bricks/frame';
 
 export class SkippedFrames {
@@ -15,7 +16,7 @@ export class SkippedFrames {
     this.last = frame;
   }
 
-  /** What comes between here and the next frame was not wanted. */
+  /** Frames between now and the next one are not wanted, and do not count. */
   pause(): void {
     this.last = undefined;
   }

@@ -32,9 +32,9 @@ export class BesideTool {
   private made: { readonly pane: Pane; readonly view: BesideView } | undefined;
   private chosen: string | undefined;
   private first: string | undefined;
-  /** Of the sessions that were offered, by id. */
+  /** The names of the sessions that were offered, by id. */
   private names = new Map<string, string>();
-  /** What there is to say of the session that is shown. */
+  /** The last remark about the session that is shown. */
   private said = '';
   private theme: Theme = 'light';
   private attribute: string | undefined;
@@ -59,7 +59,7 @@ export class BesideTool {
     return this.chosen === undefined ? undefined : this.made?.pane;
   }
 
-  /** What its pane shows. */
+  /** The content of its pane. */
   get shown(): Shown | undefined {
     return this.chosen === undefined ? undefined : this.made?.view.shown;
   }

@@ -1,4 +1,4 @@
-// What the surface is colored by: the choice, its panel, and what follows from it for each picture.
+// The color of the surface: the choice of a quantity, its panel, and the consequences for each picture.
 import type { VertexAttribute } from '../bricks/attributes';
 import type { Shown } from '../bricks/brick_store';
 import { colorText, componentNames, isRange, type ColorChoice, type ComponentName } from '../color/color_choice';
@@ -18,11 +18,11 @@ export interface ColoredPane {
 }
 
 export interface ColorToolEvents {
-  /** What the link tells. */
+  /** The state that the link has. */
   changed(): void;
   /** Vertices are to carry another attribute, or none. */
   attribute(name: string | undefined): void;
-  /** What is looked at does not have the attribute that was chosen. */
+  /** The session or the recording does not have the attribute that was chosen. */
   absent(reason: string): void;
   /** The first one is of what is looked at. */
   panes(): readonly ColoredPane[];
@@ -37,13 +37,13 @@ export class ColorTool {
   private readonly rangeSelect = element('color-range', HTMLSelectElement);
   private readonly ends = [element('color-low', HTMLInputElement), element('color-high', HTMLInputElement)] as const;
   private current: ColorChoice | undefined;
-  /** Of the choice, once a frame has told what the attribute is. */
+  /** The quantity of the choice, once a frame has announced the attribute. */
   private quantity: Quantity | undefined;
-  /** Of all frames that were shown. */
+  /** The range over all frames that were shown. */
   private seen: ValueRange | undefined;
   private range: ValueRange | undefined;
-  /** Whether it was told that the attribute is not there. */
-  private toldAbsent = false;
+  /** Whether the panel has shown that the attribute is not there. */
+  private absenceShown = false;
 
   constructor(private readonly events: ColorToolEvents) {
     this.mapSelect.replaceChildren(...colorMapNames.map((name) => new Option(name)));
@@ -70,7 +70,7 @@ export class ColorTool {
       end.addEventListener('change', () => {
         const range = this.ends.map(({ valueAsNumber }) => valueAsNumber);
         if (this.current && isRange(range)) this.choose({ ...this.current, range });
-        else this.tell();
+        else this.writeRange();
       });
   }
 
@@ -98,7 +98,7 @@ export class ColorTool {
       this.seen = undefined;
     }
     this.current = choice;
-    this.toldAbsent = false;
+    this.absenceShown = false;
     this.events.attribute(choice?.attribute);
     this.refresh();
   }
@@ -113,7 +113,7 @@ export class ColorTool {
     this.show();
   }
 
-  /** Of the picture; none where it is not colored. */
+  /** The legend of the picture; none where it is not colored. */
   legend(viewer: Viewer): ColorLegend | undefined {
     const { quantity, current, range } = this;
     if (!quantity || !current || !viewer.colored) return undefined;
@@ -147,7 +147,7 @@ export class ColorTool {
     return isRange(ends) ? ends : [round(low), round(low) + 1];
   }
 
-  /** What the attribute is, from the first frame that has it. */
+  /** Takes the form of the attribute from the first frame that has it. */
   private learn(panes: readonly ColoredPane[]): void {
     const { current } = this;
     if (!current || this.quantity) return;
@@ -197,13 +197,13 @@ export class ColorTool {
     for (const select of [this.mapSelect, this.rangeSelect]) select.parentElement!.hidden = !scaled;
     this.showRange(scaled ? this.current?.range : undefined);
     if (this.current) this.mapSelect.value = this.current.map;
-    this.tell();
+    this.writeRange();
     const absent = frame !== undefined && this.current !== undefined && !attribute;
-    if (absent && !this.toldAbsent) {
+    if (absent && !this.absenceShown) {
       this.setPanel(true);
       this.events.absent(this.problem()!);
     }
-    this.toldAbsent = absent;
+    this.absenceShown = absent;
   }
 
   /** The names, and the one that is chosen whether it is there or not. */
@@ -238,10 +238,10 @@ export class ColorTool {
       });
   }
 
-  /** The range, and in words what hinders. */
-  private tell(): void {
+  /** The range, and any problem in words. */
+  private writeRange(): void {
     write('color-numbers', this.range ? rangeText(this.range) : '');
-    // Said aloud, when it changes, to those that cannot see it.
+    // Screen readers read it aloud when it changes.
     write('color-problem', this.problem() ?? '');
   }
 

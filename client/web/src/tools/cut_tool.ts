@@ -9,7 +9,7 @@ export interface CutToolEvents {
   changed(cut: Cut | undefined): void;
   /** In which the plane can lie; none: there is nothing to cut. */
   box(): WorldBox | undefined;
-  /** Of the camera, world units. */
+  /** The place of the camera, world units. */
   camera(): Point;
 }
 

@@ -17,7 +17,7 @@ export function followPointer(canvas: HTMLElement, events: PointerEvents): void 
     if (event.buttons === 0) events.over(spotOf(event));
   });
   canvas.addEventListener('pointerdown', (event) => {
-    // Of two fingers neither taps.
+    // Two fingers do not tap.
     pressed = event.isPrimary && event.button === 0 ? spotOf(event) : undefined;
   });
   canvas.addEventListener('pointerup', (event) => {

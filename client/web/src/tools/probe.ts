@@ -1,4 +1,4 @@
-// Tells what is under the pointer.
+// Shows the place and the value under the pointer.
 import { element } from '../ui/page';
 import { placeText } from '../ui/texts';
 import type { Point } from '../view/bounds';

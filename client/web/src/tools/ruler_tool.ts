@@ -37,7 +37,7 @@ export class RulerTool {
     this.ends = this.ends.length === 2 ? [point] : [...this.ends, point];
   }
 
-  /** Of the distance; empty until there are both ends. */
+  /** The distance in words; empty until there are both ends. */
   text(unit: string, decimals: number): string {
     return this.both ? lengthText(measure(...this.both).distance, unit, decimals) : '';
   }

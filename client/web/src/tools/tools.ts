@@ -1,4 +1,4 @@
-// What a person measures and keeps a picture with: views, cut, probe, ruler, scale, a session beside, pictures and videos.
+// The tools to measure and to keep pictures: views, cut, probe, ruler, scale, a session beside, pictures and videos.
 import type { Frame } from '../bricks/frame';
 import type { ColorChoice } from '../color/color_choice';
 import type { DecodePool } from '../decode/decode_pool';
@@ -12,7 +12,7 @@ import type { WatchState } from '../stream/watch_state';
 import { download } from '../ui/download';
 import type { PageState } from '../ui/link';
 import { element } from '../ui/page';
-import { coveredMargins, tellHeightOfControls } from '../ui/panels';
+import { coveredMargins, keepPanelsAboveControls } from '../ui/panels';
 import type { Playback } from '../ui/playback';
 import { decimalsOf, lengthText } from '../ui/texts';
 import type { ToolsState } from '../ui/tools_link';
@@ -32,12 +32,12 @@ import { RulerTool } from './ruler_tool';
 import { VideoTool } from './video_tool';
 
 export interface ToolsEvents {
-  /** What the link tells. */
+  /** The state that the link has. */
   changed(): void;
   /** The camera, in the second picture. */
   moving(moving: boolean): void;
   failed(reason: string): void;
-  /** What the vertices of what is looked at are to carry, or nothing. */
+  /** The attribute that the vertices are to carry, or none. */
   attribute(name: string | undefined): void;
   /** There is no such attribute: the panel says so, too. */
   absent(reason: string): void;
@@ -182,12 +182,12 @@ export class Tools {
     });
     this.follow(water, () => this.main);
     this.follow(element('view-beside', HTMLCanvasElement), () => this.beside.pane);
-    tellHeightOfControls(() => {
+    keepPanelsAboveControls(() => {
       this.viewer.resize();
     });
   }
 
-  /** Of the scene: what a person has chosen, or else what the session says. */
+  /** The scene's up axis: a person's choice, or else the session's. */
   get up(): UpAxis {
     return this.chosenUp ?? this.facts?.up ?? 'y';
   }
@@ -268,7 +268,7 @@ export class Tools {
   /** A picture has been drawn. */
   rendered(): void {
     this.annotate(this.main);
-    // What a person moves must not be moved back meanwhile.
+    // A camera that a person moves must not be moved back meanwhile.
     if (!this.besideMoves) this.beside.follow();
   }
 
@@ -280,7 +280,7 @@ export class Tools {
     return this.facts?.unit ?? '';
   }
 
-  /** Of lengths: a hundredth of the finest cell's edge. */
+  /** The digits of lengths: a hundredth of the finest cell's edge. */
   private get decimals(): number {
     return decimalsOf(this.frame?.cellSize ?? 1);
   }

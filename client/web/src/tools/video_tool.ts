@@ -27,7 +27,7 @@ export class VideoTool {
     this.live?.take(pane);
   }
 
-  /** What there is of a live video is saved. */
+  /** Saves the part of a live video that there is. */
   stop(): void {
     this.dialog.close();
     if (this.live) void this.finish();

@@ -7,7 +7,7 @@ export function arrange(list: HTMLElement, items: readonly HTMLElement[]): void 
   items.forEach((item, i) => {
     if (list.children[i] !== item) list.insertBefore(item, list.children[i] ?? null);
   });
-  // What was moved has lost it.
+  // An element that was moved has lost the focus.
   if (activeElement instanceof HTMLElement && activeElement !== document.activeElement && list.contains(activeElement))
     activeElement.focus({ preventScroll: true });
 }

@@ -23,7 +23,7 @@ export class Banner {
   watching(state: WatchState): void {
     switch (state.kind) {
       case 'connecting':
-        // What was said before an attempt holds until it has succeeded.
+        // The text before an attempt holds until it has succeeded.
         clearInterval(this.ticking);
         if (this.countdown.textContent !== '') this.countdown.textContent = ' now.';
         return;

@@ -3,7 +3,7 @@ import { arrange } from './arrange';
 
 export interface Choice {
   readonly name: string;
-  /** What people call it; empty: its name alone. */
+  /** The title for people; empty: its name alone. */
   readonly title: string;
   readonly about: string;
   chosen(): void;

@@ -1,4 +1,4 @@
-// What is looked at, by name, and whether it is live: in the page's head and in the tab's title.
+// The name of the session or the recording, and whether it is live: in the page's head and in the tab's title.
 import type { Recording } from '../gen/meniscus/v1/recording_service_pb';
 import type { Session } from '../gen/meniscus/v1/session_service_pb';
 import { givenName, shortId } from '../list/session_name';
@@ -44,17 +44,17 @@ export class Heading {
     this.say(`Recording ${recordingNameText(name)}`, `Recording of ${shortId(name.session)}`);
   }
 
-  /** Of the recording that is shown. */
+  /** Takes the description of the recording that is shown. */
   described(recording: Recording): void {
     const name = givenName(recording);
     if (name !== '') this.say(`Recording ${recording.number} of ${name}`, `Recording of ${name}`);
   }
 
-  /** Of the session that is shown. */
+  /** Takes the state of the watch of the session that is shown. */
   watching(state: WatchState): void {
     if (this.session === undefined) return;
     this.watch = state;
-    this.tellLiveness();
+    this.updateLiveness();
     // It streams, or does so again: that is not to be learned only when its time has come.
     if (state.kind === 'live' && this.uploading !== true) this.ask();
   }
@@ -65,7 +65,7 @@ export class Heading {
     this.watch = { kind: 'connecting' };
     this.uploading = undefined;
     this.restsSince = undefined;
-    this.tell({ text: '', live: false });
+    this.showLiveness({ text: '', live: false });
   }
 
   private ask(): void {
@@ -77,7 +77,7 @@ export class Heading {
       .then((answer) => {
         if (session === this.session) this.take(answer);
       })
-      // The watch tells what is wrong.
+      // The watch reports errors.
       .catch(() => undefined)
       .then(() => {
         if (session !== this.session) return;
@@ -95,15 +95,15 @@ export class Heading {
     if (session.uploading) this.restsSince = undefined;
     else if (this.uploading === true) this.restsSince = Date.now();
     this.uploading = session.uploading;
-    this.tellLiveness();
+    this.updateLiveness();
   }
 
-  private tellLiveness(): void {
+  private updateLiveness(): void {
     const liveness = livenessOf(this.watch, this.uploading, this.restsSince);
-    if (liveness) this.tell(liveness);
+    if (liveness) this.showLiveness(liveness);
   }
 
-  private tell({ text, live }: Liveness): void {
+  private showLiveness({ text, live }: Liveness): void {
     if (this.badge.textContent !== text) this.badge.textContent = text;
     this.badge.classList.toggle('live', live);
   }

@@ -1,4 +1,4 @@
-// The page's address tells what is looked at: the session or the recording, and from where.
+// The page's address holds the session or the recording, and the place of the camera.
 import { readRecordingName, recordingNameText, type RecordingName } from '../recordings/recording_name';
 import type { Point } from '../view/bounds';
 import type { CameraPlace, Look } from '../view/viewer';
@@ -9,13 +9,13 @@ import { linkNumber, numbers, readToolsLink, writeToolsLink, type ToolsState } f
 export interface PageState extends ToolsState {
   readonly session?: string;
   readonly recording?: RecordingName;
-  /** Of a recording's frame, by its place. */
+  /** The place of a recording's frame. */
   readonly position?: number;
   readonly camera?: CameraPlace;
   readonly look?: Look;
   /** None: what the session says. */
   readonly up?: UpAxis;
-  /** What it names that cannot be, in words. */
+  /** A session or a recording in it that cannot be, in words. */
   readonly problem?: string;
 }
 
@@ -23,7 +23,7 @@ export function isSessionId(text: string): boolean {
   return sessionForm.test(text);
 }
 
-/** What is not understood is left out; of a session or a recording it is told. hash: with or without its sign. */
+/** Fields that cannot be read are left out; for a session or a recording there is a problem. hash: with or without its sign. */
 export function readLink(hash: string): PageState {
   const fields = new URLSearchParams(hash.replace(/^#/, ''));
   const session = fields.get('session');

@@ -45,7 +45,7 @@ export class Overlay {
   frameDrawn(frame: Frame, levels: readonly number[]): void {
     set('frame', `${countText(frame.index)} (${frame.simulationTime.toFixed(2)} s)`);
     const { sprayParticles, volume, particleVolume } = frame.statistics;
-    // Recordings of before have no volumes.
+    // Older recordings have no volumes.
     set('spray', particleVolume > 0 ? countText(sprayParticles) : unknown);
     set('volume', particleVolume > 0 ? volumeText(volume, particleVolume) : unknown);
     set('triangles', countText(frame.triangleCount));
@@ -57,7 +57,7 @@ export class Overlay {
     this.warnings.show(frame.statistics.warnings);
   }
 
-  /** What is drawn of the frame's particles, if any are. */
+  /** Takes the particles of the frame that are drawn, if any are. */
   particlesDrawn(frame: Frame, drawn: Particles | undefined): void {
     const part = drawn && drawn.stride > 1 ? `, 1 in ${drawn.stride} drawn` : '';
     const other = drawn && drawn.index !== frame.index ? `, drawn of frame ${countText(drawn.index)}` : '';

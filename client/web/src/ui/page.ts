@@ -1,4 +1,4 @@
-// Finds the page's elements: one that is missing is a defect, told at once.
+// Finds the page's elements: one that is missing is a defect, and an error at once.
 
 export function element<T extends HTMLElement>(id: string, type: new () => T): T {
   const found = document.getElementById(id);

@@ -1,4 +1,4 @@
-// What of the picture the panels cover.
+// The part of the picture that the panels cover.
 import type { Margins } from '../view/fit';
 import { element } from './page';
 
@@ -20,7 +20,7 @@ export function coveredMargins(water: HTMLCanvasElement): Margins {
 }
 
 /** Lays the panels above the controls, however many lines these have. */
-export function tellHeightOfControls(changed: () => void): void {
+export function keepPanelsAboveControls(changed: () => void): void {
   const [controls, panels] = [element('controls', HTMLElement), element('panels', HTMLElement)];
   const observer = new ResizeObserver(() => {
     element('watch', HTMLElement).style.setProperty('--controls', `${controls.offsetHeight}px`);

@@ -1,7 +1,7 @@
 // Pause, step and scrub: over the frames that are kept, or over a recording.
 import { element } from './page';
 
-/** What is played, by place. */
+/** A sequence of frames that is played, by place. */
 export interface Reel {
   readonly length: number;
   /** Frame and time, where they are known. */
@@ -16,7 +16,7 @@ export interface Reel {
 export class Playback {
   private readonly pauseButton = element('pause', HTMLButtonElement);
   private readonly scrub = element('scrub', HTMLInputElement);
-  /** For those who see the slider. */
+  /** The frame, in words, beside the slider. */
   private readonly text = element('at', HTMLElement);
   private reel: Reel | undefined;
   private isPaused = false;
@@ -40,7 +40,7 @@ export class Playback {
     return this.isPaused;
   }
 
-  /** Of the slider. */
+  /** The place of the slider. */
   get at(): number {
     return Number(this.scrub.value);
   }

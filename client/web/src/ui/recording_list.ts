@@ -1,4 +1,4 @@
-// What the server has recorded, below the sessions; not there where it records nothing. Follows by itself while it is shown.
+// The server's recordings, below the sessions; not there where it records nothing. Follows by itself while it is shown.
 import type { Recording } from '../gen/meniscus/v1/recording_service_pb';
 import { recordingNameText, type RecordingName } from '../recordings/recording_name';
 import { givenName } from '../list/session_name';
@@ -53,7 +53,7 @@ export class RecordingList {
       this.fill(recordings);
     } catch (error) {
       if (showing !== this.showing) return;
-      // Other errors are the list of sessions' to tell.
+      // The list of sessions shows other errors.
       if (error instanceof RpcError && error.code === Code.unimplemented) {
         this.fill([]);
         return;

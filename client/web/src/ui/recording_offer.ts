@@ -1,4 +1,4 @@
-// Of a session that has ended: its newest recording, where the server has one.
+// The newest recording of a session that has ended, where the server has one.
 import type { Recording } from '../gen/meniscus/v1/recording_service_pb';
 import type { RecordingName } from '../recordings/recording_name';
 import type { Server } from '../rpc/server';

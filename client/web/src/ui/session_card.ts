@@ -54,7 +54,7 @@ function about(session: Session, rate: number | undefined, now: number): string 
       `${countText(session.lastFrame.triangles)} triangles`,
     );
   parts.push(`${session.watchers} ${session.watchers === 1 ? 'watcher' : 'watchers'}`);
-  // Servers of before do not say when.
+  // Older servers do not send the time.
   if (session.createdAt > 0n) parts.push(`made ${ageText(now / 1000 - Number(session.createdAt) / 1e6)} ago`);
   if (session.owner !== '') parts.push(`of ${session.owner}`);
   return parts.join(', ');

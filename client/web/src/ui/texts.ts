@@ -23,7 +23,7 @@ export function frameText({ index, simulationTime }: { index: bigint; simulation
   return `frame ${index}, ${simulationTime.toFixed(2)} s`;
 }
 
-/** Digits after the point with which a length tells a hundredth of `step` apart, and no more. */
+/** Digits after the point that show a hundredth of `step`, and no more. */
 export function decimalsOf(step: number): number {
   return Math.min(12, Math.max(0, Math.ceil(2 - Math.log10(step))));
 }
@@ -63,7 +63,7 @@ export function rateText(perSecond: number): string {
   return `${perSecond < 10 ? Number(perSecond.toFixed(1)) : Math.round(perSecond)} frames/s`;
 }
 
-/** Of this day, on this machine's clock. at: ms since 1970. */
+/** A time of this day, on this machine's clock. at: ms since 1970. */
 export function clockText(at: number): string {
   return new Date(at).toLocaleTimeString('en-GB');
 }

@@ -1,4 +1,4 @@
-// What the link tells of the tools.
+// The state of the tools in the link.
 import type { Point } from '../view/bounds';
 import type { Cut } from '../view/cut';
 import { readColorLink, writeColorLink, type ColorChoice } from '../color/color_choice';
@@ -15,11 +15,11 @@ export interface ToolsState {
   readonly scale?: 'off';
   /** Without the domain's box. */
   readonly domain?: 'off';
-  /** What the surface is colored by. */
+  /** The quantity of the surface's colors. */
   readonly color?: ColorChoice;
 }
 
-/** What is not understood is left out. */
+/** Fields that cannot be read are left out. */
 export function readToolsLink(fields: URLSearchParams): ToolsState {
   const cut = readCut(fields.get('cut'));
   const ruler = numbers(fields.get('ruler'));
@@ -60,7 +60,7 @@ export function numbers(text: string | null): number[] | undefined {
   return read.every(Number.isFinite) ? read : undefined;
 }
 
-/** Of nine digits. */
+/** The number, rounded to nine digits. */
 export function linkNumber(x: number): number {
   return Number(x.toPrecision(9));
 }

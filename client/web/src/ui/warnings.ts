@@ -1,7 +1,7 @@
-// What looks like a mistake in the newest frame, in the server's words. Each kind can be sent away for as long as the page
+// Warnings about the newest frame, in the server's words. Each kind can be sent away for as long as the page
 // lives.
 
-/** What is shown of the contract's Warning. */
+/** The parts of the contract's Warning that are shown. */
 export interface FrameWarning {
   readonly code: number;
   readonly text: string;

@@ -1,4 +1,4 @@
-// What is drawn over a picture: scale bar, axes, ruler, probe. On a canvas of their own, which pictures and videos are made of as well.
+// The annotations over a picture: scale bar, axes, ruler, probe. On a canvas of their own, which pictures and videos are made of as well.
 import { drawAxes } from './axes_gizmo';
 import type { Point } from './bounds';
 import { drawColorLegend, legendText, type ColorLegend } from './color_legend';
@@ -14,7 +14,7 @@ export interface Marks {
   readonly probe: Point | undefined;
   /** None, one or two points. */
   readonly ruler: readonly Point[];
-  /** Of a length on the scale bar, and of one on the ruler. */
+  /** The text of a length on the scale bar, and of one on the ruler. */
   readonly scaleText: (length: number) => string;
   readonly rulerText: string;
   /** None where nothing is colored. */
@@ -23,7 +23,7 @@ export interface Marks {
 
 /** CSS pixels, from the left and from what covers the bottom. */
 const inset = 18;
-/** Of scale bar and axes, and above them. */
+/** The room of scale bar and axes, and above them. */
 const scaleWidth = 140;
 const scaleHeight = 125;
 /** Narrower, the legend lies above the scale. */
@@ -46,7 +46,7 @@ export class Annotations {
     const nothing = empty || (!marks.scale && !marks.probe && marks.ruler.length === 0 && !marks.legend);
     if (nothing && !this.drawn) return;
     this.drawn = !nothing;
-    this.tellLegend(nothing ? undefined : marks.legend);
+    this.describeLegend(nothing ? undefined : marks.legend);
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const density = Math.min(2, devicePixelRatio);
     const [pixelsX, pixelsY] = [Math.round(width * density), Math.round(height * density)];
@@ -77,7 +77,7 @@ export class Annotations {
     const { length, pixels } = scaleBar(worldPerPixel(this.viewer.viewDistance, camera.fov, height));
     drawScaleBar(pen, [inset, bottom], pixels, marks.scaleText(length));
     drawAxes(pen, [inset + 34, bottom - 66], this.viewer.upAxis, camera.quaternion);
-    // For those who look from outside: tests, and assistive tools.
+    // For readers outside of the page: tests, and assistive tools.
     this.canvas.dataset.scale = marks.scaleText(length);
   }
 
@@ -90,8 +90,8 @@ export class Annotations {
     drawColorLegend(pen, [scale && !above ? beside : inset, right, above ? bottom - scaleHeight : bottom], legend);
   }
 
-  /** For those who look from outside: tests, and assistive tools. */
-  private tellLegend(legend: ColorLegend | undefined): void {
+  /** For readers outside of the page: tests, and assistive tools. */
+  private describeLegend(legend: ColorLegend | undefined): void {
     if (legend) this.canvas.dataset.legend = legendText(legend);
     else delete this.canvas.dataset.legend;
   }

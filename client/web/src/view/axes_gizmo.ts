@@ -7,7 +7,7 @@ import { alongAxis, axes, toScene, type Axis, type UpAxis } from './up_axis';
 const arm = 24;
 const toLetter = 33;
 
-/** Vermilion, green, blue: told apart by the color-blind, too. */
+/** Vermilion, green, blue: the color-blind can distinguish them, too. */
 const colors: Record<Axis, string> = { x: '#d4471c', y: '#1b8f5a', z: '#2f74d0' };
 
 /** Where an axis points in the picture: right, down, and towards the eye. turn: the camera's, in the scene. */

@@ -28,7 +28,7 @@ export function center({ min, max }: WorldBox): Point {
   return [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
 }
 
-/** Those that there are, in one. */
+/** One box around the boxes that are there. */
 export function unionOf(boxes: readonly (WorldBox | undefined)[]): WorldBox | undefined {
   return boxes.reduce((all, box) => (all && box ? union(all, box) : (all ?? box)), undefined);
 }

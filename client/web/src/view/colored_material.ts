@@ -8,7 +8,7 @@ import { surfaceFragmentGlsl, surfaceVertexShader } from './surface_shader';
 
 const mapColors = 256;
 
-/** What differs: how the color of a fragment comes about. An id has no mean: its triangles are of the color of one corner. */
+/** The shaders' differences: the origin of a fragment's color. An id has no mean: its triangles are of the color of one corner. */
 const shading: Record<QuantityKind, { readonly value: string; readonly declare: string; readonly color: string }> = {
   number: {
     value: 'attribute float value;',

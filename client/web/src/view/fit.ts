@@ -1,7 +1,7 @@
 // From where a camera sees all of some points beside what covers the picture.
 import { Vector3, type PerspectiveCamera } from 'three';
 
-/** What covers the picture along its edges, pixels. */
+/** The covered margins along the picture's edges, pixels. */
 export interface Margins {
   readonly top: number;
   readonly right: number;

@@ -14,7 +14,7 @@ export function plainLineMaterials(): LineBasicMaterial[] {
   return levelColors.map(() => material);
 }
 
-/** What the wires lie on, and what hides those behind. */
+/** The surface that the wires lie on, and that hides wires behind it. */
 export function levelSurfaceMaterial(): ShaderMaterial {
   return new ShaderMaterial({
     uniforms: { surfaceColor: { value: [0, 0, 0] } },

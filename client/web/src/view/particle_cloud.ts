@@ -39,7 +39,7 @@ export class ParticleCloud {
     this.show(this.current, origin);
   }
 
-  /** Of the picture, in its own pixels. */
+  /** Sets the height of the picture, in its own pixels. */
   setScreenHeight(pixels: number): void {
     this.material.uniforms.screenHeight.value = pixels;
   }

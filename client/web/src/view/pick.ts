@@ -1,4 +1,4 @@
-// What a ray meets first: a point of the surface, or of the face of a cut through it.
+// The first point that a ray meets: on the surface, or on the face of a cut through it.
 import { Box3, Ray, Triangle, Vector3 } from 'three';
 import type { Shown, ShownBrick } from '../bricks/brick_store';
 import { brickEdge, type Frame } from '../bricks/frame';
@@ -9,7 +9,7 @@ import { depthInKept, type Cut } from './cut';
 /** World units. */
 export interface WorldRay {
   readonly origin: Point;
-  /** Of length 1. */
+  /** A direction of length 1. */
   readonly direction: Point;
 }
 
@@ -17,14 +17,14 @@ export interface WorldRay {
 export interface Spot {
   readonly brick: DecodedBrick;
   readonly points: readonly [number, number, number];
-  /** Of the points; they sum to 1. */
+  /** The weights of the points; they sum to 1. */
   readonly weights: readonly [number, number, number];
 }
 
 export interface Pick {
   /** World units. */
   readonly place: Point;
-  /** Of the triangle; none on the face of a cut. */
+  /** The level of the triangle; none on the face of a cut. */
   readonly level: (typeof triangleLevels)[number] | undefined;
   /** None on the face of a cut. */
   readonly spot: Spot | undefined;

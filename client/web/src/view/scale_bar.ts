@@ -1,4 +1,4 @@
-// A bar of a round length, which tells how large things are where the camera looks.
+// A bar of a round length: the scale at the place that the camera looks at.
 import { drawLine, drawText, type Pen } from './pen';
 
 /** CSS pixels. */
@@ -12,7 +12,7 @@ export function roundLength(limit: number): number {
   return candidates.map(Number).find((length) => length <= limit)!;
 }
 
-/** World units per CSS pixel of a picture so many pixels high. distance: from the camera, world units. fov: degrees, of the height. */
+/** World units per CSS pixel. distance: from the camera, world units. fov: degrees, of the height. height: of the picture, CSS pixels. */
 export function worldPerPixel(distance: number, fov: number, height: number): number {
   return (2 * distance * Math.tan((fov * Math.PI) / 360)) / height;
 }

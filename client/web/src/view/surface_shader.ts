@@ -1,4 +1,4 @@
-// What the materials of the surface share: its place and its normal from the vertex stage, and the normal toward the eye in the fragment's.
+// The common shader code of the surface's materials: its place and its normal from the vertex stage, and the normal toward the eye in the fragment's.
 
 const shared = /* glsl */ `
 varying vec3 place;

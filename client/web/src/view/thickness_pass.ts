@@ -19,9 +19,9 @@ import {
 } from 'three';
 import type { EnvironmentUniforms } from './environment';
 
-/** Of the water's surface: that of every object unless it is told otherwise. */
+/** The layer of the water's surface, and of every object that is put in no other. */
 export const waterLayer = 0;
-/** Of what is in the picture without being water. */
+/** The layer of objects in the picture that are not water. */
 export const pictureLayer = 1;
 
 export class ThicknessPass {

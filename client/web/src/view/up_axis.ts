@@ -10,7 +10,7 @@ export function isAxis(text: string): text is Axis {
   return (axes as readonly string[]).includes(text);
 }
 
-/** Of length 1, in world axes. */
+/** A vector of length 1, in world axes. */
 export function alongAxis(axis: Axis): Point {
   return axes.map((each) => (each === axis ? 1 : 0)) as Point;
 }

@@ -32,7 +32,7 @@ export type Look = 'water' | 'levels';
 export interface Coloring {
   readonly quantity: Quantity;
   readonly map: ColorMap;
-  /** Of numbers; none without any. */
+  /** The range of numbers; none without any. */
   readonly range: ValueRange | undefined;
 }
 
@@ -44,7 +44,7 @@ export interface CameraPlace {
 export interface ViewerEvents {
   /** A picture has been drawn, of a frame or of nothing. The canvas can be read until this returns. */
   rendered(): void;
-  /** A picture of the frame has been drawn, with so many triangles, or with particles. */
+  /** A picture of the frame has been drawn, of its triangles (their number), or of particles. */
   drawn(frame: Frame, triangles: number, particles: Particles | undefined): void;
   moving(moving: boolean): void;
   /** The browser has taken the graphics hardware away, or given it back. */
@@ -77,19 +77,19 @@ export class Viewer {
   private readonly spray = new SprayCloud();
   private readonly domainBox = new DomainBox();
   readonly controls: CameraControls;
-  /** What the scene's coordinates are relative to, so that they stay small wherever the water is. */
+  /** The origin of the scene's coordinates, so that they stay small wherever the water is. */
   private origin: Point = [0, 0, 0];
   private shown: Shown | undefined;
   private look: Look = 'water';
   private up: UpAxis = 'y';
   private cut: Cut | undefined;
   private domain: WorldBox | undefined;
-  /** What is to be in view with the mesh. */
+  /** A box to keep in view with the mesh. */
   private beside: WorldBox | undefined;
   private scheduled = false;
   /** Since the last picture. */
   private waterChanged = true;
-  /** What the camera was placed to show, until a person moves it. */
+  /** The box that the camera was placed to show, until a person moves it. */
   private following: WorldBox | undefined;
   /** From there to the camera, in the scene. */
   private direction = fitDirection;
@@ -97,7 +97,7 @@ export class Viewer {
   /** Throws if there is no WebGL 2. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
-    /** What covers the canvas now. */
+    /** The margins of the canvas that are covered now. */
     private readonly covered: () => Margins,
     private readonly events: ViewerEvents,
   ) {
@@ -166,7 +166,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** What else is to be in view wherever all of the mesh is. */
+  /** Sets another box to keep in view wherever all of the mesh is. */
   setBeside(box: WorldBox | undefined): void {
     this.beside = box;
     this.setReach();
@@ -215,7 +215,7 @@ export class Viewer {
     return this.coloring !== undefined && this.particles.shown === undefined;
   }
 
-  /** What covers the canvas, with the legend of the colors. */
+  /** The covered margins of the canvas, with the legend of the colors. */
   private get margins(): Margins {
     const margins = this.covered();
     return this.colored ? { ...margins, bottom: margins.bottom + legendHeight } : margins;
@@ -297,7 +297,7 @@ export class Viewer {
     return this.up;
   }
 
-  /** Of the scene, whose coordinates inScene() gives. */
+  /** The camera of the scene, whose coordinates inScene() gives. */
   get camera(): PerspectiveCamera {
     return this.controls.camera;
   }
@@ -335,7 +335,7 @@ export class Viewer {
   lookAlong(axis: Axis): void {
     const direction = toScene(alongAxis(axis), [0, 0, 0], this.up);
     if (this.following && this.direction.dot(direction) > 0.99) direction.negate();
-    // Straight up and down there is no telling what is right and left.
+    // A view straight up or down has no right and left.
     if (direction.y !== 0) direction.z += 1e-3;
     this.lookFrom(direction.normalize());
   }
@@ -393,7 +393,7 @@ export class Viewer {
     if (box) this.controls.setReach(size(box));
   }
 
-  /** What depends on where the scene's origin lies and which axis is up. */
+  /** Sets the parts that depend on the scene's origin and the up axis. */
   private placeInScene(): void {
     this.cutPlanes.splice(0, 1, ...(this.cut ? [cutPlane(this.cut, this.origin, this.up)] : []));
     this.domainBox.show(this.domain, this.origin);

@@ -15,7 +15,7 @@ export interface BrickOptions {
   positions: [number, number, number][];
   normals?: [number, number, number][];
   triangles: [number, number, number][];
-  /** Of the base cells that hold triangles, in order. */
+  /** The levels of the base cells that hold triangles, in order. */
   levels: number[];
   /** As the server codes them: numbers of uint8, uint16 or float32; of an id its four bytes. */
   attributes?: { form: CodedAttribute; coded: Uint8Array | Uint16Array | Float32Array }[];

@@ -10,7 +10,7 @@ export interface FrameOptions {
   bricks?: { place: Place; triangles?: number; parts?: number[][] }[];
   base?: number;
   vanished?: Place[];
-  /** Of the whole mesh as the receiver then has it. */
+  /** The triangles of the whole mesh as the receiver then has it. */
   triangles?: number;
   /** x y z of each point, by message. */
   spray?: number[][];
