@@ -18,10 +18,15 @@ namespace meniscus::cpu {
 /// Step 1: sorts a valid frame's particles, and stores the base cells that they reach. Throws LimitExceeded where the
 /// particles crowd, or bring too much work.
 void register_particles(State& state, ParticleSets& sets, NeighborSearch& near, const ParticleFrame& frame);
+/// Its parts. Sorts the particles, reads what vertices ask of them, and finds their support cells.
+void sort_particles(ParticleSets& sets, const ParticleFrame& frame, const AttributeNumbers& numbers);
 /// Gives every particle a support that fits its neighborhood, and the volume that it stands for: the smooth field.
 void fit_supports(ParticleSets& sets, NeighborSearch& near);
 /// Divides the particles' weights by the density at their places: the color field.
 void divide_weights_by_density(ParticleSets& sets, NeighborSearch& near);
+/// Fills `grid` with the base cells that a particle's support reaches; numbers stay to be given. Returns the pairs of a
+/// base cell and a particle near it, about.
+std::uint64_t mark_reached_cells(ParticleSets& sets, BrickGrid& grid);
 /// Numbers the members of a grid whose bits are set, and finds its bricks' neighbors.
 void number_members(BrickGrid& grid, Workers& workers);
 /// Sizes the arrays for the grid's members; no point is sampled, no cell is in the band.
