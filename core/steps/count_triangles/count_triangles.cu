@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "engine/cuda/warp.hpp"
-#include "steps/count_triangles/warp_signs.hpp"
+#include "engine/cuda/warp_signs.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/fill_cracks/fill_cracks.hpp"
 #include "steps/fill_cracks/warp_cracks.hpp"

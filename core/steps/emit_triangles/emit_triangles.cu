@@ -3,7 +3,8 @@
 
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
-#include "steps/emit_triangles/vertex_counts.hpp"
+#include "steps/emit_triangles/triangle_rows.hpp"
+#include "steps/place_vertices/vertex_counts.hpp"
 
 namespace meniscus::cuda {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "engine/cuda/warp.hpp"
+#include "engine/cuda/warp_signs.hpp"
 #include "lattice/blocks.hpp"
-#include "steps/count_triangles/warp_signs.hpp"
 #include "steps/fill_cracks/fill_cracks.hpp"
 
 namespace meniscus::cuda {
