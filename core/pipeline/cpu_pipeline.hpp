@@ -24,6 +24,8 @@ public:
     void sample_edge_middles() { cpu::sample_edge_middles(state_, field_); }
     void count_triangles() { cpu::count_triangles(state_, mesh_); }
     void place_vertices() { cpu::place_vertices(state_, field_, mesh_); }
+    /// Nothing: the surface may be emitted once more.
+    void release() {}
     void emit_triangles() { cpu::emit_triangles(state_, mesh_); }
     void fill_cracks() { cpu::fill_cracks(state_, mesh_); }
     void measure_volume() { cpu::measure_volume(state_, mesh_); }
@@ -50,8 +52,8 @@ public:
     void register_particles() { cpu::register_particles(state_, sets_, near_, frame_); }
     void sample_base_vertices() { cpu::sample_base_vertices(state_, near_); }
     void split_cells() { wanted_level_ = cpu::split_cells(state_, near_, !frame_.levels.empty()); }
-    void place_vertices() {
-        SurfaceSteps::place_vertices();
+    /// Samples and particles of a frame that no other follows.
+    void release() {
         // The greatest sample is looked up where no triangle is.
         if (!is_last_ || mesh_.vertices.empty()) return;
         state_.release_samples();

@@ -21,6 +21,8 @@ public:
     void sample_edge_middles() { cuda::sample_edge_middles(state_, field_, launch_); }
     void count_triangles() { cuda::count_triangles(state_, launch_); }
     void place_vertices() { cuda::place_vertices(state_, field_, launch_); }
+    /// Nothing: a graph may run once more with the same arrays.
+    void release() {}
     void emit_triangles() { cuda::emit_triangles(state_, launch_); }
     void fill_cracks() { cuda::fill_cracks(state_, launch_); }
     void measure_volume() { cuda::measure_volume(state_, launch_); }
