@@ -81,23 +81,26 @@ MENISCUS_HD T* first_of(T* array) {
 
 /// grid: of the blocks; count: how many there are.
 template <class State>
-MENISCUS_HD BlocksView blocks_view(State& s, const BrickGridView& grid, std::uint32_t count) {
+MENISCUS_HD BlocksView blocks_view(State& state, const BrickGridView& grid, std::uint32_t count) {
     return {grid,
             count,
-            first_of(s.brick),
-            first_of(s.place),
-            first_of(s.level),
-            first_of(s.sampled),
-            first_of(s.inside),
-            first_of(s.first_sample),
-            first_of(s.samples),
-            first_of(s.edges),
-            first_of(s.first_vertex)};
+            first_of(state.brick),
+            first_of(state.place),
+            first_of(state.level),
+            first_of(state.sampled),
+            first_of(state.inside),
+            first_of(state.first_sample),
+            first_of(state.samples),
+            first_of(state.edges),
+            first_of(state.first_vertex)};
 }
 
 template <class State>
-MENISCUS_HD LevelSets level_sets_of(State& s, const BrickGridView& grid) {
-    return {{{}, {grid, first_of(s.at_least[1])}, {grid, first_of(s.at_least[2])}, {grid, first_of(s.at_least[3])}}};
+MENISCUS_HD LevelSets level_sets_of(State& state, const BrickGridView& grid) {
+    return {{{},
+             {grid, first_of(state.at_least[1])},
+             {grid, first_of(state.at_least[2])},
+             {grid, first_of(state.at_least[3])}}};
 }
 
 }  // namespace meniscus

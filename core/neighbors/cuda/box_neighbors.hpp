@@ -16,14 +16,14 @@ public:
     /// Calls visit(Neighbor) in all lanes, in the order of summation, and a few times for what adds nothing. All
     /// lanes call it. box: units from the corner of base cell `origin`, in the brick of base cells `brick`.
     template <class Visit>
-    __device__ void for_each(const State& f, std::uint32_t brick, const Int3& origin, const UnitBox& box,
+    __device__ void for_each(const State& state, std::uint32_t brick, const Int3& origin, const UnitBox& box,
                              const Visit& visit) {
         const unsigned lane = lane_index();
 #pragma unroll 1
         for (unsigned k = 0; k < particle_level_count; ++k) {
-            const LevelParticles<Kernel> level(f, k);
+            const LevelParticles<Kernel> level(state, k);
             if (level.set.cells.brick_count == 0) continue;
-            const NeighborRows rows(level.set, f.neighbor_bricks[std::uint64_t{particle_level_count} * brick + k],
+            const NeighborRows rows(level.set, state.neighbor_bricks[std::uint64_t{particle_level_count} * brick + k],
                                     place_in_brick(index_in_brick(origin)), box);
             const BoxTest<Kernel> test(box, level.set.reach());
             const unsigned count = rows.count();

@@ -42,15 +42,16 @@ class ClusterNeighbors {
 public:
     /// Takes in the particles near a box (units from the cluster's corner), but for the first `skipped` of them.
     /// Returns how many there are, which may be more than skipped + room.
-    __device__ unsigned gather(const State& f, const Cluster& cluster, const UnitBox& box, unsigned skipped) {
+    __device__ unsigned gather(const State& state, const Cluster& cluster, const UnitBox& box, unsigned skipped) {
         const unsigned lane = lane_index();
         __syncwarp();
         unsigned found = 0;
 #pragma unroll 1
         for (unsigned k = 0; k < particle_level_count; ++k) {
-            const LevelParticles<Kernel> level(f, k);
+            const LevelParticles<Kernel> level(state, k);
             if (level.set.cells.brick_count != 0) {
-                const NeighborBricks& near = f.neighbor_bricks[std::uint64_t{particle_level_count} * cluster.brick + k];
+                const NeighborBricks& near =
+                    state.neighbor_bricks[std::uint64_t{particle_level_count} * cluster.brick + k];
                 const NeighborRows rows(level.set, near, cluster.corner, box);
                 const BoxTest<Kernel> test(box, level.set.reach());
                 for_each_window(level, rows, [&](const Neighbor& c, bool exists) {
@@ -69,15 +70,15 @@ public:
 
     /// Calls visit(Neighbor) in all lanes for each of those taken in that is near a box within that of gather().
     template <class Visit>
-    __device__ void for_each_near(const State& f, const UnitBox& box, const Visit& visit) {
+    __device__ void for_each_near(const State& state, const UnitBox& box, const Visit& visit) {
         const unsigned lane = lane_index();
         unsigned begin = 0;
 #pragma unroll 1
         for (unsigned k = 0; k < particle_level_count; ++k) {
             const unsigned end = end_[k];
             if (begin == end) continue;
-            const float support = f.settings.support[k];
-            const float inverse_support = f.settings.inverse_support[k];
+            const float support = state.settings.support[k];
+            const float inverse_support = state.settings.inverse_support[k];
             const BoxTest<Kernel> test(box, ParticleSetView::reach_of(support));
             while (begin < end) {
                 unsigned chosen = 0;
@@ -118,9 +119,9 @@ template <class Kernel, bool has_ranks = false>
 class ClusterParticles {
 public:
     /// box: holds all parts; units from the cluster's corner.
-    __device__ ClusterParticles(const State& f, const Cluster& cluster, const UnitBox& box,
+    __device__ ClusterParticles(const State& state, const Cluster& cluster, const UnitBox& box,
                                 ClusterNeighbors<Kernel, has_ranks>& shared)
-        : f_(f), cluster_(cluster), shared_(shared) {
+        : state_(state), cluster_(cluster), shared_(shared) {
         // Asked for once and then seldom: not for registers.
         if (lane_index() == 0) shared.whole = box;
         __syncwarp();
@@ -129,7 +130,7 @@ public:
     /// Calls visit(Neighbor) for all near a part's box.
     template <class Visit>
     __device__ void for_each_near(const UnitBox& box, const Visit& visit) {
-        for_each_piece(box, [&] { shared_.for_each_near(f_, box, visit); });
+        for_each_piece(box, [&] { shared_.for_each_near(state_, box, visit); });
     }
     /// Calls visit() for each piece of those near a part's box that `shared` holds at a time.
     template <class Visit>
@@ -145,7 +146,7 @@ public:
                     from.low[axis] = tries_all ? shared_.whole.low[axis] : box.low[axis];
                     from.high[axis] = tries_all ? shared_.whole.high[axis] : box.high[axis];
                 }
-                found = shared_.gather(f_, cluster_, from, skipped);
+                found = shared_.gather(state_, cluster_, from, skipped);
                 held_ = tries_all && found <= shared_.room ? Held::all : Held::piece;
                 if (tries_all && held_ == Held::piece) continue;
             }
@@ -157,7 +158,7 @@ public:
 private:
     enum class Held : std::uint8_t { none, all, piece };
 
-    const State& f_;
+    const State& state_;
     const Cluster& cluster_;
     ClusterNeighbors<Kernel, has_ranks>& shared_;
     Held held_ = Held::none;

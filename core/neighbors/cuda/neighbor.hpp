@@ -30,12 +30,12 @@ struct LevelParticles {
     const float* falls;
     float inverse_support;
 
-    __device__ LevelParticles(const State& f, unsigned level)
-        : set(f.set(level)),
-          particles(f.particles),
-          falls(f.falls),
-          inverse_support(f.settings.inverse_support[level]) {
-        if (std::is_same_v<Kernel, Company>) set.support = f.settings.company_support[level];
+    __device__ LevelParticles(const State& state, unsigned level)
+        : set(state.set(level)),
+          particles(state.particles),
+          falls(state.falls),
+          inverse_support(state.settings.inverse_support[level]) {
+        if (std::is_same_v<Kernel, Company>) set.support = state.settings.company_support[level];
     }
     /// The particles from the first-th on. Those next to it are then found at fixed distances.
     __device__ LevelParticles from(std::uint32_t first) const {
@@ -61,9 +61,10 @@ struct LevelParticles {
 /// Calls visit(Neighbor) for all particles near a box, level by level: one thread alone, for a point far from
 /// others.
 template <class Kernel, class Visit>
-__device__ inline void for_each_neighbor(const State& f, const Units3& origin, const UnitBox& box, const Visit& visit) {
+__device__ inline void for_each_neighbor(const State& state, const Units3& origin, const UnitBox& box,
+                                         const Visit& visit) {
     for (unsigned k = 0; k < particle_level_count; ++k) {
-        const LevelParticles<Kernel> level(f, k);
+        const LevelParticles<Kernel> level(state, k);
         if (level.set.cells.brick_count == 0) continue;
         NoBrickHints hints;
         level.set.for_each_run_near(origin, box, hints,

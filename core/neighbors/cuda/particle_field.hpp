@@ -18,8 +18,8 @@ struct ParticleField {
     /// those of all lanes.
     class Near {
     public:
-        __device__ Near(const State& f, const Cluster& cluster, const UnitBox& box, Shared& shared)
-            : f_(f), shared_(shared), particles_(f, cluster, box, shared) {}
+        __device__ Near(const State& state, const Cluster& cluster, const UnitBox& box, Shared& shared)
+            : state_(state), shared_(shared), particles_(state, cluster, box, shared) {}
 
         /// The value at one point of every lane.
         __device__ float value(const UnitBox& box, float x, float y, float z) {
@@ -35,12 +35,12 @@ struct ParticleField {
             float two[2] = {0.0F, 0.0F};
             particles_.for_each_piece(box, [&] {
                 if (are_two)
-                    shared_.for_each_near(f_, box, [&](const Neighbor& c) {
+                    shared_.for_each_near(state_, box, [&](const Neighbor& c) {
                         sum_values<Kernel, 2>(c.view(), {x, x}, {y, y}, {z, upper_z}, two);
                     });
                 else
                     shared_.for_each_near(
-                        f_, box, [&](const Neighbor& c) { sum_values<Kernel, 1>(c.view(), {x}, {y}, {z}, one); });
+                        state_, box, [&](const Neighbor& c) { sum_values<Kernel, 1>(c.view(), {x}, {y}, {z}, one); });
             });
             value[0] = are_two ? two[0] : one[0];
             value[1] = two[1];
@@ -55,13 +55,13 @@ struct ParticleField {
         }
 
     private:
-        const State& f_;
+        const State& state_;
         Shared& shared_;
         ClusterParticles<Kernel> particles_;
     };
     /// box: holds all points of the cluster that are asked for.
-    __device__ Near near(const State& f, const Cluster& cluster, const UnitBox& box, Shared& shared) const {
-        return {f, cluster, box, shared};
+    __device__ Near near(const State& state, const Cluster& cluster, const UnitBox& box, Shared& shared) const {
+        return {state, cluster, box, shared};
     }
 };
 

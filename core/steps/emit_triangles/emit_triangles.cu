@@ -48,23 +48,23 @@ struct TrianglesOfLane {
 };
 
 /// One warp for every four cells of the band.
-__global__ void __launch_bounds__(block_threads, 4) emit_cells(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads, 4) emit_cells(const __grid_constant__ State state) {
     __shared__ TriangleRows table;
     __shared__ ClosedPoints points;
     __shared__ WarpSigns all_signs[block_warps];
     __shared__ VertexCounts all_vertices[block_warps];
     __shared__ WarpTriangles all_triangles[block_warps];
-    table.fill(f.cube_table);
+    table.fill(state.cube_table);
     points.fill();
     __syncthreads();
     WarpSigns& signs = all_signs[warp_in_block()];
     VertexCounts& vertices = all_vertices[warp_in_block()];
     WarpTriangles& triangles = all_triangles[warp_in_block()];
-    const BlocksView blocks = f.blocks();
+    const BlocksView blocks = state.blocks();
     const unsigned lane = lane_index();
-    const std::uint32_t band = same_in_all_lanes(f.listed(List::band));
+    const std::uint32_t band = same_in_all_lanes(state.listed(List::band));
     each_by_warp((band + closed_cells_a_warp - 1) / closed_cells_a_warp, [&](std::uint32_t group) {
-        const CellsOfLanes cells(blocks, f.band_cells, band, closed_cells_a_warp * group);
+        const CellsOfLanes cells(blocks, state.band_cells, band, closed_cells_a_warp * group);
         signs.put(blocks, cells);
         vertices.put(blocks, cells);
         __syncwarp();
@@ -92,8 +92,8 @@ __global__ void __launch_bounds__(block_threads, 4) emit_cells(const __grid_cons
                 const std::uint32_t first = together ? begin[c] : 0;
                 own[c].list(triangles.list + first + below[c]);
                 if (lane == 8 * c && cells.exists)
-                    triangles.first[c] = f.counts->first_triangle[cells.level - 1] +
-                                         f.triangles_before[cells.block].of[cells.level - 1] - first;
+                    triangles.first[c] = state.counts->first_triangle[cells.level - 1] +
+                                         state.triangles_before[cells.block].of[cells.level - 1] - first;
             }
             __syncwarp();
             for (unsigned t = lane; t < listed; t += warp_threads) {
@@ -102,7 +102,7 @@ __global__ void __launch_bounds__(block_threads, 4) emit_cells(const __grid_cons
                 const unsigned cell = entry >> cell_at & (closed_cells_a_warp - 1);
                 const unsigned stride_shift = entry >> stride_at;
                 const unsigned place = entry & ((1U << row_at) - 1);
-                Triangle& out = f.triangles[triangles.first[cell] + t];
+                Triangle& out = state.triangles[triangles.first[cell] + t];
                 for (unsigned k = 0; k < 3; ++k) {
                     const std::uint32_t edge = row >> (10 * k);
                     out[k] = vertices.vertex(points, signs, cell, place + ((edge & 31) << stride_shift), edge >> 5 & 3,

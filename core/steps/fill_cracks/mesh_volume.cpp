@@ -63,10 +63,10 @@ std::uint64_t sum_by_fours(const LatticePosition*, const Triangle*, std::size_t&
 
 }  // namespace
 
-void measure_volume(State& s, const Mesh& mesh) {
-    s.sixfold_volume = 0;
-    const std::atomic_ref<std::uint64_t> total(s.sixfold_volume);
-    s.workers.for_ranges(mesh.triangles.size(), 16384, [&](std::size_t begin, std::size_t end, unsigned) {
+void measure_volume(State& state, const Mesh& mesh) {
+    state.sixfold_volume = 0;
+    const std::atomic_ref<std::uint64_t> total(state.sixfold_volume);
+    state.workers.for_ranges(mesh.triangles.size(), 16384, [&](std::size_t begin, std::size_t end, unsigned) {
         std::uint64_t sum = sum_by_fours(mesh.vertices.data(), mesh.triangles.data(), begin, end);
         for (; begin < end; ++begin)
             sum += static_cast<std::uint64_t>(sixfold_volume(mesh.vertices.data(), mesh.triangles[begin]));

@@ -53,25 +53,25 @@ using SharedParticles = ClusterNeighbors<Kernel, true>;
 
 /// K: amounts in the group, or 0 for a group of ids.
 template <class Kernel, unsigned K>
-__global__ void __launch_bounds__(block_threads) place_group(const __grid_constant__ State f, unsigned group) {
+__global__ void __launch_bounds__(block_threads) place_group(const __grid_constant__ State state, unsigned group) {
     __shared__ SharedParticles<Kernel> shared[block_warps];
-    const BlocksView blocks = f.blocks();
-    const float units_per_step = static_cast<float>(units_per_cell >> f.settings.offset_bits);
-    const int steps_per_base_cell = base_cell_size << f.settings.offset_bits;
-    const AttributeNumber* const group_numbers = f.input->attributes.group(group);
-    const unsigned count_of_numbers = f.attributes.count(group);
-    const float4* const numbers = f.numbers + group * f.capacity.particles;
+    const BlocksView blocks = state.blocks();
+    const float units_per_step = static_cast<float>(units_per_cell >> state.settings.offset_bits);
+    const int steps_per_base_cell = base_cell_size << state.settings.offset_bits;
+    const AttributeNumber* const group_numbers = state.input->attributes.group(group);
+    const unsigned count_of_numbers = state.attributes.count(group);
+    const float4* const numbers = state.numbers + group * state.capacity.particles;
     Counter lonely = 0;
-    each_listed_cluster(f, blocks, List::vertices, [&](const Cluster& cluster) {
+    each_listed_cluster(state, blocks, List::vertices, [&](const Cluster& cluster) {
         const ClusterVertices vertices(blocks, cluster);
         const Int3 lowest = vertices.lowest;
-        ClusterParticles<Kernel, true> near(f, cluster, vertices.box, shared[warp_in_block()]);
+        ClusterParticles<Kernel, true> near(state, cluster, vertices.box, shared[warp_in_block()]);
         const std::uint32_t count = vertices.count;
         for (std::uint32_t first = 0; first < count; first += warp_threads) {
             const std::uint32_t i = first + lane_index();
             // Lanes without a vertex repeat the last one.
             const ClusterVertices::Place place = vertices.place(i < count ? i : count - 1);
-            const LatticePosition p = f.vertices[place.number];
+            const LatticePosition p = state.vertices[place.number];
             const float x = static_cast<float>(p[0] - lowest.x * steps_per_base_cell) * units_per_step;
             const float y = static_cast<float>(p[1] - lowest.y * steps_per_base_cell) * units_per_step;
             const float z = static_cast<float>(p[2] - lowest.z * steps_per_base_cell) * units_per_step;
@@ -89,7 +89,7 @@ __global__ void __launch_bounds__(block_threads) place_group(const __grid_consta
                                         y - static_cast<float>(step.y * units_per_base_cell),
                                         z - static_cast<float>(step.z * units_per_base_cell)};
                 for_each_neighbor<Kernel>(
-                    f, base_cell_origin(lowest + step), {{0.0F, 0.0F, 0.0F}, {base_edge, base_edge, base_edge}},
+                    state, base_cell_origin(lowest + step), {{0.0F, 0.0F, 0.0F}, {base_edge, base_edge, base_edge}},
                     [&](const Neighbor& c) {
                         nearest.consider(Kernel::of(c.view(), 0), c.particle.x, c.particle.y, c.particle.z, 0, c.rank);
                     });
@@ -101,10 +101,10 @@ __global__ void __launch_bounds__(block_threads) place_group(const __grid_consta
                         nearest.exists() ? group_numbers[k].alone(of_particle[k]) : group_numbers[k].nothing();
             }
             for (unsigned k = 0; k < count_of_numbers; ++k)
-                group_numbers[k].write(f.vertex_attributes[group_numbers[k].array], place.number, values.of + k, 1);
+                group_numbers[k].write(state.vertex_attributes[group_numbers[k].array], place.number, values.of + k, 1);
         }
     });
-    if (group == 0) add_of_lanes(&f.counts->vertices_without_particles, lonely);
+    if (group == 0) add_of_lanes(&state.counts->vertices_without_particles, lonely);
 }
 
 }  // namespace

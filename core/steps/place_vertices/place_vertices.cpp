@@ -64,77 +64,77 @@ void write_positions(const Int3& at, int bits, const PointList& points, LatticeP
 }
 
 /// Chooses the blocks with vertices.
-void number_vertices(State& s, Mesh& mesh) {
-    const BlocksView blocks = s.blocks();
-    const LevelSets levels = s.level_sets();
-    const SignSets signs = s.sign_sets();
-    const CellSetView chosen = s.chosen_cells();
-    resize_for_overwrite(s.brick_counts, s.grid.bricks.size());
-    for_each_brick(s, [&](std::uint32_t brick) {
+void number_vertices(State& state, Mesh& mesh) {
+    const BlocksView blocks = state.blocks();
+    const LevelSets levels = state.level_sets();
+    const SignSets signs = state.sign_sets();
+    const CellSetView chosen = state.chosen_cells();
+    resize_for_overwrite(state.brick_counts, state.grid.bricks.size());
+    for_each_brick(state, [&](std::uint32_t brick) {
         std::uint64_t in_brick = 0;
-        for_each_word(s.grid.bricks[brick], [&](int w) {
+        for_each_word(state.grid.bricks[brick], [&](int w) {
             const LevelSetsAround around(levels, brick, w);
-            const std::uint64_t all = around.with_corner_points() & s.grid.bricks[brick].occupied[w];
+            const std::uint64_t all = around.with_corner_points() & state.grid.bricks[brick].occupied[w];
             const std::uint64_t crossed = all == 0 ? 0 : all & signs.blocks_seeing_both(brick, w);
-            for_each_cell(s.grid.bricks[brick], w, all & ~crossed,
-                          [&](std::uint32_t block, int) { s.edges[block] = {}; });
+            for_each_cell(state.grid.bricks[brick], w, all & ~crossed,
+                          [&](std::uint32_t block, int) { state.edges[block] = {}; });
             std::uint64_t with_vertices = 0;
-            for_each_cell(s.grid.bricks[brick], w, crossed, [&](std::uint32_t block, int bit) {
+            for_each_cell(state.grid.bricks[brick], w, crossed, [&](std::uint32_t block, int bit) {
                 const LevelsAround here = around(bit);
                 for (int axis = 0; axis < 3; ++axis)
-                    s.edges[block].axis[axis] = CrossedEdges(blocks, block, here, axis).finest();
-                const int count = s.edges[block].count();
+                    state.edges[block].axis[axis] = CrossedEdges(blocks, block, here, axis).finest();
+                const int count = state.edges[block].count();
                 in_brick += static_cast<std::uint64_t>(count);
                 with_vertices |= std::uint64_t{count != 0} << bit;
             });
             chosen.word(brick, w) = with_vertices;
         });
-        s.brick_counts[brick] = in_brick;
+        state.brick_counts[brick] = in_brick;
     });
-    const std::uint64_t count = counts_to_starts(s.brick_counts);
-    for_each_brick(s, [&](std::uint32_t brick) {
-        std::uint64_t next = s.brick_counts[brick];
-        for_each_word(s.grid.bricks[brick], [&](int w) {
-            for_each_cell(s.grid.bricks[brick], w, chosen.word(brick, w), [&](std::uint32_t block, int) {
-                s.first_vertex[block] = static_cast<std::uint32_t>(next);
-                next += static_cast<std::uint64_t>(s.edges[block].count());
+    const std::uint64_t count = counts_to_starts(state.brick_counts);
+    for_each_brick(state, [&](std::uint32_t brick) {
+        std::uint64_t next = state.brick_counts[brick];
+        for_each_word(state.grid.bricks[brick], [&](int w) {
+            for_each_cell(state.grid.bricks[brick], w, chosen.word(brick, w), [&](std::uint32_t block, int) {
+                state.first_vertex[block] = static_cast<std::uint32_t>(next);
+                next += static_cast<std::uint64_t>(state.edges[block].count());
             });
         });
     });
     require_indexable(count, "the surface has", "vertices");
     resize_for_overwrite(mesh.vertices, count);
-    resize_for_overwrite(mesh.normals, s.settings.has_normals ? count : 0);
+    resize_for_overwrite(mesh.normals, state.settings.has_normals ? count : 0);
     for (MeshAttribute& attribute : mesh.attributes)
         resize_for_overwrite(attribute.data, count * attribute.element_bytes());
 }
 
 }  // namespace
 
-void place_vertices(State& s, FieldSource& field, Mesh& mesh) {
-    number_vertices(s, mesh);
-    const BlocksView blocks = s.blocks();
+void place_vertices(State& state, FieldSource& field, Mesh& mesh) {
+    number_vertices(state, mesh);
+    const BlocksView blocks = state.blocks();
     std::atomic<std::uint64_t> evaluations{0}, without_particles{0};
-    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+    state.workers.for_ranges(state.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         BlockVertices vertices;
         PointList points;
-        ClusterSums sums(blocks, s.settings, s.attributes, field, mesh, worker);
+        ClusterSums sums(blocks, state.settings, state.attributes, field, mesh, worker);
         const auto place_block = [&](std::uint32_t block) {
             find_vertices(blocks, block, vertices);
             const Int3 at = blocks.coordinate(block);
-            if (s.settings.bisects) {
-                bisect(field, at, blocks, block, s.settings, worker, vertices);
-                evaluations.fetch_add(vertices.count * s.settings.bisection_steps, std::memory_order_relaxed);
+            if (state.settings.bisects) {
+                bisect(field, at, blocks, block, state.settings, worker, vertices);
+                evaluations.fetch_add(vertices.count * state.settings.bisection_steps, std::memory_order_relaxed);
             } else {
-                interpolate(blocks, block, s.settings, vertices);
+                interpolate(blocks, block, state.settings, vertices);
             }
-            list_points(vertices, s.settings.offset_bits, points);
-            write_positions(at, static_cast<int>(s.settings.offset_bits), points,
-                            mesh.vertices.data() + s.first_vertex[block]);
+            list_points(vertices, state.settings.offset_bits, points);
+            write_positions(at, static_cast<int>(state.settings.offset_bits), points,
+                            mesh.vertices.data() + state.first_vertex[block]);
             sums.add(block, points);
         };
         for (std::size_t b = begin; b < end; ++b) {
-            const Brick& brick = s.grid.bricks[b];
-            const std::uint64_t* const chosen = &s.chosen_cells().word(static_cast<std::uint32_t>(b), 0);
+            const Brick& brick = state.grid.bricks[b];
+            const std::uint64_t* const chosen = &state.chosen_cells().word(static_cast<std::uint32_t>(b), 0);
             for_each_cluster(chosen, [&](const Int3& corner) {
                 sums.begin(brick.corner() + corner);
                 for_each_member(brick, chosen, corner, place_block);
@@ -143,8 +143,8 @@ void place_vertices(State& s, FieldSource& field, Mesh& mesh) {
         }
         without_particles.fetch_add(sums.without_particles(), std::memory_order_relaxed);
     });
-    s.vertices_without_particles = without_particles.load(std::memory_order_relaxed);
-    s.field_evaluations += evaluations.load(std::memory_order_relaxed);
+    state.vertices_without_particles = without_particles.load(std::memory_order_relaxed);
+    state.field_evaluations += evaluations.load(std::memory_order_relaxed);
 }
 
 }  // namespace meniscus::cpu

@@ -44,23 +44,23 @@ __device__ inline void add_particles(const LevelParticles<Kernel>& level, std::u
 
 /// `count` lanes for every particle.
 template <class Kernel, unsigned count>
-__global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const __grid_constant__ State state) {
     // None if the frame has stopped, which must not part the lanes.
-    const std::uint32_t n = same_in_all_lanes(f.particle_count());
-    LongLoop loop(f);
+    const std::uint32_t n = same_in_all_lanes(state.particle_count());
+    LongLoop loop(state);
     const SharingLanes<count> lanes;
     const GridLoop threads;
     for (std::uint64_t i = threads.first / count; i < n; i += threads.step / count) {
         // Lanes that share a particle end together: each waits for the values of the others.
         if (lanes.from(lanes.own == 0 && loop.goes_on() ? 1 : 0, 0) == 0) return;
-        const unsigned own_level = key_level(f.keys[i]);
-        const ParticleKey key = particle_key(f.keys[i]);
-        const Units3 origin = cell_corner(key.cell, f.settings.cell_units[own_level]);
+        const unsigned own_level = key_level(state.keys[i]);
+        const ParticleKey key = particle_key(state.keys[i]);
+        const Units3 origin = cell_corner(key.cell, state.settings.cell_units[own_level]);
         const Units3 place = place_in_cell(key);
         const float x = static_cast<float>(place.x), y = static_cast<float>(place.y), z = static_cast<float>(place.z);
         float sum = 0.0F;
         for (unsigned k = 0; k < particle_level_count; ++k) {
-            const LevelParticles<Kernel> level(f, k);
+            const LevelParticles<Kernel> level(state, k);
             if (level.set.cells.brick_count == 0) continue;
             NoBrickHints hints;
             level.set.for_each_run_near(
@@ -76,7 +76,7 @@ __global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const _
                     if (j < end) add_particles<Kernel, group, false>(level, j, end - j, lanes, at, sum);
                 });
         }
-        if (lanes.own == 0) f.sums[i] = sum;
+        if (lanes.own == 0) state.sums[i] = sum;
     }
 }
 

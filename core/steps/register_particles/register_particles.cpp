@@ -90,12 +90,12 @@ void require_bearable_base_cells(const ParticleSets& sets, std::uint64_t pairs, 
 }
 
 /// Particles of level 0 in every stored base cell.
-void count_particles(State& s, const ParticleSets& sets) {
-    const BrickGrid& grid = s.grid;
-    Array<std::uint32_t>& counts = s.particle_counts;
+void count_particles(State& state, const ParticleSets& sets) {
+    const BrickGrid& grid = state.grid;
+    Array<std::uint32_t>& counts = state.particle_counts;
     resize_for_overwrite(counts, grid.members);
     const ParticleSet& set = sets[0];
-    s.workers.for_ranges(grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+    state.workers.for_ranges(grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {
             const Brick& brick = grid.bricks[i];
             const std::uint32_t last = i + 1 < grid.bricks.size() ? grid.bricks[i + 1].first : grid.members;
@@ -107,7 +107,7 @@ void count_particles(State& s, const ParticleSets& sets) {
             set.view().for_each_near(
                 origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
                 [&](float x, float y, float z, std::uint32_t particle) {
-                    if (particle % 16384 == 0) s.workers.go_on();
+                    if (particle % 16384 == 0) state.workers.go_on();
                     if (x < 0.0F || y < 0.0F || z < 0.0F || x >= size || y >= size || z >= size) return;
                     constexpr float cell = units_per_base_cell;
                     const Int3 at{static_cast<int>(x / cell), static_cast<int>(y / cell), static_cast<int>(z / cell)};
@@ -138,52 +138,53 @@ void number_members(BrickGrid& grid, Workers& workers) {
     });
 }
 
-void store_blocks(State& s) {
-    const std::size_t n = s.block_count();
-    resize_for_overwrite(s.brick, n);
-    resize_for_overwrite(s.place, n);
-    resize_for_overwrite(s.level, n);
-    resize_for_overwrite(s.sampled, n);
-    resize_for_overwrite(s.inside, n);
-    resize_for_overwrite(s.wanted_points, n);
-    resize_for_overwrite(s.first_sample, n);
-    resize_for_overwrite(s.edges, n);
-    resize_for_overwrite(s.first_vertex, n);
-    resize_for_overwrite(s.slots, n);
+void store_blocks(State& state) {
+    const std::size_t n = state.block_count();
+    resize_for_overwrite(state.brick, n);
+    resize_for_overwrite(state.place, n);
+    resize_for_overwrite(state.level, n);
+    resize_for_overwrite(state.sampled, n);
+    resize_for_overwrite(state.inside, n);
+    resize_for_overwrite(state.wanted_points, n);
+    resize_for_overwrite(state.first_sample, n);
+    resize_for_overwrite(state.edges, n);
+    resize_for_overwrite(state.first_vertex, n);
+    resize_for_overwrite(state.slots, n);
     // Passes do not write the words without a member.
-    for (auto* set : {&s.any_inside, &s.all_inside, &s.chosen}) set->assign(s.grid.bricks.size() * Brick::words, 0);
-    s.samples.clear();
-    s.field_evaluations = 0;
-    s.workers.for_ranges(s.grid.bricks.size(), 4, [&](std::size_t begin, std::size_t end, unsigned) {
+    for (auto* set : {&state.any_inside, &state.all_inside, &state.chosen})
+        set->assign(state.grid.bricks.size() * Brick::words, 0);
+    state.samples.clear();
+    state.field_evaluations = 0;
+    state.workers.for_ranges(state.grid.bricks.size(), 4, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b) {
-            const Brick& brick = s.grid.bricks[b];
+            const Brick& brick = state.grid.bricks[b];
             std::uint32_t block = brick.first;
             for (int w = 0; w < Brick::words; ++w)
                 for (std::uint64_t left = brick.occupied[w]; left != 0; left &= left - 1, ++block) {
-                    s.brick[block] = static_cast<std::uint32_t>(b);
-                    s.place[block] = static_cast<std::uint16_t>(64 * w + lowest_bit(left));
-                    s.level[block] = 0;
-                    s.sampled[block] = 0;
-                    s.inside[block] = 0;
-                    s.first_sample[block] = 0;
+                    state.brick[block] = static_cast<std::uint32_t>(b);
+                    state.place[block] = static_cast<std::uint16_t>(64 * w + lowest_bit(left));
+                    state.level[block] = 0;
+                    state.sampled[block] = 0;
+                    state.inside[block] = 0;
+                    state.first_sample[block] = 0;
                 }
         }
     });
 }
 
-void register_particles(State& s, ParticleSets& sets, NeighborSearch& near, const ParticleFrame& frame) {
-    sort_particles(sets, frame, s.attributes);
-    const bool has_work_limit = s.settings.work_limit != 0.0;
+void register_particles(State& state, ParticleSets& sets, NeighborSearch& near, const ParticleFrame& frame) {
+    sort_particles(sets, frame, state.attributes);
+    const bool has_work_limit = state.settings.work_limit != 0.0;
     if (has_work_limit) require_bearable_sums(sets);
     require_uncrowded(sets, frame.count());
     near.forget();
-    if (s.settings.has_own_supports) fit_supports(sets, near);
-    const std::uint64_t pairs = mark_reached_cells(sets, s.grid);
-    number_members(s.grid, s.workers);
-    if (has_work_limit) require_bearable_base_cells(sets, pairs, s.grid.members);
-    store_blocks(s);
-    if (s.settings.counts_particles) count_particles(s, sets);
-    if (s.settings.divides_by_density) divide_weights_by_density(sets, near);
+    if (state.settings.has_own_supports) fit_supports(sets, near);
+    const std::uint64_t pairs = mark_reached_cells(sets, state.grid);
+    number_members(state.grid, state.workers);
+    if (has_work_limit) require_bearable_base_cells(sets, pairs, state.grid.members);
+    store_blocks(state);
+    if (state.settings.counts_particles) count_particles(state, sets);
+    if (state.settings.divides_by_density) divide_weights_by_density(sets, near);
 }
 
 }  // namespace meniscus::cpu

@@ -59,14 +59,14 @@ private:
 };
 
 template <class Kernel>
-void sample(State& s, NeighborSearch& near) {
-    resize_for_overwrite(s.reaches, s.block_count());
-    s.samples.reserve(s.block_count());
-    s.samples.resize(s.block_count());
-    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+void sample(State& state, NeighborSearch& near) {
+    resize_for_overwrite(state.reaches, state.block_count());
+    state.samples.reserve(state.block_count());
+    state.samples.resize(state.block_count());
+    state.workers.for_ranges(state.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         alignas(64) float value[cluster_blocks];
         for (std::size_t b = begin; b < end; ++b) {
-            const Brick& brick = s.grid.bricks[b];
+            const Brick& brick = state.grid.bricks[b];
             for_each_cluster(brick.occupied, [&](const Int3& corner) {
                 const Int3 base = brick.corner() + corner;
                 const NeighborLists::Levels& list = near.near_cluster(base, worker);
@@ -80,32 +80,33 @@ void sample(State& s, NeighborSearch& near) {
                     const std::uint32_t block = stored.block(i);
                     const Int3 step = stored.step(i);
                     const bool allowed =
-                        !s.settings.has_domain ||
-                        (domain_points(base + step, s.settings.domain_low, s.settings.domain_high) & 1) != 0;
-                    const bool is_inside = allowed && value[i] > s.settings.iso;
-                    s.samples[block] = value[i];
-                    s.first_sample[block] = block;
-                    s.sampled[block] = 1;
-                    s.inside[block] = is_inside ? 1 : 0;
+                        !state.settings.has_domain ||
+                        (domain_points(base + step, state.settings.domain_low, state.settings.domain_high) & 1) != 0;
+                    const bool is_inside = allowed && value[i] > state.settings.iso;
+                    state.samples[block] = value[i];
+                    state.first_sample[block] = block;
+                    state.sampled[block] = 1;
+                    state.inside[block] = is_inside ? 1 : 0;
                     // Nobody asks how far particles reach into a cell with a corner inside.
                     if (is_inside)
-                        s.reaches[block] = {std::numeric_limits<float>::infinity(), 1.0F};
+                        state.reaches[block] = {std::numeric_limits<float>::infinity(), 1.0F};
                     else
                         outside.add(block, step);
                 }
                 if (outside.count() == 0) return;
-                with_lanes_for(outside.count(), [&]<class F>() { outside.find_reaches<Kernel, F>(list, s.reaches); });
+                with_lanes_for(outside.count(),
+                               [&]<class F>() { outside.find_reaches<Kernel, F>(list, state.reaches); });
             });
         }
     });
-    s.field_evaluations += s.block_count();
+    state.field_evaluations += state.block_count();
     near.even_out();
 }
 
 }  // namespace
 
-void sample_base_vertices(State& s, NeighborSearch& near) {
-    with_kernel(s.settings, [&]<class Kernel>() { sample<Kernel>(s, near); });
+void sample_base_vertices(State& state, NeighborSearch& near) {
+    with_kernel(state.settings, [&]<class Kernel>() { sample<Kernel>(state, near); });
 }
 
 }  // namespace meniscus::cpu

@@ -118,10 +118,10 @@ public:
         found.inside.store(inside_);
     }
 
-    void enter_bends(State& s, const BlobRule& blobs) const {
+    void enter_bends(State& state, const BlobRule& blobs) const {
         for (int i = 0; i < count_; ++i)
-            s.bends[block_[i]] = cell_bend({curvature_[i], inside_[i]}, inside_corners_[i],
-                                           blobs.least_level(inside_corners_[i], s.reaches[block_[i]]));
+            state.bends[block_[i]] = cell_bend({curvature_[i], inside_[i]}, inside_corners_[i],
+                                               blobs.least_level(inside_corners_[i], state.reaches[block_[i]]));
     }
 
 private:
@@ -138,17 +138,17 @@ private:
 
 /// Of the chosen cells.
 template <class Kernel>
-void measure(State& s, NeighborSearch& near) {
-    s.bends.assign(s.block_count(), {0.0F, 1});
-    const BlocksView blocks = s.blocks();
-    const BlobRule blobs{s.settings.blob_closest, s.settings.blob_level};
-    const float iso = s.settings.iso;
+void measure(State& state, NeighborSearch& near) {
+    state.bends.assign(state.block_count(), {0.0F, 1});
+    const BlocksView blocks = state.blocks();
+    const BlobRule blobs{state.settings.blob_closest, state.settings.blob_level};
+    const float iso = state.settings.iso;
     std::atomic<std::uint64_t> evaluations{0};
-    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+    state.workers.for_ranges(state.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         std::uint64_t here = 0;
         for (std::size_t b = begin; b < end; ++b) {
-            const Brick& brick = s.grid.bricks[b];
-            const std::uint64_t* const chosen = &s.chosen_cells().word(static_cast<std::uint32_t>(b), 0);
+            const Brick& brick = state.grid.bricks[b];
+            const std::uint64_t* const chosen = &state.chosen_cells().word(static_cast<std::uint32_t>(b), 0);
             for_each_cluster(chosen, [&](const Int3& corner) {
                 const ClusterVertices vertices(blocks, static_cast<std::uint32_t>(b), corner);
                 SearchedCells cells;
@@ -163,20 +163,20 @@ void measure(State& s, NeighborSearch& near) {
                 };
                 // A sheet of cells fills half of a wide register.
                 with_lanes_for(cells.count(), [&]<class F>() { cells.search<Kernel, F>(iso, near_box); });
-                cells.enter_bends(s, blobs);
+                cells.enter_bends(state, blobs);
                 here += 2 * static_cast<std::uint64_t>(cells.count());
             });
         }
         evaluations.fetch_add(here, std::memory_order_relaxed);
     });
-    s.field_evaluations += evaluations.load(std::memory_order_relaxed);
+    state.field_evaluations += evaluations.load(std::memory_order_relaxed);
     near.even_out();
 }
 
 }  // namespace
 
-void measure_bends(State& s, NeighborSearch& near) {
-    with_kernel(s.settings, [&]<class Kernel>() { measure<Kernel>(s, near); });
+void measure_bends(State& state, NeighborSearch& near) {
+    with_kernel(state.settings, [&]<class Kernel>() { measure<Kernel>(state, near); });
 }
 
 }  // namespace meniscus::cpu

@@ -35,9 +35,9 @@ void run_together(unsigned blocks, void (*kernel)(Parameters...),
 }
 
 /// Of a brick that is the last of the most that there may be: all clusters together are more than 2^32.
-void find_the_last_cluster(const cuda::State* f, std::uint32_t* brick, int* corner) {
+void find_the_last_cluster(const cuda::State* state, std::uint32_t* brick, int* corner) {
     using Cluster = cuda::CellCluster<4, 2, 2>;
-    const Cluster cluster(*f, Cluster::of_brick * cuda::too_many(cuda::Resource::bricks) - 1);
+    const Cluster cluster(*state, Cluster::of_brick * cuda::too_many(cuda::Resource::bricks) - 1);
     *brick = cluster.brick;
     *corner = index_in_brick(cluster.corner);
 }

@@ -42,8 +42,8 @@ struct NoiseField {
             return {none, none, none};
         }
     };
-    Near near(const cuda::State& f, const cuda::Cluster& cluster, const UnitBox&, Shared&) const {
-        return {world, cluster.coordinate(f.blocks())};
+    Near near(const cuda::State& state, const cuda::Cluster& cluster, const UnitBox&, Shared&) const {
+        return {world, cluster.coordinate(state.blocks())};
     }
 };
 /// Which has none.

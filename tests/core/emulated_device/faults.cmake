@@ -21,8 +21,8 @@ plant(wrong_mask neighbors/cuda/neighbor_list.hpp
 
 # The normal of each cluster's last vertex is what lies in memory.
 plant(unset_word steps/place_vertices/place_vertices.cu
-  [=[if (i < count) f.normals[place.number] =]=]
-  [=[if (i < count - (FAULTY(unset_word) ? 1 : 0)) f.normals[place.number] =]=])
+  [=[if (i < count) state.normals[place.number] =]=]
+  [=[if (i < count - (FAULTY(unset_word) ? 1 : 0)) state.normals[place.number] =]=])
 
 # The sum of counts of vertices goes on one behind the array.
 plant(guard_overrun steps/place_vertices/place_vertices.cu
@@ -46,8 +46,8 @@ plant(wrong_block_count engine/cuda/launch.hpp
 
 # Cells that blocks but the grid's first have found in a search are not told to the others.
 plant(lost_flag steps/adjust_levels/sweeps.hpp
-  [=[if ((cell.put_into(f_.raised) & cell.bit) == 0) list(block);]=]
-  [=[if ((cell.put_into(f_.raised) & cell.bit) == 0 && !(FAULTY(lost_flag) && blockIdx.x != 0)) list(block);]=])
+  [=[if ((cell.put_into(state_.raised) & cell.bit) == 0) list(block);]=]
+  [=[if ((cell.put_into(state_.raised) & cell.bit) == 0 && !(FAULTY(lost_flag) && blockIdx.x != 0)) list(block);]=])
 
 # Triangles of a cell lie in the order in which its lanes come by.
 plant(unstable_order steps/emit_triangles/emit_triangles.cu
