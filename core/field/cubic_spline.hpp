@@ -55,7 +55,9 @@ struct CubicSpline {
     float weight;  ///< mass (over density) times W0
     float inverse_support;
 
-    MENISCUS_HD static CubicSpline of(const NeighborView& c, std::size_t j) { return {c.weight[j], c.inverse_support}; }
+    MENISCUS_HD static CubicSpline of(const NeighborView& near, std::size_t j) {
+        return {near.weight[j], near.inverse_support};
+    }
 
     template <class F>
     MENISCUS_HD F share(F dx, F dy, F dz) const {

@@ -41,17 +41,17 @@ protected:
 /// All steps of a frame of particles.
 class ParticleSteps : public SurfaceSteps {
 public:
-    ParticleSteps(State& state, FieldSource& field, Mesh& mesh, ParticleSets& sets, NeighborSearch& near,
+    ParticleSteps(State& state, FieldSource& field, Mesh& mesh, ParticleSets& sets, NeighborSearch& search,
                   const PlacedFrame& particles)
         : SurfaceSteps(state, field, mesh),
           sets_(sets),
-          near_(near),
+          search_(search),
           frame_(particles.frame),
           is_last_(particles.is_last) {}
 
-    void register_particles() { cpu::register_particles(state_, sets_, near_, frame_); }
-    void sample_base_vertices() { cpu::sample_base_vertices(state_, near_); }
-    void split_cells() { wanted_level_ = cpu::split_cells(state_, near_, !frame_.levels.empty()); }
+    void register_particles() { cpu::register_particles(state_, sets_, search_, frame_); }
+    void sample_base_vertices() { cpu::sample_base_vertices(state_, search_); }
+    void split_cells() { wanted_level_ = cpu::split_cells(state_, search_, !frame_.levels.empty()); }
     /// Samples and particles of a frame that no other follows.
     void release() {
         // The greatest sample is looked up where no triangle is.
@@ -62,7 +62,7 @@ public:
 
 private:
     ParticleSets& sets_;
-    NeighborSearch& near_;
+    NeighborSearch& search_;
     const ParticleFrame& frame_;
     bool is_last_;
 };

@@ -17,13 +17,13 @@ namespace meniscus::cpu {
 
 /// Step 1: sorts a valid frame's particles, and stores the base cells that they reach. Throws LimitExceeded where the
 /// particles crowd, or bring too much work.
-void register_particles(State& state, ParticleSets& sets, NeighborSearch& near, const ParticleFrame& frame);
+void register_particles(State& state, ParticleSets& sets, NeighborSearch& search, const ParticleFrame& frame);
 /// Its parts. Sorts the particles, reads what vertices ask of them, and finds their support cells.
 void sort_particles(ParticleSets& sets, const ParticleFrame& frame, const AttributeNumbers& numbers);
-/// Gives every particle a support that fits its neighborhood, and the volume that it stands for: the smooth field.
-void fit_supports(ParticleSets& sets, NeighborSearch& near);
+/// Gives every particle a support that fits its neighbors, and the volume that it stands for: the smooth field.
+void fit_supports(ParticleSets& sets, NeighborSearch& search);
 /// Divides the particles' weights by the density at their places: the color field.
-void divide_weights_by_density(ParticleSets& sets, NeighborSearch& near);
+void divide_weights_by_density(ParticleSets& sets, NeighborSearch& search);
 /// Fills `grid` with the base cells that a particle's support reaches; numbers stay to be given. Returns the pairs of a
 /// base cell and a particle near it, about.
 std::uint64_t mark_reached_cells(ParticleSets& sets, BrickGrid& grid);
@@ -33,15 +33,15 @@ void number_members(BrickGrid& grid, Workers& workers);
 void store_blocks(State& state);
 
 /// Step 4's first part: the value at every stored block's base vertex, and what its particles may do in the whole cell.
-void sample_base_vertices(State& state, NeighborSearch& near);
+void sample_base_vertices(State& state, NeighborSearch& search);
 
 /// Gives the level that the criterion asks for in a cell, 1 to 3.
 using WantedLevel = std::function<int(std::uint32_t block)>;
 /// Step 2: puts the stored cells that may hold surface into the band, and gives each the level that the criterion of
 /// the settings asks for. Base vertices must be sampled. Returns the criterion, for cells that join the band later.
-WantedLevel split_cells(State& state, NeighborSearch& near, bool has_particle_levels);
+WantedLevel split_cells(State& state, NeighborSearch& search, bool has_particle_levels);
 /// How much the surface bends in every cell of the band.
-void measure_bends(State& state, NeighborSearch& near);
+void measure_bends(State& state, NeighborSearch& search);
 
 /// After levels have been given to all blocks at once: collects them as sets of cells, and lets all rules look at all
 /// cells anew.

@@ -17,7 +17,7 @@ void register_particles(State& state, bool has_payload, const Launcher& launch);
 void sort_particles(State& state, bool has_payload, const Launcher& launch);
 /// Orders equal particles by their payload, and reads what vertices ask of them.
 void order_payload(const State& state, const Launcher& launch);
-/// Gives every particle a support that fits its neighborhood, and the volume that it stands for: the smooth field.
+/// Gives every particle a support that fits its neighbors, and the volume that it stands for: the smooth field.
 void fit_supports(const State& state, const Launcher& launch);
 /// Divides the particles' weights by the density at their places: the color field.
 void divide_weights_by_density(const State& state, const Launcher& launch);

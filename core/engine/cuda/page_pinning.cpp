@@ -46,12 +46,12 @@ public:
 
 private:
     void refused(const std::string& reason) {
-        if (on_refusal_ && !told_.exchange(true)) on_refusal_(reason);
+        if (on_refusal_ && !reported_.exchange(true)) on_refusal_(reason);
     }
 
     const int device_;
     const std::function<void(const std::string& reason)> on_refusal_;
-    std::atomic<bool> told_{false};
+    std::atomic<bool> reported_{false};
 };
 
 }  // namespace

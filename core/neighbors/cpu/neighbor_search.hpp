@@ -1,4 +1,5 @@
-// The particles near clusters of base cells and near boxes in them, found once for all that ask.
+// The search for neighbors: the particles near clusters of base cells and near boxes in them, found once for all that
+// ask.
 #pragma once
 
 #include <memory>
@@ -9,13 +10,13 @@
 
 namespace meniscus::cpu {
 
-/// Each worker has lists of its own, valid until it asks again. Every search asks Workers::go_on(): one and the sums
-/// over what it finds are the longest piece of work.
+/// Each worker has lists of its own, valid until it asks again. Every search asks Workers::go_on(): a search and the
+/// sums over its neighbors are the longest piece of work.
 class NeighborSearch {
 public:
     NeighborSearch(const std::shared_ptr<MemoryAccount>& account, unsigned workers, ParticleSets& sets);
 
-    /// After particles or their weights have changed.
+    /// Drops all lists, after particles or their weights have changed.
     void forget();
 
     /// The particles near the cluster (clusters.hpp) of a base cell, relative to the cluster's lowest corner.
@@ -29,7 +30,7 @@ public:
                                                       unsigned worker);
     /// Those near a box, both relative to an origin that may lie anywhere.
     const NeighborLists::Levels& near_box(const Units3& origin, const UnitBox& box, unsigned worker);
-    /// Those within the company's support of it.
+    /// Those within the company's support of the box.
     const NeighborLists::Levels& company_near_box(const Units3& origin, const UnitBox& box, unsigned worker);
 
     /// Gives every worker room for the longest lists that any has met, so that a warm frame allocates nothing.

@@ -32,13 +32,13 @@ public:
                 const ParticlesOfRows<Kernel> particles(level, rows, first_row);
                 std::uint32_t start = 0;
                 do {
-                    // Two windows' loads are under way at once.
-                    Neighbor c[2];
-                    for (unsigned w = 0; w < 2; ++w) c[w] = particles.neighbor(start + w * warp_threads + lane);
+                    // The loads of two neighbors a lane are under way at once.
+                    Neighbor neighbors[2];
+                    for (unsigned w = 0; w < 2; ++w) neighbors[w] = particles.neighbor(start + w * warp_threads + lane);
                     for (unsigned w = 0; w < 2; ++w) {
-                        const bool reaches =
-                            start + w * warp_threads + lane < particles.total && test(c[w].particle, c[w].fall);
-                        list_.add(listed, reaches, c[w].particle, c[w].fall, 0);
+                        const bool reaches = start + w * warp_threads + lane < particles.total &&
+                                             test(neighbors[w].particle, neighbors[w].fall);
+                        list_.add(listed, reaches, neighbors[w].particle, neighbors[w].fall, 0);
                     }
                     start += 2 * warp_threads;
                     const bool is_last = first_row + warp_threads >= count && start >= particles.total;

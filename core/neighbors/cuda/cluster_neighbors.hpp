@@ -1,4 +1,4 @@
-// The particles near a cluster, in the shared memory of the warp that has it, and those of them near each of its parts:
+// Neighbors of a cluster, in the shared memory of the warp that has it, and those of them near each of its parts:
 // in the order of summation. What lies beyond its support adds exactly zero, so that each way to leave it out gives the
 // same sums.
 #pragma once
@@ -54,11 +54,11 @@ public:
                     state.neighbor_bricks[std::uint64_t{particle_level_count} * cluster.brick + k];
                 const NeighborRows rows(level.set, near, cluster.corner, box);
                 const BoxTest<Kernel> test(box, level.set.reach());
-                for_each_window(level, rows, [&](const Neighbor& c, bool exists) {
-                    const bool reaches = exists && test(c.particle, c.fall);
+                for_each_particle_of_rows(level, rows, [&](const Neighbor& neighbor, bool exists) {
+                    const bool reaches = exists && test(neighbor.particle, neighbor.fall);
                     const unsigned all = __ballot_sync(all_lanes, reaches ? 1 : 0);
                     const unsigned at = found + lanes_below(all) - skipped;
-                    if (reaches && at < room) all_.set(at, c.particle, c.fall, c.rank);
+                    if (reaches && at < room) all_.set(at, neighbor.particle, neighbor.fall, neighbor.rank);
                     found += static_cast<unsigned>(__popc(all));
                 });
             }
@@ -100,7 +100,7 @@ public:
         }
     }
 
-    UnitBox whole;  ///< see ClusterParticles
+    UnitBox whole;  ///< see PartNeighbors
     static constexpr unsigned room = has_ranks ? 128 : 224;
 
 private:
@@ -114,13 +114,13 @@ private:
     std::uint32_t end_[particle_level_count];  ///< of each level's in all_
 };
 
-/// A warp's particles near the parts of a cluster: all at once where they fit, else part by part and a piece at a time.
+/// The neighbors of the parts of a cluster: all at once where they fit, else part by part and a piece at a time.
 template <class Kernel, bool has_ranks = false>
-class ClusterParticles {
+class PartNeighbors {
 public:
     /// box: holds all parts; units from the cluster's corner.
-    __device__ ClusterParticles(const State& state, const Cluster& cluster, const UnitBox& box,
-                                ClusterNeighbors<Kernel, has_ranks>& shared)
+    __device__ PartNeighbors(const State& state, const Cluster& cluster, const UnitBox& box,
+                             ClusterNeighbors<Kernel, has_ranks>& shared)
         : state_(state), cluster_(cluster), shared_(shared) {
         // Asked for once and then seldom: not for registers.
         if (lane_index() == 0) shared.whole = box;

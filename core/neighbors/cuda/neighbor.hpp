@@ -10,7 +10,7 @@
 
 namespace meniscus::cuda {
 
-/// One particle as a list of neighbors.
+/// One neighbor, also as a list of one.
 struct Neighbor {
     float4 particle;
     float fall;  ///< Poly6 only
@@ -50,11 +50,11 @@ struct LevelParticles {
         return {particles[i], fall, set.support, inverse_support, i};
     }
     __device__ Neighbor neighbor(std::uint32_t i, const float* shift) const {
-        Neighbor c = neighbor(i);
-        c.particle.x += shift[0];
-        c.particle.y += shift[1];
-        c.particle.z += shift[2];
-        return c;
+        Neighbor moved = neighbor(i);
+        moved.particle.x += shift[0];
+        moved.particle.y += shift[1];
+        moved.particle.z += shift[2];
+        return moved;
     }
 };
 

@@ -1,4 +1,4 @@
-// The particles near a box, 32 at a time: the lanes of a warp look up rows of support cells side by side, and share out
+// Neighbors of a box, 32 at a time: the lanes of a warp look up rows of support cells side by side, and share out
 // evenly what lies in them.
 #pragma once
 
@@ -146,7 +146,8 @@ private:
 /// Calls visit(Neighbor, whether there is one) in all lanes for the particles of these rows, neighboring ones in
 /// neighboring lanes, in their order.
 template <class Kernel, class Visit>
-__device__ void for_each_window(const LevelParticles<Kernel>& level, const NeighborRows& rows, const Visit& visit) {
+__device__ void for_each_particle_of_rows(const LevelParticles<Kernel>& level, const NeighborRows& rows,
+                                          const Visit& visit) {
     const unsigned lane = lane_index();
     const unsigned count = rows.count();
     for (unsigned first_row = 0; first_row < count; first_row += warp_threads) {

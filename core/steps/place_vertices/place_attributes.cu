@@ -20,28 +20,30 @@ struct VertexValues {
 
 /// Means of the first K numbers of a group at one point of every lane; not-a-numbers where the weight is 0.
 template <class Kernel, unsigned K>
-__device__ void find_means(ClusterParticles<Kernel, true>& near, const UnitBox& box, const float4* numbers,
+__device__ void find_means(PartNeighbors<Kernel, true>& near, const UnitBox& box, const float4* numbers,
                            const AttributeNumber* of_group, float x, float y, float z, VertexValues& values) {
     float sum[K] = {};
     values.weight = 0.0F;
-    near.for_each_near(box, [&](const Neighbor& c) {
-        const float4 own = numbers[c.rank];
+    near.for_each_near(box, [&](const Neighbor& neighbor) {
+        const float4 own = numbers[neighbor.rank];
         const float of_particle[group_size_of_numbers] = {own.x, own.y, own.z, own.w};
         float none = 0.0F;
-        sum_numbers<Kernel, K, false>(c.view(), of_particle, x, y, z, none, none, none, values.weight, sum);
+        sum_numbers<Kernel, K, false>(neighbor.view(), of_particle, x, y, z, none, none, none, values.weight, sum);
     });
     for (unsigned k = 0; k < K; ++k) values.of[k] = of_group[k].mean(sum[k], values.weight);
 }
 
 /// Ids of the particle with the largest share at one point of every lane.
 template <class Kernel>
-__device__ void find_ids(ClusterParticles<Kernel, true>& near, const UnitBox& box, const float4* numbers, float x,
-                         float y, float z, VertexValues& values) {
+__device__ void find_ids(PartNeighbors<Kernel, true>& near, const UnitBox& box, const float4* numbers, float x, float y,
+                         float z, VertexValues& values) {
     LargestShare largest;
-    near.for_each_near(box, [&](const Neighbor& c) {
-        const float4 own = numbers[c.rank];
+    near.for_each_near(box, [&](const Neighbor& neighbor) {
+        const float4 own = numbers[neighbor.rank];
         const float of_particle[group_size_of_numbers] = {own.x, own.y, own.z, own.w};
-        largest.add(Kernel::of(c.view(), 0).share(x - c.particle.x, y - c.particle.y, z - c.particle.z), of_particle);
+        largest.add(Kernel::of(neighbor.view(), 0)
+                        .share(x - neighbor.particle.x, y - neighbor.particle.y, z - neighbor.particle.z),
+                    of_particle);
     });
     values.weight = largest.share;
     for (unsigned k = 0; k < group_size_of_numbers; ++k) values.of[k] = AttributeNumber::as_float(largest.ids[k]);
@@ -65,7 +67,7 @@ __global__ void __launch_bounds__(block_threads) place_group(const __grid_consta
     each_listed_cluster(state, blocks, List::vertices, [&](const Cluster& cluster) {
         const ClusterVertices vertices(blocks, cluster);
         const Int3 lowest = vertices.lowest;
-        ClusterParticles<Kernel, true> near(state, cluster, vertices.box, shared[warp_in_block()]);
+        PartNeighbors<Kernel, true> near(state, cluster, vertices.box, shared[warp_in_block()]);
         const std::uint32_t count = vertices.count;
         for (std::uint32_t first = 0; first < count; first += warp_threads) {
             const std::uint32_t i = first + lane_index();
@@ -90,8 +92,9 @@ __global__ void __launch_bounds__(block_threads) place_group(const __grid_consta
                                         z - static_cast<float>(step.z * units_per_base_cell)};
                 for_each_neighbor<Kernel>(
                     state, base_cell_origin(lowest + step), {{0.0F, 0.0F, 0.0F}, {base_edge, base_edge, base_edge}},
-                    [&](const Neighbor& c) {
-                        nearest.consider(Kernel::of(c.view(), 0), c.particle.x, c.particle.y, c.particle.z, 0, c.rank);
+                    [&](const Neighbor& neighbor) {
+                        nearest.consider(Kernel::of(neighbor.view(), 0), neighbor.particle.x, neighbor.particle.y,
+                                         neighbor.particle.z, 0, neighbor.rank);
                     });
                 if (!nearest.exists()) ++lonely;
                 const float4 own = nearest.exists() ? numbers[nearest.rank] : float4{0.0F, 0.0F, 0.0F, 0.0F};

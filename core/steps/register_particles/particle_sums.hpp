@@ -18,24 +18,25 @@ template <class Kernel, unsigned G, bool are_all, unsigned count>
 __device__ inline void add_particles(const LevelParticles<Kernel>& level, std::uint32_t first, std::uint32_t left,
                                      const SharingLanes<count>& lanes, const float (&at)[3], float& sum) {
     const LevelParticles<Kernel> here = level.from(first + (are_all ? lanes.own : 0));
-    Neighbor c[G];
+    Neighbor neighbors[G];
     for (unsigned g = 0; g < G; ++g) {
         const unsigned i = g * count + lanes.own;
-        c[g] = here.neighbor(are_all ? g * count : i < left ? i : 0);
+        neighbors[g] = here.neighbor(are_all ? g * count : i < left ? i : 0);
     }
 #ifdef __CUDA_ARCH__
     // Else the compiler moves each load to where its value is used, and the waits lie one behind another.
-    for (unsigned g = 0; g < G; ++g) asm volatile("" : "+f"(c[g].fall));
+    for (unsigned g = 0; g < G; ++g) asm volatile("" : "+f"(neighbors[g].fall));
 #endif
     float strength[G];
     for (unsigned g = 0; g < G; ++g)
-        strength[g] = Kernel::of(c[g].view(), 0)
-                          .strength(at[0] - c[g].particle.x, at[1] - c[g].particle.y, at[2] - c[g].particle.z);
+        strength[g] = Kernel::of(neighbors[g].view(), 0)
+                          .strength(at[0] - neighbors[g].particle.x, at[1] - neighbors[g].particle.y,
+                                    at[2] - neighbors[g].particle.z);
     for (unsigned g = 0; g < G; ++g) {
         float of_lane[count];
         for (unsigned l = 0; l < count; ++l) of_lane[l] = lanes.from(strength[g], l);
         for (unsigned l = 0; l < count; ++l) {
-            auto share = Kernel::of(c[g].view(), 0);
+            auto share = Kernel::of(neighbors[g].view(), 0);
             if constexpr (!decltype(share)::has_own_support) share.weight = lanes.from(share.weight, l);
             if (are_all || g * count + l < left) sum = share.add_strength(sum, of_lane[l]);
         }

@@ -172,19 +172,19 @@ void store_blocks(State& state) {
     });
 }
 
-void register_particles(State& state, ParticleSets& sets, NeighborSearch& near, const ParticleFrame& frame) {
+void register_particles(State& state, ParticleSets& sets, NeighborSearch& search, const ParticleFrame& frame) {
     sort_particles(sets, frame, state.attributes);
     const bool has_work_limit = state.settings.work_limit != 0.0;
     if (has_work_limit) require_bearable_sums(sets);
     require_uncrowded(sets, frame.count());
-    near.forget();
-    if (state.settings.has_own_supports) fit_supports(sets, near);
+    search.forget();
+    if (state.settings.has_own_supports) fit_supports(sets, search);
     const std::uint64_t pairs = mark_reached_cells(sets, state.grid);
     number_members(state.grid, state.workers);
     if (has_work_limit) require_bearable_base_cells(sets, pairs, state.grid.members);
     store_blocks(state);
     if (state.settings.counts_particles) count_particles(state, sets);
-    if (state.settings.divides_by_density) divide_weights_by_density(sets, near);
+    if (state.settings.divides_by_density) divide_weights_by_density(sets, search);
 }
 
 }  // namespace meniscus::cpu

@@ -35,7 +35,7 @@ public:
     void find_values(const NeighborLists::Levels& near, float* values) const {
         const F x[1] = {F::load(x_)}, y[1] = {F::load(y_)}, z[1] = {F::load(z_)};
         F sum[1] = {F(0.0F)};
-        for (const NeighborList& c : near) sum_values<Kernel, 1>(c.view(), x, y, z, sum);
+        for (const NeighborList& of_level : near) sum_values<Kernel, 1>(of_level.view(), x, y, z, sum);
         sum[0].store(values);
     }
 
@@ -44,7 +44,8 @@ public:
         const F half(base_edge / 2);
         const F x = F::load(x_) + half, y = F::load(y_) + half, z = F::load(z_) + half;
         F most(0.0F), nearest(0.0F);
-        for (const NeighborList& c : near) sum_bounds<Kernel>(c.view(), x, y, z, base_edge / 2, most, nearest);
+        for (const NeighborList& of_level : near)
+            sum_bounds<Kernel>(of_level.view(), x, y, z, base_edge / 2, most, nearest);
         alignas(64) float bound[cluster_blocks], closest[cluster_blocks];
         most.store(bound);
         nearest.store(closest);
@@ -59,7 +60,7 @@ private:
 };
 
 template <class Kernel>
-void sample(State& state, NeighborSearch& near) {
+void sample(State& state, NeighborSearch& search) {
     resize_for_overwrite(state.reaches, state.block_count());
     state.samples.reserve(state.block_count());
     state.samples.resize(state.block_count());
@@ -69,7 +70,7 @@ void sample(State& state, NeighborSearch& near) {
             const Brick& brick = state.grid.bricks[b];
             for_each_cluster(brick.occupied, [&](const Int3& corner) {
                 const Int3 base = brick.corner() + corner;
-                const NeighborLists::Levels& list = near.near_cluster(base, worker);
+                const NeighborLists::Levels& list = search.near_cluster(base, worker);
                 BaseVertices stored, outside;
                 for (int i = 0; i < cluster_blocks; ++i) {
                     const int place = index_in_brick(corner + cluster_step(i));
@@ -100,13 +101,13 @@ void sample(State& state, NeighborSearch& near) {
         }
     });
     state.field_evaluations += state.block_count();
-    near.even_out();
+    search.even_out();
 }
 
 }  // namespace
 
-void sample_base_vertices(State& state, NeighborSearch& near) {
-    with_kernel(state.settings, [&]<class Kernel>() { sample<Kernel>(state, near); });
+void sample_base_vertices(State& state, NeighborSearch& search) {
+    with_kernel(state.settings, [&]<class Kernel>() { sample<Kernel>(state, search); });
 }
 
 }  // namespace meniscus::cpu

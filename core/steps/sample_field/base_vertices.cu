@@ -16,7 +16,7 @@ static_assert(2 * BaseCluster::cells == warp_threads);
 /// of the cell. A value is the bound of a box without extent, bit by bit.
 template <class Kernel>
 __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_constant__ State state) {
-    __shared__ BoxNeighbors<Kernel, 3> particles[block_warps];
+    __shared__ BoxNeighbors<Kernel, 3> neighbors[block_warps];
     // What is sampled later is appended.
     const std::uint32_t blocks = state.count(Resource::blocks);
     if (blockIdx.x == 0 && threadIdx.x == 0) {
@@ -35,9 +35,9 @@ __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_con
         const bool exists = cluster.holds(state, step);
         if (__ballot_sync(all_lanes, exists ? 1 : 0) == 0 || !loop.goes_on_together()) return;
         float sum = 0.0F, closest = 0.0F;
-        particles[warp_in_block()].for_each(
+        neighbors[warp_in_block()].for_each(
             state, cluster.brick, cluster.corner, cluster.box(),
-            [&](const Neighbor& c) { sum_bounds<Kernel>(c.view(), x, y, z, half, sum, closest); });
+            [&](const Neighbor& neighbor) { sum_bounds<Kernel>(neighbor.view(), x, y, z, half, sum, closest); });
         if (!exists) return;
         const std::uint32_t b = cluster.block(state, step);
         if (bounds) {

@@ -101,7 +101,7 @@ public:
         const F aside = F::load(aside_);
         const auto jet_at = [&]<class Jet>(const Point3<F>& p, Jet jet) {
             const auto add_near = [&](const UnitBox& box, const auto& x) {
-                for (const NeighborList& c : near(box)) sum_jets<Kernel>(c.view(), x, p.y, p.z, jet);
+                for (const NeighborList& of_level : near(box)) sum_jets<Kernel>(of_level.view(), x, p.y, p.z, jet);
             };
             // A box that is rounded makes no difference: neighbors from a little farther than they reach.
             if constexpr (cluster_size.x == cells_of_origin)
@@ -138,7 +138,7 @@ private:
 
 /// Of the chosen cells.
 template <class Kernel>
-void measure(State& state, NeighborSearch& near) {
+void measure(State& state, NeighborSearch& search) {
     state.bends.assign(state.block_count(), {0.0F, 1});
     const BlocksView blocks = state.blocks();
     const BlobRule blobs{state.settings.blob_closest, state.settings.blob_level};
@@ -159,7 +159,7 @@ void measure(State& state, NeighborSearch& near) {
                         cells.add(brick.number(place), step, vertices, iso);
                 }
                 const auto near_box = [&](const UnitBox& box) -> const NeighborLists::Levels& {
-                    return near.near_box(brick.corner() + corner, box, worker);
+                    return search.near_box(brick.corner() + corner, box, worker);
                 };
                 // A sheet of cells fills half of a wide register.
                 with_lanes_for(cells.count(), [&]<class F>() { cells.search<Kernel, F>(iso, near_box); });
@@ -170,13 +170,13 @@ void measure(State& state, NeighborSearch& near) {
         evaluations.fetch_add(here, std::memory_order_relaxed);
     });
     state.field_evaluations += evaluations.load(std::memory_order_relaxed);
-    near.even_out();
+    search.even_out();
 }
 
 }  // namespace
 
-void measure_bends(State& state, NeighborSearch& near) {
-    with_kernel(state.settings, [&]<class Kernel>() { measure<Kernel>(state, near); });
+void measure_bends(State& state, NeighborSearch& search) {
+    with_kernel(state.settings, [&]<class Kernel>() { measure<Kernel>(state, search); });
 }
 
 }  // namespace meniscus::cpu

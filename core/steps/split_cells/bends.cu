@@ -23,7 +23,7 @@ __device__ UnitBox box_of(const Point3<float>& p, bool counts) {
 
 template <class Kernel>
 __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_constant__ State state) {
-    __shared__ BoxNeighbors<Kernel, 4> particles[block_warps];
+    __shared__ BoxNeighbors<Kernel, 4> neighbors[block_warps];
     const BlocksView blocks = state.blocks();
     const BlobRule blobs{state.settings.blob_closest, state.settings.blob_level};
     const float iso = state.settings.iso;
@@ -61,12 +61,12 @@ __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_co
                 box.low[axis] = max(box.low[axis] - 1.0F, cluster.box().low[axis]);
                 box.high[axis] = min(box.high[axis] + 1.0F, cluster.box().high[axis]);
             }
-            particles[warp_in_block()].for_each(state, cluster.brick, cluster.corner, box, [&](Neighbor c) {
+            neighbors[warp_in_block()].for_each(state, cluster.brick, cluster.corner, box, [&](Neighbor neighbor) {
                 // Whole units, so that this is exact.
-                c.particle.x -= aside[0];
-                c.particle.y -= aside[1];
-                c.particle.z -= aside[2];
-                sum_jets<Kernel>(c.view(), p.x, p.y, p.z, jet);
+                neighbor.particle.x -= aside[0];
+                neighbor.particle.y -= aside[1];
+                neighbor.particle.z -= aside[2];
+                sum_jets<Kernel>(neighbor.view(), p.x, p.y, p.z, jet);
             });
             return jet;
         };

@@ -65,9 +65,9 @@ WantedLevel choose_levels(State& state, bool has_particle_levels) {
 
 }  // namespace
 
-WantedLevel split_cells(State& state, NeighborSearch& near, bool has_particle_levels) {
+WantedLevel split_cells(State& state, NeighborSearch& search, bool has_particle_levels) {
     find_band(state);
-    if (state.settings.measures_bends) measure_bends(state, near);
+    if (state.settings.measures_bends) measure_bends(state, search);
     WantedLevel wanted_level = choose_levels(state, has_particle_levels);
     collect_level_sets(state);
     return wanted_level;
