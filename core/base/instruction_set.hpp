@@ -15,7 +15,7 @@ enum class InstructionSet : std::uint8_t {
 };
 std::string_view name_of(InstructionSet set);
 
-/// Those of this build that the processor has; the fastest is the last.
+/// The instruction sets of this build that the processor has; the fastest is the last.
 std::vector<InstructionSet> usable_instruction_sets();
 
 /// The fastest, or the one that the environment variable MENISCUS_INSTRUCTIONS names. Throws InvalidInput if it names

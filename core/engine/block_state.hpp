@@ -1,4 +1,4 @@
-// What both engines keep of every stored base cell (block), named once.
+// The arrays of every stored base cell (block) that both engines keep, named once.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace meniscus {
 
-/// What is known of the surface in a cell of the band before it is sampled; zeros outside of the band.
+/// An estimate of the surface in a cell of the band before it is sampled; zeros outside of the band.
 struct CellBend {
-    float curvature;  ///< both principal curvatures, absolute, added; times c
-    int least_level;  ///< for a surface that no corner shows, which curvature does not see
+    float curvature;  ///< sum of both principal curvatures' magnitudes, times c
+    int least_level;  ///< least level for a surface that no corner shows: curvature does not see it
 };
 
 /// Bounds of the field in a cell, by its particles alone.
@@ -26,17 +26,17 @@ struct CellReach {
 /// A<T>: an array of T in the engine's memory, Array<T> on the host and T* on a device.
 template <template <class> class A>
 struct BlockState {
-    // Of every block, and room for one more; BlocksView explains those that are not explained here.
+    // An element for every block, and room for one more; BlocksView explains the members without a comment.
     A<std::uint32_t> brick;
     A<std::uint16_t> place;
     A<std::uint8_t> level;
     A<BlockMask> sampled;
     A<BlockMask> inside;
-    A<BlockMask> wanted_points;  ///< to be sampled
+    A<BlockMask> wanted_points;  ///< points to be sampled
     A<std::uint32_t> first_sample;
     A<EdgeMasks> edges;
     A<std::uint32_t> first_vertex;
-    A<std::uint32_t> particle_counts;  ///< particles of level 0; CountCriterion only
+    A<std::uint32_t> particle_counts;  ///< number of particles of level 0; CountCriterion only
     A<CellReach> reaches;
     A<CellBend> bends;  ///< CurvatureCriterion only
 

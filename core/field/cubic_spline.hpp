@@ -64,7 +64,7 @@ struct CubicSpline {
         return F(weight) * cubic_spline(length(dx, dy, dz) * F(inverse_support));
     }
 
-    /// What add_strength() makes a share of: W(q) / W0.
+    /// The strength, of which add_strength() makes a share: W(q) / W0.
     template <class F>
     MENISCUS_HD F strength(F dx, F dy, F dz) const {
         return cubic_spline(length(dx, dy, dz) * F(inverse_support));

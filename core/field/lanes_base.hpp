@@ -1,4 +1,4 @@
-// How many floats are computed with at once.
+// The number of floats that are computed with at once.
 #pragma once
 
 #include <array>

@@ -60,7 +60,7 @@ struct Poly6 {
         return max(fnma(F(fall), d2, F(weight)), F(0.0F));
     }
 
-    /// What add_strength() makes a share of: its cube root.
+    /// The strength, of which add_strength() makes a share: its cube root.
     template <class F>
     MENISCUS_HD F strength(F dx, F dy, F dz) const {
         return root_of_share(squared_distance(dx, dy, dz));

@@ -68,7 +68,7 @@ private:
     ParticleSets particles_;
     NeighborSearch search_;
     std::unique_ptr<FieldSource> field_;
-    Array<std::uint8_t> found_levels_;  ///< of the last frame, once a mesh of it was emitted with capped ones
+    Array<std::uint8_t> found_levels_;  ///< levels of the last frame, once a mesh of it was emitted with capped levels
     bool is_capped_ = false;
 };
 

@@ -8,7 +8,7 @@
 namespace meniscus::cuda {
 
 struct CellBit {
-    std::uint64_t word;  ///< among the words of all bricks
+    std::uint64_t word;  ///< index among the words of all bricks
     Counter bit;
 
     __device__ CellBit(const State& state, std::uint32_t block) {
@@ -16,7 +16,7 @@ struct CellBit {
         word = std::uint64_t{Brick::words} * state.brick[block] + place / 64;
         bit = Counter{1} << place % 64;
     }
-    /// Both return what was in the word before.
+    /// Both return the word before the change.
     __device__ Counter put_into(std::uint64_t* set) const {
         return atomicOr(reinterpret_cast<Counter*>(&set[word]), bit);
     }

@@ -1,5 +1,5 @@
-// Finished arrays on their way from the device: straight to where they belong if that is pinned, else through two
-// pieces of pinned memory, of which one fills while the other is emptied.
+// Finished arrays on their way from the device: straight to their place if that is pinned, else through two pieces of
+// pinned memory, of which one fills while the other is emptied.
 #pragma once
 
 #include <algorithm>

@@ -6,9 +6,10 @@
 
 namespace meniscus::cuda {
 
-/// A thread's side of it. The flag lies in the host's memory, where reading it costs microseconds: the grid's first
-/// thread reads it as it begins, which is in time for kernels that take little, and all read it every few milliseconds
-/// after that. Whoever finds it raised sets Counts::stop, so that no later kernel finds anything to do.
+/// A thread's side of a long loop. The flag lies in the host's memory, where reading it costs microseconds: the grid's
+/// first thread reads it as it begins, which is in time for kernels that take little, and all read it every few
+/// milliseconds after that. A thread that finds it raised sets Counts::stop, so that no later kernel finds anything to
+/// do.
 class LongLoop {
 public:
     __device__ explicit LongLoop(const State& state) : state_(state), asked_at_(clock_now()) {

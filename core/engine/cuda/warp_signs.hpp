@@ -22,7 +22,7 @@ struct ClosedPoints {
 
     struct alignas(8) Point {
         std::uint32_t below;  ///< the bits below the point's own in its half word
-        std::uint32_t half;   ///< the number of that
+        std::uint32_t half;   ///< the number of that half word
     };
     Point point[count];
 
@@ -69,7 +69,7 @@ struct CellsOfLanes {
 struct SubcellPair {
     std::uint32_t cube_case[2];  ///< 0 where there is no subcell: beyond the first, none has a stride above 1
 
-    /// Of the first one's lower corner.
+    /// Coordinates and place of the first subcell's lower corner.
     __device__ static unsigned x() { return 2 * (lane_index() & 1); }
     __device__ static unsigned y() { return lane_index() >> 1 & 3; }
     __device__ static unsigned z() { return lane_index() >> 3; }

@@ -12,7 +12,7 @@
 
 namespace meniscus {
 
-/// As MeshAttribute.
+/// An attribute of the vertices, as MeshAttribute.
 struct DeviceMeshAttribute {
     std::string name;
     ElementType type = ElementType::float32;

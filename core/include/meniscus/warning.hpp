@@ -1,4 +1,4 @@
-// What a frame's owner surely did not mean: the frame is reconstructed as asked, and says so beside it.
+// Warnings of a frame that its owner surely did not mean: it is reconstructed as asked, with the warning beside it.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,8 @@ constexpr std::string_view name_of(WarningCode code) {
 /// The same for the same frame and settings on every backend. How each is found: core/README.md#warnings.
 struct Warning {
     WarningCode code = WarningCode::unknown;
-    double value = 0.0;  ///< what was found, as the code says
-    double limit = 0.0;  ///< what it is held against, as the code says
+    double value = 0.0;  ///< the found value, as the code says
+    double limit = 0.0;  ///< the limit that it is compared with, as the code says
     std::string text;    ///< the same in words, with what to do: one line of English
 
     bool operator==(const Warning&) const = default;

@@ -1,4 +1,4 @@
-// The particles' numbers at points, by whole registers: sums for their means, and which particle has the largest share.
+// The particles' numbers at points, by whole registers: sums for their means, and the particle with the largest share.
 #pragma once
 
 #include <cstddef>

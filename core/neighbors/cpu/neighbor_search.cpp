@@ -14,7 +14,7 @@ UnitBox box_of_cells(const Int3& size) {
              static_cast<float>(size.z) * base_edge}};
 }
 
-/// What moves positions relative to one base cell to those relative to another.
+/// The shift that makes positions relative to one base cell relative to another.
 std::array<float, 3> shift_between(const Int3& from, const Int3& to) {
     const Int3 step = from - to;
     return {static_cast<float>(step.x) * base_edge, static_cast<float>(step.y) * base_edge,

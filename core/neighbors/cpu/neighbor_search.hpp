@@ -43,7 +43,7 @@ private:
     const NeighborLists::Levels& cull_cluster(const Int3& base_cell, const UnitBox& box, unsigned worker);
 
     ParticleSets& sets_;
-    std::vector<NeighborLists> lists_;  ///< one of each worker
+    std::vector<NeighborLists> lists_;  ///< lists of each worker
 };
 
 }  // namespace meniscus::cpu

@@ -93,8 +93,8 @@ void ParticleField<Kernel>::block_values(const Int3& base_cell, BlockMask points
 template <class Kernel>
 void ParticleField<Kernel>::whole_block_values(const Int3& base_cell, float* values, unsigned worker) {
     constexpr float cell = units_per_cell;
-    constexpr int rows = WideLanes::count / base_cell_size;  // along y, in a register
-    constexpr int registers = base_cell_size / rows;         // for a slab of the block
+    constexpr int rows = WideLanes::count / base_cell_size;  // rows along y in a register
+    constexpr int registers = base_cell_size / rows;         // registers for a slab of the block
     const WideLanes x = WideLanes::load(block_points.coordinate[0]);
     WideLanes y[registers];
     for (int i = 0; i < registers; ++i) y[i] = WideLanes::load(block_points.coordinate[1] + i * WideLanes::count);

@@ -9,7 +9,8 @@ namespace meniscus::cuda {
 template <int X, int Y, int Z>
 struct CellCluster {
     static constexpr unsigned cells = X * Y * Z;
-    static constexpr std::uint64_t of_brick = brick_volume / cells;  ///< of all bricks they may be more than 2^32
+    static constexpr std::uint64_t of_brick =
+        brick_volume / cells;  ///< clusters in a brick; in all bricks there may be more than 2^32
 
     std::uint32_t brick;
     Int3 corner;  ///< the lowest cell
@@ -27,12 +28,12 @@ struct CellCluster {
     }
     /// Whether such a cell is stored.
     __device__ bool holds(const State& state, const Int3& step) const { return state.bricks[brick].holds(place(step)); }
-    /// The block of one that is.
+    /// The block of a stored cell.
     __device__ std::uint32_t block(const State& state, const Int3& step) const {
         return state.bricks[brick].number(place(step));
     }
 
-    /// Units from its corner.
+    /// The cluster's box, in units from its corner.
     __device__ static UnitBox box() { return {{0.0F, 0.0F, 0.0F}, {X * base_edge, Y * base_edge, Z * base_edge}}; }
 
 private:

@@ -20,7 +20,7 @@ struct ClusterMark {
     std::uint32_t* word;
     std::uint32_t bit;
 
-    /// place: in the brick, of one of its blocks.
+    /// place: that of one of its blocks in the brick.
     __device__ ClusterMark(const State& state, std::uint32_t brick, unsigned place) {
         const unsigned cluster = (place >> 1 & 7) | (place >> 5 & 7) << 3 | (place >> 9 & 7) << 6;
         word = &state.marked_clusters[std::uint64_t{cluster_words} * brick + cluster / 32];
@@ -43,11 +43,12 @@ __device__ inline void list_clusters(const State& state, List list, std::uint32_
 /// A cluster, or a part of one, as a warp sees it.
 struct Cluster {
     std::uint32_t brick;
-    Int3 corner;          ///< of its lowest block, in the brick
-    std::uint32_t block;  ///< this lane's, of the first eight: no_index for the others, and where none is stored
+    Int3 corner;  ///< place of its lowest block in the brick
+    std::uint32_t
+        block;  ///< this lane's block, for the first eight lanes; no_index for others, and where no block is stored
     bool is_first_part;
 
-    /// The one that holds a block; of its 2^halvings parts, this one.
+    /// One of the 2^halvings parts of the cluster that holds a block.
     __device__ Cluster(const BlocksView& blocks, std::uint32_t member, unsigned part, unsigned halvings)
         : brick(blocks.brick[member]), is_first_part(part == 0) {
         const Int3 place = place_in_brick(blocks.place[member]);
@@ -69,8 +70,8 @@ struct Cluster {
     }
 };
 
-/// Calls visit(cluster) for all on a list, each by all lanes of one warp. Where there are few clusters for a warp,
-/// several warps take parts of one: the last cluster shall not keep all others waiting.
+/// Calls visit(cluster) for all clusters on a list, each by all lanes of one warp. Where there are few clusters for a
+/// warp, several warps take parts of one: the last cluster shall not keep all others waiting.
 template <class Visit>
 __device__ void each_listed_cluster(const State& state, const BlocksView& blocks, List list, const Visit& visit) {
     const std::uint32_t count = same_in_all_lanes(state.listed(list));

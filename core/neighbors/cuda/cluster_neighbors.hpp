@@ -100,7 +100,7 @@ public:
         }
     }
 
-    UnitBox whole;  ///< see PartNeighbors
+    UnitBox whole;  ///< box of all parts, see PartNeighbors
     static constexpr unsigned room = has_ranks ? 128 : 224;
 
 private:
@@ -111,7 +111,7 @@ private:
 
     NeighborList<Kernel, has_ranks, room> all_;
     NeighborList<Kernel, has_ranks, most_chosen + group> chosen_;
-    std::uint32_t end_[particle_level_count];  ///< of each level's in all_
+    std::uint32_t end_[particle_level_count];  ///< end of each level's neighbors in all_
 };
 
 /// The neighbors of the parts of a cluster: all at once where they fit, else part by part and a piece at a time.

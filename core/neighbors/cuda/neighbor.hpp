@@ -16,7 +16,7 @@ struct Neighbor {
     float fall;  ///< Poly6 only
     float support;
     float inverse_support;
-    std::uint32_t rank;  ///< in the frame's sorted particles
+    std::uint32_t rank;  ///< index among the frame's sorted particles
     __device__ NeighborView view() const {
         return {&particle.x, &particle.y, &particle.z, &particle.w, &fall, 1, support, inverse_support};
     }
@@ -44,7 +44,7 @@ struct LevelParticles {
         if (std::is_same_v<Kernel, Poly6>) here.falls += first;
         return here;
     }
-    /// Relative to the corner of its support cell's brick.
+    /// Particle i, relative to the corner of its support cell's brick.
     __device__ Neighbor neighbor(std::uint32_t i) const {
         const float fall = std::is_same_v<Kernel, Poly6> ? falls[i] : 0.0F;
         return {particles[i], fall, set.support, inverse_support, i};

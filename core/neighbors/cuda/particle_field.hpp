@@ -11,8 +11,8 @@ namespace meniscus::cuda {
 template <class Kernel>
 struct ParticleField {
     using FieldKernel = Kernel;
-    using Shared = ClusterNeighbors<Kernel>;                           ///< memory of a warp
-    static constexpr bool has_own_supports = Kernel::has_own_support;  ///< which takes more registers
+    using Shared = ClusterNeighbors<Kernel>;                           ///< shared memory of a warp
+    static constexpr bool has_own_supports = Kernel::has_own_support;  ///< own supports take more registers
 
     /// The field in a part of a cluster. Points are in units from the cluster's corner; a box given with them holds
     /// those of all lanes.

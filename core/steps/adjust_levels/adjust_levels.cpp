@@ -53,7 +53,7 @@ void adjust_levels(State& state) {
         return take_stale(state, StaleFor::promotion, brick, w) == 0 ? 0 : cells_to_promote(levels, brick, w);
     };
     do {
-        raise_levels(state, unbalanced, one_more);  // once, see there
+        raise_levels(state, unbalanced, one_more);  // once suffices, see unbalanced_cells()
     } while (raise_levels(state, promoted, one_more));
 }
 

@@ -26,7 +26,7 @@ __global__ void __launch_bounds__(block_threads)
         const std::uint8_t found = state.wanted_level[b];
         state.level[b] = found < cap ? found : cap;
     });
-    // Of vertices for which there was no room.
+    // These are of vertices for which there was no room.
     GridLoop{}.each(std::uint64_t{cluster_words} * state.count(Resource::bricks),
                     [&](std::uint32_t i) { state.marked_clusters[i] = 0; });
 }

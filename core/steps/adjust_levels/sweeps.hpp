@@ -41,10 +41,10 @@ public:
         if (team.is_first_thread()) state_.counts->found[0] = state_.counts->found_alone[0] = 0;
     }
 
-    /// The number of the next search or of the one that is going on: another one for each.
+    /// The number of the next search or of the one that is going on; no two searches have the same.
     __device__ std::uint32_t search() const { return team.is_alone() ? ~searches_alone_ : searches_ + 1; }
 
-    /// A rule's: this cell shall go up. Several threads may find the same one.
+    /// Called by a rule for a cell that shall go up. Several threads may find the same cell.
     __device__ void find(std::uint32_t block) const {
         const CellBit cell(state_, block);
         if ((cell.put_into(state_.raised) & cell.bit) == 0) list(block);
@@ -62,7 +62,7 @@ public:
             ++searches_;
         return found;
     }
-    /// Raises so many cells, all that were found, to new_level(block); to 0: it stays as it is.
+    /// Raises the `found` cells of the last search to new_level(block); a cell keeps its level where that is 0.
     template <class NewLevel>
     __device__ void raise_found(std::uint32_t found, const NewLevel& new_level) const {
         each_around(found, [&](std::uint32_t block, unsigned slot) {
@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    /// How many cells this search has found; searches later: that one's.
+    /// The number of cells that this search has found, or the one `later` searches after it.
     __device__ volatile std::uint32_t* count(std::uint32_t later = 0) const {
         return team.is_alone() ? &state_.counts->found_alone[(searches_alone_ + later) % 3]
                                : &state_.counts->found[(searches_ + later) % 3];
@@ -123,7 +123,7 @@ private:
         state_.level[block] = static_cast<std::uint8_t>(level);
     }
 
-    /// Calls visit(brick, w, which of them) for the words, once for each of so many threads that share one.
+    /// Calls visit(brick, w, sharer) for the words, once for each of the threads that share a word.
     template <unsigned threads, class Visit>
     __device__ void each_word(const Visit& visit) const {
         team.template each_part<threads>(places.words(), [&](std::uint64_t i, unsigned part) {
@@ -159,8 +159,8 @@ private:
 
     const State& state_;
     LevelSets levels_;
-    std::uint32_t searches_ = 0;        ///< by the grid
-    std::uint32_t searches_alone_ = 0;  ///< by its first block
+    std::uint32_t searches_ = 0;        ///< number of searches by the grid
+    std::uint32_t searches_alone_ = 0;  ///< number of searches by its first block
 };
 
 }  // namespace meniscus::cuda

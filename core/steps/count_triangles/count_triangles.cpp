@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t crack_level = static_cast<std::size_t>(TriangleLevel::crack);
 
-/// Leaves in brick_counts how many come before each brick's.
+/// Lists them brick by brick, and leaves in brick_counts the number of those before each brick.
 void list_mixed_cells(State& state) {
     const LevelSets levels = state.level_sets();
     const SignSets signs = state.sign_sets();

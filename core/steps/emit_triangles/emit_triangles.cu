@@ -22,9 +22,9 @@ struct WarpTriangles {
     std::uint32_t first[closed_cells_a_warp];  ///< where in the mesh the list's entry 0 lies, were it that cell's
 };
 
-/// What a lane has to list of a cell.
+/// The triangles of a cell that a lane lists.
 struct TrianglesOfLane {
-    ListedTriangle first[2];  ///< of each of its subcells
+    ListedTriangle first[2];  ///< first triangle of each of its subcells
     unsigned count[2];
 
     __device__ TrianglesOfLane(const TriangleRows& table, const SubcellPair& pair, unsigned cell,

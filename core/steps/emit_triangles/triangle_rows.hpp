@@ -11,7 +11,7 @@
 namespace meniscus::cuda {
 
 struct TriangleRows {
-    static constexpr unsigned most = 5;  ///< triangles of a case
+    static constexpr unsigned most = 5;  ///< most triangles of a case
     static_assert(3 * most == std::tuple_size_v<decltype(CubeCase::edges)>);
 
     /// Row 5 case + triangle. Corner k, from bit 10 k on: the place where its edge starts (5 bits), and the axis (2).

@@ -18,7 +18,7 @@ public:
             std::fill(std::begin(room_), std::end(room_), 0.0F);
         } else if (blocks.sampled[block] == ~BlockMask{0}) {
             of_ = blocks.samples + blocks.first_sample[block];
-            // Clusters walk along four rows of blocks: what the next one needs of this row comes next but one.
+            // Clusters walk along four rows of blocks: the next one reads the block after the next of this row.
             for (int line = 0; line < 64; line += 16) __builtin_prefetch(of_ + 128 + line);
         } else {
             const float* next = blocks.samples + blocks.first_sample[block];

@@ -12,12 +12,13 @@ namespace meniscus::cpu {
 /// The vertices of one block, in the order of their numbers. Arrays have room for whole lanes.
 struct BlockVertices {
     std::size_t count = 0;
-    std::size_t first[4];                                 ///< of every axis, and one past the last
+    std::size_t first[4];                                 ///< index of every axis' first vertex, and the end
     std::uint8_t bit[max_points];                         ///< lower end of the edge
     alignas(64) float low[max_points], high[max_points];  ///< field values at the edge's ends
-    alignas(64) float offset[max_points];                 ///< in steps of c / 2^bits
+    alignas(64) float offset[max_points];                 ///< offset from the lower end, in steps of c / 2^bits
 };
 
+/// Lists the vertices of a block whose edges are known; offsets are not set.
 void find_vertices(const BlocksView& blocks, std::uint32_t block, BlockVertices& vertices);
 
 inline bool is_low_inside(const BlocksView& blocks, std::uint32_t block, const BlockVertices& vertices, std::size_t i) {

@@ -40,7 +40,7 @@ public:
         points_.count += points.count;
     }
 
-    /// Writes those of all blocks added.
+    /// Writes the normals and attributes of all blocks added.
     void finish();
 
     /// Vertices that no particle is near.
@@ -49,7 +49,7 @@ public:
 private:
     struct Member {
         std::uint32_t block;
-        std::size_t first, count;  ///< of its points
+        std::size_t first, count;  ///< its points
     };
 
     void write_values(const Member& member, unsigned group);

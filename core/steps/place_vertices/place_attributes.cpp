@@ -1,4 +1,4 @@
-// What vertices get of the particles near them on the CPU: attributes, and normals in the same pass.
+// Attributes of the vertices on the CPU, and normals in the same pass.
 #include <cmath>
 
 #include "steps/place_vertices/block_vertices.hpp"

@@ -12,7 +12,7 @@
 namespace meniscus::cuda {
 namespace {
 
-/// The numbers of a group at a vertex. weight: the sum of the particles' shares there, or of ids the largest.
+/// The numbers of a group at a vertex. weight: the sum of the particles' shares there, or for ids the largest share.
 struct VertexValues {
     float of[group_size_of_numbers];
     float weight;
@@ -49,7 +49,7 @@ __device__ void find_ids(PartNeighbors<Kernel, true>& near, const UnitBox& box, 
     for (unsigned k = 0; k < group_size_of_numbers; ++k) values.of[k] = AttributeNumber::as_float(largest.ids[k]);
 }
 
-/// Without a comma, which a declaration of shared memory may not have here.
+/// A name without a comma, which a declaration of shared memory may not have here.
 template <class Kernel>
 using SharedParticles = ClusterNeighbors<Kernel, true>;
 

@@ -54,7 +54,7 @@ struct Vertex {
         }
         bit = nth_bit(mask, i);
     }
-    /// In units from the block's corner.
+    /// The point in units from the block's corner.
     __device__ float coordinate(int along, float units_per_step) const {
         const auto low = static_cast<float>(point_coordinate(bit, along) * units_per_cell);
         return along == axis ? low + offset * units_per_step : low;

@@ -13,7 +13,7 @@ struct VertexCounts {
     /// Half a word of a block's edges along an axis that carry a vertex.
     struct alignas(8) Edges {
         std::uint32_t mask;
-        std::uint32_t first;  ///< number of its first vertex
+        std::uint32_t first;  ///< number of the first vertex of this half word
     };
     Edges edges[closed_cells_a_warp][3][closed_half_words];
 

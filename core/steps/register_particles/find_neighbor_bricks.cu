@@ -1,4 +1,4 @@
-// Step 1 on the GPU: where the particles near every brick of base cells lie.
+// Step 1 on the GPU: the bricks of particles near every brick of base cells.
 #include "particles/neighbor_bricks.hpp"
 
 #include "engine/cuda/warp.hpp"
@@ -8,7 +8,7 @@ namespace meniscus::cuda {
 namespace {
 
 __global__ void __launch_bounds__(block_threads) find_each_neighbor_brick(const __grid_constant__ State state) {
-    // Of all bricks they may be more than 2^32.
+    // The slots of all bricks may be more than 2^32.
     constexpr std::uint64_t of_brick = particle_level_count * NeighborBricks::slots;
     GridLoop{}.each<std::uint64_t>(of_brick * state.count(Resource::bricks), [&](std::uint64_t i) {
         const auto b = static_cast<std::uint32_t>(i / of_brick);

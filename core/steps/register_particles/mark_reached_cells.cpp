@@ -23,7 +23,7 @@ std::uint32_t mark_reached(Brick& brick, float x, float y, float z, float suppor
     const std::uint64_t rows = row_bits(box.low[1], box.high[1]);
     std::uint64_t widest[words_of_slice];
     for (int w = 0; w < words_of_slice; ++w) {
-        // Of four bits, each to the end of its row.
+        // Four bits, each moved to the begin of its row.
         const std::uint64_t four = rows >> (4 * w);
         const std::uint64_t starts = (four & 1) | (four & 2) << 15 | (four & 4) << 30 | (four & 8) << 45;
         widest[w] = starts * row_bits(box.low[0], box.high[0]);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t reached_brick_edge = std::int64_t{units_per_base_cell} * brick_size;
 
-/// The words of a brick, which other threads mark meanwhile. Who reads too early marks once more than needed.
+/// The words of a brick, which other threads mark meanwhile. A thread that reads too early marks once more than needed.
 struct Marks {
     std::uint64_t* words;
     __device__ std::uint64_t word(int w) const { return *const_cast<volatile std::uint64_t*>(words + w); }
@@ -56,11 +56,11 @@ __device__ void mark_in_brick(const Marks& marks, const ReachedBox& box, float x
     }
 }
 
-/// Along one axis: where a particle and its support cell lie, and which bricks of base cells it may reach.
+/// Along one axis: the places of a particle and its support cell, and the bricks of base cells that it may reach.
 struct ReachAlongAxis {
-    std::int64_t corner;  ///< of the brick of support cells, units
-    std::int32_t cell;    ///< of the support cell, from there
-    float place;          ///< of the particle, from there
+    std::int64_t corner;  ///< corner of the brick of support cells, units
+    std::int32_t cell;    ///< place of the support cell from that corner, cells
+    float place;          ///< place of the particle from that corner, units
     std::int32_t first, last;
 
     __device__ ReachAlongAxis(std::int32_t brick, std::int32_t cell_in_brick, std::int64_t cell_units, float p,
@@ -74,7 +74,7 @@ struct ReachAlongAxis {
         first = static_cast<std::int32_t>((at - reach) >> reached_brick_shift);
         last = static_cast<std::int32_t>((at + reach) >> reached_brick_shift);
     }
-    /// To places relative to a brick of base cells.
+    /// The shift to places relative to a brick of base cells.
     __device__ std::int32_t shift(std::int32_t brick) const {
         return static_cast<std::int32_t>(corner - (std::int64_t{brick} << reached_brick_shift));
     }
@@ -91,8 +91,8 @@ private:
     static_assert(std::int64_t{1} << reached_brick_shift == reached_brick_edge);
 };
 
-/// What each particle reaches, by `count` lanes, which share its slices. Also adds up ReachedBox::count(): for
-/// the frame, or where a domain will leave cells out, for each brick in members_before.
+/// Marks the cells that each particle reaches, by `count` lanes, which share its slices. Also adds up
+/// ReachedBox::count(): for the frame, or where a domain will leave cells out, for each brick in members_before.
 template <unsigned count>
 __global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __grid_constant__ State state) {
     const std::uint32_t n = state.particle_count();

@@ -24,7 +24,7 @@ __device__ inline void add_particles(const LevelParticles<Kernel>& level, std::u
         neighbors[g] = here.neighbor(are_all ? g * count : i < left ? i : 0);
     }
 #ifdef __CUDA_ARCH__
-    // Else the compiler moves each load to where its value is used, and the waits lie one behind another.
+    // Else the compiler moves each load to the use of its value, and the waits lie one behind another.
     for (unsigned g = 0; g < G; ++g) asm volatile("" : "+f"(neighbors[g].fall));
 #endif
     float strength[G];
@@ -81,7 +81,7 @@ __global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const _
     }
 }
 
-/// Into State::sums. Kernel: CubicSpline, Poly6 or Company.
+/// Puts the sums into State::sums. Kernel: CubicSpline, Poly6 or Company.
 template <class Kernel>
 void sum_at_particles(const State& state, const Launcher& launch) {
     launch_for_particles(state, launch, sum_at_each_particle<Kernel, lanes_to_share>, sum_at_each_particle<Kernel, 1>);

@@ -22,13 +22,13 @@ void require_uncrowded(const ParticleSets& sets, std::uint64_t particles) {
     if (is_crowded(crowd, particles, sets.settings)) throw_crowded(crowd, particles);
 }
 
-/// Of all levels together, in the order in which they are summed.
+/// The key of a particle by its rank in all levels together, in the order in which they are summed.
 const ParticleKey& key_of(const ParticleSets& sets, std::uint64_t rank, unsigned& level) {
     for (level = 0; rank >= sets[level].count(); ++level) rank -= sets[level].count();
     return sets[level].keys[rank];
 }
 
-/// How many particles lie within their level's support of a particle's place, itself included.
+/// The number of particles within their level's support of a particle's place, itself included.
 std::uint64_t count_neighbors(const ParticleSets& sets, std::uint64_t rank) {
     unsigned level = 0;
     const ParticleKey& key = key_of(sets, rank, level);
@@ -76,7 +76,7 @@ void require_bearable_sums(const ParticleSets& sets) {
     if (work() > most) throw_too_much_work("the particles' places", work(), even, sets.settings);
 }
 
-/// The same for the sums at the base cells. pairs: of a base cell and a particle near it.
+/// The same for the sums at the base cells. pairs: number of pairs of a base cell and a particle near it.
 void require_bearable_base_cells(const ParticleSets& sets, std::uint64_t pairs, std::uint32_t base_cells) {
     double even_cells = 0.0;
     for (unsigned k = 0; k < particle_level_count; ++k)
@@ -89,7 +89,7 @@ void require_bearable_base_cells(const ParticleSets& sets, std::uint64_t pairs, 
         throw_too_much_work("the base cells", static_cast<double>(pairs), even, sets.settings);
 }
 
-/// Particles of level 0 in every stored base cell.
+/// Counts the particles of level 0 in every stored base cell.
 void count_particles(State& state, const ParticleSets& sets) {
     const BrickGrid& grid = state.grid;
     Array<std::uint32_t>& counts = state.particle_counts;
@@ -103,7 +103,7 @@ void count_particles(State& state, const ParticleSets& sets) {
             constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
             const Units3 origin{brick.coordinate.x * edge, brick.coordinate.y * edge, brick.coordinate.z * edge};
             const auto size = static_cast<float>(edge);
-            // Wider than needed by the support; particles of other bricks are passed over.
+            // The search is wider than needed by the support; particles of other bricks are passed over.
             set.view().for_each_near(
                 origin, {{0.0F, 0.0F, 0.0F}, {size, size, size}},
                 [&](float x, float y, float z, std::uint32_t particle) {

@@ -29,12 +29,12 @@ __global__ void __launch_bounds__(block_threads) seed_probes(const __grid_consta
     add_of_lanes(&state.counts->probe_seed, seed);
 }
 
-/// Whether what has been found near the probed particles is too much.
+/// Whether the neighbors that were found for the probed particles are too many.
 __device__ bool sums_are_too_much(const State& state) {
     const std::uint32_t particles = state.input->particles;
     const double even =
         even_work<EvenNeighbors>(state.settings, particles, [&](unsigned k) { return state.counts->has_level(k); });
-    // Other warps are adding.
+    // Other warps add to it meanwhile.
     const Counter neighbors = *const_cast<volatile Counter*>(&state.counts->neighbors);
     return work_at_particles(neighbors, particles) > most_work(state.settings, even);
 }
@@ -119,7 +119,7 @@ __global__ void __launch_bounds__(block_threads) list_reached_bricks(const __gri
         const unsigned level = key_level(key);
         return reached_bricks(particle_key(key).cell, state.settings.cell_units[level], state.settings.support[level]);
     };
-    // A stop for want of room keeps no one from listing, unless particles have not found their places.
+    // After a stop for want of room listing goes on, unless particles have not found their places.
     const auto fullest = static_cast<int>(Resource::cell_particles);
     const bool is_sorted = state.counts->needed[fullest] <= state.capacity[Resource::cell_particles];
     GridLoop{}.each_together(is_sorted ? state.counts->particle_cells : 0, [&](std::uint32_t cell, bool exists) {
@@ -127,7 +127,7 @@ __global__ void __launch_bounds__(block_threads) list_reached_bricks(const __gri
         std::uint32_t count = 0;
         if (exists) {
             reached = reached_by(cell);
-            // Most cells reach what the one before does.
+            // Most cells reach the same bricks as the one before.
             if (cell == 0 || !(reached == reached_by(cell - 1))) count = reached.count();
         }
         Counter at = take_places(&state.counts->needed[static_cast<int>(Resource::reached_bricks)], count);
@@ -142,7 +142,7 @@ __global__ void __launch_bounds__(block_threads) list_reached_bricks(const __gri
 
 constexpr std::uint64_t no_brick = ~std::uint64_t{0};
 
-/// The sorted keys that may name a brick.
+/// The number of sorted keys that may name a brick.
 __device__ std::uint64_t reached_key_count(const State& state) {
     const std::uint64_t listed = state.counts->needed[static_cast<int>(Resource::reached_bricks)];
     return listed < state.capacity[Resource::reached_bricks] ? listed : state.capacity[Resource::reached_bricks];
@@ -210,7 +210,7 @@ __global__ void __launch_bounds__(block_threads) make_blocks(const __grid_consta
     });
 }
 
-/// Particles of level 0 in every stored base cell.
+/// Counts the particles of level 0 in every stored base cell.
 __global__ void __launch_bounds__(block_threads) count_particles(const __grid_constant__ State state) {
     const BrickGridView grid = state.grid();
     GridLoop{}.each(state.particle_count(), [&](std::uint32_t i) {

@@ -62,7 +62,7 @@ void sort_identified_keys(ParticleSets& sets, ParticleSet& set, const ParticleFr
     });
 }
 
-/// Those of one level.
+/// Sorts the particles of one level.
 void sort_level(ParticleSets& sets, const ParticleFrame& frame, unsigned level) {
     ParticleSet& set = sets[level];
     if (frame.arrays.empty())
@@ -81,7 +81,7 @@ void sort_level(ParticleSets& sets, const ParticleFrame& frame, unsigned level) 
     });
 }
 
-/// What vertices ask of the sorted particles of a level.
+/// Stores the numbers of the sorted particles of a level that vertices need.
 void store_values(ParticleSets& sets, ParticleSet& set, const ParticleFrame& frame, const AttributeNumbers& numbers) {
     const PayloadView payload = payload_view(frame);
     const std::size_t n = set.count();
@@ -103,7 +103,7 @@ void store_values(ParticleSets& sets, ParticleSet& set, const ParticleFrame& fra
     });
 }
 
-/// The support cells of a sorted set.
+/// Stores the support cells of a sorted set.
 void store_support_cells(ParticleSets& sets, ParticleSet& set) {
     const auto& keys = set.keys;
     const auto starts_cell = [&](std::size_t i) -> std::uint64_t {

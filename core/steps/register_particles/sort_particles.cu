@@ -62,7 +62,7 @@ __device__ void lay_boxes(const State& state) {
     if (!state.capacity.orders_whole_keys()) state.need(Resource::boxed_bricks, boxed);
 }
 
-/// One side of a box grows to hold a particle, which most particles do not ask for.
+/// One side of a box grows to hold a particle; most particles lie inside already.
 __device__ void grow(std::uint32_t& bound, std::uint32_t least) {
     if (*const_cast<volatile std::uint32_t*>(&bound) < least) atomicMax(&bound, least);
 }
@@ -88,13 +88,13 @@ __global__ void __launch_bounds__(block_threads) make_keys(const __grid_constant
     if (warp_in_block() != 0) return;
     if (lane_index() < particle_level_count * box_bounds && bounds[lane_index()] != 0)
         atomicMax(state.counts->boxes[0].below + lane_index(), bounds[lane_index()]);
-    // The last block finds what all have put there.
+    // The last block finds the bounds of all blocks.
     __threadfence();
     __syncwarp();
     if (lane_index() == 0 && atomicAdd(&state.counts->boxed_blocks, 1U) == gridDim.x - 1) lay_boxes(state);
 }
 
-/// What of a key is sorted by.
+/// The part of a key by which is sorted.
 enum class KeyPart : std::uint8_t { cell, lower_half, upper_half };
 
 /// A support cell's number in the boxes of all levels, in the order of keys.
@@ -187,7 +187,7 @@ __global__ void __launch_bounds__(block_threads) store_support_cells(const __gri
 __device__ std::uint32_t place_in_order(const State& state, std::uint32_t i, std::uint32_t begin, std::uint32_t end) {
     if (state.capacity.orders_whole_keys()) return i;
     if (end - begin > Capacities::most_counted_in_cell) {
-        // Whichever thread is last: any such number asks for the order of whole keys.
+        // The number of the last thread stays: any such number asks for the order of whole keys.
         state.need(Resource::cell_particles, end - begin);
         return i;
     }
@@ -207,7 +207,7 @@ __global__ void __launch_bounds__(block_threads)
     each_by_warp(state.count(Resource::particle_bricks),
                  [&](std::uint32_t b) { count_by_warp(state.particle_bricks[b]); });
     Counter crowd = 0;
-    // Where bricks lack room alone, the frame goes on to find what else does.
+    // Where only bricks lack room, the frame goes on to find what else lacks it.
     GridLoop{}.each(state.counts->particle_cells == 0 ? 0 : state.input->particles, [&](std::uint32_t i) {
         const SortKey key = state.keys[i];
         const auto cell = static_cast<std::uint32_t>(state.starts[i + 1]) - 1;
@@ -239,7 +239,7 @@ __global__ void __launch_bounds__(block_threads, 4) order_by_payload(const __gri
     });
 }
 
-/// What vertices ask of the sorted particles.
+/// Stores the numbers of the sorted particles that vertices need.
 __global__ void __launch_bounds__(block_threads) store_numbers(const __grid_constant__ State state, unsigned group) {
     const AttributeNumber* const numbers = state.input->attributes.group(group);
     GridLoop{}.each(state.particle_count(), [&](std::uint32_t i) {
@@ -252,7 +252,7 @@ __global__ void __launch_bounds__(block_threads) store_numbers(const __grid_cons
     });
 }
 
-/// Sorts State::order. The room of the particles, which come later, serves for what CUB sorts.
+/// Sorts State::order. CUB's keys lie in the room of the particles, which come later.
 void sort_order(State& state, const Launcher& launch) {
     const std::uint64_t n = state.capacity.particles;
     auto* const first_keys = reinterpret_cast<std::uint64_t*>(state.particles);

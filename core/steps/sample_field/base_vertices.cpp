@@ -16,7 +16,7 @@ class BaseVertices {
 public:
     int count() const { return count_; }
     std::uint32_t block(int i) const { return block_[i]; }
-    /// Its place in the cluster.
+    /// The i-th block's place in the cluster.
     const Int3& step(int i) const { return step_[i]; }
 
     void add(std::uint32_t block, const Int3& step) {
@@ -28,8 +28,8 @@ public:
         ++count_;
     }
 
-    // In a register whose lanes are F, enough for all blocks; what lanes beyond the last one find is nobody's. near:
-    // the particles near the cluster.
+    // By a register of lanes F, enough for all blocks; results of lanes beyond the last block are not used. near: the
+    // neighbors of the cluster.
 
     template <class Kernel, class F>
     void find_values(const NeighborLists::Levels& near, float* values) const {
@@ -88,7 +88,7 @@ void sample(State& state, NeighborSearch& search) {
                     state.first_sample[block] = block;
                     state.sampled[block] = 1;
                     state.inside[block] = is_inside ? 1 : 0;
-                    // Nobody asks how far particles reach into a cell with a corner inside.
+                    // The reach of particles into a cell with a corner inside does not matter.
                     if (is_inside)
                         state.reaches[block] = {std::numeric_limits<float>::infinity(), 1.0F};
                     else

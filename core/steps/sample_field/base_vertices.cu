@@ -17,7 +17,7 @@ static_assert(2 * BaseCluster::cells == warp_threads);
 template <class Kernel>
 __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_constant__ State state) {
     __shared__ BoxNeighbors<Kernel, 3> neighbors[block_warps];
-    // What is sampled later is appended.
+    // Later samples are appended.
     const std::uint32_t blocks = state.count(Resource::blocks);
     if (blockIdx.x == 0 && threadIdx.x == 0) {
         state.need(Resource::samples, blocks);

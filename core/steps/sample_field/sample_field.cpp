@@ -49,13 +49,13 @@ BlockMask missing_points(const State& state, std::uint32_t block) {
     return state.wanted_points[block] & ~state.sampled[block];
 }
 
-/// Of a level-1 edge's middle follows that of one of its halves.
+/// The missing middles of level-1 edges: each is followed by the middle of one of its halves.
 BlockMask followed_points(Wanted wanted, BlockMask missing) {
     return wanted == Wanted::middles ? missing & level1_middles : 0;
 }
 
-/// Samples the chosen blocks of a cluster, whose samples move to `room` one after the other; returns how many points
-/// were new.
+/// Samples the chosen blocks of a cluster, whose samples move to `room` one after the other; returns the number of new
+/// points.
 std::uint64_t sample_cluster(State& state, FieldSource& field, Wanted wanted, const Brick& brick, const Int3& corner,
                              const std::uint64_t* chosen, std::uint64_t& room, unsigned worker) {
     const Int3 lowest = brick.corner() + corner;
@@ -94,7 +94,7 @@ std::uint64_t sample_cluster(State& state, FieldSource& field, Wanted wanted, co
     return evaluations;
 }
 
-/// Chooses of some cells of a word those with missing points by wanted(block, bit), and notes these.
+/// Chooses those cells of a word that miss points of wanted(block, bit), and notes the wanted points.
 template <class WantedPoints>
 void choose_blocks(State& state, std::uint32_t brick, int w, std::uint64_t cells, const WantedPoints& wanted) {
     std::uint64_t chosen = 0;

@@ -15,7 +15,7 @@ namespace {
 template <class Field>
 struct ClusterSampling {
     typename Field::Shared near;
-    std::uint32_t bits[warp_threads];  ///< of a block's missing points, where they are few
+    std::uint32_t bits[warp_threads];  ///< bits of a block's missing points, where they are few
 };
 
 /// A block's points, of which a lane has two: `lane` and lane + 32.
@@ -26,7 +26,7 @@ struct HalfMasks {
         : half{static_cast<unsigned>(points), static_cast<unsigned>(points >> 32)} {}
     __device__ unsigned count() const { return static_cast<unsigned>(__popc(half[0]) + __popc(half[1])); }
     __device__ bool holds(int h) const { return (half[h] >> lane_index() & 1) != 0; }
-    /// Points before this lane's.
+    /// Number of points before this lane's.
     __device__ unsigned before(int h) const {
         const auto in_half = lanes_below(half[h]);
         return h == 0 ? in_half : in_half + static_cast<unsigned>(__popc(half[0]));
@@ -72,10 +72,10 @@ __device__ void sample_block(const State& state, Near& near, const BlocksView& b
     const auto coordinate = [&](int axis) {
         return corner[axis] + static_cast<float>(point_coordinate(static_cast<int>(bit), axis) * units_per_cell);
     };
-    float fresh[2];  // of points `lane` and lane + 32
+    float fresh[2];  // values at points `lane` and lane + 32
     const float z = coordinate(2);
     near.column(box, coordinate(0), coordinate(1), z, z + static_cast<float>(2 * units_per_cell), are_many, fresh);
-    // Read anew: while particles were summed over, registers were dear.
+    // Loaded again: kept across the sum they would cost registers.
     const BlockMask known_points = blocks.sampled[block];
     const BlockMask sampled_points = known_points | state.wanted_points[block];
     const HalfMasks known(known_points);
@@ -131,7 +131,7 @@ template <class Field>
 __device__ void sample_listed(const State& state, const Field& field, List list,
                               ClusterSampling<Field> (&shared)[block_warps]) {
     const BlocksView blocks = state.blocks();
-    std::uint32_t evaluations = 0;  // a warp's are fewer than all samples
+    std::uint32_t evaluations = 0;  // the evaluations of a warp are fewer than all samples
     each_listed_cluster(state, blocks, list, [&](const Cluster& cluster) {
         cluster.unmark(state);
         const BlockMask missing =
@@ -170,7 +170,7 @@ __global__ void __launch_bounds__(block_threads) list_half_edge_middles(const __
     });
 }
 
-/// Three blocks hide what a warp waits for, if registers suffice; on some GPUs shared memory has room for two.
+/// Three blocks hide the waits of a warp, if registers suffice; on some GPUs shared memory has room for two.
 #if defined(__CUDA_ARCH__) && (__CUDA_ARCH__ == 860 || __CUDA_ARCH__ == 890)
 template <class Field>
 inline constexpr int blocks_of_sampling = 2;

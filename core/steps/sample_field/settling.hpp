@@ -142,8 +142,8 @@ private:
     const State& state_;
     BlocksView blocks_;
     Sweeps<StaleCells> sweeps_;
-    std::uint32_t faces_ = 0;        ///< to be tested in the first round
-    std::uint32_t stale_count_ = 0;  ///< when the round began
+    std::uint32_t faces_ = 0;        ///< number of faces to be tested in the first round
+    std::uint32_t stale_count_ = 0;  ///< number of stale cells when the round began
 };
 
 }  // namespace meniscus::cuda

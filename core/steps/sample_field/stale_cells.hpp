@@ -18,7 +18,7 @@ public:
 
     __device__ std::uint32_t count() const { return static_cast<volatile std::uint32_t&>(state_.counts->stale_cells); }
     __device__ std::uint32_t operator[](std::uint64_t i) const { return state_.stale_cells()[i]; }
-    /// Words of bricks that hold some of them.
+    /// The words of bricks that hold stale cells.
     __device__ std::uint64_t words() const { return static_cast<volatile std::uint32_t&>(state_.counts->stale_words); }
     __device__ std::uint32_t word(std::uint64_t i) const { return state_.stale_words()[i]; }
 

@@ -1,4 +1,4 @@
-// Lists of what is to be sampled next.
+// Lists of the blocks to be sampled next.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ namespace {
 constexpr int cells_of_origin = 2;
 static_assert(cluster_size.y == cells_of_origin && cluster_size.z == cells_of_origin);
 
-/// Coordinates x of points from there.
+/// Coordinates x of points from that corner.
 template <class F>
 struct FromPair {
     F x;
@@ -32,7 +32,7 @@ struct ClusterVertices {
     static constexpr int row = cluster_size.x + 1;
     static constexpr int count = 9 * row;
     float value[count];        ///< zero where no block is stored
-    std::uint64_t inside = 0;  ///< as bits
+    std::uint64_t inside = 0;  ///< signs as bits
 
     /// corner: lowest cell of the cluster, in this brick.
     ClusterVertices(const BlocksView& blocks, std::uint32_t brick, const Int3& corner) {
@@ -91,7 +91,7 @@ public:
         ++count_;
     }
 
-    /// In a register whose lanes are F, enough for all cells. near(box): the particles near it.
+    /// Searches by a register of lanes F, enough for all cells. near(box): the neighbors of a box.
     template <class Kernel, class F, class Near>
     void search(float iso, const Near& near) {
         // Lanes beyond the last cell repeat the first, so that the box around their points stays small.
@@ -125,10 +125,10 @@ public:
     }
 
 private:
-    alignas(64) float corners_[8][cluster_blocks];  ///< less the iso-value
-    alignas(64) float mixed_[cluster_blocks];       ///< 1 where their signs are, else 0
+    alignas(64) float corners_[8][cluster_blocks];  ///< corner values less the iso-value
+    alignas(64) float mixed_[cluster_blocks];       ///< 1 where the corners' signs are mixed, else 0
     alignas(64) float lowest_[3][cluster_blocks];   ///< lowest points, units from their pair's
-    alignas(64) float aside_[cluster_blocks];       ///< of the pair along x, from the cluster's lowest point
+    alignas(64) float aside_[cluster_blocks];       ///< distance of the pair along x from the cluster's lowest point
     alignas(64) float curvature_[cluster_blocks];
     alignas(64) float inside_[cluster_blocks];
     std::uint32_t block_[cluster_blocks];
@@ -136,7 +136,7 @@ private:
     int count_ = 0;
 };
 
-/// Of the chosen cells.
+/// Finds the bends of the chosen cells.
 template <class Kernel>
 void measure(State& state, NeighborSearch& search) {
     state.bends.assign(state.block_count(), {0.0F, 1});

@@ -9,9 +9,9 @@ namespace {
 
 /// A word of a brick that all lanes of a warp look at: half a word at a time, a lane for every bit.
 struct WordOfLanes {
-    std::uint32_t number;   ///< among the words of all bricks
-    std::uint64_t members;  ///< of the brick
-    std::uint32_t first;    ///< number of the first of them, or of the next one after it
+    std::uint32_t number;   ///< index among the words of all bricks
+    std::uint64_t members;  ///< members of the brick
+    std::uint32_t first;    ///< number of the first member, or of the next one after the word
 
     __device__ static int bit(int half) { return static_cast<int>(lane_index()) + 32 * half; }
     __device__ bool holds(int bit) const { return (members >> bit & 1) != 0; }

@@ -49,7 +49,7 @@ struct NoiseField {
 /// Which has none.
 void place_attributes(const cuda::State&, const NoiseField&, const cuda::Launcher&) {}
 
-/// The device's memory is the host's: what asks for particles is done by the host between waits for the stream.
+/// The device's memory is the host's: the steps that need particles are done by the host between waits for the stream.
 template <Slivers slivers>
 class NoiseSteps : public cuda::SurfaceSteps<NoiseField, slivers> {
     using Surface = cuda::SurfaceSteps<NoiseField, slivers>;
@@ -151,7 +151,7 @@ public:
         return mesh;
     }
 
-    /// Of the mesh before its levels were capped.
+    /// Six times the volume of the mesh before its levels were capped.
     std::uint64_t measured_sixfold_volume() const { return sixfold_volume_; }
 
 private:

@@ -36,7 +36,7 @@ TEST(Golden, MeshesKeepTheirBitsOnThreeThreads) {
         [](const test::GoldenRow& row, const ParticleFrame& frame) { return reconstruct(row, frame, 3); });
 }
 
-/// As the environment says, until the end of its life.
+/// The environment's choice, until the end of its life.
 class WithInstructions {
 public:
     explicit WithInstructions(const std::string& set) { setenv("MENISCUS_INSTRUCTIONS", set.c_str(), 1); }
