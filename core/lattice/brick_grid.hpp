@@ -120,7 +120,7 @@ struct BrickHints {
     MENISCUS_HD std::uint32_t& of_row(int y, int z) { return row[(y & 1) | (z & 1) << 1]; }
 };
 
-/// Where remembering costs more than searching: a GPU's thread would keep them in memory.
+/// No hints, where remembering costs more than searching: a GPU's thread would keep them in memory.
 struct NoBrickHints {
     std::uint32_t none = no_index;
     MENISCUS_HD std::uint32_t& of_row(int, int) { return none = no_index; }

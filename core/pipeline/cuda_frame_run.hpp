@@ -58,7 +58,7 @@ public:
     const State& state() const { return state_; }
     /// Counts of the last run.
     const Counts& counts() const { return *reinterpret_cast<const Counts*>(host_counts_.get()); }
-    /// How many elements the last run needed.
+    /// The number of elements that the last run needed.
     std::uint64_t needed(Resource r) const { return counts().needed[static_cast<int>(r)]; }
     const EventClock& clock() const { return clock_; }
     Stream& stream() { return stream_; }

@@ -39,7 +39,7 @@ public:
     /// frame: of device pointers, its lengths are valid. Waits for the work on `made_on`, and makes its own stream wait
     /// for it, too. Throws InvalidInput with the messages of validate(), and for pointers to other memory.
     ParticlesByLevel require_valid(const ParticleFrame& frame, cudaStream_t made_on, const Settings& settings);
-    /// After that: see BackendReconstruction::numbers_on_device().
+    /// The numbers of a valid frame, see BackendReconstruction::numbers_on_device().
     AttributeNumbers find_numbers(const ParticleFrame& frame);
 
 private:

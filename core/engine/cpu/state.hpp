@@ -21,7 +21,7 @@ enum class StaleFor : std::uint8_t { balance, promotion, corner_points, band, sl
 inline constexpr std::array all_rules{StaleFor::balance, StaleFor::promotion, StaleFor::corner_points, StaleFor::band,
                                       StaleFor::slivers};
 
-/// Where a base cell's triangles go, as indices into the mesh.
+/// The places of a base cell's triangles, as indices into the mesh.
 struct TriangleSlots {
     std::uint32_t cells;   ///< its own marching-cubes triangles
     std::uint32_t cracks;  ///< the crack filling of its faces

@@ -36,7 +36,8 @@ public:
         for (std::size_t i = 0; i < pieces_.size(); ++i) empty(i);
         if (std::exchange(straight_, false)) stream.synchronize();
     }
-    /// After a failure: pieces under way are not delivered, and nothing is written to the caller's memory from here on.
+    /// Ends it after a failure: pieces under way are not delivered, and nothing is written to the caller's memory from
+    /// here on.
     void forget(Stream& stream) noexcept {
         for (Piece& piece : pieces_) piece.bytes = 0;
         if (std::exchange(straight_, false)) stream.settle();

@@ -5,9 +5,9 @@
 
 namespace meniscus::cuda {
 
-/// Where the arrays of a reconstruction lie in device memory. MENISCUS_DEVICE_ARRAYS names one.
+/// The places of a reconstruction's arrays in device memory. MENISCUS_DEVICE_ARRAYS names one.
 enum class ArrayPlacement : std::uint8_t {
-    together,  ///< in one allocation: the default
+    together,  ///< all in one allocation: the default
     guarded,   ///< each in an allocation of its own, poisoned before every frame, between guards that are checked after
                ///< it
     separate,  ///< each in an allocation of its own that only kernels and copies write, for tools that watch memory

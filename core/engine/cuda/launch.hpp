@@ -13,7 +13,7 @@ inline constexpr unsigned block_threads = 256;
 inline constexpr unsigned warp_threads = 32;
 inline constexpr unsigned block_warps = block_threads / warp_threads;
 
-/// Where kernels run.
+/// Launches kernels on a stream.
 struct Launcher {
     cudaStream_t stream = nullptr;
     unsigned processors = 1;  ///< multiprocessors of the stream's device

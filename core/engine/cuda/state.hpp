@@ -54,7 +54,7 @@ inline constexpr std::size_t list_count = 7;
 /// Why the kernels of a frame do nothing more.
 enum class Stop : std::uint32_t {
     none,
-    too_little_room,         ///< for an array, see Counts::needed
+    too_little_room,         ///< an array is too small, see Counts::needed
     crowded,                 ///< the particles lie too densely, see is_crowded()
     too_much_at_particles,   ///< too much work for the sums at the particles' places, see work.hpp
     too_much_at_base_cells,  ///< too much work for the sums at the base cells

@@ -94,7 +94,7 @@ public:
             for (const auto& array : arrays)
                 if (!array.empty() && !is_pinned(array.data(), array.size())) return 0;
             // Only now: a second area for frames that are never sent would be memory for nothing.
-            is_wished_for_ = true;
+            has_senders_ = true;
             Area* const area = free_area(room_for(arrays));
             if (area == nullptr || has_frame_ahead()) return 0;
             copy_ahead(*area, arrays);
@@ -219,9 +219,9 @@ private:
         was_refused_ = false;
         return area;
     }
-    /// Where a second area was refused, every frame would try in vain until the sizes change.
+    /// Takes a second area unless it was refused: then every frame would try in vain until the sizes change.
     void add_second_area(std::size_t bytes) {
-        if (!is_wished_for_ || was_refused_) return;
+        if (!has_senders_ || was_refused_) return;
         for (Area& area : areas_) {
             if (area.is_in_use || area.ahead != 0 || area.bytes >= bytes) continue;
             try {
@@ -267,8 +267,8 @@ private:
     Stream stream_;                        ///< stream of the copies of frames that are sent ahead
     std::array<Area, 2> areas_;
     std::uint64_t last_sent_ = 0;
-    bool is_wished_for_ = false;  ///< whether frames are sent ahead, and can be
-    bool was_refused_ = false;    ///< whether there was no room for a second area of this size
+    bool has_senders_ = false;  ///< whether frames are sent ahead, and can be
+    bool was_refused_ = false;  ///< whether there was no room for a second area of this size
     bool is_closed_ = false;
 };
 

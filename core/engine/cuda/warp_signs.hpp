@@ -16,7 +16,7 @@ inline constexpr unsigned closed_cells_a_warp = warp_threads / 8;  ///< each lan
 inline constexpr unsigned closed_half_words = 16;  ///< block dx + 2 dy + 4 dz has numbers 2 block and 2 block + 1
 inline constexpr int points_a_side = base_cell_size + 1;
 
-/// Where the points of a closed cell lie, by their places x + 5 y + 25 z. For a block of threads.
+/// The bits of a closed cell's points, by their places x + 5 y + 25 z. For a block of threads.
 struct ClosedPoints {
     static constexpr int count = points_a_side * points_a_side * points_a_side;
 

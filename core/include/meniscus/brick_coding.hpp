@@ -65,7 +65,7 @@ struct EncodedBrick {
 };
 
 /// Memory that brick_content() works in, kept from brick to brick: at most 24 bytes for each triangle of the largest.
-/// For one call at a time.
+/// It serves one call at a time.
 struct BrickScratch {
     /// account: is charged; none: uncounted.
     explicit BrickScratch(std::shared_ptr<MemoryAccount> account = nullptr)

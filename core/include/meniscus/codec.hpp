@@ -31,7 +31,7 @@ constexpr std::string_view name_of(Codec codec) {
     return "";
 }
 
-/// For messages: "1 (Draco)", all codecs with their numbers.
+/// Text for messages: "1 (Draco)", all codecs with their numbers.
 inline std::string known_codecs() {
     std::string text;
     for (const Codec known : codecs) {

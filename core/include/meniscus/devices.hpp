@@ -16,7 +16,7 @@ namespace meniscus::cuda {
 inline constexpr int oldest_capability = 80;
 
 struct Device {
-    int index = 0;  ///< for BackendOptions::device
+    int index = 0;  ///< index for BackendOptions::device
     std::string name;
     int capability = 0;          ///< compute capability times ten: 90 for 9.0
     std::size_t free_bytes = 0;  ///< free memory, now and for all programs on it

@@ -64,7 +64,7 @@ struct TriangleRange {
 /// A brick that holds triangles. A crack triangle belongs to the brick of the finer of its two cells.
 struct MeshBrick {
     std::array<std::int32_t, 3> coordinate{};  ///< x y z in bricks; its lattice origin is coordinate * brick_cells
-    std::array<TriangleRange, triangle_level_count> ranges{};  ///< into Mesh::triangles, indexed by TriangleLevel
+    std::array<TriangleRange, triangle_level_count> ranges{};  ///< ranges of Mesh::triangles, indexed by TriangleLevel
     std::uint32_t triangle_count() const {
         return ranges[0].count + ranges[1].count + ranges[2].count + ranges[3].count;
     }

@@ -10,10 +10,11 @@
 namespace meniscus {
 
 enum class WarningCode : std::uint8_t {
-    unknown,              ///< from a server that is newer than this program
-    radius_too_small,     ///< for the particles' spacing. value: the radius, limit: the one that fits, world units
-    radius_too_large,     ///< the same
-    empty_surface,        ///< value: the greatest value of the field that was sampled, limit: that of the surface
+    unknown,           ///< a warning of a server that is newer than this program
+    radius_too_small,  ///< the radius does not fit the particles' spacing. value: the radius, limit: the one that fits,
+                       ///< world units
+    radius_too_large,  ///< the same
+    empty_surface,     ///< value: the greatest value of the field that was sampled, limit: that of the surface
     cell_size_too_large,  ///< to show the particles. value: the cell's edge, limit: the largest that does, world units
     support_too_small,    ///< to join the particles. value: the support, limit: the smallest that does, world units
 };

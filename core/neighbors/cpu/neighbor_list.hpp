@@ -15,7 +15,7 @@ namespace meniscus::cpu {
 /// Neighbors of one particle level.
 class NeighborList {
 public:
-    /// What a list may carry of its particles beside what their kernel asks for.
+    /// The data that a list may carry of its particles beside those of their kernel.
     enum class Carried : std::uint8_t { nothing, ranks, ranks_and_values };
 
     /// has_own_supports: whether the kernel is Poly6; lists of company have none of them even so.

@@ -21,16 +21,16 @@ public:
 
     /// The particles near the cluster (clusters.hpp) of a base cell, relative to the cluster's lowest corner.
     const NeighborLists::Levels& near_cluster(const Int3& base_cell, unsigned worker);
-    /// Those near a box, both relative to a base cell's corner.
+    /// The particles near a box, both relative to a base cell's corner.
     const NeighborLists::Levels& near_box(const Int3& base_cell, const UnitBox& box, unsigned worker);
-    /// Those of the last list that are near a box within its own; all of them where a search would not pay.
+    /// The particles of the last list that are near a box within its own; all of them where a search would not pay.
     const NeighborLists::Levels& nearer_box(const UnitBox& box, unsigned worker);
     /// The same as near_box(), each with its numbers of a group (NeighborList::values).
     const NeighborLists::Levels& near_box_with_values(const Int3& base_cell, const UnitBox& box, unsigned group,
                                                       unsigned worker);
-    /// Those near a box, both relative to an origin that may lie anywhere.
+    /// The particles near a box, both relative to an origin that may lie anywhere.
     const NeighborLists::Levels& near_box(const Units3& origin, const UnitBox& box, unsigned worker);
-    /// Those within the company's support of the box.
+    /// The particles within the company's support of the box.
     const NeighborLists::Levels& company_near_box(const Units3& origin, const UnitBox& box, unsigned worker);
 
     /// Gives every worker room for the longest lists that any has met, so that a warm frame allocates nothing.

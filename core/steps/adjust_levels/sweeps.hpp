@@ -12,7 +12,7 @@
 
 namespace meniscus::cuda {
 
-/// Where rules look the first time: at the words of all bricks.
+/// The words at which rules look the first time: those of all bricks.
 class AllWords {
 public:
     static constexpr bool follows_raising = false;

@@ -15,7 +15,7 @@ using ListedTriangle = std::uint32_t;
 constexpr unsigned row_at = 7, cell_at = 18, stride_at = 20;
 static_assert(closed_cells_a_warp == 4);
 
-/// In shared memory, with room for the cells of nearly all frames. One cell has 64 * 5 triangles at most.
+/// A list in shared memory, with room for the cells of nearly all frames. One cell has 64 * 5 triangles at most.
 struct WarpTriangles {
     static constexpr unsigned room = 512;
     ListedTriangle list[room];

@@ -16,7 +16,7 @@ namespace meniscus {
 /// The work that is never refused, in pairs of a place at which the field is summed and a particle near it.
 inline constexpr double always_bearable = 268'435'456.0;
 
-/// Of this number of particles, neighbors in their order, one is probed: its neighbors are counted.
+/// One probe for this number of particles, next to each other in their order: its neighbors are counted.
 inline constexpr std::uint32_t particles_per_probe = 1024;
 /// Frames of fewer particles are not probed: all of their pairs are always_bearable.
 inline constexpr std::uint32_t fewest_probed = 16'384;

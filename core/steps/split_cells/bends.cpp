@@ -22,7 +22,7 @@ static_assert(cluster_size.y == cells_of_origin && cluster_size.z == cells_of_or
 template <class F>
 struct FromPair {
     F x;
-    F aside;  ///< from the origin of the neighbors to that of the points: whole units, so that this is exact
+    F aside;  ///< shift from the origin of the neighbors to that of the points: exact, in whole units
 
     friend F operator-(const FromPair& p, const F& neighbor) { return p.x - (neighbor - p.aside); }
 };

@@ -83,7 +83,7 @@ MENISCUS_HD inline Point3<F> clamped_to_cell(const Point3<F>& p, const Point3<F>
             curvature_detail::clamped(p.z, corner.z, corner.z + edge)};
 }
 
-/// How much the surface bends near a point of a jet: both its principal curvatures, absolute, added; per unit. Those of
+/// The bend of the surface near a point of a jet: both its principal curvatures, absolute, added; per unit. Those of
 /// the point's own level set are the eigenvalues of the Hessian's tangential part over the length of the gradient.
 /// Level sets are taken as parallel: the surface's radii of curvature differ from these by its distance, which gives a
 /// drop's size from outside of it.

@@ -65,7 +65,7 @@ test::Particles two_drops() {
     return particles;
 }
 
-/// As dense as water.
+/// A block of particles as dense as water.
 test::Particles block() {
     test::Particles particles;
     constexpr std::array places{1.0F, 1.25F, 1.5F};

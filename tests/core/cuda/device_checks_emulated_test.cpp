@@ -41,7 +41,7 @@ void find_the_last_cluster(const cuda::State* state, std::uint32_t* brick, int* 
     *brick = cluster.brick;
     *corner = index_in_brick(cluster.corner);
 }
-/// As many elements as 32 bits cannot count, from the last few on.
+/// A loop over more elements than 32 bits can count, from the last few on.
 void count_the_last_of_many(unsigned long long* sum) {
     constexpr std::uint64_t many = (std::uint64_t{1} << 32) + 2;
     cuda::GridLoop loop;

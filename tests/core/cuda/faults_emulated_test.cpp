@@ -43,7 +43,7 @@ public:
                test::same_bytes(mesh.normals, expected_.normals) &&
                test::same_bytes(mesh.triangles, expected_.triangles) && test::same_bytes(mesh.spray, expected_.spray);
     }
-    /// In a few orders of threads and blocks.
+    /// Reconstructs in a few orders of threads and blocks.
     bool gives_the_cpus_bytes_in_any_order() {
         for (unsigned seed = 1; seed <= 4; ++seed) {
             emulated_device::seed_order(seed);

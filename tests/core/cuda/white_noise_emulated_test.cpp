@@ -18,7 +18,7 @@
 namespace meniscus {
 namespace {
 
-/// In the place of cuda::ParticleField.
+/// A field in the place of cuda::ParticleField.
 struct NoiseField {
     struct Shared {};
     static constexpr bool has_own_supports = false;
@@ -46,7 +46,7 @@ struct NoiseField {
         return {world, cluster.coordinate(state.blocks())};
     }
 };
-/// Which has none.
+/// Such a field has no attributes.
 void place_attributes(const cuda::State&, const NoiseField&, const cuda::Launcher&) {}
 
 /// The device's memory is the host's: the steps that need particles are done by the host between waits for the stream.

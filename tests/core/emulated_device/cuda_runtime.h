@@ -58,7 +58,7 @@ T& shared(Place place = Place::current()) {
     return *static_cast<T*>(shared_memory(sizeof(T), alignof(T), place.line()));
 }
 
-/// Into the stream, or the graph that it is being captured into.
+/// Puts work into the stream, or the graph that it is being captured into.
 void submit(cudaStream_t stream, const std::function<void()>& work);
 /// Called, if there, whenever a thread asks the clock.
 extern std::function<void()> on_clock;

@@ -55,7 +55,7 @@ TEST(Golden, MeshesKeepTheirBitsWithEveryInstructionSet) {
     }
 }
 
-/// Where the first tolerance from `low` on changes the mesh: hashes just before and at it.
+/// The first tolerance from `low` on that changes the mesh, and the hashes just before and at it.
 struct Threshold {
     float before, at;
     std::string sha256_before, sha256_at;

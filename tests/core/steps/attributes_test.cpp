@@ -317,7 +317,7 @@ Departure departure_on_top(Settings settings, float jitter) {
 TEST(Attributes, AFieldThatIsLinearAlongTheSurfaceArrivesAndAcrossItThatOfWaterInside) {
     struct Row {
         Field field;
-        double largest_jittered;  ///< by a tenth of the spacing, a fifth of the radius, to either side
+        double largest_jittered;  ///< particles moved by a tenth of the spacing, a fifth of the radius, to either side
         double usual_of_twice_the_jitter;
         double across;
     };

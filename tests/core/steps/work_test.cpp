@@ -62,7 +62,7 @@ test::Particles clumps(int number, int of, float size) {
     return particles;
 }
 
-/// In the order of the first ones, so that none of them lie together.
+/// The particles of both in turn, so that those of neither lie together.
 test::Particles shuffled_together(const test::Particles& a, const test::Particles& b) {
     test::Particles all;
     for (std::size_t i = 0; i < std::max(a.positions.size(), b.positions.size()); i += 3)

@@ -20,17 +20,17 @@ namespace meniscus::test {
 /// Everything that the row's mesh depends on, so that a changed default changes no mesh.
 struct GoldenRow {
     std::string name;
-    std::string scene;  ///< of golden_scenes()
+    std::string scene;  ///< name of one of golden_scenes()
     Field field;
     Mode mode;
-    double smoothing;               ///< the smoothing length, or the smoothness of the smooth field; radii
-    double cell_size;               ///< radii
-    double iso;                     ///< field value at the surface
-    double tolerance;               ///< of the curvature criterion, finest cells; 0: the count criterion decides
-    std::uint32_t count_threshold;  ///< of the count criterion; 0: the curvature criterion decides
+    double smoothing;  ///< the smoothing length, or the smoothness of the smooth field; radii
+    double cell_size;  ///< radii
+    double iso;        ///< field value at the surface
+    double tolerance;  ///< tolerance of the curvature criterion, finest cells; 0: the count criterion decides
+    std::uint32_t count_threshold;  ///< threshold of the count criterion; 0: the curvature criterion decides
     std::uint32_t bisection_steps;  ///< 0: edge points are interpolated
     bool normals;
-    bool cropped;   ///< by a domain that cuts every scene
+    bool cropped;   ///< whether a domain cuts the scene
     int max_level;  ///< 3: as reconstructed; 1, 2: emitted once more with the levels capped
 
     Settings settings() const;
