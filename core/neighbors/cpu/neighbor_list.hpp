@@ -58,7 +58,7 @@ private:
     Carried carried_;
     std::size_t count_ = 0;
     BrickHints hints_;
-    bool has_own_supports_ = false;  ///< whether the listed particles have
+    bool has_own_supports_ = false;  ///< whether the listed particles have such
     bool has_ranks_ = false;
     float reach_ = 0.0F;
     float support_ = 0.0F;
