@@ -11,11 +11,11 @@ enum class InstructionSet : std::uint8_t {
     portable,  ///< any processor of the architecture
     neon,      ///< Arm, 64 bits
     avx2,      ///< x86-64 with AVX2, FMA, BMI and BMI2: Intel Haswell, AMD Excavator or newer
-    avx512,    ///< with AVX-512 F, VL, BW and DQ beside those
+    avx512,    ///< x86-64 with AVX-512 F, VL, BW and DQ beside those
 };
 std::string_view name_of(InstructionSet set);
 
-/// Those of this build that the processor has; the fastest is the last.
+/// The instruction sets of this build that the processor has; the fastest is the last.
 std::vector<InstructionSet> usable_instruction_sets();
 
 /// The fastest, or the one that the environment variable MENISCUS_INSTRUCTIONS names. Throws InvalidInput if it names

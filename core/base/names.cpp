@@ -1,4 +1,4 @@
-// What the templates of names.hpp share.
+// The parts that the templates of names.hpp share.
 #include "meniscus/names.hpp"
 
 #include "meniscus/error.hpp"

@@ -5,7 +5,7 @@
 
 namespace meniscus {
 
-/// The processor's name, as it tells it.
+/// The processor's name for itself.
 std::string processor_name();
 
 }  // namespace meniscus

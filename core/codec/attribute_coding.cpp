@@ -54,8 +54,8 @@ AttributeRange range_of(const MeshAttribute& attribute) {
     return range;
 }
 
-/// Outward to multiples of a power of two, an eighth to a sixteenth of the extent. Every such multiple is a float, but
-/// beyond the largest one.
+/// Rounds a range outward to multiples of a power of two, an eighth to a sixteenth of the extent. Every such multiple
+/// is a float, but beyond the largest one.
 std::pair<float, float> coded_range(double minimum, double maximum) {
     constexpr double largest = std::numeric_limits<float>::max();
     const double extent = maximum - minimum;

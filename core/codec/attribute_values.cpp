@@ -26,7 +26,7 @@ void set_number_at(std::span<std::byte> bytes, std::size_t place, Number number)
     std::memcpy(bytes.data() + place * sizeof number, &number, sizeof number);
 }
 
-/// Number: of a component.
+/// Number: type of a component.
 template <class Number>
 void code_numbers(const MeshAttribute& attribute, const CodedAttribute& form, std::span<const std::uint32_t> vertices,
                   std::span<std::byte> coded) {

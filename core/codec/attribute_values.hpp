@@ -15,7 +15,7 @@ class CodedRange {
 public:
     CodedRange(const CodedAttribute& form, std::size_t component);
 
-    /// The nearest step's; of a value beyond the range that of its end.
+    /// The number of the nearest step; for a value beyond the range that of its end.
     std::uint32_t number(float value) const;
     /// number: at most 2^bits - 1.
     float value(std::uint32_t number) const;

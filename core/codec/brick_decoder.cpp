@@ -83,9 +83,9 @@ std::unique_ptr<draco::Mesh> decode_draco(const EncodedBrick& brick, std::span<c
 
 /// For every point of the Draco mesh, the vertex that it belongs to: points at one position are one vertex.
 struct Weld {
-    std::vector<LocalPosition> positions;  ///< of the vertices, ascending
+    std::vector<LocalPosition> positions;  ///< positions of the vertices, ascending
     std::vector<std::uint32_t> vertex_of_point;
-    std::vector<std::uint32_t> point_of_vertex;  ///< the first one
+    std::vector<std::uint32_t> point_of_vertex;  ///< first point of each vertex
 };
 
 Weld weld_points(const EncodedBrick& brick, const draco::Mesh& mesh) {

@@ -102,7 +102,7 @@ std::vector<std::byte> encode(const BrickContent& content, const CodingOptions& 
                        ", which this version does not know; it knows " + known_codecs());
 }
 
-/// The mesh's attribute that is to be coded so. Throws unless there is one.
+/// The mesh's attribute of this form. Throws if there is none.
 const MeshAttribute& attribute_of(const Mesh& mesh, const CodedAttribute& form) {
     const auto attribute = std::ranges::find(mesh.attributes, form.name, &MeshAttribute::name);
     if (attribute == mesh.attributes.end() || attribute->type != form.type ||

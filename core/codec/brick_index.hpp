@@ -11,8 +11,8 @@ namespace meniscus {
 
 /// Vertices are numbered in the order in which the triangles meet them.
 struct BrickIndex {
-    std::vector<std::uint32_t> vertices;  ///< into the mesh
-    std::vector<Triangle> triangles;      ///< into `vertices`
+    std::vector<std::uint32_t> vertices;  ///< indices into the mesh
+    std::vector<Triangle> triangles;      ///< corners as indices into `vertices`
 };
 
 /// slots: of a hash table from a mesh's vertex to the brick's; grows as needed, and what it holds does not matter.

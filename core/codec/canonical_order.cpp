@@ -18,15 +18,15 @@ namespace {
 constexpr std::uint32_t digit_bits = 11;  // whose counters the first-level cache holds
 constexpr std::uint32_t digit_count = 1U << digit_bits;
 
-/// Vertices of a slice: so few that they and their triangles stay in the second-level cache.
+/// log2 of the vertices of a slice: they and their triangles stay in the second-level cache.
 constexpr std::uint32_t slice_bits = 14;
 
 struct Numbered {
     LatticePosition position;
-    std::uint32_t vertex;  ///< in the mesh as it was
+    std::uint32_t vertex;  ///< index in the mesh that is put in order
 };
 
-/// How far a coordinate is from the least one: any two fit.
+/// The distance of a coordinate from the least one: uint32 holds it for any two.
 std::uint32_t offset(std::int32_t coordinate, std::int32_t least) {
     return static_cast<std::uint32_t>(coordinate) - static_cast<std::uint32_t>(least);
 }
@@ -34,7 +34,7 @@ std::uint32_t offset(std::int32_t coordinate, std::int32_t least) {
 /// The least box around vertices.
 struct Extent {
     LatticePosition least;
-    std::array<std::uint32_t, 3> bits;  ///< of the greatest offsets
+    std::array<std::uint32_t, 3> bits;  ///< number of bits of the greatest offsets
 
     explicit Extent(std::span<const LatticePosition> vertices) : least(vertices[0]), bits{} {
         LatticePosition most = least;
@@ -48,8 +48,8 @@ struct Extent {
     }
 };
 
-/// Moves vertices from one array to the other, ordered by one digit of a coordinate, those with equal digits as they
-/// were.
+/// Moves vertices from one array to the other, ordered by one digit of a coordinate; vertices with equal digits keep
+/// their order.
 void distribute(const std::vector<Numbered>& from, std::vector<Numbered>& to, std::size_t axis, std::int32_t least,
                 std::uint32_t shift) {
     const auto digit = [=](const Numbered& v) { return (offset(v.position[axis], least) >> shift) % digit_count; };
@@ -98,8 +98,8 @@ Array<std::uint32_t> order_of(std::span<const LatticePosition> vertices) {
     return order;
 }
 
-/// Puts the values of vertices in order, so many elements of an array for each. The array keeps its memory, which may
-/// be charged to an account.
+/// Puts the values of vertices in order: a fixed number of an array's elements for each. The array keeps its memory,
+/// which may be charged to an account.
 template <class T>
 void permute(Array<T>& values, std::size_t per_vertex, const Array<std::uint32_t>& order) {
     Array<T> ordered(values.size());
@@ -122,7 +122,7 @@ std::vector<std::uint32_t> part_by_slices(std::span<Triangle> triangles, std::si
     for (const Triangle& t : triangles) ++begin[slice_of(t) + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<std::uint32_t> next = begin;
-    // Whichever lies in the place where a triangle belongs is the next to move.
+    // The triangle that lies in the place of the moved one is the next to move.
     for (std::uint32_t slice = 0; slice + 1 < begin.size(); ++slice)
         while (next[slice] < begin[slice + 1]) {
             Triangle moving = triangles[next[slice]];
@@ -156,7 +156,7 @@ void sort_triangles(std::span<Triangle> triangles, std::size_t vertices) {
     }
 }
 
-/// Puts the vertices in order, with all that they have, and renames them in the triangles.
+/// Puts the vertices in order, with normals and attributes, and renames them in the triangles.
 void order_vertices(Mesh& mesh) {
     const Array<std::uint32_t> order = order_of(mesh.vertices);
     permute(mesh.vertices, 1, order);

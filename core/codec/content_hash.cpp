@@ -1,4 +1,4 @@
-// Brick contents are told apart by 128 bits of xxHash: two that met would leave a stale brick with every watcher.
+// Brick contents are compared by 128 bits of xxHash: two with the same hash would leave every watcher a stale brick.
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 

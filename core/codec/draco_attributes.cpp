@@ -5,7 +5,7 @@
 namespace meniscus {
 namespace {
 
-/// What one point has.
+/// Type and components of one point's value.
 struct DracoForm {
     draco::DataType type;
     std::uint8_t components;

@@ -21,8 +21,8 @@ inline constexpr std::uint32_t first_attribute_id = 16;
 void add_draco_attribute(draco::Mesh& mesh, std::size_t place, const CodedAttribute& form,
                          std::span<const std::byte> coded);
 
-/// What is wrong with the mesh's attributes, of which no value need be there yet: they must be positions, normals or
-/// none, and those announced. Empty: nothing.
+/// The misfit of the mesh's attributes, in words, empty if there is none. They must be positions, normals or none, and
+/// the announced ones; their values need not be there yet.
 std::string misfit(const draco::PointCloud& mesh, std::span<const CodedAttribute> announced);
 
 /// coded_bytes() for each of these points. Throws InvalidInput for a point that names a value that is not there. The

@@ -43,7 +43,7 @@ private:
 }  // namespace
 
 std::string mesh_sha256(const Mesh& mesh) {
-    Mesh ordered;  // without what is not hashed
+    Mesh ordered;  // only the hashed members
     ordered.levels = mesh.levels;
     ordered.vertices.assign(mesh.vertices.begin(), mesh.vertices.end());
     ordered.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());

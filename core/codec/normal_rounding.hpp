@@ -1,4 +1,4 @@
-// What becomes of normals on their way through Draco.
+// The rounding of normals on their way through Draco.
 #pragma once
 
 #include <draco/attributes/point_attribute.h>

@@ -8,7 +8,7 @@ namespace meniscus {
 
 /// One coordinate from steps of c / 2^from to the nearest step of c / 2^to; 2 <= to <= from. A vertex lies inside of a
 /// finest lattice edge, of which no other vertex has a share. It stays inside: no two vertices ever meet, so a closed
-/// mesh stays closed, and what lies in a lattice plane or beside it does so still.
+/// mesh stays closed, and a point in a lattice plane or beside it stays so.
 inline std::uint16_t round_position(std::uint16_t position, std::uint32_t from, std::uint32_t to) {
     const std::uint32_t dropped = from - to;
     const std::uint32_t offset = position & ((1U << from) - 1);

@@ -1,4 +1,4 @@
-// A triangle's level follows from where its vertices lie.
+// A triangle's level follows from the places of its vertices.
 //
 // A crack triangle lies in a face plane of the base-cell grid; a marching-cubes triangle never does, since no diagonal
 // of its loop lies in a face of its cube. So every other triangle lies inside one base cell, and the level of that cell

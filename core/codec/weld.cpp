@@ -17,8 +17,8 @@ std::array<std::int32_t, 3> zyx(const std::array<std::int32_t, 3>& p) {
 
 struct BrickVertex {
     LatticePosition position;
-    std::uint32_t brick;   ///< in sorted order
-    std::uint32_t vertex;  ///< in that brick
+    std::uint32_t brick;   ///< index in sorted order
+    std::uint32_t vertex;  ///< index in that brick
 };
 
 std::string place_name(const DecodedBrick& brick) {

@@ -1,4 +1,4 @@
-// What both engines keep of every stored base cell (block), named once.
+// The arrays of every stored base cell (block) that both engines keep, named once.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace meniscus {
 
-/// What is known of the surface in a cell of the band before it is sampled; zeros outside of the band.
+/// An estimate of the surface in a cell of the band before it is sampled; zeros outside of the band.
 struct CellBend {
-    float curvature;  ///< both principal curvatures, absolute, added; times c
-    int least_level;  ///< for a surface that no corner shows, which curvature does not see
+    float curvature;  ///< sum of both principal curvatures' magnitudes, times c
+    int least_level;  ///< least level for a surface that no corner shows: curvature does not see it
 };
 
 /// Bounds of the field in a cell, by its particles alone.
@@ -26,17 +26,17 @@ struct CellReach {
 /// A<T>: an array of T in the engine's memory, Array<T> on the host and T* on a device.
 template <template <class> class A>
 struct BlockState {
-    // Of every block, and room for one more; BlocksView explains those that are not explained here.
+    // An element for every block, and room for one more; BlocksView explains the members without a comment.
     A<std::uint32_t> brick;
     A<std::uint16_t> place;
     A<std::uint8_t> level;
     A<BlockMask> sampled;
     A<BlockMask> inside;
-    A<BlockMask> wanted_points;  ///< to be sampled
+    A<BlockMask> wanted_points;  ///< points to be sampled
     A<std::uint32_t> first_sample;
     A<EdgeMasks> edges;
     A<std::uint32_t> first_vertex;
-    A<std::uint32_t> particle_counts;  ///< particles of level 0; CountCriterion only
+    A<std::uint32_t> particle_counts;  ///< number of particles of level 0; CountCriterion only
     A<CellReach> reaches;
     A<CellBend> bends;  ///< CurvatureCriterion only
 
@@ -81,23 +81,26 @@ MENISCUS_HD T* first_of(T* array) {
 
 /// grid: of the blocks; count: how many there are.
 template <class State>
-MENISCUS_HD BlocksView blocks_view(State& s, const BrickGridView& grid, std::uint32_t count) {
+MENISCUS_HD BlocksView blocks_view(State& state, const BrickGridView& grid, std::uint32_t count) {
     return {grid,
             count,
-            first_of(s.brick),
-            first_of(s.place),
-            first_of(s.level),
-            first_of(s.sampled),
-            first_of(s.inside),
-            first_of(s.first_sample),
-            first_of(s.samples),
-            first_of(s.edges),
-            first_of(s.first_vertex)};
+            first_of(state.brick),
+            first_of(state.place),
+            first_of(state.level),
+            first_of(state.sampled),
+            first_of(state.inside),
+            first_of(state.first_sample),
+            first_of(state.samples),
+            first_of(state.edges),
+            first_of(state.first_vertex)};
 }
 
 template <class State>
-MENISCUS_HD LevelSets level_sets_of(State& s, const BrickGridView& grid) {
-    return {{{}, {grid, first_of(s.at_least[1])}, {grid, first_of(s.at_least[2])}, {grid, first_of(s.at_least[3])}}};
+MENISCUS_HD LevelSets level_sets_of(State& state, const BrickGridView& grid) {
+    return {{{},
+             {grid, first_of(state.at_least[1])},
+             {grid, first_of(state.at_least[2])},
+             {grid, first_of(state.at_least[3])}}};
 }
 
 }  // namespace meniscus

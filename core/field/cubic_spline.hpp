@@ -55,14 +55,16 @@ struct CubicSpline {
     float weight;  ///< mass (over density) times W0
     float inverse_support;
 
-    MENISCUS_HD static CubicSpline of(const NeighborView& c, std::size_t j) { return {c.weight[j], c.inverse_support}; }
+    MENISCUS_HD static CubicSpline of(const NeighborView& near, std::size_t j) {
+        return {near.weight[j], near.inverse_support};
+    }
 
     template <class F>
     MENISCUS_HD F share(F dx, F dy, F dz) const {
         return F(weight) * cubic_spline(length(dx, dy, dz) * F(inverse_support));
     }
 
-    /// What add_strength() makes a share of: W(q) / W0.
+    /// The strength, of which add_strength() makes a share: W(q) / W0.
     template <class F>
     MENISCUS_HD F strength(F dx, F dy, F dz) const {
         return cubic_spline(length(dx, dy, dz) * F(inverse_support));

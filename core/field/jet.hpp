@@ -6,7 +6,7 @@
 
 namespace meniscus {
 
-/// To first order. Lengths in units. F is float or Lanes.
+/// The field to first order. Lengths in units. F is float or Lanes.
 template <class F>
 struct FieldSlope {
     F value = F(0.0F);
@@ -20,7 +20,7 @@ struct FieldSlope {
     }
 };
 
-/// To second order.
+/// The field to second order.
 template <class F>
 struct FieldJet {
     F value = F(0.0F);

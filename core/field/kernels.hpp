@@ -1,4 +1,4 @@
-// Which kernel a field has.
+// The choice of a field's kernel.
 #pragma once
 
 #include "field/cubic_spline.hpp"
@@ -7,7 +7,7 @@
 
 namespace meniscus {
 
-/// Calls visit.operator()<Kernel>().
+/// Calls visit.operator()<Kernel>() with the kernel of the field.
 template <class Visit>
 decltype(auto) with_kernel(const LatticeSettings& settings, Visit&& visit) {
     return settings.has_own_supports ? visit.template operator()<Poly6>() : visit.template operator()<CubicSpline>();

@@ -21,16 +21,16 @@ namespace meniscus {
 
 #ifndef __CUDACC__
 
-/// As many as the processor's registers hold. Their number is a matter of speed alone.
+/// As many floats as a register holds. Their number is a matter of speed alone.
 #if defined(__AVX512F__)
 using WideLanes = Lanes<16>;
 #else
 using WideLanes = Lanes<8>;
 #endif
-/// For so few floats that wider registers would not be half full: those cost up to twice as much.
+/// For few floats, which would not fill half of a wider register: that costs up to twice as much.
 using NarrowLanes = Lanes<8>;
 
-/// Calls visit.operator()<F>() with the narrower of the two that has so many lanes.
+/// Calls visit.operator()<F>() with the narrower of the two that has at least `floats` lanes.
 template <class Visit>
 void with_lanes_for(int floats, const Visit& visit) {
     if (floats <= NarrowLanes::count) return visit.template operator()<NarrowLanes>();

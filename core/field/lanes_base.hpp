@@ -1,4 +1,4 @@
-// How many floats are computed with at once.
+// The number of floats that are computed with at once.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace meniscus {
 template <int N>
 struct Lanes;
 
-/// For every set of eight lanes, the lanes that are in it, ascending, then any.
+/// The lanes of every set of eight lanes, ascending, then any others.
 inline constexpr auto lanes_of_set = [] {
     std::array<std::array<std::int32_t, 8>, 256> table{};
     for (std::size_t set = 0; set < 256; ++set) {

@@ -19,40 +19,41 @@ struct LatticeSettings {
     double cell_size = 0.0;         ///< c, world units
     double units_per_length = 0.0;  ///< 4096 / c
     double rest_distance = 0.0;     ///< of particles of level 0 in water, two radii; units
-    double work_limit = 0.0;        ///< see BackendOptions
+    double work_limit = 0.0;        ///< most work of a frame, see BackendOptions
 
-    // Of each particle level.
+    // An element for each particle level.
     std::array<float, particle_level_count> support{};            ///< h, units
-    std::array<float, particle_level_count> inverse_support{};    ///< see inverse_support()
+    std::array<float, particle_level_count> inverse_support{};    ///< 1 / h, see inverse_support()
     std::array<std::int64_t, particle_level_count> cell_units{};  ///< edge of a support cell, see support_cell_units()
 
     // The field.
-    bool divides_by_density = false;  ///< the color field
-    bool has_own_supports = false;    ///< the smooth field
+    bool divides_by_density = false;  ///< whether the field is color
+    bool has_own_supports = false;    ///< whether the field is smooth
     SmoothField smooth;
-    bool leaves_out_spray = false;                              ///< Spray::discard and Spray::points
-    bool lists_spray = false;                                   ///< Spray::points
-    std::array<float, particle_level_count> company_support{};  ///< units; smooth field only
+    bool leaves_out_spray = false;  ///< whether spray is left out: Spray::discard and Spray::points
+    bool lists_spray = false;       ///< whether spray is listed: Spray::points
+    std::array<float, particle_level_count>
+        company_support{};  ///< support of the count of others, units; smooth field only
     /// m / rho0 times the kernel's W0 = 16 / (pi h^3): both scale with 2^3k, so that all particle levels share it.
     float weight = 0.0F;
     float iso = 0.0F;
 
     // The criterion of step 2. Neither counts nor bends: Mode::uniform.
     bool is_adaptive = false;
-    bool measures_bends = false;    ///< CurvatureCriterion
-    bool counts_particles = false;  ///< CountCriterion
-    float tolerance = 0.0F;         ///< in cells
+    bool measures_bends = false;    ///< whether CurvatureCriterion decides
+    bool counts_particles = false;  ///< whether CountCriterion decides
+    float tolerance = 0.0F;         ///< of CurvatureCriterion, in cells
     std::uint32_t count_threshold = 1;
-    float deep_inside = std::numeric_limits<float>::infinity();  ///< see BandTest
-    float blob_closest = 0.75F;                                  ///< see BlobRule
+    float deep_inside = std::numeric_limits<float>::infinity();  ///< least value of deep cells, see BandTest
+    float blob_closest = 0.75F;                                  ///< threshold of CellReach::closest, see BlobRule
     int blob_level = 2;
 
     // Vertices.
     bool bisects = false;
-    std::uint32_t bisection_steps = 0;  ///< on a finest edge
+    std::uint32_t bisection_steps = 0;  ///< number of steps on a finest edge
     std::uint32_t offset_bits = 6;
     bool has_normals = true;
-    bool may_have_attributes = false;  ///< which frames bring, see AttributeNumbers
+    bool may_have_attributes = false;  ///< whether vertices may have attributes, see AttributeNumbers
 
     bool has_domain = false;
     Int3 domain_low, domain_high;  ///< in cells, rounded outward

@@ -11,11 +11,11 @@ struct NeighborView {
     const float* y;
     const float* z;
     const float* weight;
-    const float* fall;  ///< Poly6 only
+    const float* fall;  ///< fall of each; Poly6 only, else null
     std::size_t count;
-    float support;                 ///< of the level: none reaches farther; units
-    float inverse_support;         ///< see inverse_support()
-    const float* ranks = nullptr;  ///< see ParticleSetView; may be none
+    float support;                 ///< support of the level: no particle reaches farther; units
+    float inverse_support;         ///< 1 / support, see inverse_support()
+    const float* ranks = nullptr;  ///< ranks of ParticleSetView; may be null
 };
 
 }  // namespace meniscus

@@ -32,7 +32,7 @@ struct Poly6 {
     float weight;  ///< cube root of the share at the particle's place
     float fall;    ///< weight / h^2, see fall_of()
 
-    MENISCUS_HD static Poly6 of(const NeighborView& c, std::size_t j) { return {c.weight[j], c.fall[j]}; }
+    MENISCUS_HD static Poly6 of(const NeighborView& near, std::size_t j) { return {near.weight[j], near.fall[j]}; }
 
     /// A little more than weight / h^2, so that the share is exactly zero from a distance of h on: squared distances
     /// and this quotient are off by a few 2^-24.
@@ -60,7 +60,7 @@ struct Poly6 {
         return max(fnma(F(fall), d2, F(weight)), F(0.0F));
     }
 
-    /// What add_strength() makes a share of: its cube root.
+    /// The strength, of which add_strength() makes a share: its cube root.
     template <class F>
     MENISCUS_HD F strength(F dx, F dy, F dz) const {
         return root_of_share(squared_distance(dx, dy, dz));
@@ -112,7 +112,9 @@ struct Poly6 {
 
 /// A particle's share in the number of particles around a place, where the level's support is that of the count.
 struct Company {
-    MENISCUS_HD static Poly6 of(const NeighborView& c, std::size_t) { return {1.0F, Poly6::fall_of(1.0F, c.support)}; }
+    MENISCUS_HD static Poly6 of(const NeighborView& near, std::size_t) {
+        return {1.0F, Poly6::fall_of(1.0F, near.support)};
+    }
 };
 
 }  // namespace meniscus

@@ -1,4 +1,4 @@
-// What the stages know of every stored base cell (block), and how a cell reaches the blocks around it.
+// The data of every stored base cell (block), and the way of a cell to the blocks around it.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +24,10 @@ struct BlocksView {
     const std::uint32_t* brick = nullptr;  ///< index of its brick
     const std::uint16_t* place = nullptr;  ///< index_in_brick
     std::uint8_t* level = nullptr;         ///< 1, 2, 3; 0 outside the surface band
-    BlockMask* sampled = nullptr;          ///< its points with a field value
-    BlockMask* inside = nullptr;           ///< those inside the fluid
+    BlockMask* sampled = nullptr;          ///< the block's points with a field value
+    BlockMask* inside = nullptr;           ///< the block's points inside the fluid
     std::uint32_t* first_sample = nullptr;
-    float* samples = nullptr;  ///< field values, those of a block in the order of its points
+    float* samples = nullptr;  ///< field values, a block's in the order of its points
     EdgeMasks* edges = nullptr;
     std::uint32_t* first_vertex = nullptr;
 

@@ -38,7 +38,7 @@ MENISCUS_HD constexpr Int3 place_in_brick(int index) {
 
 /// The members of a word of Brick::occupied that lie at x = 0, one in each of its four rows.
 inline constexpr std::uint64_t first_of_rows = 0x0001000100010001ULL;
-/// Those at x = 15.
+/// The members at x = 15.
 inline constexpr std::uint64_t last_of_rows = first_of_rows << (brick_size - 1);
 
 /// Orders bricks by (z, y, x); 20 bits a side hold every brick of either grid.
@@ -60,9 +60,9 @@ struct Brick {
     Int3 coordinate;
     std::uint32_t first = 0;        ///< number of its first member
     std::uint64_t occupied[words];  ///< word w: the rows y = 4 (w % 4) ... + 3 of the slice z = w / 4
-    std::uint16_t rank[words];      ///< members in the words before
+    std::uint16_t rank[words];      ///< number of members in the words before
 
-    /// Its lowest place.
+    /// The brick's lowest place.
     MENISCUS_HD Int3 corner() const {
         return {coordinate.x * brick_size, coordinate.y * brick_size, coordinate.z * brick_size};
     }
@@ -116,11 +116,11 @@ struct BrickNeighbors {
 
 /// Any values will do: they cost time where wrong, and nothing else.
 struct BrickHints {
-    std::uint32_t row[4] = {};  ///< by the parities of a row's y and z
+    std::uint32_t row[4] = {};  ///< indices by the parities of a row's y and z
     MENISCUS_HD std::uint32_t& of_row(int y, int z) { return row[(y & 1) | (z & 1) << 1]; }
 };
 
-/// Where remembering costs more than searching: a GPU's thread would keep them in memory.
+/// No hints, where remembering costs more than searching: a GPU's thread would keep them in memory.
 struct NoBrickHints {
     std::uint32_t none = no_index;
     MENISCUS_HD std::uint32_t& of_row(int, int) { return none = no_index; }

@@ -35,7 +35,7 @@ struct FaceSigns {
     MENISCUS_HD BlockMask hiding() const {
         return ((middles_any() & ~corners_any()) | (corners_all() & ~middles_all())) & subfaces;
     }
-    /// Which of a subface's points are inside, as bits u + 3 v.
+    /// The points of a subface that are inside, as bits u + 3 v.
     MENISCUS_HD int pattern(int bit) const {
         int points = 0;
         for (int i = 0; i < 9; ++i) points |= static_cast<int>(inside[i] >> bit & 1) << i;

@@ -38,7 +38,7 @@ public:
     }
     /// The places whose points a cell of the band has as corners.
     MENISCUS_HD std::uint64_t with_corner_points() const { return sharing_; }
-    /// Of one of these.
+    /// The levels around one of these.
     MENISCUS_HD LevelsAround operator()(int bit) const {
         LevelsAround around;
         for (int level = 1; level <= 3; ++level) around.at_least[level] = bits_across(at_least_[level - 1], bit);

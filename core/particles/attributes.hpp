@@ -20,11 +20,11 @@ inline constexpr unsigned group_size_of_numbers = 4;
 
 /// One number of an attribute.
 struct AttributeNumber {
-    std::uint8_t array = 0;  ///< its place among the frame's arrays and the mesh's attributes
+    std::uint8_t array = 0;  ///< index of its array in the frame and of its attribute in the mesh
     std::uint8_t component = 0;
-    std::uint8_t components = 1;  ///< of the array
+    std::uint8_t components = 1;  ///< components of the array
     ElementType type = ElementType::float32;
-    // Of amounts, over all particles. A mean lies between them, so that a constant arrives exactly.
+    // The extremes of an amount over all particles. A mean lies between them, so that a constant arrives exactly.
     float least = 0.0F, greatest = 0.0F;
     /// A power of two by which particles' values are multiplied before they are summed, so that sums stay finite.
     float scale = 1.0F;
@@ -40,7 +40,7 @@ struct AttributeNumber {
         return as_float(as_bits(value) ^ sign());
     }
 
-    /// sum: of the particles' numbers, each times its share; weight: of the shares. F is float or Lanes.
+    /// The mean. sum: of the particles' numbers, each times its share; weight: sum of the shares. F is float or Lanes.
     template <class F>
     MENISCUS_HD F mean(F sum, F weight) const {
         return max(min(sum / weight * F(1.0F / scale), F(greatest)), F(least));
@@ -48,7 +48,7 @@ struct AttributeNumber {
     /// The mean at a place where this particle's number alone counts.
     MENISCUS_HD float alone(float number) const { return is_id(type) ? number : mean(number, 1.0F); }
 
-    /// What a vertex gets that no particle is near: 0.
+    /// The number of a vertex without a particle near it: 0.
     MENISCUS_HD float nothing() const { return as_float(sign()); }
 
     /// Gives `count` vertices from the first on their means, or their ids. data: of the attribute.
@@ -84,11 +84,11 @@ private:
     MENISCUS_HD std::uint32_t sign() const { return type == ElementType::int32 ? std::uint32_t{1} << 31 : 0; }
 };
 
-/// How many numbers vertices have, and what they take.
+/// The number of numbers that vertices have, and their bytes.
 struct AttributeShape {
     std::uint32_t amounts = 0, ids = 0;
     std::uint32_t arrays = 0;
-    std::uint8_t vertex_bytes[max_particle_arrays] = {};  ///< of each array
+    std::uint8_t vertex_bytes[max_particle_arrays] = {};  ///< bytes of a vertex's value, for each array
 
     bool operator==(const AttributeShape&) const = default;
     MENISCUS_HD unsigned amount_groups() const { return (amounts + group_size_of_numbers - 1) / group_size_of_numbers; }
@@ -104,7 +104,7 @@ struct AttributeShape {
     }
 };
 
-/// Of a frame: its arrays' numbers by group.
+/// The numbers of a frame's arrays, by group.
 struct AttributeNumbers {
     AttributeShape shape;
     AttributeNumber of[max_particle_arrays * group_size_of_numbers];
@@ -112,7 +112,7 @@ struct AttributeNumbers {
     MENISCUS_HD const AttributeNumber* group(unsigned g) const { return of + group_size_of_numbers * g; }
 };
 
-/// Of arrays that can be attributes, without the amounts' ranges.
+/// The numbers of arrays that can be attributes, without the amounts' ranges.
 inline AttributeNumbers attribute_numbers(std::span<const ParticleArray> arrays) {
     AttributeNumbers numbers;
     const auto add = [&](bool ids, std::uint32_t& count, unsigned first) {
@@ -128,7 +128,7 @@ inline AttributeNumbers attribute_numbers(std::span<const ParticleArray> arrays)
     return numbers;
 }
 
-/// The amounts' ranges. least, greatest: of a float32 array's component.
+/// Sets the amounts' ranges. least, greatest: extremes of a float32 array's component.
 inline void set_range(AttributeNumber& number, float least, float greatest) {
     constexpr float large = 0x1p64F;
     number.least = least;
@@ -139,12 +139,12 @@ inline void set_range_of_bytes(AttributeNumber& number) {
     number.greatest = 255.0F;
 }
 
-/// Of some particles the one with the largest share at a point; of several the smallest of each id.
+/// The particle with the largest share at a point; of several the smallest of each id.
 struct LargestShare {
     float share = 0.0F;
     std::uint32_t ids[group_size_of_numbers] = {};
 
-    /// numbers: those of the particle in a group of ids.
+    /// numbers: the particle's numbers in a group of ids.
     MENISCUS_HD void add(float other, const float* numbers) {
         if (other < share || other == 0.0F) return;
         for (unsigned i = 0; i < group_size_of_numbers; ++i) {
@@ -161,7 +161,7 @@ struct NearestParticle {
     static constexpr float nowhere = 0x1p126F;
 
     float x, y, z;                     ///< the point
-    float squared_distance = nowhere;  ///< of the particle
+    float squared_distance = nowhere;  ///< squared distance of the particle from the point
     unsigned level = 0;
     std::uint32_t rank = 0;
 

@@ -1,4 +1,4 @@
-// What sends a frame's particles ahead of its reconstruction.
+// The interface that sends a frame's particles ahead of its reconstruction.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace meniscus {
 
 class FrameSender : public FrameUpload::Sender {
 public:
-    /// Begins to copy the frame's arrays, none of which becomes no attribute. Returns its number, 0 where nothing was
+    /// Begins to copy the frame's arrays, all of which become attributes. Returns its number, 0 where nothing was
     /// begun: then its reconstruction sends it. For any thread.
     virtual std::uint64_t send(const ParticleFrame& frame) noexcept = 0;
 };

@@ -10,7 +10,7 @@
 
 namespace meniscus {
 
-/// Where a particle stands in the one order in which the field is summed: by brick of support cells, by support cell,
+/// The place of a particle in the one order in which the field is summed: by brick of support cells, by support cell,
 /// by position. Two particles with the same key are the same.
 struct ParticleKey {
     std::uint64_t cell;   ///< brick (z, y, x), then index_in_brick

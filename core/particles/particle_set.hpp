@@ -24,11 +24,11 @@ struct ParticleSetView {
     const float* x = nullptr;
     const float* y = nullptr;
     const float* z = nullptr;
-    const float* weight = nullptr;  ///< of the kernel, see CubicSpline and Poly6
-    const float* fall = nullptr;    ///< of Poly6, else none
+    const float* weight = nullptr;  ///< weight of each kernel, see CubicSpline and Poly6
+    const float* fall = nullptr;    ///< fall of each kernel; Poly6 only, else null
     std::int64_t cell_units = 0;    ///< edge of a support cell
     float support = 0.0F;           ///< h, or the widest of the particles; units
-    /// Each particle's place in the set, as the bits of a float; none where nobody asks which particle it is.
+    /// Each particle's place in the set, as the bits of a float; null where ranks are not needed.
     const float* ranks = nullptr;
 
     MENISCUS_HD Int3 cell_of(std::int64_t px, std::int64_t py, std::int64_t pz) const {

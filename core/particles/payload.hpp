@@ -1,4 +1,4 @@
-// What particles carry beside position and level, and the order of those that lie at one place.
+// The arrays that particles carry beside position and level, and the order of particles that lie at one place.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ struct PayloadView {
     std::size_t element_bytes[max_particle_arrays] = {};
 
     /// Whether particle a comes before particle b of the same key: by the bytes of the first array, then of the next;
-    /// in the frame's order if all are equal, which nothing can tell from the other order.
+    /// in the frame's order if all are equal: the result is the same in either order.
     MENISCUS_HD bool before(std::uint32_t a, std::uint32_t b) const {
         for (std::uint32_t array = 0; array < arrays; ++array) {
             const std::byte* const of_a = data[array] + a * element_bytes[array];
@@ -28,7 +28,7 @@ struct PayloadView {
     }
 };
 
-/// Of a valid frame.
+/// The payload of a valid frame.
 inline PayloadView payload_view(const ParticleFrame& frame) {
     PayloadView view;
     for (const ParticleArray& array : frame.arrays) {

@@ -1,4 +1,4 @@
-// A frame, the memory in which its arrays lie, and what the vertices get of them.
+// A frame, the memory in which its arrays lie, and the numbers that vertices get from them.
 #pragma once
 
 #include <algorithm>
@@ -14,16 +14,16 @@ struct PlacedFrame {
     PlacedFrame(const ParticleFrame& in_host_memory) : frame(in_host_memory) {}
     PlacedFrame(const ParticleFrame& f, bool is_on_device) : frame(f), on_device(is_on_device) {}
 
-    ParticleFrame frame;  ///< with no other arrays than those that become attributes
+    ParticleFrame frame;  ///< the frame, with those arrays alone that become attributes
     AttributeNumbers attributes;
     bool on_device = false;  ///< whether its spans are of device pointers, which the host must not follow
-    bool is_last = false;    ///< whether no other follows, so that what no later step needs can be given back
+    bool is_last = false;    ///< whether no other follows, so that memory that no later step needs can be given back
 };
 
-/// Particles of each level.
+/// Number of particles of each level.
 using ParticlesByLevel = std::array<std::uint64_t, max_particle_level + 1>;
 
-/// Of a frame in host memory.
+/// Counts them in a frame in host memory.
 inline ParticlesByLevel count_levels(const ParticleFrame& frame) {
     ParticlesByLevel particles{frame.count()};
     for (unsigned level = 1; level <= max_particle_level && !frame.levels.empty(); ++level) {

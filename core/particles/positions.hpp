@@ -14,7 +14,7 @@ namespace meniscus {
 struct PositionsView {
     const float* positions = nullptr;
     const std::uint16_t* quantized = nullptr;
-    double low[3] = {}, high[3] = {};  ///< of the quantization box
+    double low[3] = {}, high[3] = {};  ///< corners of the quantization box
     double units_per_length = 0.0;
 
     MENISCUS_HD Units3 snapped(std::size_t i) const {
@@ -29,7 +29,7 @@ struct PositionsView {
     }
 };
 
-/// Of a valid frame.
+/// The positions of a valid frame.
 inline PositionsView positions_view(const ParticleFrame& frame, double units_per_length) {
     PositionsView view;
     if (frame.is_quantized())

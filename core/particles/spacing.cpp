@@ -1,4 +1,4 @@
-// How far apart particles lie is asked of some of them, by one pass over all: their nearest others are found in a
+// The spacing of particles is measured at some of them, by one pass over all: their nearest others are found in a
 // hashed grid that holds those few.
 #include "particles/spacing.hpp"
 
@@ -18,20 +18,21 @@ namespace {
 constexpr std::size_t fewest_particles = 100;
 constexpr std::size_t neighbors = 6;  ///< the distance of the sixth is the same in a lattice, in water and at random
 constexpr double usual_sixth = 2.3;
-constexpr double near_sixth = 1.1;  ///< the radius is too large if that of most is below it,
-constexpr double far_sixth = 4.5;   ///< and may be too small if that of most is above it
-constexpr double company = 2.0;     ///< and if few have another so near
+constexpr double near_sixth = 1.1;  ///< the radius is too large if the sixth's distance of most is below it,
+constexpr double far_sixth = 4.5;   ///< and may be too small if the sixth's distance of most is above it,
+constexpr double company = 2.0;     ///< and if few have another within this distance
 constexpr double few = 0.15;
-constexpr double close_by = 0.4;  ///< of the sixth's distance: of particles at random 0.28 have their nearest so near,
+constexpr double close_by =
+    0.4;  ///< of the sixth's distance: of particles at random 0.28 have their nearest within it,
 constexpr double close_at_random = 0.28;
-constexpr double certainty = 3.0;    ///< of water at most 0.13; so many standard deviations below chance are water
+constexpr double certainty = 3.0;    ///< of water at most 0.13; fewer by this number of standard deviations are water
 constexpr double first_reach = 2.4;  ///< a little beyond the nearest of particles at rest in any packing
-constexpr double last_reach = 1.2;   ///< of the sixth in the median
+constexpr double last_reach = 1.2;   ///< reach of the last pass, times the sixth's distance in the median
 constexpr double reach_growth = 2.0;
 constexpr int most_passes = 20;  ///< up to two million radii: units that are confused, such as mm and m
 
 constexpr std::size_t most_probes = 512;
-/// Enough to tell that a radius fits, and how far apart particles lie; all are asked whether these are water.
+/// Probes enough to see that a radius fits, and to measure the spacing; all are asked whether the particles are water.
 constexpr std::size_t first_probes = 32;
 constexpr std::size_t fewest_probes = 16;
 constexpr std::size_t particles_per_probe = 128;
@@ -105,13 +106,13 @@ private:
     struct Probe {
         std::size_t particle;
         std::array<double, 3> place;
-        std::size_t found;  ///< of the nearest within reach, at most `neighbors`
-        /// Of their distances, ascending; the last is the reach's until all are found.
+        std::size_t found;  ///< number of the nearest within reach, at most `neighbors`
+        /// Squares of their distances, ascending; the last is that of the reach until all are found.
         std::array<double, neighbors> square;
     };
     struct Entry {
         std::uint16_t probe;
-        std::uint16_t next;  ///< of the same bucket, or none
+        std::uint16_t next;  ///< index of the next entry of the same bucket, or none
     };
 
     double coordinate(std::size_t i, std::size_t axis) const {
@@ -156,7 +157,7 @@ private:
             for (int cell = 0; cell < cells_per_probe; ++cell) {
                 std::uint16_t& first =
                     first_[bucket_of(low[0] + (cell % 3), low[1] + (cell / 3 % 3), low[2] + (cell / 9))];
-                // Two of its cells in one bucket: once is enough.
+                // Where two of its cells share a bucket, once is enough.
                 if (first != none && entries_[first].probe == p) continue;
                 entries_[entries] = {static_cast<std::uint16_t>(p), first};
                 first = entries++;
@@ -189,7 +190,7 @@ private:
 
     const ParticleFrame& frame_;
     std::uint8_t level_;
-    std::array<double, 3> low_{}, step_{};  ///< of quantized positions
+    std::array<double, 3> low_{}, step_{};  ///< corner and step of quantized positions
     double cells_per_length_ = 0.0;
     std::size_t count_ = 0;
     std::array<Probe, most_probes> probes_;
@@ -197,7 +198,7 @@ private:
     std::array<std::uint16_t, 1U << bucket_bits> first_;  ///< entry of each bucket
 };
 
-/// More would be pretended, and would change from frame to frame.
+/// More digits would be pretended, and would change from frame to frame.
 double two_digits(double v) {
     std::array<char, 32> text;
     const auto end = std::to_chars(text.data(), text.data() + text.size(), v, std::chars_format::scientific, 1).ptr;

@@ -55,7 +55,8 @@ std::array<Number, 3> numbers_at(const std::byte* place) {
     throw InvalidInput(what.str());
 }
 
-/// Of numbers next to each other. Returns whether float32 holds all of them. Without a branch, for vectors of them.
+/// Converts numbers that lie next to each other. Returns whether float32 holds all of them. Without a branch, for
+/// vectors of them.
 template <class Number, std::size_t count>
 bool copy_row(const std::byte* row, std::span<float, count> out) {
     unsigned misfits = 0;

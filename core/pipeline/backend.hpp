@@ -1,4 +1,4 @@
-// What the reconstructor asks of a backend: the CPU's and CUDA's stand beside it.
+// The interface of a backend for the reconstructor: the CPU's and CUDA's stand beside it.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ public:
     virtual void emit_capped(int max_level, Mesh& mesh) = 0;
     /// The greatest value of the field at the points that the last frame had sampled, inside the domain; 0 without any.
     virtual float greatest_sample() = 0;
-    /// As reconstruct(), but the mesh stays where it is until the next call. Of its attributes only the data are told.
+    /// As reconstruct(), but the mesh stays where it is until the next call. Of its attributes only the data are set.
     virtual DeviceMesh reconstruct_on_device(const PlacedFrame&, Statistics&) {
         throw InvalidInput("the CPU backend has no mesh on a GPU: use reconstruct(), or the backend cuda");
     }
@@ -39,7 +39,8 @@ public:
         throw InvalidInput(
             "the CPU backend takes no particles from a GPU: copy them to host memory, or use the backend cuda");
     }
-    /// What sends frames ahead, which may outlive this one; none on the CPU, where there is nowhere to send them.
+    /// The sender of frames ahead, which may outlive this backend; none on the CPU, where there is no place to send
+    /// them.
     virtual std::shared_ptr<FrameSender> sender() { return nullptr; }
     /// After validate_on_device(): the numbers of the frame's arrays, which can be attributes. Throws InvalidInput,
     /// with the words of numbers_in_host_memory(), for a value that is not finite.
@@ -47,17 +48,17 @@ public:
 };
 
 namespace cpu {
-/// With the loops for one instruction set. The processor has it.
+/// The CPU backend with the loops for one instruction set, which the processor has.
 template <InstructionSet>
 std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, const BackendOptions& options,
                                                            const std::shared_ptr<MemoryAccount>& account);
-/// With those of chosen_instruction_set().
+/// The CPU backend with the loops of chosen_instruction_set().
 std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, const BackendOptions& options,
                                                            const std::shared_ptr<MemoryAccount>& account);
 }  // namespace cpu
 
 namespace cuda {
-/// device_account: of the memory on the GPU. Throws DeviceError if the device does not answer.
+/// device_account: charged for the memory on the GPU. Throws DeviceError if the device does not answer.
 std::unique_ptr<BackendReconstruction> make_reconstruction(const Settings& settings, const BackendOptions& options,
                                                            const std::shared_ptr<MemoryAccount>& account,
                                                            const std::shared_ptr<MemoryAccount>& device_account);

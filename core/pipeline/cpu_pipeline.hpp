@@ -13,7 +13,7 @@
 
 namespace meniscus::cpu {
 
-/// The steps from levels on: they ask nothing but values and normals of the field. `mesh` takes the result.
+/// The steps from levels on: of the field they need values and normals alone. `mesh` takes the result.
 class SurfaceSteps {
 public:
     SurfaceSteps(State& state, FieldSource& field, Mesh& mesh) : state_(state), field_(field), mesh_(mesh) {}
@@ -24,6 +24,8 @@ public:
     void sample_edge_middles() { cpu::sample_edge_middles(state_, field_); }
     void count_triangles() { cpu::count_triangles(state_, mesh_); }
     void place_vertices() { cpu::place_vertices(state_, field_, mesh_); }
+    /// Gives nothing back: the surface may be emitted once more.
+    void release() {}
     void emit_triangles() { cpu::emit_triangles(state_, mesh_); }
     void fill_cracks() { cpu::fill_cracks(state_, mesh_); }
     void measure_volume() { cpu::measure_volume(state_, mesh_); }
@@ -32,26 +34,26 @@ protected:
     State& state_;
     FieldSource& field_;
     Mesh& mesh_;
-    WantedLevel wanted_level_;  ///< of cells that join the band
+    WantedLevel wanted_level_;  ///< criterion for cells that join the band
     Slivers slivers_ = Slivers::raised;
 };
 
 /// All steps of a frame of particles.
 class ParticleSteps : public SurfaceSteps {
 public:
-    ParticleSteps(State& state, FieldSource& field, Mesh& mesh, ParticleSets& sets, NeighborSearch& near,
+    ParticleSteps(State& state, FieldSource& field, Mesh& mesh, ParticleSets& sets, NeighborSearch& search,
                   const PlacedFrame& particles)
         : SurfaceSteps(state, field, mesh),
           sets_(sets),
-          near_(near),
+          search_(search),
           frame_(particles.frame),
           is_last_(particles.is_last) {}
 
-    void register_particles() { cpu::register_particles(state_, sets_, near_, frame_); }
-    void sample_base_vertices() { cpu::sample_base_vertices(state_, near_); }
-    void split_cells() { wanted_level_ = cpu::split_cells(state_, near_, !frame_.levels.empty()); }
-    void place_vertices() {
-        SurfaceSteps::place_vertices();
+    void register_particles() { cpu::register_particles(state_, sets_, search_, frame_); }
+    void sample_base_vertices() { cpu::sample_base_vertices(state_, search_); }
+    void split_cells() { wanted_level_ = cpu::split_cells(state_, search_, !frame_.levels.empty()); }
+    /// Gives back samples and particles of a frame that no other follows.
+    void release() {
         // The greatest sample is looked up where no triangle is.
         if (!is_last_ || mesh_.vertices.empty()) return;
         state_.release_samples();
@@ -60,7 +62,7 @@ public:
 
 private:
     ParticleSets& sets_;
-    NeighborSearch& near_;
+    NeighborSearch& search_;
     const ParticleFrame& frame_;
     bool is_last_;
 };

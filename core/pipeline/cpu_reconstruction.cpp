@@ -10,9 +10,9 @@
 namespace meniscus::cpu {
 namespace {
 
-std::unique_ptr<FieldSource> make_field(const LatticeSettings& settings, NeighborSearch& near) {
+std::unique_ptr<FieldSource> make_field(const LatticeSettings& settings, NeighborSearch& search) {
     return with_kernel(settings, [&]<class Kernel>() -> std::unique_ptr<FieldSource> {
-        return std::make_unique<ParticleField<Kernel>>(near);
+        return std::make_unique<ParticleField<Kernel>>(search);
     });
 }
 
@@ -24,8 +24,8 @@ public:
           workers_(options.threads, stop_.get()),
           state_(account, workers_, settings_),
           particles_(account, workers_, settings_),
-          near_(account, workers_.count(), particles_),
-          field_(make_field(settings_, near_)),
+          search_(account, workers_.count(), particles_),
+          field_(make_field(settings_, search_)),
           found_levels_(make_array<std::uint8_t>(account)) {
         settings_.work_limit = options.work_limit;
     }
@@ -33,7 +33,7 @@ public:
     MeshDownload reconstruct(const PlacedFrame& particles, Mesh& mesh, Statistics& statistics) override {
         StageClock clock(statistics);
         state_.attributes = particles.attributes;
-        ParticleSteps steps(state_, *field_, mesh, particles_, near_, particles);
+        ParticleSteps steps(state_, *field_, mesh, particles_, search_, particles);
         run_pipeline(steps, clock);
         is_capped_ = false;
 
@@ -66,9 +66,9 @@ private:
     Workers workers_;
     State state_;
     ParticleSets particles_;
-    NeighborSearch near_;
+    NeighborSearch search_;
     std::unique_ptr<FieldSource> field_;
-    Array<std::uint8_t> found_levels_;  ///< of the last frame, once a mesh of it was emitted with capped ones
+    Array<std::uint8_t> found_levels_;  ///< levels of the last frame, once a mesh of it was emitted with capped levels
     bool is_capped_ = false;
 };
 

@@ -37,9 +37,9 @@ public:
     FrameRun(const LatticeSettings& settings, const BackendOptions& options, MeshSets& sets, UploadAreas& areas,
              const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account);
 
-    /// A valid frame, up to its mesh on the device. Throws LimitExceeded for one that crowds or is too much work, and
-    /// Stopped, after which the next frame may follow; and LimitExceeded for one that needs more than can be numbered
-    /// or held, after which nothing may.
+    /// Reconstructs a valid frame, up to its mesh on the device. Throws LimitExceeded for one that crowds or is too
+    /// much work, and Stopped, after which the next frame may follow; and LimitExceeded for one that needs more than
+    /// can be numbered or held, after which nothing may.
     void run(const PlacedFrame& particles);
     /// See BackendReconstruction::validate_on_device().
     ParticlesByLevel validate(const ParticleFrame& on_device, cudaStream_t made_on, const Settings& settings);
@@ -52,13 +52,13 @@ public:
     /// The places of the last frame's spray, where the settings want it listed; waits for the copy.
     void copy_spray(Array<Point>& spray);
 
-    /// Of the last frame, see BackendReconstruction; waits for it.
+    /// The greatest sample of the last frame, see BackendReconstruction; waits for it.
     float greatest_sample();
 
     const State& state() const { return state_; }
-    /// Of the last run.
+    /// Counts of the last run.
     const Counts& counts() const { return *reinterpret_cast<const Counts*>(host_counts_.get()); }
-    /// How many elements the last run needed.
+    /// The number of elements that the last run needed.
     std::uint64_t needed(Resource r) const { return counts().needed[static_cast<int>(r)]; }
     const EventClock& clock() const { return clock_; }
     Stream& stream() { return stream_; }
@@ -67,7 +67,7 @@ private:
     /// One set of mesh arrays has one graph, since graphs hold addresses.
     struct CapturedRun {
         Graph graph;
-        std::uint64_t mesh_version = 0;  ///< of the mesh arrays that it was captured for
+        std::uint64_t mesh_version = 0;  ///< version of the mesh arrays that it was captured for
     };
 
     /// grown: whether arrays have moved since the frame before.
@@ -80,16 +80,16 @@ private:
     CapturedRun& current_graph();
     void drop_graphs();
     using Needed = decltype(Counts::needed);
-    /// In the mesh's arrays by number only, see MeshSets::fit(). Returns whether there was too little.
+    /// Makes room in all arrays; in the mesh's by changing their numbers alone, see MeshSets::fit(). Returns whether
+    /// there was too little room.
     bool make_room(const Needed& needed, std::uint64_t payload_bytes, const AttributeShape& attributes);
-    /// After a run that has found too little. Where that was room for the mesh alone, all that the mesh is made of
-    /// stays.
+    /// Makes room after a run that has found too little. Where only the mesh lacked room, all other arrays stay.
     void make_more_room();
     void require_indexable_counts() const;
-    /// See ArrayMemory: before a run, and after it.
+    /// Fault finding before a run and after it, see ArrayMemory.
     void poison();
     void require_whole_guards();
-    /// Throws for the reason for which the last run has stopped, unless that is too little room.
+    /// Throws the refusal for which the last run has stopped, unless it lacked room.
     void require_no_refusal() const;
 
     int device_;
@@ -100,17 +100,17 @@ private:
     Upload upload_;
     PinnedMemory host_counts_;
     Stream stream_;
-    std::optional<ParticleCheck> particle_check_;  ///< from the first frame on that comes from the device
+    std::optional<ParticleCheck> particle_check_;  ///< exists from the first frame on that comes from the device
     std::shared_ptr<MemoryAccount> account_, device_account_;
     ArrayMemory memory_;
     State state_;
     Launcher launcher_;
     EventClock clock_;
     bool uses_graphs_ = uses_graphs();
-    std::array<CapturedRun, 2> graphs_;  ///< one for each set of mesh arrays
-    std::uint64_t particles_ = 0;        ///< of the last frame
+    std::array<CapturedRun, 2> graphs_;  ///< a graph for each set of mesh arrays
+    std::uint64_t particles_ = 0;        ///< number of particles of the last frame
     bool settled_ = false;               ///< whether the last frame needed no more room
-    FrameParts parts_;                   ///< of the last frame
+    FrameParts parts_;                   ///< parts of the last frame
 };
 
 }  // namespace meniscus::cuda

@@ -16,19 +16,18 @@
 
 namespace meniscus::cuda {
 
-/// What the kernel finds. Zero at its begin, and where there is nothing to find, so that the greater is the one to
-/// keep.
+/// The kernel's findings. Zero at its begin, and where it finds nothing: of two findings the greater is kept.
 struct ParticleFindings {
-    Counter first_bad;  ///< of the first coordinate that is not finite or too far: its index, bits inverted
-    Counter coarsest;   ///< the greatest level, above the first particle that has it, bits inverted
+    Counter first_bad;  ///< index of the first coordinate that is not finite or too far, bits inverted
+    Counter coarsest;   ///< the greatest level, and in the lower bits the first particle that has it, inverted
     Counter by_level[max_particle_level + 1];
 };
 
 /// The same for the values of an array; see ordered_bits().
 struct ValueFindings {
-    Counter first_bad;  ///< of the first value that is not finite: its index, bits inverted
+    Counter first_bad;  ///< index of the first value that is not finite, bits inverted
     Counter greatest[max_attribute_components];
-    Counter least[max_attribute_components];  ///< bits inverted
+    Counter least[max_attribute_components];  ///< least value of each component, bits inverted
 };
 
 class ParticleCheck {
@@ -37,17 +36,17 @@ public:
     ParticleCheck(int device, const Launcher& launch, const std::shared_ptr<MemoryAccount>& account,
                   const std::shared_ptr<MemoryAccount>& device_account);
 
-    /// frame: of device pointers, its lengths are valid. Waits for what is on `made_on`, and holds up its own stream
+    /// frame: of device pointers, its lengths are valid. Waits for the work on `made_on`, and makes its own stream wait
     /// for it, too. Throws InvalidInput with the messages of validate(), and for pointers to other memory.
     ParticlesByLevel require_valid(const ParticleFrame& frame, cudaStream_t made_on, const Settings& settings);
-    /// After that: see BackendReconstruction::numbers_on_device().
+    /// The numbers of a valid frame, see BackendReconstruction::numbers_on_device().
     AttributeNumbers find_numbers(const ParticleFrame& frame);
 
 private:
     ValueFindings look_at(const ParticleArray& array, std::uint32_t particles);
     void require_on_device(const void* array, const std::string& name) const;
     float value_at(const float* on_device);
-    /// For what the device has found.
+    /// Waits for the findings.
     void wait();
 
     int device_;

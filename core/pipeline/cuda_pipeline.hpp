@@ -8,7 +8,7 @@
 
 namespace meniscus::cuda {
 
-/// The steps from levels on: they ask nothing but values and normals of the field. Field: see ParticleField.
+/// The steps from levels on: of the field they need values and normals alone. Field: see ParticleField.
 template <class Field, Slivers slivers = Slivers::raised>
 class SurfaceSteps {
 public:
@@ -21,6 +21,8 @@ public:
     void sample_edge_middles() { cuda::sample_edge_middles(state_, field_, launch_); }
     void count_triangles() { cuda::count_triangles(state_, launch_); }
     void place_vertices() { cuda::place_vertices(state_, field_, launch_); }
+    /// Gives nothing back: later frames use the same arrays.
+    void release() {}
     void emit_triangles() { cuda::emit_triangles(state_, launch_); }
     void fill_cracks() { cuda::fill_cracks(state_, launch_); }
     void measure_volume() { cuda::measure_volume(state_, launch_); }
@@ -38,7 +40,7 @@ struct FrameParts {
     bool operator==(const FrameParts&) const = default;
 };
 
-/// All steps of a frame of particles, which are on their way to State::upload.
+/// All steps of a frame of particles, which are on their way to State::input.
 template <class Kernel>
 class ParticleSteps : public SurfaceSteps<ParticleField<Kernel>> {
 public:

@@ -103,9 +103,9 @@ private:
     }
 
     int device_;
-    std::optional<CurrentDevice> at_end_;  ///< while the members below end, in whatever thread
+    std::optional<CurrentDevice> at_end_;  ///< makes the device current while the members below end, in any thread
     MeshSets sets_;
-    std::shared_ptr<UploadAreas> areas_;  ///< until the last frame that was sent ahead is given up
+    std::shared_ptr<UploadAreas> areas_;  ///< lives until the last frame that was sent ahead is given up
     FrameRun run_;
     bool is_capped_ = false;  ///< whether a mesh of the last frame was emitted with capped levels
 };

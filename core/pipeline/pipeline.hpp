@@ -7,13 +7,15 @@
 namespace meniscus {
 
 /// Steps 5 to 7 and Algorithm 3: from levels and samples to the mesh.
-/// Steps: a step is a member function of its name. Clock: enter(stage) is called where a stage begins.
+/// Steps: a step is a member function of its name; release() gives back memory that no later step needs. Clock:
+/// enter(stage) is called where a stage begins.
 template <class Steps, class Clock>
 void emit_mesh(Steps& steps, Clock& clock) {
     clock.enter(Stage::count_triangles);
     steps.count_triangles();
     clock.enter(Stage::place_vertices);
     steps.place_vertices();
+    steps.release();
     clock.enter(Stage::emit_triangles);
     steps.emit_triangles();
     clock.enter(Stage::fill_cracks);

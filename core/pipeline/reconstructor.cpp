@@ -35,7 +35,7 @@ double volume_of(const ParticlesByLevel& particles, const Settings& settings) {
     return static_cast<double>(cubes) * (edge * edge * edge);
 }
 
-/// Its arrays are device pointers.
+/// A frame whose arrays are device pointers.
 ParticleFrame frame_on_device(const DeviceParticleFrame& particles) {
     if (particles.count != 0 && particles.positions == nullptr)
         throw InvalidInput("the frame has " + std::to_string(particles.count) +
@@ -165,7 +165,7 @@ public:
             chosen.arrays = attributes;
             if (const std::uint64_t number = sender->send(chosen); number != 0) return {std::move(sender), number};
         } catch (const std::exception&) {
-            // Its reconstruction tells what is wrong with it.
+            // Its reconstruction refuses it with the reason.
         }
         return {};
     }
@@ -200,7 +200,7 @@ private:
     }
 
     struct ValidFrame {
-        std::vector<ParticleArray> attributes;  ///< those of the frame
+        std::vector<ParticleArray> attributes;  ///< the frame's arrays
         PlacedFrame particles;
         ParticlesByLevel by_level{};
     };
@@ -298,7 +298,7 @@ private:
         statistics_.allocations = allocations() - before;
     }
 
-    /// Of the frame just reconstructed, whose triangles are counted.
+    /// Finds the warnings of the frame just reconstructed, whose triangles are counted.
     void warn(const ValidFrame& frame) {
         find_warnings(
             frame.particles, frame.by_level, settings_, [this] { return backend_->greatest_sample(); }, statistics_);
@@ -328,14 +328,14 @@ private:
 
     Settings settings_;
     AttributeChoice attributes_;
-    const AttributeChoice attributes_to_send_;  ///< does not change, as another thread may be at it
+    const AttributeChoice attributes_to_send_;  ///< does not change, since another thread may read it
     BackendOptions options_;
     std::shared_ptr<MemoryAccount> account_;
     std::shared_ptr<MemoryAccount> device_account_;
     std::unique_ptr<BackendReconstruction> backend_;  ///< none after a failure
     std::mutex sender_mutex_;
-    std::shared_ptr<FrameSender> sender_;  ///< the backend's; with the mutex held
-    bool has_surface_ = false;             ///< of the last frame, in the backend
+    std::shared_ptr<FrameSender> sender_;  ///< the backend's sender; used with the mutex held
+    bool has_surface_ = false;             ///< whether the backend has a surface of the last frame
     Statistics statistics_;
 };
 

@@ -38,7 +38,7 @@ private:
     Clock::time_point start_;
 };
 
-/// Where nobody asks for times.
+/// A clock for calls whose times are not asked for.
 struct NoClock {
     void enter(Stage) {}
 };

@@ -17,26 +17,31 @@ namespace meniscus::cpu {
 
 /// Step 1: sorts a valid frame's particles, and stores the base cells that they reach. Throws LimitExceeded where the
 /// particles crowd, or bring too much work.
-void register_particles(State& state, ParticleSets& sets, NeighborSearch& near, const ParticleFrame& frame);
-/// Gives every particle a support that fits its neighborhood, and the volume that it stands for: the smooth field.
-void fit_supports(ParticleSets& sets, NeighborSearch& near);
+void register_particles(State& state, ParticleSets& sets, NeighborSearch& search, const ParticleFrame& frame);
+/// Its parts. Sorts the particles, reads their numbers for vertices, and finds their support cells.
+void sort_particles(ParticleSets& sets, const ParticleFrame& frame, const AttributeNumbers& numbers);
+/// Gives every particle a support that fits its neighbors, and the volume that it stands for: the smooth field.
+void fit_supports(ParticleSets& sets, NeighborSearch& search);
 /// Divides the particles' weights by the density at their places: the color field.
-void divide_weights_by_density(ParticleSets& sets, NeighborSearch& near);
+void divide_weights_by_density(ParticleSets& sets, NeighborSearch& search);
+/// Fills `grid` with the base cells that a particle's support reaches; numbers stay to be given. Returns the pairs of a
+/// base cell and a particle near it, about.
+std::uint64_t mark_reached_cells(ParticleSets& sets, BrickGrid& grid);
 /// Numbers the members of a grid whose bits are set, and finds its bricks' neighbors.
 void number_members(BrickGrid& grid, Workers& workers);
 /// Sizes the arrays for the grid's members; no point is sampled, no cell is in the band.
 void store_blocks(State& state);
 
-/// Step 4's first part: the value at every stored block's base vertex, and what its particles may do in the whole cell.
-void sample_base_vertices(State& state, NeighborSearch& near);
+/// Step 4's first part: the value at every stored block's base vertex, and bounds of the field in the whole cell.
+void sample_base_vertices(State& state, NeighborSearch& search);
 
 /// Gives the level that the criterion asks for in a cell, 1 to 3.
 using WantedLevel = std::function<int(std::uint32_t block)>;
 /// Step 2: puts the stored cells that may hold surface into the band, and gives each the level that the criterion of
 /// the settings asks for. Base vertices must be sampled. Returns the criterion, for cells that join the band later.
-WantedLevel split_cells(State& state, NeighborSearch& near, bool has_particle_levels);
-/// How much the surface bends in every cell of the band.
-void measure_bends(State& state, NeighborSearch& near);
+WantedLevel split_cells(State& state, NeighborSearch& search, bool has_particle_levels);
+/// Finds the curvature of the surface in every cell of the band.
+void measure_bends(State& state, NeighborSearch& search);
 
 /// After levels have been given to all blocks at once: collects them as sets of cells, and lets all rules look at all
 /// cells anew.
@@ -57,18 +62,18 @@ void sample_wanted_points(State& state, FieldSource& field, Wanted wanted);
 void sample_field(State& state, FieldSource& field, const WantedLevel& wanted_level, Slivers slivers = Slivers::raised);
 /// Samples the middles of coarse edges that cross the surface.
 void sample_edge_middles(State& state, FieldSource& field);
-/// Of all points that were sampled, inside the domain.
+/// The greatest value of all points that were sampled, inside the domain.
 float greatest_sample(State& state);
 
 /// Step 5: lists the mixed cells, counts their triangles, and gives each its place in the mesh.
 void count_triangles(State& state, Mesh& mesh);
-/// By level.
+/// Number of cells of the band by level.
 std::array<std::uint64_t, 3> count_band_cells(State& state);
-/// Step 6.
+/// Step 6: numbers and places the vertices, with normals and attributes.
 void place_vertices(State& state, FieldSource& field, Mesh& mesh);
-/// Step 7.
+/// Step 7: writes the triangles of the cells.
 void emit_triangles(State& state, Mesh& mesh);
-/// Algorithm 3.
+/// Algorithm 3: writes the crack filling.
 void fill_cracks(State& state, Mesh& mesh);
 /// Adds up State::sixfold_volume.
 void measure_volume(State& state, const Mesh& mesh);

@@ -10,18 +10,18 @@ namespace meniscus::cuda {
 
 // Field: ParticleField, or what a test puts in its place; see there.
 
-/// Step 1: sorts the particles, and stores the base cells that they reach. Also tells the state which of its arrays
-/// hold the sorted keys. has_payload: whether State::sources is to tell where each particle came from.
+/// Step 1: sorts the particles, and stores the base cells that they reach. Also sets the
+/// state's pointers to the arrays that hold the sorted keys. has_payload: whether State::sources is filled.
 void register_particles(State& state, bool has_payload, const Launcher& launch);
 /// Its parts. Sorts the particles, and finds their support cells and the bricks of these.
 void sort_particles(State& state, bool has_payload, const Launcher& launch);
-/// Orders equal particles by their payload, and reads what vertices ask of them.
+/// Orders equal particles by their payload, and reads their numbers for vertices.
 void order_payload(const State& state, const Launcher& launch);
-/// Gives every particle a support that fits its neighborhood, and the volume that it stands for: the smooth field.
+/// Gives every particle a support that fits its neighbors, and the volume that it stands for: the smooth field.
 void fit_supports(const State& state, const Launcher& launch);
 /// Divides the particles' weights by the density at their places: the color field.
 void divide_weights_by_density(const State& state, const Launcher& launch);
-/// Tells the state which bricks of particles are near each brick of base cells.
+/// Finds the bricks of particles near each brick of base cells.
 void find_neighbor_bricks(const State& state, const Launcher& launch);
 /// Marks the base cells that the particles reach in their bricks, which hold none so far; counts them.
 void store_reached_cells(const State& state, const Launcher& launch);
@@ -29,13 +29,13 @@ void store_reached_cells(const State& state, const Launcher& launch);
 /// them in the band.
 void store_blocks(const State& state, const Launcher& launch);
 
-/// Step 4's first part: the values at base vertices, and what a cell's particles may do in it.
+/// Step 4's first part: the values at base vertices, and bounds of the field in the whole cell.
 void sample_base_vertices(const State& state, const Launcher& launch);
 
 /// Step 2: puts the stored cells that may hold surface into the band, and gives each the level that the criterion of
 /// the settings asks for.
 void split_cells(const State& state, bool has_particle_levels, const Launcher& launch);
-/// How much the surface bends in every cell of the band.
+/// Finds the curvature of the surface in every cell of the band.
 void measure_bends(const State& state, const Launcher& launch);
 
 /// After levels have been given to all blocks at once: collects them as sets of cells.
@@ -53,20 +53,21 @@ void sample_field(const State& state, const Field& field, const Launcher& launch
 /// Samples the middles of coarse edges that cross the surface.
 template <class Field>
 void sample_edge_middles(const State& state, const Field& field, const Launcher& launch);
-/// Puts that of all points that were sampled, inside the domain, into Counts::greatest_sample, which must be 0.
+/// Puts the greatest value of all points that were sampled, inside the domain, into Counts::greatest_sample, which must
+/// be 0.
 void find_greatest_sample(const State& state, const Launcher& launch);
 
 /// Step 5: counts the triangles, and gives each its place in the mesh.
 void count_triangles(const State& state, const Launcher& launch);
-/// Step 6. Also decides whether there is room for the mesh.
+/// Step 6: numbers and places the vertices, with normals. Also decides whether there is room for the mesh.
 template <class Field>
 void place_vertices(const State& state, const Field& field, const Launcher& launch);
-/// Its last part, for vertices that have their places.
+/// The last part of step 6: attributes of vertices that have their places.
 template <class Field>
 void place_attributes(const State& state, const Field& field, const Launcher& launch);
-/// Step 7.
+/// Step 7: writes the triangles of the cells.
 void emit_triangles(const State& state, const Launcher& launch);
-/// Algorithm 3.
+/// Algorithm 3: writes the crack filling.
 void fill_cracks(const State& state, const Launcher& launch);
 /// Adds up Counts::sixfold_volume, which must be 0.
 void measure_volume(const State& state, const Launcher& launch);

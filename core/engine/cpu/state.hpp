@@ -1,4 +1,4 @@
-// What the steps on the CPU work on, between particles and mesh.
+// The data of the steps on the CPU, between particles and mesh.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@
 
 namespace meniscus::cpu {
 
-/// What must look again at a cell after a level near it has changed.
+/// The rules that must look again at a cell after a level near it has changed.
 enum class StaleFor : std::uint8_t { balance, promotion, corner_points, band, slivers };
 inline constexpr std::array all_rules{StaleFor::balance, StaleFor::promotion, StaleFor::corner_points, StaleFor::band,
                                       StaleFor::slivers};
 
-/// Where a base cell's triangles go, as indices into the mesh.
+/// The places of a base cell's triangles, as indices into the mesh.
 struct TriangleSlots {
     std::uint32_t cells;   ///< its own marching-cubes triangles
     std::uint32_t cracks;  ///< the crack filling of its faces
@@ -34,21 +34,23 @@ struct State : BlockState<Array> {
     const LatticeSettings& settings;
 
     BrickGrid grid;                    ///< the stored base cells (blocks)
-    Array<TriangleSlots> slots;        ///< of every block that is a mixed cell
+    Array<TriangleSlots> slots;        ///< places of every block that is a mixed cell
     Array<std::uint32_t> mixed_cells;  ///< the cells of the surface band that see both signs, ascending
-    Array<std::uint8_t> is_cracked;    ///< for each of them, whether any of its faces is to be filled
-    Array<std::array<std::uint32_t, triangle_level_count>> brick_triangles;  ///< per brick and level
-    Array<std::uint64_t> brick_counts;  ///< while a brick's samples or vertices are counted and numbered
+    Array<std::uint8_t> is_cracked;    ///< for each mixed cell, whether any of its faces is to be filled
+    Array<std::array<std::uint32_t, triangle_level_count>>
+        brick_triangles;                ///< number of triangles per brick and level
+    Array<std::uint64_t> brick_counts;  ///< numbers of samples or vertices by brick, while they are numbered
     // Sets of base cells, see CellSetView.
-    Array<std::uint64_t> any_inside, all_inside;               ///< see SignSets
-    Array<std::uint64_t> chosen;                               ///< by a pass, for the next one
-    std::array<Array<std::uint64_t>, all_rules.size()> stale;  ///< by rule
-    AttributeNumbers attributes;  ///< of the frame, set before its particles are registered
+    Array<std::uint64_t> any_inside, all_inside;               ///< signs of blocks, see SignSets
+    Array<std::uint64_t> chosen;                               ///< cells that a pass chooses for the next one
+    std::array<Array<std::uint64_t>, all_rules.size()> stale;  ///< stale cells by rule
+    AttributeNumbers attributes;  ///< numbers of the frame, set before its particles are registered
     std::uint64_t vertices_without_particles = 0;
     std::uint64_t field_evaluations = 0;
-    std::uint64_t sixfold_volume = 0;  ///< see lattice/volume.hpp
+    std::uint64_t sixfold_volume = 0;  ///< six times the volume of the mesh, see lattice/volume.hpp
 
-    /// Of samples and what led to them, once vertices are placed: the frame's surface cannot be emitted again.
+    /// Gives back the memory of samples and of all that led to them, once vertices are placed: the frame's surface
+    /// cannot be emitted again.
     void release_samples();
 
     std::uint32_t block_count() const { return grid.members; }

@@ -25,17 +25,17 @@ void for_each_word(const Brick& brick, const Visit& visit) {
 
 /// Calls visit(number) for every brick, in parallel.
 template <class Visit>
-void for_each_brick(State& s, const Visit& visit) {
-    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+void for_each_brick(State& state, const Visit& visit) {
+    state.workers.for_ranges(state.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b) visit(static_cast<std::uint32_t>(b));
     });
 }
 
 /// Calls visit(brick's number, w) for every word of every brick that has a member.
 template <class Visit>
-void for_each_word(State& s, const Visit& visit) {
-    for_each_brick(s,
-                   [&](std::uint32_t brick) { for_each_word(s.grid.bricks[brick], [&](int w) { visit(brick, w); }); });
+void for_each_word(State& state, const Visit& visit) {
+    for_each_brick(
+        state, [&](std::uint32_t brick) { for_each_word(state.grid.bricks[brick], [&](int w) { visit(brick, w); }); });
 }
 
 /// Replaces every count by the sum of those before it; returns the sum of all.

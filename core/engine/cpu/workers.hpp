@@ -87,7 +87,7 @@ public:
         return count_;
     }
 
-    /// Throws Stopped once that is wanted. Loops ask at least every 0.1 s.
+    /// Throws Stopped once a stop is asked for. Loops ask at least every 0.1 s.
     void go_on() const {
         if (stop_ != nullptr && stop_->is_raised()) throw Stopped();
     }

@@ -2,7 +2,7 @@
 // for (fault_finding.hpp).
 //
 // In one allocation an array's overrun would land in the next array, where neither a GPU's memory checker nor a
-// comparison of meshes need see it, and memory that was zero once hides a word that nobody sets.
+// comparison of meshes need see it, and memory that was zero once hides a word that no kernel sets.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ public:
     std::size_t bytes() const { return memory_.bytes(); }
     void release() { memory_.release(); }
 
-    /// What all arrays take.
+    /// The bytes of all arrays.
     template <class Arrays>
     std::size_t bytes_for(const Arrays& arrays) const {
         std::size_t end = 0;
@@ -93,7 +93,8 @@ public:
         check(cudaStreamSynchronize(stream_), "cudaStreamSynchronize");
     }
 
-    /// Of work that has ended. Throws DeviceError, which names the array, if something was written beside one.
+    /// Checks the guards after work that has ended. Throws DeviceError, which names the array, if something was written
+    /// beside one.
     template <class Arrays>
     void require_whole_guards(const Arrays& arrays) const {
         if (placement_ != ArrayPlacement::guarded) return;

@@ -15,9 +15,9 @@ namespace meniscus::cuda {
 /// The kinds of elements that a frame may need more of than there is room for. Their numbers become known on the device
 /// alone, in this order.
 enum class Resource : std::uint8_t {
-    boxed_bricks,    ///< bricks of support cells in the boxes around each level's particles; keys are numbers of these
-    reached_box,     ///< bricks of base cells in the box around all that particles may reach; the same for their keys
-    cell_particles,  ///< in the fullest support cell, where these are too many; see orders_whole_keys()
+    boxed_bricks,    ///< bricks of support cells in the boxes around each level's particles; keys are their numbers
+    reached_box,     ///< bricks of base cells in the box around all that particles may reach; keys are their numbers
+    cell_particles,  ///< particles in the fullest support cell, where they are too many; see orders_whole_keys()
     particle_bricks,
     reached_bricks,
     bricks,
@@ -49,7 +49,7 @@ struct Capacities {
                (*this)[Resource::boxed_bricks] > std::uint64_t{1} << (64 - brick_index_bits - 1);
     }
 
-    /// Grows to what is needed and an eighth more; returns whether there was too little.
+    /// Grows to the need and an eighth more; returns whether there was too little.
     bool grow_to(std::uint64_t needed_particles, const unsigned long long (&needed)[resource_count]) {
         bool grown = grow(particles, needed_particles, no_index);
         for (std::size_t i = 0; i < resource_count; ++i) {
@@ -60,7 +60,7 @@ struct Capacities {
         return grown;
     }
 
-    /// Whether all arrays have the same room, those of the mesh aside. The first three resources have none.
+    /// Whether all arrays but the mesh's have the same room. The first three resources have no arrays.
     bool same_but_for_mesh(const Capacities& other) const {
         static_assert(static_cast<std::size_t>(Resource::vertices) == resource_count - 2 &&
                       static_cast<std::size_t>(Resource::triangles) == resource_count - 1);
@@ -72,14 +72,15 @@ private:
     /// A guess at the need of elements that a stopped frame has not counted yet: every discovery costs a run.
     static std::uint64_t expected(Resource r, std::uint64_t particles,
                                   const unsigned long long (&needed)[resource_count]) {
-        if (r == Resource::reached_bricks) return particles / 8;  // most frames fewer; 20 bytes each
+        if (r == Resource::reached_bricks) return particles / 8;  // most frames need fewer; 20 bytes each
         if (r == Resource::samples) return needed[static_cast<std::size_t>(Resource::blocks)];  // each has one at least
         return 0;
     }
-    /// The eighth more ends where numbers do.
+    /// Grows one capacity to the need and an eighth more, the latter only up to `most`; returns whether there was too
+    /// little.
     static bool grow(std::uint64_t& capacity, std::uint64_t needed, std::uint64_t most) {
-        constexpr std::uint64_t least =
-            most_counted_in_cell;  // also of what is not needed at all, so that no array is empty
+        // Also for elements that are not needed, so that no array is empty.
+        constexpr std::uint64_t least = most_counted_in_cell;
         if (capacity >= least && needed <= capacity) return false;
         capacity = std::max({least, needed, std::min(with_room_to_grow(needed), most)});
         return true;

@@ -8,15 +8,15 @@
 namespace meniscus::cuda {
 
 struct CellBit {
-    std::uint64_t word;  ///< among the words of all bricks
+    std::uint64_t word;  ///< index among the words of all bricks
     Counter bit;
 
-    __device__ CellBit(const State& f, std::uint32_t block) {
-        const unsigned place = f.place[block];
-        word = std::uint64_t{Brick::words} * f.brick[block] + place / 64;
+    __device__ CellBit(const State& state, std::uint32_t block) {
+        const unsigned place = state.place[block];
+        word = std::uint64_t{Brick::words} * state.brick[block] + place / 64;
         bit = Counter{1} << place % 64;
     }
-    /// Both return what was in the word before.
+    /// Both return the word before the change.
     __device__ Counter put_into(std::uint64_t* set) const {
         return atomicOr(reinterpret_cast<Counter*>(&set[word]), bit);
     }

@@ -16,7 +16,7 @@ std::string version(int number) {
     return std::to_string(number / 1000) + "." + std::to_string(number % 1000 / 10);
 }
 
-/// A missing driver and an old one are the same error to CUDA.
+/// CUDA has one error for a missing driver and for an old one.
 std::string why_no_driver() {
     int found = 0;
     if (cudaDriverGetVersion(&found) != cudaSuccess || found == 0) return "no NVIDIA driver found";
@@ -49,7 +49,7 @@ int capability(int device) {
            attribute(cudaDevAttrComputeCapabilityMinor, device);
 }
 
-/// By CUDA, which starts on the device if it has not yet.
+/// The answer of CUDA, which starts on the device if it has not yet.
 void read_memory(Device& device) {
     const CurrentDevice current(device.index);
     check(cudaMemGetInfo(&device.free_bytes, &device.total_bytes), "cudaMemGetInfo");

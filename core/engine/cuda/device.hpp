@@ -7,10 +7,10 @@
 
 namespace meniscus::cuda {
 
-/// In one line, why a device cannot be used; empty if it can. Does not start CUDA on the device.
+/// The reason why a device cannot be used, in one line; empty if it can. Does not start CUDA on the device.
 std::string why_unavailable(int device);
 
-/// Its name, in words.
+/// The device's name, in words.
 std::string device_name(int device);
 
 }  // namespace meniscus::cuda

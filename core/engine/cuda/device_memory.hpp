@@ -60,7 +60,7 @@ public:
         bytes_ = 0;
     }
     std::byte* get(std::size_t piece = 0) const { return pieces_.empty() ? nullptr : pieces_[piece]; }
-    /// Of all pieces.
+    /// Bytes of all pieces.
     std::size_t bytes() const { return bytes_; }
 
 private:

@@ -1,5 +1,5 @@
-// Finished arrays on their way from the device: straight to where they belong if that is pinned, else through two
-// pieces of pinned memory, of which one fills while the other is emptied.
+// Finished arrays on their way from the device: straight to their place if that is pinned, else through two pieces of
+// pinned memory, of which one fills while the other is emptied.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,8 @@ public:
         for (std::size_t i = 0; i < pieces_.size(); ++i) empty(i);
         if (std::exchange(straight_, false)) stream.synchronize();
     }
-    /// After a failure: pieces under way are not delivered, and nothing is written to the caller's memory from here on.
+    /// Ends it after a failure: pieces under way are not delivered, and nothing is written to the caller's memory from
+    /// here on.
     void forget(Stream& stream) noexcept {
         for (Piece& piece : pieces_) piece.bytes = 0;
         if (std::exchange(straight_, false)) stream.settle();

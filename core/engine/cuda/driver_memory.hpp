@@ -1,5 +1,5 @@
-// What the driver's management library (NVML) tells of a GPU's memory: it starts nothing on the GPU, where CUDA would
-// take some hundred megabytes of it.
+// A GPU's memory by the driver's management library (NVML): it starts nothing on the GPU, where CUDA would take some
+// hundred megabytes.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,9 @@ struct DriverMemory {
 
 inline constexpr const char* driver_library = "libnvidia-ml.so.1";  ///< comes with the driver
 
-/// Of the GPU at a place on the PCI bus, such as "0000:3b:00.0". None where the library is missing, as in containers
-/// without the driver capability "utility", or does not tell. A library is loaded once, and stays. Thread-safe.
+/// The memory of the GPU at a place on the PCI bus, such as "0000:3b:00.0". None where the library is missing, as in
+/// containers without the driver capability "utility", or gives no answer. A library is loaded once, and stays.
+/// Thread-safe.
 std::optional<DriverMemory> driver_memory(const std::string& bus_id, const char* library = driver_library);
 
 }  // namespace meniscus::cuda

@@ -8,7 +8,7 @@
 namespace meniscus::cuda {
 
 bool is_started(int device) {
-    // Only the driver's API tells.
+    // Only the driver's API knows.
     using StateOf = int (*)(int device, unsigned* flags, int* active);  // cuDevicePrimaryCtxGetState
     void* state_of = nullptr;
     cudaDriverEntryPointQueryResult found{};

@@ -14,7 +14,8 @@ public:
     /// The first stage begins here, outside of any graph.
     void start(cudaStream_t stream) { start_.record(stream); }
 
-    /// Where the stages are put on the stream. captured: into a graph, which then records the events each time it runs.
+    /// Called where the stages are put on the stream. captured: into a graph, which then records the events each time
+    /// it runs.
     void begin(cudaStream_t stream, bool captured) {
         stream_ = stream;
         captured_ = captured;
@@ -26,7 +27,7 @@ public:
     }
     void finish() { end_stage(); }
 
-    /// After the stream has been waited for.
+    /// The times of the stages, once the stream has been waited for.
     void add_to(Statistics& statistics) const {
         for (std::size_t i = 0; i < entered_; ++i)
             statistics.stage_seconds[static_cast<std::size_t>(stages_[i])] +=

@@ -1,4 +1,4 @@
-// Choices of the environment.
+// Reads the choices from the environment.
 #include "engine/cuda/fault_finding.hpp"
 
 #include <cstdlib>

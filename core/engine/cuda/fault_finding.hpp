@@ -5,13 +5,14 @@
 
 namespace meniscus::cuda {
 
-/// Where the arrays of a reconstruction lie in device memory. MENISCUS_DEVICE_ARRAYS names one.
+/// The places of a reconstruction's arrays in device memory. MENISCUS_DEVICE_ARRAYS names one.
 enum class ArrayPlacement : std::uint8_t {
-    together,  ///< in one allocation: the default
-    guarded,   ///< each in its own, between guards that are looked at after every frame; poisoned before every frame
-    separate,  ///< each in its own and never written but by kernels and copies, for tools that watch memory
+    together,  ///< all in one allocation: the default
+    guarded,   ///< each in an allocation of its own, poisoned before every frame, between guards that are checked after
+               ///< it
+    separate,  ///< each in an allocation of its own that only kernels and copies write, for tools that watch memory
 };
-/// Throws InvalidInput for a name that is none of these.
+/// The environment's choice. Throws InvalidInput for a name that is none of these.
 ArrayPlacement array_placement();
 
 /// Whether frames that have passed without growth are replayed as graphs: not where MENISCUS_NO_GRAPH is 1. Throws

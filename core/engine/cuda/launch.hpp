@@ -13,12 +13,12 @@ inline constexpr unsigned block_threads = 256;
 inline constexpr unsigned warp_threads = 32;
 inline constexpr unsigned block_warps = block_threads / warp_threads;
 
-/// Where kernels run.
+/// Launches kernels on a stream.
 struct Launcher {
     cudaStream_t stream = nullptr;
-    unsigned processors = 1;  ///< of the stream's device
+    unsigned processors = 1;  ///< multiprocessors of the stream's device
 
-    /// For up to `elements` elements with `a_block` of them in a block at a time.
+    /// Launches a kernel for up to `elements` elements, `a_block` of them in a block at a time.
     template <class... Parameters, class... Arguments>
     void operator()(std::uint64_t elements, unsigned a_block, void (*kernel)(Parameters...),
                     const Arguments&... arguments) const {
@@ -28,22 +28,23 @@ struct Launcher {
         const unsigned waves = std::max(1U, (8 + at_once / 2) / at_once);
         launch(blocks_for(elements, a_block, std::uint64_t{processors} * at_once * waves), false, kernel, arguments...);
     }
-    /// For up to `elements` elements, with no more blocks than run at once, so that a kernel can wait for its whole
-    /// grid.
+    /// Launches a kernel for up to `elements` elements, with no more blocks than run at once, so that it can wait for
+    /// its whole grid.
     template <class... Parameters, class... Arguments>
     void cooperative(std::uint64_t elements, void (*kernel)(Parameters...), const Arguments&... arguments) const {
         const std::uint64_t most = std::uint64_t{processors} * blocks_of_processor(kernel);
         launch(blocks_for(elements, block_threads, most), true, kernel, arguments...);
     }
 
-    /// Of a kernel, on the whole device.
+    /// Number of threads of a kernel that run at once on the whole device.
     template <class... Parameters>
     std::uint64_t threads_at_once(void (*kernel)(Parameters...)) const {
         return std::uint64_t{processors} * blocks_of_processor(kernel) * block_threads;
     }
 
 private:
-    /// That run at once. One where none would fit: CUDA names then what it lacks.
+    /// Number of blocks of a kernel that run at once on a multiprocessor. One where none would fit: CUDA then names the
+    /// resource that is lacking.
     template <class... Parameters>
     static unsigned blocks_of_processor(void (*kernel)(Parameters...)) {
         int blocks = 0;

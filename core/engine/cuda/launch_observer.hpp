@@ -11,31 +11,31 @@ namespace meniscus::cuda {
 
 enum class LaunchKind : std::uint8_t { kernel, sum, sort, graph };
 
-/// A sum or a sort is a call of CUB, whose kernels are its own affair.
+/// One launch. A sum or a sort is a call of CUB as a whole, not its kernels.
 struct Launch {
     LaunchKind kind = LaunchKind::kernel;
     cudaStream_t stream = nullptr;
     const void* kernel = nullptr;
     unsigned blocks = 0;
     bool is_cooperative = false;
-    std::uint64_t elements = 0;     ///< of a sum or a sort
-    std::size_t element_bytes = 0;  ///< of a summand, or of a key with its value
-    unsigned key_bits = 0;          ///< by which a sort orders
+    std::uint64_t elements = 0;     ///< number of elements of a sum or a sort
+    std::size_t element_bytes = 0;  ///< size of a summand, or of a key with its value
+    unsigned key_bits = 0;          ///< number of bits by which a sort orders
 };
 
 class LaunchObserver {
 public:
     virtual void before(const Launch& launch) = 0;
-    virtual void after(const Launch& launch) noexcept = 0;  ///< also of a launch that has failed
+    virtual void after(const Launch& launch) noexcept = 0;  ///< called also for a launch that has failed
 
 protected:
     ~LaunchObserver() = default;
 };
 
-/// Of this thread.
+/// The observer of this thread.
 inline constinit thread_local LaunchObserver* launch_observer = nullptr;
 
-/// Around the calls that put a launch on its stream.
+/// Reports a launch; lives around the calls that put it on its stream.
 class ObservedLaunch {
 public:
     explicit ObservedLaunch(const Launch& launch) : launch_(launch) {

@@ -6,25 +6,26 @@
 
 namespace meniscus::cuda {
 
-/// A thread's side of it. The flag lies in the host's memory, where reading it costs microseconds: the grid's first
-/// thread reads it as it begins, which is in time for kernels that take little, and all read it every few milliseconds
-/// after that. Whoever finds it raised sets Counts::stop, so that no later kernel finds anything to do.
+/// A thread's side of a long loop. The flag lies in the host's memory, where reading it costs microseconds: the grid's
+/// first thread reads it as it begins, which is in time for kernels that take little, and all read it every few
+/// milliseconds after that. A thread that finds it raised sets Counts::stop, so that no later kernel finds anything to
+/// do.
 class LongLoop {
 public:
-    __device__ explicit LongLoop(const State& f) : f_(f), asked_at_(clock_now()) {
+    __device__ explicit LongLoop(const State& state) : state_(state), asked_at_(clock_now()) {
         if (blockIdx.x == 0 && threadIdx.x == 0) asked_at_ -= clocks_between;
     }
 
     /// Asked before every element: whether to go on with it.
     __device__ bool goes_on() {
-        if (f_.stop_word == nullptr) return true;
+        if (state_.stop_word == nullptr) return true;
         const unsigned now = clock_now();
         if (now - asked_at_ < clocks_between) return true;
-        if (*f_.stop_word == 0) {
+        if (*state_.stop_word == 0) {
             asked_at_ = now;
             return true;
         }
-        f_.counts->stop = Stop::asked_for;
+        state_.counts->stop = Stop::asked_for;
         return false;
     }
     /// The same for all lanes of a warp, which ask together.
@@ -35,7 +36,7 @@ private:
 
     __device__ static unsigned clock_now() { return static_cast<unsigned>(clock64()); }
 
-    const State& f_;
+    const State& state_;
     unsigned asked_at_;
 };
 

@@ -30,7 +30,7 @@ public:
     MappedStop& operator=(const MappedStop&) = delete;
 
     bool is_raised() const { return flag_ != nullptr && flag_->is_raised(); }
-    /// For kernels: not 0 where the flag is raised. None without a flag.
+    /// The word that kernels read: not 0 where the flag is raised. Null without a flag.
     const volatile std::uint32_t* word() const { return word_; }
 
 private:

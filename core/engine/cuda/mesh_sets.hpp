@@ -28,7 +28,7 @@ public:
 
     /// The set that the state's mesh arrays lie in.
     std::size_t current() const { return current_; }
-    /// Another number after a set's arrays have moved.
+    /// Number that changes when a set's arrays move.
     std::uint64_t version(std::size_t set) const { return versions_[set]; }
 
     /// Chooses a set that nothing reads for the mesh that comes, and lays the state's mesh arrays out in it. A mesh
@@ -52,13 +52,13 @@ public:
         memory.place(state.mesh_arrays());
     }
 
-    /// See ArrayMemory: of the current set, before a mesh is made in it and after that.
+    /// Fault finding in the current set, before a mesh is made in it and after that; see ArrayMemory.
     void poison(State& state) { storage_->sets[current_].poison(state.mesh_arrays()); }
     void require_whole_guards(State& state) const {
         storage_->sets[current_].require_whole_guards(state.mesh_arrays());
     }
 
-    /// After the capacities have changed: a second set may have room now.
+    /// Tries a second set again, after the capacities have changed: it may have room now.
     void forget_refusal() { one_set_must_do_ = false; }
 
     /// Calls allocate(); once more without the other set if there is too little memory.
@@ -91,14 +91,15 @@ public:
         return MeshDownload(std::move(pending));
     }
 
-    /// When the reconstruction ends. A mesh's owner may keep its download for long, and the next reconstruction needs
-    /// the room: only the host's memory may outlive this one. kernels: the stream that may still write a set.
+    /// Frees the sets when the reconstruction ends. A mesh's owner may keep its download for long, and the next
+    /// reconstruction needs the room: only the host's memory may outlive this one. kernels: the stream that may still
+    /// write a set.
     void give_back(Stream& kernels) noexcept {
         const auto attempt = [](const auto& action) {
             try {
                 action();
             } catch (...) {
-                // The device failed: a caller who asks for a mesh that is not complete gets the error then.
+                // The device failed: a caller that asks for the incomplete mesh gets the error then.
             }
         };
         attempt([&] { kernels.synchronize(); });
@@ -116,8 +117,8 @@ private:
         return pending && !pending->is_done() ? pending : nullptr;
     }
 
-    /// Returns whether there is room for it. Where there was none, every frame would try in vain until the sizes
-    /// change.
+    /// Returns whether there is room for a second set. Where there was none, every frame would try in vain until the
+    /// sizes change.
     bool take_other(State& state) {
         if (one_set_must_do_) return false;
         current_ = 1 - current_;
@@ -136,7 +137,7 @@ private:
     std::array<std::weak_ptr<PendingMesh>, 2> pending_;
     std::array<std::uint64_t, 2> versions_{};
     std::size_t current_ = 0;
-    bool one_set_must_do_ = false;  ///< a second one of these capacities was refused
+    bool one_set_must_do_ = false;  ///< whether a second set of these capacities was refused
 };
 
 }  // namespace meniscus::cuda

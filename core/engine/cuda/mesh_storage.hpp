@@ -34,8 +34,8 @@ struct MeshStorage {
     MeshStorage& operator=(const MeshStorage&) = delete;
 
     int device;
-    std::optional<CurrentDevice> at_end;  ///< while the members below end, in whatever thread
-    std::mutex copying;                   ///< one copies at a time
+    std::optional<CurrentDevice> at_end;  ///< makes the device current while the members below end, in any thread
+    std::mutex copying;                   ///< held by the thread that copies
     Download download;                    ///< its pinned memory outlives the stream, whose end waits for the copies
     Stream stream;
     std::array<ArrayMemory, 2> sets;  ///< see State::mesh_arrays()

@@ -11,7 +11,8 @@
 namespace meniscus::cuda {
 namespace {
 
-/// Registers memory that is there already, rather than to allocate other: where CUDA refuses, nothing else changes.
+/// Registers memory that is there already rather than to allocate other memory: where CUDA refuses, nothing else
+/// changes.
 class RegisteredPages final : public PagePinning {
 public:
     RegisteredPages(int device, std::function<void(const std::string& reason)> on_refusal)
@@ -26,7 +27,7 @@ public:
             cudaGetLastError();
             refused(cudaGetErrorString(status));
         } catch (const std::exception& error) {
-            refused(error.what());  // the frame that comes next meets the same, and tells
+            refused(error.what());  // the next frame meets the same refusal, and throws
         }
     }
     void unpin(void* begin) noexcept override {
@@ -34,24 +35,24 @@ public:
             const CurrentDevice current(device_);
             const cudaError_t status = cudaHostUnregister(begin);
             cudaGetLastError();
-            // The last two of memory that was refused, which is of no consequence.
+            // The last two errors are those of memory that was refused: of no consequence.
             if (status == cudaSuccess || status == cudaErrorHostMemoryNotRegistered || status == cudaErrorInvalidValue)
                 return;
         } catch (const std::exception&) {
-            // As below.
+            // The device is lost, as in the case below.
         }
-        // The device is lost, and copies nothing any more; the others would.
+        // The device is lost, and copies nothing any more; other devices would.
         pages_are_lost = true;
     }
 
 private:
     void refused(const std::string& reason) {
-        if (on_refusal_ && !told_.exchange(true)) on_refusal_(reason);
+        if (on_refusal_ && !reported_.exchange(true)) on_refusal_(reason);
     }
 
     const int device_;
     const std::function<void(const std::string& reason)> on_refusal_;
-    std::atomic<bool> told_{false};
+    std::atomic<bool> reported_{false};
 };
 
 }  // namespace

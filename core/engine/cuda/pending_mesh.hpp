@@ -72,7 +72,7 @@ private:
                 fetch_vertices();
             done_ = arrived_ == to_.bricks.size();
         } catch (const LimitExceeded& error) {
-            // No limit of the frame's, which has been made.
+            // This is no limit of the frame, which has been made.
             fail(std::make_exception_ptr(DeviceError("the download of a mesh", error.what(), storage_->device)));
         } catch (...) {
             fail(std::current_exception());
@@ -126,8 +126,8 @@ private:
     const MeshBrick* const bricks_;
     Mesh& to_;
     std::atomic<bool> done_{false};
-    std::atomic<std::size_t> arrived_{0};  ///< bricks whose triangles are there; none after a failure
-    // With storage_->copying held:
+    std::atomic<std::size_t> arrived_{0};  ///< number of bricks whose triangles are there; 0 after a failure
+    // Members that storage_->copying guards:
     bool started_ = false;
     std::exception_ptr error_;
     double seconds_ = 0.0;

@@ -11,8 +11,8 @@
 namespace meniscus::cuda {
 
 /// Whether a lost device has left memory pinned that was freed since. To the other devices its addresses are pinned
-/// still, whatever lies there now, and their copies would be of pages that nobody has any more: from then on nothing
-/// counts as pinned, and copies go through memory that CUDA itself has allocated.
+/// still, whatever lies there now, and they would copy from pages that no longer belong to the process: from then on
+/// nothing counts as pinned, and copies go through memory that CUDA itself has allocated.
 inline std::atomic<bool> pages_are_lost{false};
 
 /// Whether both ends of this memory of a caller's are pinned. What lies between need not be: the arrays beside it may
@@ -42,7 +42,7 @@ inline bool copy_straight(void* to, const void* from, std::size_t bytes, cudaMem
     return true;
 }
 
-/// Nothing may be copying from or to it when it grows or ends.
+/// No copy from or to it may be under way when it grows or ends.
 class PinnedMemory {
 public:
     explicit PinnedMemory(std::shared_ptr<MemoryAccount> account) : account_(std::move(account)) {}

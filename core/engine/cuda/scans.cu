@@ -18,7 +18,7 @@ struct Plus {
     }
 };
 
-/// Null memory: only tells the bytes needed.
+/// Sums; with null memory only the number of needed bytes is set.
 template <class T>
 void scan(void* memory, std::size_t& bytes, T* values, std::size_t n, cudaStream_t stream) {
     check(cub::DeviceScan::ExclusiveScan(memory, bytes, values, values, Plus{}, T{}, static_cast<std::int64_t>(n),

@@ -11,7 +11,7 @@ namespace meniscus::cuda {
 
 __extension__ using SortKey = unsigned __int128;
 
-/// Triangles by level.
+/// Number of triangles by level.
 struct LevelCounts {
     std::uint32_t of[4];
     MENISCUS_HD friend LevelCounts operator+(const LevelCounts& a, const LevelCounts& b) {
@@ -25,7 +25,8 @@ struct Scratch {
     std::size_t bytes = 0;
 };
 
-/// What any of the calls below needs for this many elements. particle_keys: with values; brick_keys: without.
+/// The most bytes of scratch memory that a call below needs for these numbers of elements. particle_keys: with values;
+/// brick_keys: without.
 std::size_t scratch_bytes(std::size_t particle_keys, std::size_t brick_keys, std::size_t sums);
 
 /// Element i becomes the sum of the elements before it.

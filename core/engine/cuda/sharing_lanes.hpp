@@ -9,10 +9,10 @@
 
 namespace meniscus::cuda {
 
-/// Of each particle: a power of two.
+/// Number of lanes that share a particle: a power of two.
 inline constexpr unsigned lanes_to_share = 4;
 
-/// Those of one particle, as each of them sees them. count: 1 or lanes_to_share.
+/// The lanes of one particle, as each of them sees them. count: 1 or lanes_to_share.
 template <unsigned count>
 struct SharingLanes {
     unsigned own = lane_index() % count;
@@ -26,8 +26,8 @@ struct SharingLanes {
     }
 };
 
-/// Launches a kernel for all particles: the one whose lanes share them if the device runs so many threads at once, else
-/// the one with a thread for each.
+/// Launches a kernel for all particles: `shared`, whose lanes share particles, if the device runs that number of
+/// threads at once, else `alone`, with a thread for each particle.
 inline void launch_for_particles(const State& state, const Launcher& launch, void (*shared)(State),
                                  void (*alone)(State)) {
     const std::uint64_t particles = state.capacity.particles;

@@ -1,4 +1,4 @@
-// What the steps on a GPU work on: arrays of fixed capacity in device memory, and counts that stay there.
+// The data of the steps on a GPU: arrays of fixed capacity in device memory, and counts that stay there.
 //
 // A kernel that finds how many elements there are writes the number into Counts, with nothing beyond the capacity, and
 // sets Counts::stop where that is too little. All that follows then finds no elements, and the frame runs once more
@@ -27,7 +27,7 @@ namespace meniscus::cuda {
 
 using Counter = unsigned long long;  // what atomicAdd takes
 
-/// Sent to the device with a frame's particles.
+/// The part of the state that is sent to the device with a frame's particles.
 struct FrameInput {
     std::uint32_t particles = 0;
     PositionsView positions;               ///< device pointers
@@ -41,7 +41,7 @@ inline constexpr int cluster_words = Brick::words / 4;
 
 /// Lists of blocks, filled in any order.
 enum class List : std::uint8_t {
-    corner_points,  ///< blocks to be sampled: first, in every later round, and for the middles of edges
+    corner_points,  ///< blocks to be sampled in the first round; in later ones, and for the middles of edges:
     later_round,
     edge_middles,
     half_edge_middles,
@@ -54,54 +54,54 @@ inline constexpr std::size_t list_count = 7;
 /// Why the kernels of a frame do nothing more.
 enum class Stop : std::uint32_t {
     none,
-    too_little_room,         ///< an array is too small: Counts::needed tells
+    too_little_room,         ///< an array is too small, see Counts::needed
     crowded,                 ///< the particles lie too densely, see is_crowded()
-    too_much_at_particles,   ///< the sums at the particles' places, see work.hpp
-    too_much_at_base_cells,  ///< and those at the base cells
+    too_much_at_particles,   ///< too much work for the sums at the particles' places, see work.hpp
+    too_much_at_base_cells,  ///< too much work for the sums at the base cells
     too_many_base_cells,
-    asked_for,  ///< by the host, see LongLoop
+    asked_for,  ///< the host asks for it, see LongLoop
 };
 
 /// A box of bricks of support cells, whose coordinates begin at zero here: no particles where all is zero.
 struct BrickBox {
     static constexpr std::uint32_t axis_end = 1U << brick_axis_bits;
-    std::uint32_t below[3];  ///< axis_end minus the lowest: atomicMax finds it
-    std::uint32_t end[3];    ///< one past the highest
+    std::uint32_t below[3];  ///< axis_end minus the lowest coordinate: atomicMax finds it
+    std::uint32_t end[3];    ///< one past the highest coordinate
 
     MENISCUS_HD std::uint32_t low(int axis) const { return axis_end - below[axis]; }
     MENISCUS_HD std::uint64_t size(int axis) const { return end[axis] + below[axis] - axis_end; }
     MENISCUS_HD std::uint64_t volume() const { return end[0] == 0 ? 0 : size(0) * size(1) * size(2); }
 };
 
-/// Zero at a frame's begin.
+/// Counts of a frame, which kernels write and read. All are zero when the frame begins.
 struct Counts {
     BrickBox boxes[particle_level_count];
-    std::uint64_t boxed_before[particle_level_count];  ///< bricks in the boxes of the levels before
-    Int3 reached_low;                                  ///< of the box of bricks of base cells that particles may reach
-    std::uint32_t reached_size[3];
-    std::uint32_t boxed_blocks;  ///< of threads, whose particles the boxes hold
-    Counter needed[resource_count];
+    std::uint64_t boxed_before[particle_level_count];  ///< number of bricks in the boxes of the levels before each
+    Int3 reached_low;                ///< lowest brick of the box of bricks of base cells that particles may reach
+    std::uint32_t reached_size[3];   ///< its bricks a side
+    std::uint32_t boxed_blocks;      ///< number of thread blocks whose particles the boxes hold
+    Counter needed[resource_count];  ///< elements that the frame needs of each resource
     Counter field_evaluations;
-    Counter triangles[triangle_level_count];
-    Counter sixfold_volume;  ///< see lattice/volume.hpp
-    std::uint32_t first_triangle[triangle_level_count];
-    std::uint32_t band_cells[3];  ///< by level
-    Counter crowd;                ///< see is_crowded()
-    Counter probe_seed;           ///< see probed_particle()
-    Counter neighbors;            ///< of all probed particles
-    Counter pairs;                ///< of base cells and particles near them
-    Counter spray_particles;
+    Counter triangles[triangle_level_count];             ///< number of triangles of each level
+    Counter sixfold_volume;                              ///< six times the volume of the mesh, see lattice/volume.hpp
+    std::uint32_t first_triangle[triangle_level_count];  ///< index of each level's first triangle
+    std::uint32_t band_cells[3];                         ///< number of cells of the band of each level
+    Counter crowd;            ///< sum over the particles of those in their cell, see is_crowded()
+    Counter probe_seed;       ///< seed of the choice of probes, see probed_particle()
+    Counter neighbors;        ///< number of neighbors of all probed particles
+    Counter pairs;            ///< number of pairs of a base cell and a particle near it
+    Counter spray_particles;  ///< number of particles alone
     Counter vertices_without_particles;
-    std::uint32_t greatest_sample;  ///< bits of a float; where it is asked for
-    std::uint32_t particle_cells;
-    std::uint32_t first_particle_brick[particle_level_count + 1];
-    std::uint32_t level_particles[particle_level_count];  ///< where work is limited
-    std::uint32_t listed[list_count];
+    std::uint32_t greatest_sample;  ///< bits of a float; found only where the host asks for it
+    std::uint32_t particle_cells;   ///< number of support cells
+    std::uint32_t first_particle_brick[particle_level_count + 1];  ///< index of each level's first brick, and the end
+    std::uint32_t level_particles[particle_level_count];  ///< number of particles of each level; where work is limited
+    std::uint32_t listed[list_count];                     ///< number of blocks on each list
     // See Sweeps and settle_band:
-    std::uint32_t found[3];
-    std::uint32_t found_alone[3];
-    std::uint32_t last_to_finest;  ///< of searches, the last that promoted a cell to the finest level
-    std::uint32_t last_joining;    ///< and the last in which a cell joined the band
+    std::uint32_t found[3];        ///< number of cells that each of three successive searches of the grid has found
+    std::uint32_t found_alone[3];  ///< the same for searches of its first block alone
+    std::uint32_t last_to_finest;  ///< number of the last search that promoted a cell to the finest level
+    std::uint32_t last_joining;    ///< number of the last search in which a cell joined the band
     std::uint32_t faces_to_settle;
     std::uint32_t stale_cells;
     std::uint32_t stale_words;
@@ -118,65 +118,67 @@ using Pointer = T*;
 struct State : BlockState<Pointer> {
     LatticeSettings settings;
     Capacities capacity;
-    std::uint64_t payload_bytes = 0;  ///< of the frames' payloads: none of more has come
+    std::uint64_t payload_bytes = 0;  ///< most bytes that a frame's payload has had so far
     AttributeShape attributes;
     FrameInput* input = nullptr;
     Counts* counts = nullptr;
-    const volatile std::uint32_t* stop_word = nullptr;  ///< see LongLoop; none: nobody stops the frame
+    const volatile std::uint32_t* stop_word =
+        nullptr;  ///< the host's flag, see LongLoop; null: nothing stops the frame
     const CubeCase* cube_table = nullptr;
     const CrackCase* crack_table = nullptr;
     std::byte* scratch = nullptr;
     std::size_t scratch_bytes = 0;
 
-    // Of every particle. Those of a level lie together, levels in ascending order; ParticleSetView explains the rest.
-    SortKey* keys = nullptr;  ///< level, ParticleKey::cell, ParticleKey::place
+    // An element for every particle. A level's particles lie together, levels in ascending order; ParticleSetView
+    // explains the other members.
+    SortKey* keys = nullptr;  ///< level, ParticleKey::cell and ParticleKey::place of each, in one number
     SortKey* unsorted_keys = nullptr;
-    std::uint32_t* order = nullptr;  ///< indices in the frame, by support cell
+    std::uint32_t* order = nullptr;  ///< index of each in the frame, in the order of support cells
     std::uint32_t* order_room = nullptr;
     // Only where particles carry a payload:
-    std::uint32_t* sources = nullptr;  ///< each sorted particle's index in the frame
-    float4* numbers = nullptr;         ///< of every group of attributes' numbers, see AttributeNumber
+    std::uint32_t* sources = nullptr;  ///< index of each sorted particle in the frame
+    float4* numbers = nullptr;         ///< each particle's numbers, group after group, see AttributeNumber
 
-    std::uint64_t* starts = nullptr;  ///< support cells that begin before it, and in the upper half bricks of them; and
-                                      ///< one past the last
-    float4* particles = nullptr;      ///< position and weight
-    float* sums = nullptr;            ///< one at each particle's place, while weights are found
-    float* falls = nullptr;           ///< smooth field only, see Poly6
+    std::uint64_t* starts = nullptr;  ///< number of support cells that begin before each, in the upper half that of
+                                      ///< their bricks; one element more for the end
+    float4* particles = nullptr;      ///< position and weight of each
+    float* sums = nullptr;            ///< the sum at each particle's place, while weights are found
+    float* falls = nullptr;           ///< fall of each kernel, see Poly6; smooth field only
     // Only where spray is listed:
-    std::uint32_t* spray_before = nullptr;    ///< particles alone before each
-    Point* spray = nullptr;                   ///< their places
-    std::uint32_t* first_particle = nullptr;  ///< of every support cell, and one past the last
+    std::uint32_t* spray_before = nullptr;    ///< number of particles alone before each
+    Point* spray = nullptr;                   ///< places of the particles alone
+    std::uint32_t* first_particle = nullptr;  ///< index of the first particle of every support cell, and the end
     Brick* particle_bricks = nullptr;
     std::uint64_t* particle_brick_keys = nullptr;
 
-    std::uint64_t* reached_keys = nullptr;  ///< bricks of base cells that support cells reach, by their number in the
-                                            ///< box of all, repeated
+    std::uint64_t* reached_keys = nullptr;  ///< numbers, in the box of all, of the bricks of base cells that support
+                                            ///< cells reach; repeated
     std::uint64_t* unsorted_reached_keys = nullptr;
-    std::uint32_t* first_of_key = nullptr;  ///< different keys before each, and one past the last
+    std::uint32_t* first_of_key = nullptr;  ///< number of different keys before each, and their number in all
 
-    // Of every brick of base cells.
+    // An element for every brick of base cells.
     Brick* bricks = nullptr;
     std::uint64_t* brick_keys = nullptr;
     BrickNeighbors* neighbors = nullptr;
-    NeighborBricks* neighbor_bricks =
-        nullptr;  ///< of every level of particles, level after level; unset where a level has none
-    std::uint64_t* members_before = nullptr;   ///< and one past the last
-    std::uint64_t* base_inside = nullptr;      ///< a set of blocks, see BaseVertexSets
-    std::uint64_t* raised = nullptr;           ///< a set of cells too; empty between sweeps
-    std::uint32_t* marked_clusters = nullptr;  ///< see cluster.hpp; none between a list's making and its reading
+    /// The bricks of particles near each, for every level in turn; unset where there are no particles of a level.
+    NeighborBricks* neighbor_bricks = nullptr;
+    std::uint64_t* members_before = nullptr;   ///< number of members of the bricks before each, and of all
+    std::uint64_t* base_inside = nullptr;      ///< set of blocks, see BaseVertexSets
+    std::uint64_t* raised = nullptr;           ///< set of cells that a search has found; empty between sweeps
+    std::uint32_t* marked_clusters = nullptr;  ///< set of clusters on a list, see cluster.hpp; empty once it is read
 
-    // Of every block.
-    std::uint8_t* wanted_level = nullptr;       ///< by the split criterion
-    BlockMask* corner_points = nullptr;         ///< points that cells of the band need as corners
-    std::uint32_t* old_first_sample = nullptr;  ///< while a block's samples move
-    LevelCounts* triangles_before = nullptr;    ///< by level, and one past the last
+    // An element for every block.
+    std::uint8_t* wanted_level = nullptr;       ///< level that the split criterion asks for
+    BlockMask* corner_points = nullptr;         ///< set of the points that cells of the band need as corners
+    std::uint32_t* old_first_sample = nullptr;  ///< index of the first sample before the samples move
+    LevelCounts* triangles_before = nullptr;    ///< number of triangles before each, by level, and of all
     std::uint32_t* chosen = nullptr;            ///< the lists up to List::vertices, one after the other
     std::uint32_t* band_cells = nullptr;
     std::uint32_t* cracked_cells = nullptr;
 
     // The mesh, in memory of its own: that of a frame before may be on its way to the host, from the other set of these
     // arrays.
-    MeshBrick* mesh_bricks = nullptr;  ///< of every brick of base cells
+    MeshBrick* mesh_bricks = nullptr;  ///< an element for every brick of base cells
     LatticePosition* vertices = nullptr;
     Normal* normals = nullptr;
     Triangle* triangles = nullptr;
@@ -242,7 +244,7 @@ struct State : BlockState<Pointer> {
             take("vertex_attributes", vertex_attributes[a], attributes.vertex_bytes[a] * capacity[Resource::vertices]);
     }
 
-    /// As ArrayMemory takes them.
+    /// The arrays in the form that ArrayMemory takes.
     auto arrays() {
         return [this](auto& take) { for_each_array(take); };
     }
@@ -250,7 +252,7 @@ struct State : BlockState<Pointer> {
         return [this](auto& take) { for_each_mesh_array(take); };
     }
 
-    /// After the arrays have their places.
+    /// Copies the tables to the device; the arrays have their places.
     void upload_tables(cudaStream_t stream) const {
         check(cudaMemcpyAsync(const_cast<CubeCase*>(cube_table), meniscus::cube_table.data(), sizeof(CubeTable),
                               cudaMemcpyHostToDevice, stream),
@@ -267,7 +269,7 @@ struct State : BlockState<Pointer> {
         return goes_on() ? static_cast<std::uint32_t>(counts->needed[static_cast<int>(r)]) : 0;
     }
     __device__ std::uint32_t listed(List l) const { return goes_on() ? counts->listed[static_cast<int>(l)] : 0; }
-    /// Tells how many elements are needed, and stops where there is no room for them; called by one thread.
+    /// Notes the number of elements that are needed, and stops the frame where there is no room; called by one thread.
     __device__ void need(Resource r, std::uint64_t number) const {
         counts->needed[static_cast<int>(r)] = number;
         if (goes_on() && (number > capacity[r] || number >= too_many(r))) counts->stop = Stop::too_little_room;
@@ -275,7 +277,7 @@ struct State : BlockState<Pointer> {
 
     __device__ std::uint32_t particle_count() const { return goes_on() ? input->particles : 0; }
 
-    /// The particles of a level, but for their coordinates, which are in `particles`.
+    /// The particles of a level without their coordinates, which are in `particles`.
     __device__ ParticleSetView set(unsigned k) const {
         const std::uint32_t begin = counts->first_particle_brick[k];
         const BrickGridView grid{particle_bricks + begin, particle_brick_keys + begin, nullptr,

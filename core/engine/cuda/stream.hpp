@@ -21,9 +21,10 @@ public:
                        : cudaEventRecord(event_, stream),
               "cudaEventRecord");
     }
-    /// What is put on the stream from now on waits for the event.
+    /// Makes the work that is put on the stream from now on wait for the event.
     void hold_up(cudaStream_t stream) const { check(cudaStreamWaitEvent(stream, event_, 0), "cudaStreamWaitEvent"); }
-    /// Both must have happened. 0 where CUDA cannot tell: a time that is missing is no reason to fail a frame.
+    /// Seconds between two events that have happened. 0 where CUDA gives none: a missing time is no reason to fail a
+    /// frame.
     double seconds_since(const Event& start) const {
         float milliseconds = 0.0F;
         if (cudaEventElapsedTime(&milliseconds, start.event_, event_) != cudaSuccess) {
@@ -39,8 +40,8 @@ protected:
     cudaEvent_t event_ = nullptr;
 };
 
-/// Whoever waits for it sleeps rather than to keep a core busy, which others need for encoding. The GPU interrupts the
-/// host for it, waited for or not, so that events which measure alone are none.
+/// A thread that waits for it sleeps rather than to keep a core busy, which others need for encoding. The GPU
+/// interrupts the host for it, waited for or not, so that events which measure alone are none.
 class AwaitedEvent : public Event {
 public:
     AwaitedEvent() : Event(cudaEventBlockingSync) {}
@@ -51,7 +52,7 @@ class Stream {
 public:
     Stream() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "cudaStreamCreateWithFlags"); }
     ~Stream() {
-        // What still runs may use memory that is freed next.
+        // Work that still runs may use memory that is freed next.
         cudaStreamSynchronize(stream_);
         cudaStreamDestroy(stream_);
     }
@@ -65,7 +66,7 @@ public:
         all_.wait();
     }
 
-    /// The same after a failure, whose error is the one that counts.
+    /// The same after a failure: errors of the wait are dropped, since the first one counts.
     void settle() noexcept {
         cudaStreamSynchronize(stream_);
         cudaGetLastError();

@@ -1,4 +1,5 @@
-// Who works together where steps depend on each other: all threads of a cooperative grid, or its first block's alone.
+// The threads that work together where steps depend on each other: all of a cooperative grid, or those of its first
+// block alone.
 #pragma once
 
 #include <cooperative_groups.h>
@@ -9,12 +10,13 @@
 
 namespace meniscus::cuda {
 
-/// A block waits for itself a hundred times faster than a grid does: where there is little to do, one does it all.
+/// A block waits for itself a hundred times faster than a grid does: where there is little to do, one block does it
+/// all.
 class Team {
 public:
     __device__ static Team grid() { return Team(false); }
-    /// The grid, or its first block if each of its threads has then no more than so many of the elements. All threads
-    /// of the grid must give the same.
+    /// The grid, or its first block if each of its threads then has at most `of_thread` of the elements. All threads of
+    /// the grid must give the same numbers.
     __device__ static Team fit_for(std::uint64_t elements, unsigned of_thread) {
         return Team(elements <= std::uint64_t{of_thread} * block_threads);
     }

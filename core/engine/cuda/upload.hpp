@@ -1,5 +1,5 @@
-// A frame's particles on their way to the device: straight from where they are if that is pinned, else through memory
-// that is; or from another place on the device.
+// A frame's particles on their way to the device: straight from their place if that is pinned, else through pinned
+// memory; or from another place on the device.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ public:
         }
     }
 
-    /// Tells the kernels of a frame whose arrays lie in this area, or are on their way.
+    /// Sends the kernels the description of a frame whose arrays lie in this area, or are on their way.
     void send_input(const PlacedFrame& placed, const FrameArrays& arrays, const std::byte* area, const State& state,
                     cudaStream_t stream) {
         const ParticleFrame& particles = placed.frame;

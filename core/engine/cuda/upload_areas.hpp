@@ -1,8 +1,8 @@
-// Where frames' particles lie on the device: two areas, so that one frame can be sent while another is worked at.
+// Where frames' particles lie on the device: two areas, so that one frame can be sent while another is reconstructed.
 //
-// An area is free, or has a frame that was sent ahead, or the one that is worked at. The kernels' stream waits for the
-// copies of a frame that was sent ahead; the host waits for the kernels before their area is written again. A second
-// area is taken once somebody sends ahead, and given up where there is no memory for the rest.
+// An area is free, or has a frame that was sent ahead, or the one that is reconstructed. The kernels' stream waits for
+// the copies of a frame that was sent ahead; the host waits for the kernels before their area is written again. A
+// second area is taken once a frame is sent ahead, and given up where there is no memory for the rest.
 #pragma once
 
 #include <algorithm>
@@ -40,19 +40,19 @@ inline std::size_t room_for(std::span<const std::byte> array) {
     constexpr std::size_t alignment = 16;
     return (array.size() + alignment - 1) / alignment * alignment;
 }
-/// And all of a frame's; something even for one without particles.
+/// Bytes that all arrays of a frame take; never 0.
 inline std::size_t room_for(const FrameArrays& arrays) {
     std::size_t bytes = 0;
     for (const auto& array : arrays) bytes += room_for(array);
     return std::max<std::size_t>(bytes, 1);
 }
 
-/// send() and withdraw() are for any thread, until the end; all others for the one that reconstructs.
+/// send() and withdraw() are for any thread, until the end; all other calls for the thread that reconstructs.
 class UploadAreas final : public FrameSender {
     struct Area {
         Area(int device, cudaStream_t stream, const std::shared_ptr<MemoryAccount>& account)
             : memory(device, stream, account) {}
-        /// As ArrayMemory takes it.
+        /// The area in the form that ArrayMemory takes.
         auto array() {
             return [this](auto& take) { take("upload", begin, bytes); };
         }
@@ -60,17 +60,18 @@ class UploadAreas final : public FrameSender {
         ArrayMemory memory;
         std::byte* begin = nullptr;
         std::size_t bytes = 0;
-        AwaitedEvent arrived;     ///< of the frame that was sent ahead
-        std::uint64_t ahead = 0;  ///< its number; 0: none was
-        FrameArrays arrays;       ///< of it
-        bool is_in_use = false;   ///< by the frame that is worked at
+        AwaitedEvent arrived;     ///< event after the copies of the frame that was sent ahead
+        std::uint64_t ahead = 0;  ///< number of that frame; 0: none was sent
+        FrameArrays arrays;       ///< arrays of that frame
+        bool is_in_use = false;   ///< whether the frame that is reconstructed lies here
     };
 
 public:
-    /// The area of the frame that is worked at.
+    /// The area of the frame that is reconstructed.
     struct Place {
         std::byte* begin = nullptr;
-        bool is_filled = false;  ///< or is about to be, by copies that the kernels' stream waits for
+        bool is_filled =
+            false;  ///< whether the frame is there, or will be by copies that the kernels' stream waits for
     };
 
     UploadAreas(int device, const std::shared_ptr<MemoryAccount>& device_account)
@@ -85,7 +86,7 @@ public:
 
     std::uint64_t send(const ParticleFrame& frame) noexcept override {
         const std::unique_lock lock(mutex_, std::try_to_lock);
-        // Whoever reconstructs may take memory now, which can be long.
+        // The thread that reconstructs may take memory now, which can be long.
         if (!lock || is_closed_) return 0;
         try {
             const FrameArrays arrays = arrays_of(frame);
@@ -93,14 +94,14 @@ public:
             for (const auto& array : arrays)
                 if (!array.empty() && !is_pinned(array.data(), array.size())) return 0;
             // Only now: a second area for frames that are never sent would be memory for nothing.
-            is_wished_for_ = true;
+            has_senders_ = true;
             Area* const area = free_area(room_for(arrays));
             if (area == nullptr || has_frame_ahead()) return 0;
             copy_ahead(*area, arrays);
             area->arrays = arrays;
             return area->ahead = ++last_sent_;
         } catch (...) {
-            // The frame's reconstruction meets the same, and tells.
+            // The frame's reconstruction meets the same refusal, and throws.
             stream_.settle();
             return 0;
         }
@@ -133,7 +134,7 @@ public:
         add_second_area(area.bytes);
         return {area.begin, false};
     }
-    /// Once the frame's work has ended.
+    /// Frees the area once the frame's work has ended.
     void give_back() noexcept {
         const std::lock_guard lock(mutex_);
         for (Area& area : areas_) area.is_in_use = false;
@@ -204,10 +205,10 @@ private:
         });
     }
 
-    /// One without a frame, of at least these bytes.
+    /// An area without a frame, of at least these bytes.
     Area& grown_area(std::size_t bytes) {
         if (Area* const area = free_area(bytes)) return *area;
-        // No more than one has a frame ahead.
+        // At most one area has a frame that was sent ahead.
         Area& area = areas_[0].ahead == 0 ? areas_[0] : areas_[1];
         try {
             assign(area, with_room_to_grow(bytes));
@@ -218,9 +219,9 @@ private:
         was_refused_ = false;
         return area;
     }
-    /// Where it was refused, every frame would try in vain until the sizes change.
+    /// Takes a second area unless it was refused: then every frame would try in vain until the sizes change.
     void add_second_area(std::size_t bytes) {
-        if (!is_wished_for_ || was_refused_) return;
+        if (!has_senders_ || was_refused_) return;
         for (Area& area : areas_) {
             if (area.is_in_use || area.ahead != 0 || area.bytes >= bytes) continue;
             try {
@@ -261,13 +262,13 @@ private:
     }
 
     const int device_;
-    std::optional<CurrentDevice> at_end_;  ///< while the members below end, in whatever thread
-    std::mutex mutex_;                     ///< for what follows
-    Stream stream_;                        ///< of the copies ahead
+    std::optional<CurrentDevice> at_end_;  ///< makes the device current while the members below end, in any thread
+    std::mutex mutex_;                     ///< guards the members below
+    Stream stream_;                        ///< stream of the copies of frames that are sent ahead
     std::array<Area, 2> areas_;
     std::uint64_t last_sent_ = 0;
-    bool is_wished_for_ = false;  ///< whether somebody sends ahead, and can
-    bool was_refused_ = false;    ///< whether there was no room for a second area of this size
+    bool has_senders_ = false;  ///< whether frames are sent ahead, and can be
+    bool was_refused_ = false;  ///< whether there was no room for a second area of this size
     bool is_closed_ = false;
 };
 

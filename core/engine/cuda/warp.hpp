@@ -1,4 +1,4 @@
-// What the 32 threads of a warp do together. All of them must call these functions.
+// Functions that the 32 threads of a warp compute together. All of them must call these functions.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,8 @@ __device__ inline Value same_in_all_lanes(Value value) {
 /// A loop of the whole grid over all elements, neighboring ones in neighboring lanes.
 struct GridLoop {
     std::uint64_t step = static_cast<std::uint64_t>(gridDim.x) * block_threads;
-    std::uint64_t first = static_cast<std::uint64_t>(blockIdx.x) * block_threads + threadIdx.x;  ///< this thread's
+    std::uint64_t first =
+        static_cast<std::uint64_t>(blockIdx.x) * block_threads + threadIdx.x;  ///< this thread's first element
 
     /// Calls visit(i) for this thread's elements below n. Index: 64 bits where there may be more than 2^32 of them.
     template <class Index = std::uint32_t, class Visit>
@@ -87,7 +88,7 @@ __device__ inline Counter take_places(Counter* counter, std::uint32_t count) {
     return __shfl_sync(all_lanes, first, 0) + below;
 }
 
-/// In all lanes.
+/// The sum of the lanes' values, in all lanes.
 __device__ inline std::uint32_t sum_of_lanes(std::uint32_t value) {
     for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2)
         value += __shfl_xor_sync(all_lanes, value, static_cast<int>(distance));

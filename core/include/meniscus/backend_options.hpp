@@ -1,4 +1,4 @@
-// Where a reconstruction runs, and what it may take there.
+// The place where a reconstruction runs, and the resources that it may take there.
 #pragma once
 
 #include <cstddef>
@@ -29,22 +29,22 @@ constexpr std::string_view name_of(Backend backend) {
     return {};
 }
 
-/// Of one reconstructor. More than processors are no faster.
+/// Most worker threads of one reconstructor. More than processors are no faster.
 inline constexpr unsigned max_threads = 1024;
 
 struct BackendOptions {
     Backend backend = Backend::automatic;
     unsigned threads = 0;                 ///< CPU worker threads, at most max_threads; 0: one per processor
     std::size_t memory_limit = 0;         ///< bytes one reconstructor may hold; 0: no limit of its own
-    int device = 0;                       ///< which GPU, see devices.hpp
+    int device = 0;                       ///< index of the GPU, see devices.hpp
     std::size_t device_memory_limit = 0;  ///< bytes one reconstructor may hold on the GPU; 0: no limit of its own
-    /// How much more work a frame may be than one of as many particles that are evenly spread
+    /// The most work of a frame, as a multiple of that of as many particles that are evenly spread
     /// (core/README.md#work-20-and-1024); a frame beyond it is refused with LimitExceeded. 0: no limit.
     double work_limit = 0.0;
     std::shared_ptr<const StopFlag> stop = {};             ///< ends a reconstruction with Stopped; none: nothing does
-    std::shared_ptr<SharedMemory> shared_memory{};         ///< of all reconstructors; may be none
-    std::shared_ptr<SharedMemory> shared_device_memory{};  ///< of all on that GPU; may be none
-    /// Of the arrays that meshes come down to from a GPU. None: a page_pinning() of the reconstructor's own.
+    std::shared_ptr<SharedMemory> shared_memory{};         ///< shared by all reconstructors; may be null
+    std::shared_ptr<SharedMemory> shared_device_memory{};  ///< shared by all on that GPU; may be null
+    /// Pins the arrays into which meshes come down from a GPU. Null: a page_pinning() of the reconstructor's own.
     std::shared_ptr<PagePinning> pinning{};
 
     /// Those that C, Python and files set by name.

@@ -44,7 +44,7 @@ struct BrickContent {
     std::vector<Normal> normals;                          ///< one per vertex; empty if none are sent
     std::vector<Triangle> triangles;
     std::vector<std::byte> cell_levels;  ///< see EncodedBrick
-    /// Of CodingOptions::attributes, in that order: coded_bytes() for each vertex, little-endian.
+    /// Values of CodingOptions::attributes, in that order: coded_bytes() for each vertex, little-endian.
     std::vector<std::vector<std::byte>> attributes;
     std::vector<CodedAttribute>
         attribute_forms;  ///< part of the content: the same bytes over another range are other values
@@ -65,13 +65,13 @@ struct EncodedBrick {
 };
 
 /// Memory that brick_content() works in, kept from brick to brick: at most 24 bytes for each triangle of the largest.
-/// For one call at a time.
+/// It serves one call at a time.
 struct BrickScratch {
     /// account: is charged; none: uncounted.
     explicit BrickScratch(std::shared_ptr<MemoryAccount> account = nullptr)
         : slots(AccountAllocator<std::uint32_t>(std::move(account))) {}
 
-    Array<std::uint32_t> slots;  ///< of a hash table from the mesh's vertices to the brick's
+    Array<std::uint32_t> slots;  ///< slots of a hash table from the mesh's vertices to the brick's
 };
 
 /// brick: index into mesh.bricks. Thread-safe. Throws InvalidInput for options out of range, LimitExceeded if the

@@ -12,8 +12,8 @@ namespace meniscus {
 /// On the wire and in files a codec is its number, which it keeps for ever.
 enum class Codec : std::uint32_t { draco = 1 };
 
-/// Every codec, the one that is preferred first. For one that is added here the compiler asks wherever codecs are told
-/// apart.
+/// Every codec, the preferred one first. After one is added here, the compiler reports each switch over codecs that
+/// lacks it.
 inline constexpr std::array codecs{Codec::draco};
 
 /// None for a number that this version does not know.
@@ -31,7 +31,7 @@ constexpr std::string_view name_of(Codec codec) {
     return "";
 }
 
-/// For messages: "1 (Draco)", all codecs with their numbers.
+/// Text for messages: "1 (Draco)", all codecs with their numbers.
 inline std::string known_codecs() {
     std::string text;
     for (const Codec known : codecs) {

@@ -12,7 +12,7 @@
 
 namespace meniscus {
 
-/// As MeshAttribute.
+/// An attribute of the vertices, as MeshAttribute.
 struct DeviceMeshAttribute {
     std::string name;
     ElementType type = ElementType::float32;
@@ -30,7 +30,7 @@ struct DeviceMesh {
     std::vector<DeviceMeshAttribute> attributes;  ///< as the settings name them, in that order
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
-    std::array<TriangleRange, triangle_level_count> levels{};  ///< into `triangles`
+    std::array<TriangleRange, triangle_level_count> levels{};  ///< ranges of `triangles`
     double cell_size = 0.0;  ///< a vertex lies at position * cell_size / 2^offset_bits
     std::uint32_t offset_bits = 0;
     int device = 0;          ///< index of the GPU

@@ -17,7 +17,7 @@ struct DeviceParticleFrame {
     const std::uint8_t* levels = nullptr;  ///< null (uniform SPH), or one per particle, 0 (finest) to 3
     void* stream = nullptr;  ///< the cudaStream_t on which they are made, null for CUDA's default one: the
                              ///< reconstruction waits for what is on it when it is called
-    /// Those that the settings name become attributes of the mesh's vertices; their data are device pointers, aligned
+    /// Arrays that the settings name become attributes of the mesh's vertices; their data are device pointers, aligned
     /// as their numbers are.
     std::span<const ParticleArray> arrays{};
 };

@@ -16,16 +16,16 @@ namespace meniscus::cuda {
 inline constexpr int oldest_capability = 80;
 
 struct Device {
-    int index = 0;  ///< for BackendOptions::device
+    int index = 0;  ///< index for BackendOptions::device
     std::string name;
     int capability = 0;          ///< compute capability times ten: 90 for 9.0
-    std::size_t free_bytes = 0;  ///< now, of all programs on it
+    std::size_t free_bytes = 0;  ///< free memory, now and for all programs on it
     std::size_t total_bytes = 0;
 };
 
 /// The devices that can reconstruct and have not failed in this process. among: indices of the devices to ask, all if
 /// empty. Without a driver, and in a build without CUDA, there are none. Starts CUDA on a device, which takes some
-/// hundred megabytes of its memory, only where the driver's management library does not tell what is free.
+/// hundred megabytes of its memory, only where the driver's management library does not give the free memory.
 std::vector<Device> devices(std::span<const int> among = {});
 
 /// Whether CUDA works on a device now. Starts it there.

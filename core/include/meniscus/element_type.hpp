@@ -22,7 +22,7 @@ constexpr std::string_view name_of(ElementType type) {
     return {};
 }
 
-/// Bytes.
+/// Size of a number, bytes.
 constexpr std::size_t size_of(ElementType type) {
     return type == ElementType::uint8 ? 1 : 4;
 }

@@ -7,8 +7,8 @@
 
 namespace meniscus {
 
-/// What Reconstructor::send_ahead() has begun; nothing where it could not begin. The frame's arrays must neither move
-/// nor change while it lives: its end waits until they are not read any more.
+/// The copies that Reconstructor::send_ahead() has begun; none where it could not begin. The frame's arrays must
+/// neither move nor change while it lives: its end waits until they are not read any more.
 class FrameUpload {
 public:
     /// The backend's side. Thread-safe.
@@ -32,7 +32,7 @@ public:
     FrameUpload(const FrameUpload&) = delete;
     FrameUpload& operator=(const FrameUpload&) = delete;
 
-    /// Another of the same frame: the end of either waits for the copies, and forgets the frame.
+    /// Another handle of the same frame: the end of either waits for the copies, and forgets the frame.
     FrameUpload another() const { return {sender_, number_}; }
 
     /// Whether copies were begun.

@@ -13,10 +13,11 @@
 
 namespace meniscus {
 
-/// What several accounts have together. Thread-safe.
+/// The memory that several accounts have together. Thread-safe.
 class SharedMemory {
 public:
-    /// Frees memory of these accounts, if it can: so many bytes are missing. Called by the thread that asks for them.
+    /// Frees memory of these accounts, if it can, given the number of missing bytes. Called by the thread that asks for
+    /// them.
     using MakeRoom = std::function<void(std::size_t missing)>;
 
     /// limit: bytes, 0 for none. make_room: called before a charge is refused; may be empty.
@@ -65,7 +66,7 @@ public:
     /// Throws LimitExceeded, without charging, if the account would pass its limit, or the shared memory its own.
     void charge(std::size_t bytes);
     void release(std::size_t bytes) noexcept;
-    /// Of an array that is charged: after its allocation, and before it is freed.
+    /// Pins and unpins an array that is charged: after its allocation, and before it is freed.
     void pin(void* array, std::size_t bytes) noexcept {
         if (pinning_ && bytes >= PagePinning::least_bytes) pinning_->pin(array, bytes);
     }

@@ -64,13 +64,13 @@ struct TriangleRange {
 /// A brick that holds triangles. A crack triangle belongs to the brick of the finer of its two cells.
 struct MeshBrick {
     std::array<std::int32_t, 3> coordinate{};  ///< x y z in bricks; its lattice origin is coordinate * brick_cells
-    std::array<TriangleRange, triangle_level_count> ranges{};  ///< into Mesh::triangles, indexed by TriangleLevel
+    std::array<TriangleRange, triangle_level_count> ranges{};  ///< ranges of Mesh::triangles, indexed by TriangleLevel
     std::uint32_t triangle_count() const {
         return ranges[0].count + ranges[1].count + ranges[2].count + ranges[3].count;
     }
 };
 
-/// What the vertices have of an array of the particles: the mean of the particles near, weighted as the field weights
+/// The vertices' values of an array of the particles: the mean of the particles near, weighted as the field weights
 /// them; of ids, that of the particle with the largest weight.
 struct MeshAttribute {
     std::string name;
@@ -85,12 +85,12 @@ struct MeshAttribute {
 struct Mesh {
     double cell_size = 0.0;           ///< finest cell's edge c, world units
     std::uint32_t offset_bits = 0;    ///< vertices lie on multiples of c / 2^offset_bits: min_ to max_offset_bits
-    Array<LatticePosition> vertices;  ///< unique
+    Array<LatticePosition> vertices;  ///< positions of the vertices, unique
     Array<Normal> normals;            ///< unit length, outward, one per vertex; empty if Settings::normals is false
     Array<Triangle> triangles;        ///< indices into `vertices`
-    std::array<TriangleRange, triangle_level_count> levels{};  ///< into `triangles`
+    std::array<TriangleRange, triangle_level_count> levels{};  ///< ranges of `triangles`
     Array<MeshBrick> bricks;                                   ///< ordered by coordinate (z, y, x)
-    std::vector<MeshAttribute> attributes;                     ///< as the settings name them, in that order
+    std::vector<MeshAttribute> attributes;                     ///< attributes that the settings name, in that order
     Array<Point> spray;  ///< places of the particles left out of the surface, in no order of the frame's; Spray::points
 
     /// World position of a lattice position of this mesh: exact product in double, one rounding.

@@ -37,10 +37,12 @@ struct ParticleFrame {
     std::span<const std::uint16_t> quantized;  ///< x y z per particle: min + q (max - min) / 65535 of quantization_box
     Box quantization_box;                      ///< used with `quantized` only
     std::span<const std::uint8_t> levels;      ///< empty (uniform SPH), or one per particle, 0 (finest) to 3
-    /// Those that the settings name become attributes of the mesh's vertices, and order particles that lie at one place
-    /// by their bytes; the surface does not depend on them. All others are passed over, whatever values they hold.
+    /// Arrays that the settings name become attributes of the mesh's vertices, and order particles that lie at one
+    /// place by their bytes; the surface does not depend on them. All others are passed over, whatever values they
+    /// hold.
     std::span<const ParticleArray> arrays{};
-    const FrameUpload* sent = nullptr;  ///< of these very arrays, by the reconstructor that gets them; may be none
+    const FrameUpload* sent =
+        nullptr;  ///< upload of these very arrays by the reconstructor that gets them; may be null
 
     bool is_quantized() const { return !quantized.empty(); }
     std::size_t count() const { return (is_quantized() ? quantized.size() : positions.size()) / 3; }

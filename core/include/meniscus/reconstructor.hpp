@@ -46,10 +46,10 @@ public:
     [[nodiscard]] MeshDownload reconstruct_for_download(const ParticleFrame& frame, Mesh& mesh);
 
     /// Begins to copy the next frame's particles to the GPU while the frame before is reconstructed, by another thread
-    /// if need be: the only call for two threads at a time. ParticleFrame::sent then tells the reconstruction of it,
+    /// if need be: the only call for two threads at a time. ParticleFrame::sent then hands it to the reconstruction,
     /// and nothing is copied there. Only a frame whose arrays all lie in pinned memory is sent, one at a time, and none
     /// before a frame of its size; nowhere else than on a GPU. Where none is sent, the reconstruction does as it would
-    /// have: so the result need not be looked at.
+    /// have: so the result may be ignored.
     [[nodiscard]] FrameUpload send_ahead(const ParticleFrame& frame) noexcept;
 
     /// As reconstruct(), but the mesh stays on the GPU. Throws InvalidInput on the CPU backend.

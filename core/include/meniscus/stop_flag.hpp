@@ -16,11 +16,11 @@ public:
     StopFlag& operator=(const StopFlag&) = delete;
 
     void raise() noexcept { raised_.store(1, std::memory_order_relaxed); }
-    /// For the next reconstruction.
+    /// Lowers the flag, for the next reconstruction.
     void lower() noexcept { raised_.store(0, std::memory_order_relaxed); }
     bool is_raised() const noexcept { return raised_.load(std::memory_order_relaxed) != 0; }
 
-    /// As kernels read it: not 0 where it is raised.
+    /// The word that kernels read: not 0 where the flag is raised.
     const std::atomic<std::uint32_t>* word() const noexcept { return &raised_; }
 
     static constexpr std::size_t page_bytes = 4096;  ///< CUDA maps whole pages

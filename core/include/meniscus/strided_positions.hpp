@@ -17,7 +17,7 @@ public:
     StridedPositions(std::span<const float> numbers);
     StridedPositions(std::span<const double> numbers);
 
-    /// Particles.
+    /// Number of particles.
     std::size_t count() const noexcept { return count_; }
     /// Writes x y z per particle, 3 count() numbers; float64 is rounded to the nearest float32. Throws InvalidInput for
     /// another number of numbers, and, with the particle and its value, for one of them that is not finite, or that

@@ -1,4 +1,4 @@
-// What a frame's owner surely did not mean: the frame is reconstructed as asked, and says so beside it.
+// Warnings of a frame that its owner surely did not mean: it is reconstructed as asked, with the warning beside it.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,11 @@
 namespace meniscus {
 
 enum class WarningCode : std::uint8_t {
-    unknown,              ///< from a server that is newer than this program
-    radius_too_small,     ///< for the particles' spacing. value: the radius, limit: the one that fits, world units
-    radius_too_large,     ///< the same
-    empty_surface,        ///< value: the greatest value of the field that was sampled, limit: that of the surface
+    unknown,           ///< a warning of a server that is newer than this program
+    radius_too_small,  ///< the radius does not fit the particles' spacing. value: the radius, limit: the one that fits,
+                       ///< world units
+    radius_too_large,  ///< the same
+    empty_surface,     ///< value: the greatest value of the field that was sampled, limit: that of the surface
     cell_size_too_large,  ///< to show the particles. value: the cell's edge, limit: the largest that does, world units
     support_too_small,    ///< to join the particles. value: the support, limit: the smallest that does, world units
 };
@@ -39,8 +40,8 @@ constexpr std::string_view name_of(WarningCode code) {
 /// The same for the same frame and settings on every backend. How each is found: core/README.md#warnings.
 struct Warning {
     WarningCode code = WarningCode::unknown;
-    double value = 0.0;  ///< what was found, as the code says
-    double limit = 0.0;  ///< what it is held against, as the code says
+    double value = 0.0;  ///< the found value, as the code says
+    double limit = 0.0;  ///< the limit that it is compared with, as the code says
     std::string text;    ///< the same in words, with what to do: one line of English
 
     template <class Visit>

@@ -13,7 +13,7 @@ constexpr std::size_t at(int i) {
     return static_cast<std::size_t>(i);
 }
 
-/// From every edge point the next one of its loop, or none; then all loops in triangles.
+/// The next point of its loop for every edge point, or none; then all loops in triangles.
 template <class Case, class Allowed>
 constexpr Case triangulate_loops(const std::array<int, 12>& next, const Allowed& allowed) {
     Case result;

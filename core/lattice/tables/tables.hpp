@@ -32,8 +32,8 @@ struct CrackCase {
     std::array<std::uint8_t, 24> edges{};
 };
 
-inline constexpr int cube_case_count = 256;   ///< by the inside corners
-inline constexpr int crack_case_count = 512;  ///< by the inside points of the fine side
+inline constexpr int cube_case_count = 256;   ///< a case for each set of inside corners
+inline constexpr int crack_case_count = 512;  ///< a case for each set of inside points of the fine side
 
 using CubeTable = std::array<CubeCase, cube_case_count>;
 using CrackTable = std::array<CrackCase, crack_case_count>;

@@ -1,4 +1,4 @@
-// The particles' numbers at points, by whole registers: sums for their means, and which particle has the largest share.
+// The particles' numbers at points, by whole registers: sums for their means, and the particle with the largest share.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ void find_means(const NeighborLists::Levels& near, const PointList& points, cons
                         z = WideLanes::load(points.z + i);
         WideLanes gx(0.0F), gy(0.0F), gz(0.0F), weight(0.0F), sum[K];
         for (WideLanes& s : sum) s = WideLanes(0.0F);
-        for (const NeighborList& c : near)
-            sum_numbers<Kernel, K, has_gradient>(c.view(), c.values(), x, y, z, gx, gy, gz, weight, sum);
+        for (const NeighborList& of_level : near)
+            sum_numbers<Kernel, K, has_gradient>(of_level.view(), of_level.values(), x, y, z, gx, gy, gz, weight, sum);
         if constexpr (has_gradient) {
             turn_outward(gx, gy, gz);
             gx.store(normals.x + i);
@@ -41,18 +41,19 @@ void find_ids(const NeighborLists::Levels& near, const PointList& points, GroupV
         // A particle is looked at in the few lanes in which none before it has a larger share.
         constexpr float least_share = 0x1p-149F;
         WideLanes enough(least_share);
-        for (const NeighborList& neighbors : near) {
-            const NeighborView c = neighbors.view();
-            for (std::size_t j = 0; j < c.count; ++j) {
-                const WideLanes share =
-                    Kernel::of(c, j).share(x - WideLanes(c.x[j]), y - WideLanes(c.y[j]), z - WideLanes(c.z[j]));
+        for (const NeighborList& of_level : near) {
+            const NeighborView neighbors = of_level.view();
+            for (std::size_t j = 0; j < neighbors.count; ++j) {
+                const WideLanes share = Kernel::of(neighbors, j)
+                                            .share(x - WideLanes(neighbors.x[j]), y - WideLanes(neighbors.y[j]),
+                                                   z - WideLanes(neighbors.z[j]));
                 unsigned lanes = less_equal(enough, share);
                 if (lanes == 0) continue;
                 alignas(64) float shares[WideLanes::count];
                 share.store(shares);
                 for (; lanes != 0; lanes &= lanes - 1) {
                     const int lane = lowest_bit(lanes);
-                    largest[lane].add(shares[lane], neighbors.values() + group_size_of_numbers * j);
+                    largest[lane].add(shares[lane], of_level.values() + group_size_of_numbers * j);
                 }
                 for (int lane = 0; lane < WideLanes::count; ++lane) shares[lane] = largest[lane].share;
                 enough = max(WideLanes::load(shares), WideLanes(least_share));

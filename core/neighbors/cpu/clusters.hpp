@@ -10,9 +10,9 @@
 
 namespace meniscus::cpu {
 
-/// Base cells a side of a group: its clusters are visited one after the other.
+/// Edge of a group in base cells: its clusters are visited one after the other.
 inline constexpr int group_size = 4;
-/// The same of a cluster.
+/// Edges of a cluster in base cells.
 inline constexpr Int3 cluster_size{WideLanes::count / 4, 2, 2};
 inline constexpr int cluster_blocks = WideLanes::count;
 
@@ -33,7 +33,7 @@ inline constexpr Int3 cluster_corner(const Int3& base_cell) {
 /// cells. cells: bits as those of Brick::occupied.
 template <class Visit>
 void for_each_cluster(const std::uint64_t* cells, const Visit& visit) {
-    constexpr int rows = 4;  // of clusters, in a group
+    constexpr int rows = 4;  // rows of clusters in a group
     for (int group_z = 0; group_z < brick_size; group_z += group_size)
         for (int group_y = 0; group_y < brick_size; group_y += group_size) {
             const auto y_of = [&](int row) { return group_y + 2 * (row & 1); };

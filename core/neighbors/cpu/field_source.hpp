@@ -1,4 +1,4 @@
-// What the surface stages ask of a field. Tests put white noise in place of particles.
+// The interface of a field for the surface stages. Tests put white noise in place of particles.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct NormalRows {
     float *x, *y, *z;
 };
 
-/// Four numbers at each of some points; and the sum of the particles' shares there, or of ids the largest.
+/// Four numbers at each of some points; and the sum of the particles' shares there, or for ids the largest share.
 struct GroupValues {
     alignas(64) float of[group_size_of_numbers][max_points];
     alignas(64) float weight[max_points];
@@ -50,8 +50,8 @@ class FieldSource {
 public:
     virtual ~FieldSource() = default;
     virtual void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) = 0;
-    /// Those of some lattice points of the blocks of a cluster (clusters.hpp): each block's by the points' bits;
-    /// what lies between them may be overwritten.
+    /// The values at some lattice points of the blocks of a cluster (clusters.hpp), each block's by the points' bits;
+    /// values of other bits may be overwritten.
     virtual void cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values,
                                 unsigned worker) = 0;
     /// Unit vectors against the gradient; not-a-numbers where it vanishes.

@@ -1,4 +1,4 @@
-// Lists of particles near a box, culled by whole registers.
+// Lists of neighbors, culled by whole registers.
 #include "neighbors/cpu/neighbor_list.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ private:
     WideLanes low_[3], high_[3];
 };
 
-NeighborList::NeighborList(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports, Told told)
+NeighborList::NeighborList(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports, Carried carried)
     : x_(make_array<float>(account)),
       y_(make_array<float>(account)),
       z_(make_array<float>(account)),
@@ -41,14 +41,14 @@ NeighborList::NeighborList(const std::shared_ptr<MemoryAccount>& account, bool h
       ranks_(make_array<float>(account)),
       values_(make_array<float>(account)),
       may_have_own_supports_(has_own_supports),
-      told_(told) {}
+      carried_(carried) {}
 
 void NeighborList::reserve(std::size_t n) {
     if (n <= x_.size()) return;
     for (Array<float>* a : {&x_, &y_, &z_, &weight_}) a->resize(n);
     if (may_have_own_supports_) fall_.resize(n);
-    if (told_ != Told::nothing) ranks_.resize(n);
-    if (told_ == Told::ranks_and_values) values_.resize(group_size_of_numbers * n);
+    if (carried_ != Carried::nothing) ranks_.resize(n);
+    if (carried_ == Carried::ranks_and_values) values_.resize(group_size_of_numbers * n);
 }
 
 // Inlined whole, wherever it is called: the four forms are too much for the compiler to do it by itself, and what it
@@ -133,7 +133,7 @@ void NeighborList::cull(const NeighborList& from, const std::array<float, 3>& sh
     count_ = 0;
     if (from.count_ == 0) return;
     has_own_supports_ = from.has_own_supports_;
-    has_ranks_ = from.has_ranks_ && told_ != Told::nothing;
+    has_ranks_ = from.has_ranks_ && carried_ != Carried::nothing;
     reach_ = from.reach_;
     support_ = from.support_;
     inverse_support_ = from.inverse_support_;
@@ -152,10 +152,10 @@ void NeighborList::fetch_values(const float* of_set) {
 namespace {
 
 NeighborLists::Levels lists_of_levels(const std::shared_ptr<MemoryAccount>& account, const LatticeSettings& settings,
-                                      NeighborList::Told told) {
+                                      NeighborList::Carried carried) {
     const auto list = [&] {
         return NeighborList(account, settings.has_own_supports,
-                            settings.may_have_attributes ? told : NeighborList::Told::nothing);
+                            settings.may_have_attributes ? carried : NeighborList::Carried::nothing);
     };
     return {list(), list(), list(), list()};
 }
@@ -163,9 +163,9 @@ NeighborLists::Levels lists_of_levels(const std::shared_ptr<MemoryAccount>& acco
 }  // namespace
 
 NeighborLists::NeighborLists(const std::shared_ptr<MemoryAccount>& account, const LatticeSettings& settings)
-    : group(lists_of_levels(account, settings, NeighborList::Told::ranks)),
-      cluster(lists_of_levels(account, settings, NeighborList::Told::ranks)),
-      near(lists_of_levels(account, settings, NeighborList::Told::ranks_and_values)),
-      nearer(lists_of_levels(account, settings, NeighborList::Told::nothing)) {}
+    : group(lists_of_levels(account, settings, NeighborList::Carried::ranks)),
+      cluster(lists_of_levels(account, settings, NeighborList::Carried::ranks)),
+      near(lists_of_levels(account, settings, NeighborList::Carried::ranks_and_values)),
+      nearer(lists_of_levels(account, settings, NeighborList::Carried::nothing)) {}
 
 }  // namespace meniscus::cpu

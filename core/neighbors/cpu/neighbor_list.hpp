@@ -1,4 +1,4 @@
-// The particles near a box, as a structure of arrays in the order of summation.
+// Neighbors: the particles near a box, as a structure of arrays in the order of summation.
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@
 
 namespace meniscus::cpu {
 
-/// Of one particle level.
+/// Neighbors of one particle level.
 class NeighborList {
 public:
-    /// What a list may tell of its particles beside what their kernel asks for.
-    enum class Told : std::uint8_t { nothing, ranks, ranks_and_values };
+    /// The data that a list may carry of its particles beside those of their kernel.
+    enum class Carried : std::uint8_t { nothing, ranks, ranks_and_values };
 
     /// has_own_supports: whether the kernel is Poly6; lists of company have none of them even so.
-    NeighborList(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports, Told told);
+    NeighborList(const std::shared_ptr<MemoryAccount>& account, bool has_own_supports, Carried carried);
 
     /// Searches a set for the particles that may reach into a box relative to `origin`. With ranks if the set has them.
     void gather(const ParticleSetView& set, const Units3& origin, const UnitBox& box);
-    /// Those of another list that may reach into a box, their positions moved by `shift`. With ranks if both may
+    /// Takes those of another list that may reach into a box, their positions moved by `shift`. With ranks if both may
     /// have them.
     void cull(const NeighborList& from, const std::array<float, 3>& shift, const UnitBox& box);
 
@@ -35,7 +35,7 @@ public:
                 weight_.data(), fall_.data(),     count_,
                 support_,       inverse_support_, has_ranks_ ? ranks_.data() : nullptr};
     }
-    /// What was looked up last.
+    /// The numbers that were looked up last.
     const float* values() const { return values_.data(); }
     std::size_t capacity() const { return x_.size(); }
     void reserve(std::size_t n);
@@ -55,18 +55,18 @@ private:
     Array<float> ranks_;
     Array<float> values_;
     bool may_have_own_supports_;
-    Told told_;
+    Carried carried_;
     std::size_t count_ = 0;
     BrickHints hints_;
-    bool has_own_supports_ = false;  ///< those of the list
+    bool has_own_supports_ = false;  ///< whether the listed particles have such
     bool has_ranks_ = false;
     float reach_ = 0.0F;
     float support_ = 0.0F;
     float inverse_support_ = 0.0F;
 };
 
-/// Of all particle levels: near a group of clusters (clusters.hpp), near one of them, near some points in it, and near
-/// a few of these.
+/// Neighbors of all particle levels: of a group of clusters (clusters.hpp), of one of them, of some points in it, and
+/// of a few of these.
 struct NeighborLists {
     NeighborLists(const std::shared_ptr<MemoryAccount>& account, const LatticeSettings& settings);
 
@@ -76,8 +76,8 @@ struct NeighborLists {
     Levels near;
     Levels nearer;
     Int3 group_corner, cluster_corner;  ///< lowest base cells
-    bool has_cluster = false;           ///< whether `group` and `cluster` hold the particles near them
-    bool has_ranks = false;             ///< whether they tell them, too
+    bool has_cluster = false;           ///< whether `group` and `cluster` hold their neighbors
+    bool has_ranks = false;             ///< whether they have ranks, too
 };
 
 }  // namespace meniscus::cpu

@@ -14,7 +14,7 @@ UnitBox box_of_cells(const Int3& size) {
              static_cast<float>(size.z) * base_edge}};
 }
 
-/// What moves positions relative to one base cell to those relative to another.
+/// The shift that makes positions relative to one base cell relative to another.
 std::array<float, 3> shift_between(const Int3& from, const Int3& to) {
     const Int3 step = from - to;
     return {static_cast<float>(step.x) * base_edge, static_cast<float>(step.y) * base_edge,
@@ -36,10 +36,10 @@ void NeighborSearch::find_cluster(const Int3& base_cell, bool with_ranks, unsign
     sets_.workers.go_on();
     NeighborLists& lists = lists_[worker];
     const Int3 corner = cluster_corner(base_cell);
-    const bool tells_enough = lists.has_ranks || !with_ranks;
-    if (lists.has_cluster && tells_enough && lists.cluster_corner == corner) return;
+    const bool has_enough = lists.has_ranks || !with_ranks;
+    if (lists.has_cluster && has_enough && lists.cluster_corner == corner) return;
     const Int3 group = group_corner(base_cell);
-    if (!lists.has_cluster || !tells_enough || !(lists.group_corner == group)) {
+    if (!lists.has_cluster || !has_enough || !(lists.group_corner == group)) {
         const UnitBox box = box_of_cells({group_size, group_size, group_size});
         for (std::size_t k = 0; k < particle_level_count; ++k)
             lists.group[k].gather(with_ranks ? sets_[k].ranked_view() : sets_[k].view(), base_cell_origin(group), box);
@@ -74,7 +74,7 @@ const NeighborLists::Levels& NeighborSearch::nearer_box(const UnitBox& box, unsi
     constexpr std::size_t few = 48;
     NeighborLists& lists = lists_[worker];
     std::size_t count = 0;
-    for (const NeighborList& c : lists.near) count += c.view().count;
+    for (const NeighborList& of_level : lists.near) count += of_level.view().count;
     if (count < few) return lists.near;
     for (std::size_t k = 0; k < particle_level_count; ++k) lists.nearer[k].cull(lists.near[k], {}, box);
     return lists.nearer;

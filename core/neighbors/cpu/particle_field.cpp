@@ -45,13 +45,13 @@ const float* scatter(BlockMask points, const float* values, float* by_bit) {
 template <class Kernel>
 void ParticleField<Kernel>::values(const Int3& base_cell, PointList& points, float* values, unsigned worker) {
     pad(points);
-    sum_points<Kernel>(near_.near_box(base_cell, box_of(points), worker), points, values);
+    sum_points<Kernel>(search_.near_box(base_cell, box_of(points), worker), points, values);
 }
 
 template <class Kernel>
 void ParticleField<Kernel>::cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points,
                                            ClusterValues& values, unsigned worker) {
-    // A block with few points would fill registers badly, and its own list of particles would cost more than it saves
+    // A block with few points would fill registers badly, and its own list of neighbors would cost more than it saves
     // (core/README.md#sampling-clusters-16-and-48).
     constexpr int few = 16;
     // Above this number of points, the regular grid of all 64 costs less than a list of these.
@@ -74,7 +74,7 @@ void ParticleField<Kernel>::cluster_values(const Int3& lowest_base_cell, const C
     if (pool.count == 0) return;
     pad(pool);
     alignas(64) float sums[max_points];
-    sum_points<Kernel>(near_.near_box(lowest_base_cell, box_of(pool), worker), pool, sums);
+    sum_points<Kernel>(search_.near_box(lowest_base_cell, box_of(pool), worker), pool, sums);
     const float* next = sums;
     for (std::size_t i = 0; i < points.size(); ++i)
         if (popcount(points[i]) <= few) next = scatter(points[i], next, values[i].data());
@@ -86,15 +86,15 @@ void ParticleField<Kernel>::block_values(const Int3& base_cell, BlockMask points
     list_block_points(points, {0, 0, 0}, list);
     pad(list);
     alignas(64) float sums[max_points];
-    sum_points<Kernel>(near_.near_box(base_cell, box_of(points), worker), list, sums);
+    sum_points<Kernel>(search_.near_box(base_cell, box_of(points), worker), list, sums);
     scatter(points, sums, values);
 }
 
 template <class Kernel>
 void ParticleField<Kernel>::whole_block_values(const Int3& base_cell, float* values, unsigned worker) {
     constexpr float cell = units_per_cell;
-    constexpr int rows = WideLanes::count / base_cell_size;  // along y, in a register
-    constexpr int registers = base_cell_size / rows;         // for a slab of the block
+    constexpr int rows = WideLanes::count / base_cell_size;  // rows along y in a register
+    constexpr int registers = base_cell_size / rows;         // registers for a slab of the block
     const WideLanes x = WideLanes::load(block_points.coordinate[0]);
     WideLanes y[registers];
     for (int i = 0; i < registers; ++i) y[i] = WideLanes::load(block_points.coordinate[1] + i * WideLanes::count);
@@ -105,9 +105,9 @@ void ParticleField<Kernel>::whole_block_values(const Int3& base_cell, float* val
         for (int k = 0; k < slabs; ++k) z[k] = static_cast<float>(slab + k) * cell;
         WideLanes sum[slabs * registers];
         for (WideLanes& s : sum) s = WideLanes(0.0F);
-        for (const NeighborList& c :
-             near_.near_box(base_cell, {{0.0F, 0.0F, z[0]}, {3 * cell, 3 * cell, z[slabs - 1]}}, worker))
-            sum_grid_values<Kernel, registers, slabs>(c.view(), x, y, z, sum);
+        for (const NeighborList& of_level :
+             search_.near_box(base_cell, {{0.0F, 0.0F, z[0]}, {3 * cell, 3 * cell, z[slabs - 1]}}, worker))
+            sum_grid_values<Kernel, registers, slabs>(of_level.view(), x, y, z, sum);
         for (int i = 0; i < slabs * registers; ++i) sum[i].store(values + (slab * registers + i) * WideLanes::count);
     }
 }
@@ -116,13 +116,13 @@ template <class Kernel>
 void ParticleField<Kernel>::normals(const Int3& base_cell, PointList& points, const NormalRows& normals,
                                     unsigned worker) {
     pad(points);
-    const NeighborLists::Levels& near_all = near_.near_box(base_cell, box_of(points), worker);
+    const NeighborLists::Levels& near = search_.near_box(base_cell, box_of(points), worker);
     for_each_register(points, [&]<class F>(std::size_t i) {
         const F px = F::load(points.x + i), py = F::load(points.y + i), pz = F::load(points.z + i);
         const bool is_alone = points.count <= F::count;
         F gx(0.0F), gy(0.0F), gz(0.0F);
-        for (const NeighborList& c : is_alone ? near_all : near_.nearer_box(box_of_lanes(px, py, pz), worker))
-            sum_gradients<Kernel>(c.view(), px, py, pz, gx, gy, gz);
+        for (const NeighborList& of_level : is_alone ? near : search_.nearer_box(box_of_lanes(px, py, pz), worker))
+            sum_gradients<Kernel>(of_level.view(), px, py, pz, gx, gy, gz);
         turn_outward(gx, gy, gz);
         gx.store(normals.x + i);
         gy.store(normals.y + i);
@@ -135,7 +135,7 @@ std::size_t ParticleField<Kernel>::attributes(const Int3& base_cell, PointList& 
                                               unsigned group, const NormalRows* normals, GroupValues& values,
                                               unsigned worker) {
     pad(points);
-    const NeighborLists::Levels& near = near_.near_box_with_values(base_cell, box_of(points), group, worker);
+    const NeighborLists::Levels& near = search_.near_box_with_values(base_cell, box_of(points), group, worker);
     if (numbers.shape.are_ids(group)) {
         find_ids<Kernel>(near, points, values);
         return fill_gaps(base_cell, points, numbers, group, values);
@@ -177,7 +177,7 @@ std::size_t ParticleField<Kernel>::fill_gaps(const Int3& base_cell, const PointL
             points.y[i] - static_cast<float>(step.y) * base_edge, points.z[i] - static_cast<float>(step.z) * base_edge);
         if (!nearest.exists()) ++lonely;
         for (unsigned k = 0; k < numbers.shape.count(group); ++k) {
-            const ParticleSet& set = near_.sets()[nearest.level];
+            const ParticleSet& set = search_.sets()[nearest.level];
             values.of[k][i] =
                 nearest.exists()
                     ? numbers.group(group)[k].alone(set.values_of(group)[group_size_of_numbers * nearest.rank + k])
@@ -191,8 +191,8 @@ template <class Kernel>
 NearestParticle ParticleField<Kernel>::nearest_particle(const Int3& base_cell, float x, float y, float z) const {
     NearestParticle nearest{x, y, z};
     for (unsigned k = 0; k < particle_level_count; ++k) {
-        if (near_.sets()[k].count() == 0) continue;
-        const ParticleSetView set = near_.sets()[k].view();
+        if (search_.sets()[k].count() == 0) continue;
+        const ParticleSetView set = search_.sets()[k].view();
         const NeighborView all{set.x, set.y, set.z, set.weight, set.fall, 0, set.support, inverse_support(set.support)};
         set.for_each_near(base_cell_origin(base_cell), {{0.0F, 0.0F, 0.0F}, {base_edge, base_edge, base_edge}},
                           [&](float px, float py, float pz, std::uint32_t i) {

@@ -12,7 +12,7 @@ namespace meniscus::cpu {
 template <class Kernel>
 class ParticleField final : public FieldSource {
 public:
-    explicit ParticleField(NeighborSearch& near) : near_(near) {}
+    explicit ParticleField(NeighborSearch& search) : search_(search) {}
 
     void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) override;
     void cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values,
@@ -30,7 +30,7 @@ private:
                           unsigned group, GroupValues& values) const;
     NearestParticle nearest_particle(const Int3& base_cell, float x, float y, float z) const;
 
-    NeighborSearch& near_;
+    NeighborSearch& search_;
 };
 
 extern template class ParticleField<CubicSpline>;

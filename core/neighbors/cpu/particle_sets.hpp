@@ -28,21 +28,21 @@ struct ParticleSet {
 
     BrickGrid cells;
     Array<ParticleKey> keys;
-    Array<IdentifiedKey> identified;  ///< while they are sorted
+    Array<IdentifiedKey> identified;  ///< keys with indices, while they are sorted
     Array<std::uint32_t> sources;     ///< each particle's index in the frame; empty for a frame without arrays
-    // Where vertices have attributes:
-    Array<float> ranks;   ///< see ParticleSetView, with room for whole lanes
-    Array<float> values;  ///< of every group of numbers, and in it of every particle, four (AttributeNumbers)
+    // Only where vertices have attributes:
+    Array<float> ranks;   ///< ranks for ParticleSetView, with room for whole lanes
+    Array<float> values;  ///< four numbers of every particle, group after group (AttributeNumbers)
     Array<std::uint32_t> first;
     Array<std::uint64_t> cell_keys;
-    // Of every particle, and room for whole lanes beyond the last; ParticleSetView explains them.
+    // An element for every particle, and room for whole lanes beyond the last; ParticleSetView explains them.
     Array<float> x, y, z, weight;
-    Array<float> fall;  ///< smooth field only
-    Array<float> sums;  ///< one at each particle's place, while weights are found
+    Array<float> fall;  ///< fall of each kernel; smooth field only
+    Array<float> sums;  ///< the sum at each particle's place, while weights are found
     std::size_t count() const { return keys.size(); }
     std::int64_t cell_units = 0;
     float support = 0.0F;
-    float company_support = 0.0F;  ///< smooth field only, see LatticeSettings
+    float company_support = 0.0F;  ///< support of the count of others, see LatticeSettings; smooth field only
 
     ParticleSetView view() const {
         return {cells.view(),  first.data(),   x.data(),   y.data(), z.data(),
@@ -55,7 +55,7 @@ struct ParticleSet {
         return ranked;
     }
     const float* values_of(unsigned group) const { return values.data() + group * group_size_of_numbers * count(); }
-    /// For counts of particles around a place.
+    /// The set for counts of particles around a place.
     ParticleSetView company_view() const {
         ParticleSetView company = view();
         company.fall = nullptr;
@@ -73,13 +73,13 @@ struct ParticleSets {
     Workers& workers;
     const LatticeSettings& settings;
     std::array<ParticleSet, particle_level_count> of_level;
-    Array<Point> spray;  ///< world units, where the settings want it listed
+    Array<Point> spray;  ///< places of the spray, world units; only where the settings ask for the list
     std::uint64_t spray_particles = 0;
-    // While particles are registered.
+    // Used while particles are registered:
     Scan scan;
     Array<std::uint64_t> reached_bricks;
 
-    /// Of the particles; their spray stays.
+    /// Gives back the memory of the particles; their spray stays.
     void release();
 
     ParticleSet& operator[](std::size_t level) { return of_level[level]; }

@@ -61,7 +61,7 @@ void sum_group(const NeighborLists::Levels& near, const PointList& points, std::
         z[g] = F::load(points.z + at);
         sum[g] = F(0.0F);
     }
-    for (const NeighborList& c : near) sum_values<Kernel, G>(c.view(), x, y, z, sum);
+    for (const NeighborList& of_level : near) sum_values<Kernel, G>(of_level.view(), x, y, z, sum);
     for (int g = 0; g < G; ++g) sum[g].store(out + i + static_cast<std::size_t>(g) * F::count);
 }
 

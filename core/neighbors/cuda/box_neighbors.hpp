@@ -16,14 +16,14 @@ public:
     /// Calls visit(Neighbor) in all lanes, in the order of summation, and a few times for what adds nothing. All
     /// lanes call it. box: units from the corner of base cell `origin`, in the brick of base cells `brick`.
     template <class Visit>
-    __device__ void for_each(const State& f, std::uint32_t brick, const Int3& origin, const UnitBox& box,
+    __device__ void for_each(const State& state, std::uint32_t brick, const Int3& origin, const UnitBox& box,
                              const Visit& visit) {
         const unsigned lane = lane_index();
 #pragma unroll 1
         for (unsigned k = 0; k < particle_level_count; ++k) {
-            const LevelParticles<Kernel> level(f, k);
+            const LevelParticles<Kernel> level(state, k);
             if (level.set.cells.brick_count == 0) continue;
-            const NeighborRows rows(level.set, f.neighbor_bricks[std::uint64_t{particle_level_count} * brick + k],
+            const NeighborRows rows(level.set, state.neighbor_bricks[std::uint64_t{particle_level_count} * brick + k],
                                     place_in_brick(index_in_brick(origin)), box);
             const BoxTest<Kernel> test(box, level.set.reach());
             const unsigned count = rows.count();
@@ -32,13 +32,13 @@ public:
                 const ParticlesOfRows<Kernel> particles(level, rows, first_row);
                 std::uint32_t start = 0;
                 do {
-                    // Two windows' loads are under way at once.
-                    Neighbor c[2];
-                    for (unsigned w = 0; w < 2; ++w) c[w] = particles.neighbor(start + w * warp_threads + lane);
+                    // The loads of two neighbors a lane are under way at once.
+                    Neighbor neighbors[2];
+                    for (unsigned w = 0; w < 2; ++w) neighbors[w] = particles.neighbor(start + w * warp_threads + lane);
                     for (unsigned w = 0; w < 2; ++w) {
-                        const bool reaches =
-                            start + w * warp_threads + lane < particles.total && test(c[w].particle, c[w].fall);
-                        list_.add(listed, reaches, c[w].particle, c[w].fall, 0);
+                        const bool reaches = start + w * warp_threads + lane < particles.total &&
+                                             test(neighbors[w].particle, neighbors[w].fall);
+                        list_.add(listed, reaches, neighbors[w].particle, neighbors[w].fall, 0);
                     }
                     start += 2 * warp_threads;
                     const bool is_last = first_row + warp_threads >= count && start >= particles.total;

@@ -1,4 +1,4 @@
-// The particles near a cluster, in the shared memory of the warp that has it, and those of them near each of its parts:
+// Neighbors of a cluster, in the shared memory of the warp that has it, and those of them near each of its parts:
 // in the order of summation. What lies beyond its support adds exactly zero, so that each way to leave it out gives the
 // same sums.
 #pragma once
@@ -42,22 +42,23 @@ class ClusterNeighbors {
 public:
     /// Takes in the particles near a box (units from the cluster's corner), but for the first `skipped` of them.
     /// Returns how many there are, which may be more than skipped + room.
-    __device__ unsigned gather(const State& f, const Cluster& cluster, const UnitBox& box, unsigned skipped) {
+    __device__ unsigned gather(const State& state, const Cluster& cluster, const UnitBox& box, unsigned skipped) {
         const unsigned lane = lane_index();
         __syncwarp();
         unsigned found = 0;
 #pragma unroll 1
         for (unsigned k = 0; k < particle_level_count; ++k) {
-            const LevelParticles<Kernel> level(f, k);
+            const LevelParticles<Kernel> level(state, k);
             if (level.set.cells.brick_count != 0) {
-                const NeighborBricks& near = f.neighbor_bricks[std::uint64_t{particle_level_count} * cluster.brick + k];
+                const NeighborBricks& near =
+                    state.neighbor_bricks[std::uint64_t{particle_level_count} * cluster.brick + k];
                 const NeighborRows rows(level.set, near, cluster.corner, box);
                 const BoxTest<Kernel> test(box, level.set.reach());
-                for_each_window(level, rows, [&](const Neighbor& c, bool exists) {
-                    const bool reaches = exists && test(c.particle, c.fall);
+                for_each_particle_of_rows(level, rows, [&](const Neighbor& neighbor, bool exists) {
+                    const bool reaches = exists && test(neighbor.particle, neighbor.fall);
                     const unsigned all = __ballot_sync(all_lanes, reaches ? 1 : 0);
                     const unsigned at = found + lanes_below(all) - skipped;
-                    if (reaches && at < room) all_.set(at, c.particle, c.fall, c.rank);
+                    if (reaches && at < room) all_.set(at, neighbor.particle, neighbor.fall, neighbor.rank);
                     found += static_cast<unsigned>(__popc(all));
                 });
             }
@@ -69,15 +70,15 @@ public:
 
     /// Calls visit(Neighbor) in all lanes for each of those taken in that is near a box within that of gather().
     template <class Visit>
-    __device__ void for_each_near(const State& f, const UnitBox& box, const Visit& visit) {
+    __device__ void for_each_near(const State& state, const UnitBox& box, const Visit& visit) {
         const unsigned lane = lane_index();
         unsigned begin = 0;
 #pragma unroll 1
         for (unsigned k = 0; k < particle_level_count; ++k) {
             const unsigned end = end_[k];
             if (begin == end) continue;
-            const float support = f.settings.support[k];
-            const float inverse_support = f.settings.inverse_support[k];
+            const float support = state.settings.support[k];
+            const float inverse_support = state.settings.inverse_support[k];
             const BoxTest<Kernel> test(box, ParticleSetView::reach_of(support));
             while (begin < end) {
                 unsigned chosen = 0;
@@ -99,7 +100,7 @@ public:
         }
     }
 
-    UnitBox whole;  ///< see ClusterParticles
+    UnitBox whole;  ///< box of all parts, see PartNeighbors
     static constexpr unsigned room = has_ranks ? 128 : 224;
 
 private:
@@ -110,17 +111,17 @@ private:
 
     NeighborList<Kernel, has_ranks, room> all_;
     NeighborList<Kernel, has_ranks, most_chosen + group> chosen_;
-    std::uint32_t end_[particle_level_count];  ///< of each level's in all_
+    std::uint32_t end_[particle_level_count];  ///< end of each level's neighbors in all_
 };
 
-/// A warp's particles near the parts of a cluster: all at once where they fit, else part by part and a piece at a time.
+/// The neighbors of the parts of a cluster: all at once where they fit, else part by part and a piece at a time.
 template <class Kernel, bool has_ranks = false>
-class ClusterParticles {
+class PartNeighbors {
 public:
     /// box: holds all parts; units from the cluster's corner.
-    __device__ ClusterParticles(const State& f, const Cluster& cluster, const UnitBox& box,
-                                ClusterNeighbors<Kernel, has_ranks>& shared)
-        : f_(f), cluster_(cluster), shared_(shared) {
+    __device__ PartNeighbors(const State& state, const Cluster& cluster, const UnitBox& box,
+                             ClusterNeighbors<Kernel, has_ranks>& shared)
+        : state_(state), cluster_(cluster), shared_(shared) {
         // Asked for once and then seldom: not for registers.
         if (lane_index() == 0) shared.whole = box;
         __syncwarp();
@@ -129,7 +130,7 @@ public:
     /// Calls visit(Neighbor) for all near a part's box.
     template <class Visit>
     __device__ void for_each_near(const UnitBox& box, const Visit& visit) {
-        for_each_piece(box, [&] { shared_.for_each_near(f_, box, visit); });
+        for_each_piece(box, [&] { shared_.for_each_near(state_, box, visit); });
     }
     /// Calls visit() for each piece of those near a part's box that `shared` holds at a time.
     template <class Visit>
@@ -145,7 +146,7 @@ public:
                     from.low[axis] = tries_all ? shared_.whole.low[axis] : box.low[axis];
                     from.high[axis] = tries_all ? shared_.whole.high[axis] : box.high[axis];
                 }
-                found = shared_.gather(f_, cluster_, from, skipped);
+                found = shared_.gather(state_, cluster_, from, skipped);
                 held_ = tries_all && found <= shared_.room ? Held::all : Held::piece;
                 if (tries_all && held_ == Held::piece) continue;
             }
@@ -157,7 +158,7 @@ public:
 private:
     enum class Held : std::uint8_t { none, all, piece };
 
-    const State& f_;
+    const State& state_;
     const Cluster& cluster_;
     ClusterNeighbors<Kernel, has_ranks>& shared_;
     Held held_ = Held::none;

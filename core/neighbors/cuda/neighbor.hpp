@@ -10,13 +10,13 @@
 
 namespace meniscus::cuda {
 
-/// One particle as a list of neighbors.
+/// One neighbor, also as a list of one.
 struct Neighbor {
     float4 particle;
     float fall;  ///< Poly6 only
     float support;
     float inverse_support;
-    std::uint32_t rank;  ///< in the frame's sorted particles
+    std::uint32_t rank;  ///< index among the frame's sorted particles
     __device__ NeighborView view() const {
         return {&particle.x, &particle.y, &particle.z, &particle.w, &fall, 1, support, inverse_support};
     }
@@ -30,12 +30,12 @@ struct LevelParticles {
     const float* falls;
     float inverse_support;
 
-    __device__ LevelParticles(const State& f, unsigned level)
-        : set(f.set(level)),
-          particles(f.particles),
-          falls(f.falls),
-          inverse_support(f.settings.inverse_support[level]) {
-        if (std::is_same_v<Kernel, Company>) set.support = f.settings.company_support[level];
+    __device__ LevelParticles(const State& state, unsigned level)
+        : set(state.set(level)),
+          particles(state.particles),
+          falls(state.falls),
+          inverse_support(state.settings.inverse_support[level]) {
+        if (std::is_same_v<Kernel, Company>) set.support = state.settings.company_support[level];
     }
     /// The particles from the first-th on. Those next to it are then found at fixed distances.
     __device__ LevelParticles from(std::uint32_t first) const {
@@ -44,26 +44,27 @@ struct LevelParticles {
         if (std::is_same_v<Kernel, Poly6>) here.falls += first;
         return here;
     }
-    /// Relative to the corner of its support cell's brick.
+    /// Particle i, relative to the corner of its support cell's brick.
     __device__ Neighbor neighbor(std::uint32_t i) const {
         const float fall = std::is_same_v<Kernel, Poly6> ? falls[i] : 0.0F;
         return {particles[i], fall, set.support, inverse_support, i};
     }
     __device__ Neighbor neighbor(std::uint32_t i, const float* shift) const {
-        Neighbor c = neighbor(i);
-        c.particle.x += shift[0];
-        c.particle.y += shift[1];
-        c.particle.z += shift[2];
-        return c;
+        Neighbor moved = neighbor(i);
+        moved.particle.x += shift[0];
+        moved.particle.y += shift[1];
+        moved.particle.z += shift[2];
+        return moved;
     }
 };
 
 /// Calls visit(Neighbor) for all particles near a box, level by level: one thread alone, for a point far from
 /// others.
 template <class Kernel, class Visit>
-__device__ inline void for_each_neighbor(const State& f, const Units3& origin, const UnitBox& box, const Visit& visit) {
+__device__ inline void for_each_neighbor(const State& state, const Units3& origin, const UnitBox& box,
+                                         const Visit& visit) {
     for (unsigned k = 0; k < particle_level_count; ++k) {
-        const LevelParticles<Kernel> level(f, k);
+        const LevelParticles<Kernel> level(state, k);
         if (level.set.cells.brick_count == 0) continue;
         NoBrickHints hints;
         level.set.for_each_run_near(origin, box, hints,

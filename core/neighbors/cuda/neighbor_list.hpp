@@ -1,4 +1,4 @@
-// Particles of one level in the shared memory of a warp, all of whose lanes visit each of them.
+// Neighbors of one level in the shared memory of a warp, all lanes of which visit each of them.
 #pragma once
 
 #include "engine/cuda/warp.hpp"
@@ -6,7 +6,7 @@
 
 namespace meniscus::cuda {
 
-/// has_ranks: whether Neighbor::rank is told.
+/// has_ranks: whether Neighbor::rank is known.
 template <class Kernel, bool has_ranks, unsigned size>
 struct NeighborList {
     alignas(16) float4 particles[size];
@@ -34,10 +34,10 @@ struct NeighborList {
         if (lane_index() + 1 < group) set(count + lane_index(), {1e9F, 0.0F, 0.0F, 0.0F}, 1.0F, 0);
         __syncwarp();
         for (unsigned j = 0; j < count; j += group) {
-            Neighbor c[group];
+            Neighbor neighbors[group];
             for (unsigned g = 0; g < group; ++g)
-                c[g] = {particles[j + g], fall(j + g), support, inverse_support, rank(j + g)};
-            for (unsigned g = 0; g < group; ++g) visit(c[g]);
+                neighbors[g] = {particles[j + g], fall(j + g), support, inverse_support, rank(j + g)};
+            for (unsigned g = 0; g < group; ++g) visit(neighbors[g]);
         }
         // The next ones take the place of these.
         __syncwarp();

@@ -1,4 +1,4 @@
-// The particles near a box, 32 at a time: the lanes of a warp look up rows of support cells side by side, and share out
+// Neighbors of a box, 32 at a time: the lanes of a warp look up rows of support cells side by side, and share out
 // evenly what lies in them.
 #pragma once
 
@@ -12,10 +12,10 @@ namespace meniscus::cuda {
 /// most four base cells wide, so that at most seven support cells a side are near it, in at most two bricks a side.
 class NeighborRows {
 public:
-    /// A row's particles, and what their coordinates lack.
+    /// A row's particles, and the brick by which shift() moves them.
     struct Run {
         std::uint32_t begin = 0, end = 0;
-        unsigned brick = 0;  ///< among the eight at the lowest one, for shift()
+        unsigned brick = 0;  ///< number among the eight bricks at the lowest one, for shift()
     };
 
     /// All lanes of a warp call it. The box, in units from the corner of a base cell, lies in the brick of base cells
@@ -55,7 +55,7 @@ public:
     __device__ unsigned count() const {
         return static_cast<unsigned>(size_.z * size_.y * (first_.x < size_.x ? 2 : 1));
     }
-    /// Of row i; all lanes of a warp call it. Without particles where there is no such row.
+    /// The particles of row i, none where there is no such row; all lanes of a warp call it.
     __device__ Run run(unsigned i) const {
         Run run;
         // Bricks come one after another, z first, and in each its rows.
@@ -91,14 +91,14 @@ public:
         run.end = set_.first[number + static_cast<std::uint32_t>(__popc(members))];
         return run;
     }
-    /// What the coordinates of particles in a run's brick lack to be relative to the origin. Whole multiples of 16
+    /// The distance that makes coordinates of particles in a run's brick relative to the origin. A whole multiple of 16
     /// units: no sum is rounded.
     __device__ float shift(unsigned brick, int axis) const {
         return (brick >> axis & 1) != 0 ? shift_[axis] + edge_ : shift_[axis];
     }
 
 private:
-    /// What of the rows along an axis lies in one brick.
+    /// The part of the rows along an axis that lies in one brick.
     struct Part {
         int brick, begin, size;
     };
@@ -110,9 +110,9 @@ private:
     const ParticleSetView& set_;
     Int3 low_;    ///< lowest cell, from the corner of slot 0's brick
     Int3 size_;   ///< cells a side
-    Int3 first_;  ///< of these, those in the lowest brick
+    Int3 first_;  ///< cells a side in the lowest brick
     std::uint32_t brick_of_lane_ = no_index;
-    float edge_ = 0.0F;  ///< of a brick, units
+    float edge_ = 0.0F;  ///< edge of a brick of support cells, units
     float shift_[3] = {};
 };
 
@@ -120,12 +120,12 @@ private:
 template <class Kernel>
 class ParticlesOfRows {
 public:
-    /// From a row on; all lanes of a warp call it.
+    /// The particles of the rows from `first_row` on; all lanes of a warp call it.
     __device__ ParticlesOfRows(const LevelParticles<Kernel>& level, const NeighborRows& rows, unsigned first_row)
         : level_(level), rows_(rows), run_(rows.run(first_row + lane_index())) {
         below_ = sum_of_lanes_below(run_.end - run_.begin, total);
     }
-    /// The i-th of them, each lane its own; all lanes of a warp call it. No particle where there are not as many.
+    /// The i-th particle, each lane its own; all lanes of a warp call it. No particle where there are fewer.
     __device__ Neighbor neighbor(std::uint32_t i) const {
         const unsigned from = lane_with(i, below_);
         const std::uint32_t rank = __shfl_sync(all_lanes, run_.begin - below_, static_cast<int>(from)) + i;
@@ -139,14 +139,15 @@ public:
 private:
     const LevelParticles<Kernel>& level_;
     const NeighborRows& rows_;
-    NeighborRows::Run run_;  ///< of this lane's row
+    NeighborRows::Run run_;  ///< particles of this lane's row
     std::uint32_t below_ = 0;
 };
 
 /// Calls visit(Neighbor, whether there is one) in all lanes for the particles of these rows, neighboring ones in
 /// neighboring lanes, in their order.
 template <class Kernel, class Visit>
-__device__ void for_each_window(const LevelParticles<Kernel>& level, const NeighborRows& rows, const Visit& visit) {
+__device__ void for_each_particle_of_rows(const LevelParticles<Kernel>& level, const NeighborRows& rows,
+                                          const Visit& visit) {
     const unsigned lane = lane_index();
     const unsigned count = rows.count();
     for (unsigned first_row = 0; first_row < count; first_row += warp_threads) {

@@ -9,17 +9,17 @@ namespace meniscus::cuda {
 namespace {
 
 /// One thread for every word of a brick.
-__global__ void __launch_bounds__(block_threads) list_level_sets(const __grid_constant__ State f) {
-    GridLoop{}.each(std::uint64_t{Brick::words} * f.count(Resource::bricks), [&](std::uint32_t i) {
-        const WordLevels cells(f.bricks[i / Brick::words], static_cast<int>(i % Brick::words), f.level);
-        for (int level = 1; level <= 3; ++level) f.at_least[level][i] = cells.at_least[level];
-        f.raised[i] = 0;
-        if (i % 4 == 0) f.marked_clusters[i / 4] = 0;
+__global__ void __launch_bounds__(block_threads) list_level_sets(const __grid_constant__ State state) {
+    GridLoop{}.each(std::uint64_t{Brick::words} * state.count(Resource::bricks), [&](std::uint32_t i) {
+        const WordLevels cells(state.bricks[i / Brick::words], static_cast<int>(i % Brick::words), state.level);
+        for (int level = 1; level <= 3; ++level) state.at_least[level][i] = cells.at_least[level];
+        state.raised[i] = 0;
+        if (i % 4 == 0) state.marked_clusters[i / 4] = 0;
     });
 }
 
-__global__ void __launch_bounds__(block_threads, 4) balance_and_promote(const __grid_constant__ State f) {
-    Sweeps(f, Team::grid(), AllWords(f)).adjust_levels();
+__global__ void __launch_bounds__(block_threads, 4) balance_and_promote(const __grid_constant__ State state) {
+    Sweeps(state, Team::grid(), AllWords(state)).adjust_levels();
 }
 
 }  // namespace

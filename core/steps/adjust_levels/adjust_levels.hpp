@@ -22,7 +22,7 @@ inline constexpr unsigned edge_groups = 6;
 
 /// The coarse cells that, at one of their twelve edges, face another coarse cell across the edge with two cells between
 /// them that are finer than both, and come first in the order (z, y, x): four crack fillings would share a chord there.
-/// Looked at: every sharers-th group of edges from `first` on.
+/// Only every sharers-th group of edges from `first` on is looked at.
 template <unsigned sharers = 1>
 MENISCUS_HD inline std::uint64_t cells_to_promote(const LevelSets& levels, std::uint32_t brick, int w,
                                                   unsigned first = 0) {

@@ -5,12 +5,12 @@
 
 namespace meniscus::cpu {
 
-void cap_levels(State& s, const Array<std::uint8_t>& levels, int max_level) {
+void cap_levels(State& state, const Array<std::uint8_t>& levels, int max_level) {
     const auto cap = static_cast<std::uint8_t>(max_level);
-    s.workers.for_ranges(s.block_count(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
-        for (std::size_t b = begin; b < end; ++b) s.level[b] = std::min(levels[b], cap);
+    state.workers.for_ranges(state.block_count(), 8192, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t b = begin; b < end; ++b) state.level[b] = std::min(levels[b], cap);
     });
-    collect_level_sets(s);
+    collect_level_sets(state);
 }
 
 }  // namespace meniscus::cpu

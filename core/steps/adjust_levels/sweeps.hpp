@@ -12,12 +12,13 @@
 
 namespace meniscus::cuda {
 
-/// Where rules look the first time: at the words of all bricks.
+/// The words at which rules look the first time: those of all bricks.
 class AllWords {
 public:
     static constexpr bool follows_raising = false;
 
-    __device__ explicit AllWords(const State& f) : count_(std::uint64_t{Brick::words} * f.count(Resource::bricks)) {}
+    __device__ explicit AllWords(const State& state)
+        : count_(std::uint64_t{Brick::words} * state.count(Resource::bricks)) {}
     __device__ std::uint64_t words() const { return count_; }
     __device__ std::uint32_t word(std::uint64_t i) const { return static_cast<std::uint32_t>(i); }
     __device__ void mark(std::uint32_t) const {}
@@ -35,18 +36,18 @@ public:
     Team team;
     Places places;
 
-    __device__ Sweeps(const State& f, const Team& first_team, const Places& places_of_rules)
-        : team(first_team), places(places_of_rules), f_(f), levels_(f.level_sets()) {
-        if (team.is_first_thread()) f_.counts->found[0] = f_.counts->found_alone[0] = 0;
+    __device__ Sweeps(const State& state, const Team& first_team, const Places& places_of_rules)
+        : team(first_team), places(places_of_rules), state_(state), levels_(state.level_sets()) {
+        if (team.is_first_thread()) state_.counts->found[0] = state_.counts->found_alone[0] = 0;
     }
 
-    /// The number of the next search or of the one that is going on: another one for each.
+    /// The number of the next search or of the one that is going on; no two searches have the same.
     __device__ std::uint32_t search() const { return team.is_alone() ? ~searches_alone_ : searches_ + 1; }
 
-    /// A rule's: this cell shall go up. Several threads may find the same one.
+    /// Called by a rule for a cell that shall go up. Several threads may find the same cell.
     __device__ void find(std::uint32_t block) const {
-        const CellBit cell(f_, block);
-        if ((cell.put_into(f_.raised) & cell.bit) == 0) list(block);
+        const CellBit cell(state_, block);
+        if ((cell.put_into(state_.raised) & cell.bit) == 0) list(block);
     }
     /// Ends a rule's search; returns how many cells it has found.
     __device__ std::uint32_t end_search() {
@@ -61,7 +62,7 @@ public:
             ++searches_;
         return found;
     }
-    /// Raises so many cells, all that were found, to new_level(block); to 0: it stays as it is.
+    /// Raises the `found` cells of the last search to new_level(block); a cell keeps its level where that is 0.
     template <class NewLevel>
     __device__ void raise_found(std::uint32_t found, const NewLevel& new_level) const {
         each_around(found, [&](std::uint32_t block, unsigned slot) {
@@ -82,28 +83,28 @@ public:
             const std::uint32_t promotion = search();
             const std::uint32_t found = end_search();
             if (found == 0) return;
-            has_finer = static_cast<volatile std::uint32_t&>(f_.counts->last_to_finest) == promotion;
-            raise_found(found, [&](std::uint32_t block) { return f_.level[block] + 1; });
+            has_finer = static_cast<volatile std::uint32_t&>(state_.counts->last_to_finest) == promotion;
+            raise_found(found, [&](std::uint32_t block) { return state_.level[block] + 1; });
         }
     }
 
 private:
-    /// How many cells this search has found; searches later: that one's.
+    /// The number of cells that this search has found, or the one `later` searches after it.
     __device__ volatile std::uint32_t* count(std::uint32_t later = 0) const {
-        return team.is_alone() ? &f_.counts->found_alone[(searches_alone_ + later) % 3]
-                               : &f_.counts->found[(searches_ + later) % 3];
+        return team.is_alone() ? &state_.counts->found_alone[(searches_alone_ + later) % 3]
+                               : &state_.counts->found[(searches_ + later) % 3];
     }
     __device__ void list(std::uint32_t block) const {
-        f_.found_cells()[atomicAdd(const_cast<std::uint32_t*>(count()), 1U)] = block;
+        state_.found_cells()[atomicAdd(const_cast<std::uint32_t*>(count()), 1U)] = block;
     }
     /// Calls visit(block, slot) for the cells that were found. Where Places follow, it does so for all 27 slots, each
     /// in a thread of its own, and marks the cells there; else for own_slot alone.
     template <class Visit>
     __device__ void each_around(std::uint32_t found, const Visit& visit) const {
         constexpr unsigned slots = Places::follows_raising ? neighbor_slots : 1;
-        const BlocksView blocks = f_.blocks();
+        const BlocksView blocks = state_.blocks();
         team.loop().template each<std::uint64_t>(std::uint64_t{found} * slots, [&](std::uint64_t i) {
-            const std::uint32_t block = f_.found_cells()[i / slots];
+            const std::uint32_t block = state_.found_cells()[i / slots];
             const unsigned slot = slots == 1 ? own_slot : static_cast<unsigned>(i % slots);
             visit(block, slot);
             if constexpr (Places::follows_raising) {
@@ -113,16 +114,16 @@ private:
         });
     }
     __device__ void raise(std::uint32_t block, int level) const {
-        const CellBit cell(f_, block);
-        cell.take_out_of(f_.raised);
+        const CellBit cell(state_, block);
+        cell.take_out_of(state_.raised);
         if (level == 0) return;
-        const int before = f_.level[block];
+        const int before = state_.level[block];
         for (int l = 1; l <= 3; ++l)
             if (before < l && l <= level) cell.put_into(levels_.at_least[l].words);
-        f_.level[block] = static_cast<std::uint8_t>(level);
+        state_.level[block] = static_cast<std::uint8_t>(level);
     }
 
-    /// Calls visit(brick, w, which of them) for the words, once for each of so many threads that share one.
+    /// Calls visit(brick, w, sharer) for the words, once for each of the threads that share a word.
     template <unsigned threads, class Visit>
     __device__ void each_word(const Visit& visit) const {
         team.template each_part<threads>(places.words(), [&](std::uint64_t i, unsigned part) {
@@ -134,7 +135,7 @@ private:
         each_word<1>([&](std::uint32_t brick, int w, unsigned) {
             const std::uint64_t cells = unbalanced_cells(levels_, brick, w);
             if (cells == 0) return;
-            raise_cells(levels_, f_.level, brick, w, cells, [&](std::uint32_t block) {
+            raise_cells(levels_, state_.level, brick, w, cells, [&](std::uint32_t block) {
                 if (Places::follows_raising) list(block);
                 return 2;
             });
@@ -151,15 +152,15 @@ private:
         each_word<threads>([&](std::uint32_t brick, int w, unsigned first) {
             std::uint64_t left = cells_to_promote<threads>(levels_, brick, w, first);
             // Only cells of the finest level unbalance others.
-            if ((left & levels_.is_at_least(2, brick, w)) != 0) f_.counts->last_to_finest = search();
-            for (; left != 0; left &= left - 1) find(f_.bricks[brick].number(64 * w + lowest_bit(left)));
+            if ((left & levels_.is_at_least(2, brick, w)) != 0) state_.counts->last_to_finest = search();
+            for (; left != 0; left &= left - 1) find(state_.bricks[brick].number(64 * w + lowest_bit(left)));
         });
     }
 
-    const State& f_;
+    const State& state_;
     LevelSets levels_;
-    std::uint32_t searches_ = 0;        ///< by the grid
-    std::uint32_t searches_alone_ = 0;  ///< by its first block
+    std::uint32_t searches_ = 0;        ///< number of searches by the grid
+    std::uint32_t searches_alone_ = 0;  ///< number of searches by its first block
 };
 
 }  // namespace meniscus::cuda

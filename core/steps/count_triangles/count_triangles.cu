@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "engine/cuda/warp.hpp"
-#include "steps/count_triangles/warp_signs.hpp"
+#include "engine/cuda/warp_signs.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/fill_cracks/fill_cracks.hpp"
 #include "steps/fill_cracks/warp_cracks.hpp"
@@ -13,38 +13,38 @@
 namespace meniscus::cuda {
 namespace {
 
-__global__ void __launch_bounds__(block_threads) list_band(const __grid_constant__ State f) {
-    const BlocksView blocks = f.blocks();
+__global__ void __launch_bounds__(block_threads) list_band(const __grid_constant__ State state) {
+    const BlocksView blocks = state.blocks();
     std::uint32_t band_cells[3] = {0, 0, 0};
     GridLoop{}.each_together(blocks.count, [&](std::uint32_t b, bool exists) {
         const int level = exists ? blocks.level[b] : 0;
         for (int l = 1; l <= 3; ++l)
             band_cells[l - 1] += static_cast<std::uint32_t>(__popc(__ballot_sync(all_lanes, level == l ? 1 : 0)));
-        const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(List::band)], level != 0 ? 1 : 0);
+        const std::uint32_t at = take_places(&state.counts->listed[static_cast<int>(List::band)], level != 0 ? 1 : 0);
         if (level != 0)
-            f.band_cells[at] = b;
+            state.band_cells[at] = b;
         else if (exists)
-            f.triangles_before[b] = {};
+            state.triangles_before[b] = {};
     });
     if (lane_index() == 0)
         for (int l = 0; l < 3; ++l)
-            if (band_cells[l] != 0) atomicAdd(&f.counts->band_cells[l], band_cells[l]);
+            if (band_cells[l] != 0) atomicAdd(&state.counts->band_cells[l], band_cells[l]);
 }
 
 /// One warp for every four cells of the band.
-__global__ void __launch_bounds__(block_threads) count_cells(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads) count_cells(const __grid_constant__ State state) {
     __shared__ std::uint8_t triangles[cube_case_count];
     __shared__ WarpSigns all_signs[block_warps];
     __shared__ Counter total[3];
     if (threadIdx.x < 3) total[threadIdx.x] = 0;
     static_assert(block_threads == cube_case_count);
-    triangles[threadIdx.x] = f.cube_table[threadIdx.x].triangles;
+    triangles[threadIdx.x] = state.cube_table[threadIdx.x].triangles;
     __syncthreads();
     WarpSigns& signs = all_signs[warp_in_block()];
-    const BlocksView blocks = f.blocks();
-    const std::uint32_t band = same_in_all_lanes(f.listed(List::band));
+    const BlocksView blocks = state.blocks();
+    const std::uint32_t band = same_in_all_lanes(state.listed(List::band));
     each_by_warp((band + closed_cells_a_warp - 1) / closed_cells_a_warp, [&](std::uint32_t group) {
-        const CellsOfLanes cells(blocks, f.band_cells, band, closed_cells_a_warp * group);
+        const CellsOfLanes cells(blocks, state.band_cells, band, closed_cells_a_warp * group);
         signs.put(blocks, cells);
         __syncwarp();
         // Two cells are counted in the halves of a word.
@@ -59,21 +59,22 @@ __global__ void __launch_bounds__(block_threads) count_cells(const __grid_consta
         if (!cells.exists || lane_index() % 8 != 0) return;
         const unsigned cell = lane_index() / 8;
         const std::uint32_t own = (cell < 2 ? count[0] : count[1]) >> (cell % 2 * 16) & 0xFFFF;
-        f.triangles_before[cells.block] = {};
-        f.triangles_before[cells.block].of[cells.level - 1] = own;
+        state.triangles_before[cells.block] = {};
+        state.triangles_before[cells.block].of[cells.level - 1] = own;
         atomicAdd(&total[cells.level - 1], Counter{own});
     });
     __syncthreads();
-    if (threadIdx.x < 3 && total[threadIdx.x] != 0) atomicAdd(&f.counts->triangles[threadIdx.x], total[threadIdx.x]);
+    if (threadIdx.x < 3 && total[threadIdx.x] != 0)
+        atomicAdd(&state.counts->triangles[threadIdx.x], total[threadIdx.x]);
 }
 
 /// A lane finds out whether a cell has a coarser neighbor; those that have go through the warp four at a time.
-__global__ void __launch_bounds__(block_threads) count_cracks(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads) count_cracks(const __grid_constant__ State state) {
     __shared__ ClosedPoints points;
     __shared__ WarpSigns all_signs[block_warps];
     __shared__ WarpCracks all_cracks[block_warps];
     __shared__ std::uint32_t all_fine[block_warps][warp_threads];
-    const std::uint32_t* const of_level = f.counts->band_cells;
+    const std::uint32_t* const of_level = state.counts->band_cells;
     // Cells of one level have no cracks.
     if ((of_level[0] != 0 ? 1 : 0) + (of_level[1] != 0 ? 1 : 0) + (of_level[2] != 0 ? 1 : 0) < 2) return;
     points.fill();
@@ -81,11 +82,11 @@ __global__ void __launch_bounds__(block_threads) count_cracks(const __grid_const
     WarpSigns& signs = all_signs[warp_in_block()];
     WarpCracks& cracks = all_cracks[warp_in_block()];
     std::uint32_t(&fine)[warp_threads] = all_fine[warp_in_block()];
-    const BlocksView blocks = f.blocks();
+    const BlocksView blocks = state.blocks();
     constexpr int crack = static_cast<int>(TriangleLevel::crack);
     Counter total = 0;
-    GridLoop{}.each_together(f.listed(List::band), [&](std::uint32_t i, bool exists) {
-        const std::uint32_t block = exists ? f.band_cells[i] : 0;
+    GridLoop{}.each_together(state.listed(List::band), [&](std::uint32_t i, bool exists) {
+        const std::uint32_t block = exists ? state.band_cells[i] : 0;
         const std::uint32_t listed = __ballot_sync(all_lanes, exists && has_coarser_neighbor(blocks, block) ? 1 : 0);
         if ((listed >> lane_index() & 1) != 0) fine[lanes_below(listed)] = block;
         __syncwarp();
@@ -100,50 +101,51 @@ __global__ void __launch_bounds__(block_threads) count_cracks(const __grid_const
             std::uint32_t counts = 0;
             cracks.for_each_subface_together(signs, faces, [&](const CrackSubface& subface) {
                 if (!subface.exists) return;
-                const std::uint32_t own = f.crack_table[subface.crack_case(points, signs)].triangles;
+                const std::uint32_t own = state.crack_table[subface.crack_case(points, signs)].triangles;
                 counts += own << (8 * subface.cell);
             });
             counts = sum_of_lanes(counts);
             const std::uint32_t count = lane_index() % 8 == 0 ? counts >> lane_index() & 0xFF : 0;
-            const std::uint32_t at = take_places(&f.counts->listed[static_cast<int>(List::cracks)], count != 0 ? 1 : 0);
+            const std::uint32_t at =
+                take_places(&state.counts->listed[static_cast<int>(List::cracks)], count != 0 ? 1 : 0);
             if (count != 0) {
-                f.triangles_before[cells.block].of[crack] = count;
-                f.cracked_cells[at] = cells.block;
+                state.triangles_before[cells.block].of[crack] = count;
+                state.cracked_cells[at] = cells.block;
                 total += count;
             }
         }
         // The next cells take the place of these.
         __syncwarp();
     });
-    add_of_lanes(&f.counts->triangles[crack], total);
+    add_of_lanes(&state.counts->triangles[crack], total);
 }
 
 /// The mesh's order: by level, by brick within a level. Every thread adds up the few levels for itself.
-__global__ void __launch_bounds__(block_threads) order_by_level_and_brick(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads) order_by_level_and_brick(const __grid_constant__ State state) {
     Counter first[triangle_level_count];
     Counter total = 0;
     for (std::size_t level = 0; level < triangle_level_count; ++level) {
         first[level] = total;
-        total += f.counts->triangles[level];
+        total += state.counts->triangles[level];
     }
     if (blockIdx.x == 0 && threadIdx.x == 0) {
         for (std::size_t level = 0; level < triangle_level_count; ++level)
-            f.counts->first_triangle[level] = static_cast<std::uint32_t>(first[level]);
+            state.counts->first_triangle[level] = static_cast<std::uint32_t>(first[level]);
         // Step 6 asks whether there is room, once vertices are counted, too.
-        f.counts->needed[static_cast<int>(Resource::triangles)] = total;
+        state.counts->needed[static_cast<int>(Resource::triangles)] = total;
     }
-    const std::uint32_t bricks = f.count(Resource::bricks);
-    const std::uint32_t blocks = f.count(Resource::blocks);
+    const std::uint32_t bricks = state.count(Resource::bricks);
+    const std::uint32_t blocks = state.count(Resource::blocks);
     GridLoop{}.each(bricks, [&](std::uint32_t b) {
-        const LevelCounts begin = f.triangles_before[f.bricks[b].first];
-        const LevelCounts end = f.triangles_before[b + 1 < bricks ? f.bricks[b + 1].first : blocks];
-        const Int3 at = f.bricks[b].coordinate;
+        const LevelCounts begin = state.triangles_before[state.bricks[b].first];
+        const LevelCounts end = state.triangles_before[b + 1 < bricks ? state.bricks[b + 1].first : blocks];
+        const Int3 at = state.bricks[b].coordinate;
         MeshBrick brick;
         brick.coordinate = {at.x, at.y, at.z};
         for (std::size_t level = 0; level < triangle_level_count; ++level)
             brick.ranges[level] = {static_cast<std::uint32_t>(first[level]) + begin.of[level],
                                    end.of[level] - begin.of[level]};
-        f.mesh_bricks[b] = brick;
+        state.mesh_bricks[b] = brick;
     });
 }
 

@@ -3,7 +3,8 @@
 
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
-#include "steps/emit_triangles/vertex_counts.hpp"
+#include "steps/emit_triangles/triangle_rows.hpp"
+#include "steps/place_vertices/vertex_counts.hpp"
 
 namespace meniscus::cuda {
 namespace {
@@ -14,16 +15,16 @@ using ListedTriangle = std::uint32_t;
 constexpr unsigned row_at = 7, cell_at = 18, stride_at = 20;
 static_assert(closed_cells_a_warp == 4);
 
-/// In shared memory, with room for the cells of nearly all frames. One cell has 64 * 5 triangles at most.
+/// A list in shared memory, with room for the cells of nearly all frames. One cell has 64 * 5 triangles at most.
 struct WarpTriangles {
     static constexpr unsigned room = 512;
     ListedTriangle list[room];
     std::uint32_t first[closed_cells_a_warp];  ///< where in the mesh the list's entry 0 lies, were it that cell's
 };
 
-/// What a lane has to list of a cell.
+/// The triangles of a cell that a lane lists.
 struct TrianglesOfLane {
-    ListedTriangle first[2];  ///< of each of its subcells
+    ListedTriangle first[2];  ///< first triangle of each of its subcells
     unsigned count[2];
 
     __device__ TrianglesOfLane(const TriangleRows& table, const SubcellPair& pair, unsigned cell,
@@ -47,23 +48,23 @@ struct TrianglesOfLane {
 };
 
 /// One warp for every four cells of the band.
-__global__ void __launch_bounds__(block_threads, 4) emit_cells(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads, 4) emit_cells(const __grid_constant__ State state) {
     __shared__ TriangleRows table;
     __shared__ ClosedPoints points;
     __shared__ WarpSigns all_signs[block_warps];
     __shared__ VertexCounts all_vertices[block_warps];
     __shared__ WarpTriangles all_triangles[block_warps];
-    table.fill(f.cube_table);
+    table.fill(state.cube_table);
     points.fill();
     __syncthreads();
     WarpSigns& signs = all_signs[warp_in_block()];
     VertexCounts& vertices = all_vertices[warp_in_block()];
     WarpTriangles& triangles = all_triangles[warp_in_block()];
-    const BlocksView blocks = f.blocks();
+    const BlocksView blocks = state.blocks();
     const unsigned lane = lane_index();
-    const std::uint32_t band = same_in_all_lanes(f.listed(List::band));
+    const std::uint32_t band = same_in_all_lanes(state.listed(List::band));
     each_by_warp((band + closed_cells_a_warp - 1) / closed_cells_a_warp, [&](std::uint32_t group) {
-        const CellsOfLanes cells(blocks, f.band_cells, band, closed_cells_a_warp * group);
+        const CellsOfLanes cells(blocks, state.band_cells, band, closed_cells_a_warp * group);
         signs.put(blocks, cells);
         vertices.put(blocks, cells);
         __syncwarp();
@@ -91,8 +92,8 @@ __global__ void __launch_bounds__(block_threads, 4) emit_cells(const __grid_cons
                 const std::uint32_t first = together ? begin[c] : 0;
                 own[c].list(triangles.list + first + below[c]);
                 if (lane == 8 * c && cells.exists)
-                    triangles.first[c] = f.counts->first_triangle[cells.level - 1] +
-                                         f.triangles_before[cells.block].of[cells.level - 1] - first;
+                    triangles.first[c] = state.counts->first_triangle[cells.level - 1] +
+                                         state.triangles_before[cells.block].of[cells.level - 1] - first;
             }
             __syncwarp();
             for (unsigned t = lane; t < listed; t += warp_threads) {
@@ -101,7 +102,7 @@ __global__ void __launch_bounds__(block_threads, 4) emit_cells(const __grid_cons
                 const unsigned cell = entry >> cell_at & (closed_cells_a_warp - 1);
                 const unsigned stride_shift = entry >> stride_at;
                 const unsigned place = entry & ((1U << row_at) - 1);
-                Triangle& out = f.triangles[triangles.first[cell] + t];
+                Triangle& out = state.triangles[triangles.first[cell] + t];
                 for (unsigned k = 0; k < 3; ++k) {
                     const std::uint32_t edge = row >> (10 * k);
                     out[k] = vertices.vertex(points, signs, cell, place + ((edge & 31) << stride_shift), edge >> 5 & 3,

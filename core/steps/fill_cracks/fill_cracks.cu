@@ -3,13 +3,13 @@
 
 #include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
-#include "steps/emit_triangles/vertex_counts.hpp"
 #include "steps/fill_cracks/warp_cracks.hpp"
+#include "steps/place_vertices/vertex_counts.hpp"
 
 namespace meniscus::cuda {
 namespace {
 
-__global__ void __launch_bounds__(block_threads, 4) fill_listed(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads, 4) fill_listed(const __grid_constant__ State state) {
     __shared__ ClosedPoints points;
     __shared__ WarpSigns all_signs[block_warps];
     __shared__ VertexCounts all_vertices[block_warps];
@@ -22,26 +22,27 @@ __global__ void __launch_bounds__(block_threads, 4) fill_listed(const __grid_con
     WarpCracks& cracks = all_cracks[warp_in_block()];
     // Where in the mesh a cell's triangles would begin if the warp's first subface were its own.
     std::uint32_t(&first)[closed_cells_a_warp] = all_first[warp_in_block()];
-    const BlocksView blocks = f.blocks();
+    const BlocksView blocks = state.blocks();
     constexpr int crack = static_cast<int>(TriangleLevel::crack);
-    const std::uint32_t n = same_in_all_lanes(f.listed(List::cracks));
+    const std::uint32_t n = same_in_all_lanes(state.listed(List::cracks));
     each_by_warp((n + closed_cells_a_warp - 1) / closed_cells_a_warp, [&](std::uint32_t group) {
-        const CellsOfLanes cells(blocks, f.cracked_cells, n, closed_cells_a_warp * group);
+        const CellsOfLanes cells(blocks, state.cracked_cells, n, closed_cells_a_warp * group);
         signs.put(blocks, cells);
         vertices.put(blocks, cells);
         const std::uint32_t faces = cracks.list(blocks, cells);
         if (cells.exists && lane_index() % 8 == 0)
-            first[lane_index() / 8] = f.counts->first_triangle[crack] + f.triangles_before[cells.block].of[crack];
+            first[lane_index() / 8] =
+                state.counts->first_triangle[crack] + state.triangles_before[cells.block].of[crack];
         __syncwarp();
         std::uint32_t done = 0;
         cracks.for_each_subface_together(signs, faces, [&](const CrackSubface& subface) {
-            const CrackCase& pattern = f.crack_table[subface.crack_case(points, signs)];
+            const CrackCase& pattern = state.crack_table[subface.crack_case(points, signs)];
             const unsigned triangles = subface.exists ? pattern.triangles : 0;
             std::uint32_t all = 0;
             const std::uint32_t at = done + sum_of_lanes_below(triangles, all);
             if (subface.exists && subface.is_first) first[subface.cell] -= at;
             __syncwarp();
-            Triangle* const out = f.triangles + first[subface.cell] + at;
+            Triangle* const out = state.triangles + first[subface.cell] + at;
             for (unsigned t = 0; t < triangles; ++t)
                 for (unsigned corner = 0; corner < 3; ++corner) {
                     const unsigned edge = pattern.edges[3 * t + corner];

@@ -17,7 +17,7 @@ namespace meniscus {
 struct CrackFace {
     int axis;       ///< normal to the face
     int side;       ///< 0: the coarse cell lies below the fine one, 1: above
-    int stride;     ///< of the fine cell
+    int stride;     ///< stride of the fine cell
     int corner[3];  ///< lowest point, in the fine cell's closed coordinates
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 #if defined(__AVX2__)
 
-/// Four numbers of 64 bits. Factors count by their low 32 bits, signed: the others may be anything.
+/// Four numbers of 64 bits. Of factors only the low 32 bits count, signed: the upper ones may be anything.
 struct FourIntegers {
     __m256i v;
     friend FourIntegers operator+(FourIntegers a, FourIntegers b) { return {_mm256_add_epi64(a.v, b.v)}; }
@@ -30,7 +30,7 @@ std::int64_t pair_at(const std::int32_t* coordinates) {
     return pair;
 }
 
-/// From `at` on, as many times four triangles as there are; moves `at` behind them.
+/// Sums from `at` on over whole groups of four triangles; moves `at` behind them.
 std::uint64_t sum_by_fours(const LatticePosition* vertices, const Triangle* triangles, std::size_t& at,
                            std::size_t end) {
     FourIntegers sum{_mm256_setzero_si256()};
@@ -63,10 +63,10 @@ std::uint64_t sum_by_fours(const LatticePosition*, const Triangle*, std::size_t&
 
 }  // namespace
 
-void measure_volume(State& s, const Mesh& mesh) {
-    s.sixfold_volume = 0;
-    const std::atomic_ref<std::uint64_t> total(s.sixfold_volume);
-    s.workers.for_ranges(mesh.triangles.size(), 16384, [&](std::size_t begin, std::size_t end, unsigned) {
+void measure_volume(State& state, const Mesh& mesh) {
+    state.sixfold_volume = 0;
+    const std::atomic_ref<std::uint64_t> total(state.sixfold_volume);
+    state.workers.for_ranges(mesh.triangles.size(), 16384, [&](std::size_t begin, std::size_t end, unsigned) {
         std::uint64_t sum = sum_by_fours(mesh.vertices.data(), mesh.triangles.data(), begin, end);
         for (; begin < end; ++begin)
             sum += static_cast<std::uint64_t>(sixfold_volume(mesh.vertices.data(), mesh.triangles[begin]));

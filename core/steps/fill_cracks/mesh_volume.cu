@@ -7,12 +7,12 @@ namespace meniscus::cuda {
 namespace {
 
 /// One thread for every triangle. A sum of integers: the order of the additions decides nothing.
-__global__ void __launch_bounds__(block_threads) add_volumes(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads) add_volumes(const __grid_constant__ State state) {
     Counter total = 0;
-    GridLoop{}.each(f.count(Resource::triangles), [&](std::uint32_t t) {
-        total += static_cast<Counter>(sixfold_volume(f.vertices, f.triangles[t]));
+    GridLoop{}.each(state.count(Resource::triangles), [&](std::uint32_t t) {
+        total += static_cast<Counter>(sixfold_volume(state.vertices, state.triangles[t]));
     });
-    add_of_lanes(&f.counts->sixfold_volume, total);
+    add_of_lanes(&state.counts->sixfold_volume, total);
 }
 
 }  // namespace

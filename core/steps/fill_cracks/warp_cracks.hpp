@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "engine/cuda/warp.hpp"
+#include "engine/cuda/warp_signs.hpp"
 #include "lattice/blocks.hpp"
-#include "steps/count_triangles/warp_signs.hpp"
 #include "steps/fill_cracks/fill_cracks.hpp"
 
 namespace meniscus::cuda {
@@ -13,8 +13,8 @@ namespace meniscus::cuda {
 /// One coarse subface, with points as places of its cell (ClosedPoints).
 struct CrackSubface {
     bool exists;
-    unsigned cell;    ///< of the warp's
-    bool is_first;    ///< of the cell
+    unsigned cell;    ///< number among the warp's cells
+    bool is_first;    ///< whether it is the first of the cell
     unsigned axis;    ///< normal to the face
     unsigned side;    ///< 0: the coarse cell lies below the fine one, 1: above
     unsigned corner;  ///< its lowest point

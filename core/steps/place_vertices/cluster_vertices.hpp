@@ -8,12 +8,12 @@ namespace meniscus::cuda {
 
 class ClusterVertices {
 public:
-    /// Where a vertex belongs.
+    /// The place of a vertex.
     struct Place {
-        Int3 step;  ///< of its block in the cluster
+        Int3 step;  ///< offset of its block in the cluster
         std::uint32_t block;
-        int i;                 ///< among its block's
-        std::uint32_t number;  ///< among all
+        int i;                 ///< index among its block's vertices
+        std::uint32_t number;  ///< index among all vertices
     };
 
     /// All lanes of a warp call it.
@@ -33,7 +33,7 @@ public:
             box.high[axis] = (halves >> 2 * axis & 2) != 0 ? 2.0F * base_edge : base_edge;
         }
     }
-    /// Of vertex i < count; all lanes of a warp call it.
+    /// The place of vertex i < count; all lanes of a warp call it.
     __device__ Place place(std::uint32_t i) const {
         const unsigned owner = lane_with(i, below_);
         const auto from = [owner](std::uint32_t value) {
@@ -43,14 +43,14 @@ public:
         return {cluster_step(owner), from(block_), static_cast<int>(in_block), from(first_) + in_block};
     }
 
-    Int3 lowest;  ///< base cell
+    Int3 lowest;  ///< lowest base cell
     std::uint32_t count = 0;
-    UnitBox box;  ///< of the blocks with vertices, units from the lowest's corner
+    UnitBox box;  ///< box of the blocks with vertices, units from the lowest's corner
 
 private:
-    std::uint32_t block_;      ///< this lane's
-    std::uint32_t below_ = 0;  ///< vertices in the blocks of lower lanes
-    std::uint32_t first_ = 0;  ///< of this lane's block
+    std::uint32_t block_;      ///< this lane's block
+    std::uint32_t below_ = 0;  ///< number of vertices in the blocks of lower lanes
+    std::uint32_t first_ = 0;  ///< index of the first vertex of this lane's block
 };
 
 }  // namespace meniscus::cuda

@@ -12,7 +12,7 @@
 namespace meniscus::cuda {
 namespace {
 
-/// The numbers of a group at a vertex. weight: the sum of the particles' shares there, or of ids the largest.
+/// The numbers of a group at a vertex. weight: the sum of the particles' shares there, or for ids the largest share.
 struct VertexValues {
     float of[group_size_of_numbers];
     float weight;
@@ -20,58 +20,60 @@ struct VertexValues {
 
 /// Means of the first K numbers of a group at one point of every lane; not-a-numbers where the weight is 0.
 template <class Kernel, unsigned K>
-__device__ void find_means(ClusterParticles<Kernel, true>& near, const UnitBox& box, const float4* numbers,
+__device__ void find_means(PartNeighbors<Kernel, true>& near, const UnitBox& box, const float4* numbers,
                            const AttributeNumber* of_group, float x, float y, float z, VertexValues& values) {
     float sum[K] = {};
     values.weight = 0.0F;
-    near.for_each_near(box, [&](const Neighbor& c) {
-        const float4 own = numbers[c.rank];
+    near.for_each_near(box, [&](const Neighbor& neighbor) {
+        const float4 own = numbers[neighbor.rank];
         const float of_particle[group_size_of_numbers] = {own.x, own.y, own.z, own.w};
         float none = 0.0F;
-        sum_numbers<Kernel, K, false>(c.view(), of_particle, x, y, z, none, none, none, values.weight, sum);
+        sum_numbers<Kernel, K, false>(neighbor.view(), of_particle, x, y, z, none, none, none, values.weight, sum);
     });
     for (unsigned k = 0; k < K; ++k) values.of[k] = of_group[k].mean(sum[k], values.weight);
 }
 
 /// Ids of the particle with the largest share at one point of every lane.
 template <class Kernel>
-__device__ void find_ids(ClusterParticles<Kernel, true>& near, const UnitBox& box, const float4* numbers, float x,
-                         float y, float z, VertexValues& values) {
+__device__ void find_ids(PartNeighbors<Kernel, true>& near, const UnitBox& box, const float4* numbers, float x, float y,
+                         float z, VertexValues& values) {
     LargestShare largest;
-    near.for_each_near(box, [&](const Neighbor& c) {
-        const float4 own = numbers[c.rank];
+    near.for_each_near(box, [&](const Neighbor& neighbor) {
+        const float4 own = numbers[neighbor.rank];
         const float of_particle[group_size_of_numbers] = {own.x, own.y, own.z, own.w};
-        largest.add(Kernel::of(c.view(), 0).share(x - c.particle.x, y - c.particle.y, z - c.particle.z), of_particle);
+        largest.add(Kernel::of(neighbor.view(), 0)
+                        .share(x - neighbor.particle.x, y - neighbor.particle.y, z - neighbor.particle.z),
+                    of_particle);
     });
     values.weight = largest.share;
     for (unsigned k = 0; k < group_size_of_numbers; ++k) values.of[k] = AttributeNumber::as_float(largest.ids[k]);
 }
 
-/// Without a comma, which a declaration of shared memory may not have here.
+/// A name without a comma, which a declaration of shared memory may not have here.
 template <class Kernel>
 using SharedParticles = ClusterNeighbors<Kernel, true>;
 
 /// K: amounts in the group, or 0 for a group of ids.
 template <class Kernel, unsigned K>
-__global__ void __launch_bounds__(block_threads) place_group(const __grid_constant__ State f, unsigned group) {
+__global__ void __launch_bounds__(block_threads) place_group(const __grid_constant__ State state, unsigned group) {
     __shared__ SharedParticles<Kernel> shared[block_warps];
-    const BlocksView blocks = f.blocks();
-    const float units_per_step = static_cast<float>(units_per_cell >> f.settings.offset_bits);
-    const int steps_per_base_cell = base_cell_size << f.settings.offset_bits;
-    const AttributeNumber* const group_numbers = f.input->attributes.group(group);
-    const unsigned count_of_numbers = f.attributes.count(group);
-    const float4* const numbers = f.numbers + group * f.capacity.particles;
+    const BlocksView blocks = state.blocks();
+    const float units_per_step = static_cast<float>(units_per_cell >> state.settings.offset_bits);
+    const int steps_per_base_cell = base_cell_size << state.settings.offset_bits;
+    const AttributeNumber* const group_numbers = state.input->attributes.group(group);
+    const unsigned count_of_numbers = state.attributes.count(group);
+    const float4* const numbers = state.numbers + group * state.capacity.particles;
     Counter lonely = 0;
-    each_listed_cluster(f, blocks, List::vertices, [&](const Cluster& cluster) {
+    each_listed_cluster(state, blocks, List::vertices, [&](const Cluster& cluster) {
         const ClusterVertices vertices(blocks, cluster);
         const Int3 lowest = vertices.lowest;
-        ClusterParticles<Kernel, true> near(f, cluster, vertices.box, shared[warp_in_block()]);
+        PartNeighbors<Kernel, true> near(state, cluster, vertices.box, shared[warp_in_block()]);
         const std::uint32_t count = vertices.count;
         for (std::uint32_t first = 0; first < count; first += warp_threads) {
             const std::uint32_t i = first + lane_index();
             // Lanes without a vertex repeat the last one.
             const ClusterVertices::Place place = vertices.place(i < count ? i : count - 1);
-            const LatticePosition p = f.vertices[place.number];
+            const LatticePosition p = state.vertices[place.number];
             const float x = static_cast<float>(p[0] - lowest.x * steps_per_base_cell) * units_per_step;
             const float y = static_cast<float>(p[1] - lowest.y * steps_per_base_cell) * units_per_step;
             const float z = static_cast<float>(p[2] - lowest.z * steps_per_base_cell) * units_per_step;
@@ -89,9 +91,10 @@ __global__ void __launch_bounds__(block_threads) place_group(const __grid_consta
                                         y - static_cast<float>(step.y * units_per_base_cell),
                                         z - static_cast<float>(step.z * units_per_base_cell)};
                 for_each_neighbor<Kernel>(
-                    f, base_cell_origin(lowest + step), {{0.0F, 0.0F, 0.0F}, {base_edge, base_edge, base_edge}},
-                    [&](const Neighbor& c) {
-                        nearest.consider(Kernel::of(c.view(), 0), c.particle.x, c.particle.y, c.particle.z, 0, c.rank);
+                    state, base_cell_origin(lowest + step), {{0.0F, 0.0F, 0.0F}, {base_edge, base_edge, base_edge}},
+                    [&](const Neighbor& neighbor) {
+                        nearest.consider(Kernel::of(neighbor.view(), 0), neighbor.particle.x, neighbor.particle.y,
+                                         neighbor.particle.z, 0, neighbor.rank);
                     });
                 if (!nearest.exists()) ++lonely;
                 const float4 own = nearest.exists() ? numbers[nearest.rank] : float4{0.0F, 0.0F, 0.0F, 0.0F};
@@ -101,10 +104,10 @@ __global__ void __launch_bounds__(block_threads) place_group(const __grid_consta
                         nearest.exists() ? group_numbers[k].alone(of_particle[k]) : group_numbers[k].nothing();
             }
             for (unsigned k = 0; k < count_of_numbers; ++k)
-                group_numbers[k].write(f.vertex_attributes[group_numbers[k].array], place.number, values.of + k, 1);
+                group_numbers[k].write(state.vertex_attributes[group_numbers[k].array], place.number, values.of + k, 1);
         }
     });
-    if (group == 0) add_of_lanes(&f.counts->vertices_without_particles, lonely);
+    if (group == 0) add_of_lanes(&state.counts->vertices_without_particles, lonely);
 }
 
 }  // namespace

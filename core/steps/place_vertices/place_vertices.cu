@@ -9,31 +9,32 @@
 namespace meniscus::cuda {
 namespace {
 
-__global__ void __launch_bounds__(block_threads) count_vertices(const __grid_constant__ State f) {
-    const BlocksView blocks = f.blocks();
+__global__ void __launch_bounds__(block_threads) count_vertices(const __grid_constant__ State state) {
+    const BlocksView blocks = state.blocks();
     Counter total = 0;
     GridLoop{}.each_together(blocks.count, [&](std::uint32_t b, bool exists) {
         std::uint32_t count = 0;
         if (exists) {
             EdgeMasks edges{};
-            if (f.corner_points[b] != 0) {
+            if (state.corner_points[b] != 0) {
                 const LevelsAround around(blocks, b);
                 for (int axis = 0; axis < 3; ++axis) edges.axis[axis] = CrossedEdges(blocks, b, around, axis).finest();
             }
-            f.edges[b] = edges;
+            state.edges[b] = edges;
             count = static_cast<std::uint32_t>(edges.count());
-            f.first_vertex[b] = count;
+            state.first_vertex[b] = count;
         }
-        list_clusters(f, List::vertices, b, count != 0);
+        list_clusters(state, List::vertices, b, count != 0);
         total += count;
     });
-    add_of_lanes(&f.counts->needed[static_cast<int>(Resource::vertices)], total);
+    add_of_lanes(&state.counts->needed[static_cast<int>(Resource::vertices)], total);
 }
 
 /// One thread: whether there is room for the mesh.
-__global__ void require_room(const __grid_constant__ State f) {
+__global__ void require_room(const __grid_constant__ State state) {
     if (blockIdx.x != 0 || threadIdx.x != 0) return;
-    for (const Resource r : {Resource::triangles, Resource::vertices}) f.need(r, f.counts->needed[static_cast<int>(r)]);
+    for (const Resource r : {Resource::triangles, Resource::vertices})
+        state.need(r, state.counts->needed[static_cast<int>(r)]);
 }
 
 /// A vertex of a block, and its place on its edge in steps of c / 2^bits.
@@ -53,7 +54,7 @@ struct Vertex {
         }
         bit = nth_bit(mask, i);
     }
-    /// In units from the block's corner.
+    /// The point in units from the block's corner.
     __device__ float coordinate(int along, float units_per_step) const {
         const auto low = static_cast<float>(point_coordinate(bit, along) * units_per_cell);
         return along == axis ? low + offset * units_per_step : low;
@@ -62,19 +63,20 @@ struct Vertex {
 
 /// One warp for every cluster with vertices, one lane for every vertex.
 template <bool bisects, class Field>
-__global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_constant__ State f, const Field field) {
+__global__ void __launch_bounds__(block_threads, 2)
+    place_listed(const __grid_constant__ State state, const Field field) {
     __shared__ typename Field::Shared shared[block_warps];
-    const BlocksView blocks = f.blocks();
-    const int bits = static_cast<int>(f.settings.offset_bits);
-    const float iso = f.settings.iso;
+    const BlocksView blocks = state.blocks();
+    const int bits = static_cast<int>(state.settings.offset_bits);
+    const float iso = state.settings.iso;
     const auto units_per_step = static_cast<float>(units_per_cell >> bits);
     Counter evaluations = 0;
-    each_listed_cluster(f, blocks, List::vertices, [&](const Cluster& cluster) {
-        cluster.unmark(f);
+    each_listed_cluster(state, blocks, List::vertices, [&](const Cluster& cluster) {
+        cluster.unmark(state);
         const ClusterVertices vertices(blocks, cluster);
         const std::uint32_t count = vertices.count;
-        evaluations += static_cast<Counter>(count) * f.settings.bisection_steps;
-        auto near = field.near(f, cluster, vertices.box, shared[warp_in_block()]);
+        evaluations += static_cast<Counter>(count) * state.settings.bisection_steps;
+        auto near = field.near(state, cluster, vertices.box, shared[warp_in_block()]);
         for (std::uint32_t first = 0; first < count; first += warp_threads) {
             const std::uint32_t i = first + lane_index();
             // Lanes without a vertex repeat the last one.
@@ -87,7 +89,7 @@ __global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_co
                 SampledValues{blocks, place.block},
                 SampledValues{blocks, leaves ? blocks.neighbor(place.block, axis_offset(v.axis)) : no_index}, v.axis,
                 v.bit);
-            const bool cropped = f.settings.has_domain && ends.cropped(iso);
+            const bool cropped = state.settings.has_domain && ends.cropped(iso);
             float x = 0.0F, y = 0.0F, z = 0.0F;
             UnitBox box;
             const auto go_to = [&](float offset) {
@@ -106,13 +108,13 @@ __global__ void __launch_bounds__(block_threads, 2) place_listed(const __grid_co
             } else {
                 go_to(cropped ? cropped_offset(low_inside, bits) : interpolated_offset(ends.low, ends.high, iso, bits));
             }
-            if (i < count) f.vertices[place.number] = lattice_position(vertices.lowest, bits, x, y, z);
-            if (!f.settings.has_normals) continue;
+            if (i < count) state.vertices[place.number] = lattice_position(vertices.lowest, bits, x, y, z);
+            if (!state.settings.has_normals) continue;
             const Normal normal = near.normal(box, x, y, z);
-            if (i < count) f.normals[place.number] = outward_normal(normal, cropped, v.axis, low_inside);
+            if (i < count) state.normals[place.number] = outward_normal(normal, cropped, v.axis, low_inside);
         }
     });
-    if (bisects && lane_index() == 0 && evaluations != 0) atomicAdd(&f.counts->field_evaluations, evaluations);
+    if (bisects && lane_index() == 0 && evaluations != 0) atomicAdd(&state.counts->field_evaluations, evaluations);
 }
 
 }  // namespace

@@ -92,7 +92,8 @@ struct EdgeValues {
     MENISCUS_HD bool cropped(float iso) const { return (low > iso) == (high > iso); }
 };
 
-/// own, next: from a point's bit to its value, in the edge's block and in the neighbor up the axis.
+/// The values at the ends of an edge. own, next: from a point's bit to its value, in the edge's block and in the
+/// neighbor up the axis.
 template <class Values>
 MENISCUS_HD inline EdgeValues edge_values(const Values& own, const Values& next, int axis, int bit) {
     return {own(bit), point_coordinate(bit, axis) < 3 ? own(bit + bit_step(axis)) : next(bit - 3 * bit_step(axis))};
@@ -113,7 +114,7 @@ MENISCUS_HD inline F interpolated_offset(F low, F high, float iso, int bits) {
 MENISCUS_HD inline float bisection_start(int bits) {
     return static_cast<float>(1 << (bits - 1));
 }
-/// How far the second point lies from the first; each further one half as far, down to 1.
+/// The distance of the second point from the first; each further point is half as far from the last, down to 1.
 MENISCUS_HD inline int first_bisection_step(int bits) {
     return (1 << bits) / 4;
 }

@@ -10,11 +10,12 @@
 
 namespace meniscus {
 
-/// How many particles may share a support cell, in the mean over the particles. Water has 8; the sums of a frame in the
-/// wrong unit, or with all its particles in one place, would take hours (core/README.md#crowds-1024-and-16384).
+/// The most particles that may share a support cell, in the mean over the particles. Water has 8; the sums of a frame
+/// in the wrong unit, or with all its particles in one place, would take hours (core/README.md#crowds-1024-and-16384).
 inline constexpr double most_crowded = 1024.0;
 
-/// In the same mean, for frames of any size. crowd: the sum of the squares of the cells' numbers of particles.
+/// Whether the same mean is above the limit, for frames of any size. crowd: the sum of the squares of the cells'
+/// numbers of particles.
 MENISCUS_HD inline bool is_crowded(std::uint64_t crowd, std::uint64_t particles, const LatticeSettings& settings) {
     constexpr std::uint64_t small = 16384;
     // Support cells are as large as base cells where those are larger than the support.

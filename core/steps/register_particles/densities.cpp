@@ -6,11 +6,11 @@
 
 namespace meniscus::cpu {
 
-void divide_weights_by_density(ParticleSets& sets, NeighborSearch& near) {
+void divide_weights_by_density(ParticleSets& sets, NeighborSearch& search) {
     // A density is a sum of the weights that it will divide: all are computed before any is.
     for (unsigned k = 0; k < particle_level_count; ++k)
         sum_at_particles(sets, k, [&](const Units3& origin, const PointList& points, float* out, unsigned worker) {
-            sum_points<CubicSpline>(near.near_box(origin, box_of(points), worker), points, out);
+            sum_points<CubicSpline>(search.near_box(origin, box_of(points), worker), points, out);
         });
     for (unsigned k = 0; k < particle_level_count; ++k) {
         ParticleSet& set = sets[k];
@@ -18,8 +18,8 @@ void divide_weights_by_density(ParticleSets& sets, NeighborSearch& near) {
             for (std::size_t i = begin; i < end; ++i) set.weight[i] /= set.sums[i];
         });
     }
-    near.even_out();
-    near.forget();
+    search.even_out();
+    search.forget();
 }
 
 }  // namespace meniscus::cpu

@@ -7,8 +7,8 @@
 namespace meniscus::cuda {
 namespace {
 
-__global__ void __launch_bounds__(block_threads) divide_weights(const __grid_constant__ State f) {
-    GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) { f.particles[i].w /= f.sums[i]; });
+__global__ void __launch_bounds__(block_threads) divide_weights(const __grid_constant__ State state) {
+    GridLoop{}.each(state.particle_count(), [&](std::uint32_t i) { state.particles[i].w /= state.sums[i]; });
 }
 
 }  // namespace

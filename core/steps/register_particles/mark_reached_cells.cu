@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t reached_brick_edge = std::int64_t{units_per_base_cell} * brick_size;
 
-/// The words of a brick, which other threads mark meanwhile. Who reads too early marks once more than needed.
+/// The words of a brick, which other threads mark meanwhile. A thread that reads too early marks once more than needed.
 struct Marks {
     std::uint64_t* words;
     __device__ std::uint64_t word(int w) const { return *const_cast<volatile std::uint64_t*>(words + w); }
@@ -56,11 +56,11 @@ __device__ void mark_in_brick(const Marks& marks, const ReachedBox& box, float x
     }
 }
 
-/// Along one axis: where a particle and its support cell lie, and which bricks of base cells it may reach.
+/// Along one axis: the places of a particle and its support cell, and the bricks of base cells that it may reach.
 struct ReachAlongAxis {
-    std::int64_t corner;  ///< of the brick of support cells, units
-    std::int32_t cell;    ///< of the support cell, from there
-    float place;          ///< of the particle, from there
+    std::int64_t corner;  ///< corner of the brick of support cells, units
+    std::int32_t cell;    ///< place of the support cell from that corner, cells
+    float place;          ///< place of the particle from that corner, units
     std::int32_t first, last;
 
     __device__ ReachAlongAxis(std::int32_t brick, std::int32_t cell_in_brick, std::int64_t cell_units, float p,
@@ -74,7 +74,7 @@ struct ReachAlongAxis {
         first = static_cast<std::int32_t>((at - reach) >> reached_brick_shift);
         last = static_cast<std::int32_t>((at + reach) >> reached_brick_shift);
     }
-    /// To places relative to a brick of base cells.
+    /// The shift to places relative to a brick of base cells.
     __device__ std::int32_t shift(std::int32_t brick) const {
         return static_cast<std::int32_t>(corner - (std::int64_t{brick} << reached_brick_shift));
     }
@@ -91,24 +91,24 @@ private:
     static_assert(std::int64_t{1} << reached_brick_shift == reached_brick_edge);
 };
 
-/// What each particle reaches, by `count` lanes, which share its slices. Also adds up ReachedBox::count(): for
-/// the frame, or where a domain will leave cells out, for each brick in members_before.
+/// Marks the cells that each particle reaches, by `count` lanes, which share its slices. Also adds up
+/// ReachedBox::count(): for the frame, or where a domain will leave cells out, for each brick in members_before.
 template <unsigned count>
-__global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __grid_constant__ State f) {
-    const std::uint32_t n = f.particle_count();
-    const BrickGridView grid = f.grid();
-    LongLoop loop(f);
+__global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __grid_constant__ State state) {
+    const std::uint32_t n = state.particle_count();
+    const BrickGridView grid = state.grid();
+    LongLoop loop(state);
     Counter pairs = 0;
     const GridLoop threads;
     const SharingLanes<count> lanes;
     for (std::uint64_t i = threads.first / count; i < n; i += threads.step / count) {
         if (!loop.goes_on()) break;
-        const unsigned level = key_level(f.keys[i]);
-        const std::uint64_t cell_key = particle_key(f.keys[i]).cell;
-        const std::int64_t cell_units = f.settings.cell_units[level];
-        const float widest_support = f.settings.support[level];
-        const float4 p = f.particles[i];
-        const float support = f.settings.has_own_supports ? Poly6{p.w, f.falls[i]}.support() : widest_support;
+        const unsigned level = key_level(state.keys[i]);
+        const std::uint64_t cell_key = particle_key(state.keys[i]).cell;
+        const std::int64_t cell_units = state.settings.cell_units[level];
+        const float widest_support = state.settings.support[level];
+        const float4 p = state.particles[i];
+        const float support = state.settings.has_own_supports ? Poly6{p.w, state.falls[i]}.support() : widest_support;
         const float reach = support + 16.0F;
         const Int3 brick = key_brick(cell_key);
         const Int3 cell = place_in_brick(key_index(cell_key));
@@ -128,31 +128,31 @@ __global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __g
                         continue;
                     const std::uint32_t number = grid.find(b);
                     if (number == no_index) continue;  // in a frame that another block has stopped
-                    mark_in_brick<count>({f.bricks[number].occupied}, box, at[0], at[1], at[2], reach, lanes.own);
+                    mark_in_brick<count>({state.bricks[number].occupied}, box, at[0], at[1], at[2], reach, lanes.own);
                     if (lanes.own != 0) continue;
-                    if (f.settings.has_domain)
-                        atomicAdd(reinterpret_cast<Counter*>(&f.members_before[number]), Counter{box.count()});
+                    if (state.settings.has_domain)
+                        atomicAdd(reinterpret_cast<Counter*>(&state.members_before[number]), Counter{box.count()});
                     else
                         pairs += box.count();
                 }
     }
-    add_of_lanes(&f.counts->pairs, pairs);
+    add_of_lanes(&state.counts->pairs, pairs);
 }
 
 /// One warp for every brick: leaves out what lies beyond the domain, and counts the members.
-__global__ void __launch_bounds__(block_threads) count_members(const __grid_constant__ State f) {
-    each_by_warp(f.count(Resource::bricks), [&](std::uint32_t b) {
-        Brick& brick = f.bricks[b];
-        if (f.settings.has_domain)
+__global__ void __launch_bounds__(block_threads) count_members(const __grid_constant__ State state) {
+    each_by_warp(state.count(Resource::bricks), [&](std::uint32_t b) {
+        Brick& brick = state.bricks[b];
+        if (state.settings.has_domain)
             for (int w = static_cast<int>(lane_index()); w < Brick::words; w += warp_threads)
                 if (brick.occupied[w] != 0)
                     brick.occupied[w] &=
-                        word_in_domain(brick.coordinate, w, f.settings.domain_low, f.settings.domain_high);
+                        word_in_domain(brick.coordinate, w, state.settings.domain_low, state.settings.domain_high);
         const std::uint32_t members = count_by_warp(brick);
         if (lane_index() != 0) return;
-        if (f.settings.has_domain)
-            atomicAdd(&f.counts->pairs, Counter{pairs_in_brick(f.members_before[b], members, true)});
-        f.members_before[b] = members;
+        if (state.settings.has_domain)
+            atomicAdd(&state.counts->pairs, Counter{pairs_in_brick(state.members_before[b], members, true)});
+        state.members_before[b] = members;
     });
 }
 

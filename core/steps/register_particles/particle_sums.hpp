@@ -18,24 +18,25 @@ template <class Kernel, unsigned G, bool are_all, unsigned count>
 __device__ inline void add_particles(const LevelParticles<Kernel>& level, std::uint32_t first, std::uint32_t left,
                                      const SharingLanes<count>& lanes, const float (&at)[3], float& sum) {
     const LevelParticles<Kernel> here = level.from(first + (are_all ? lanes.own : 0));
-    Neighbor c[G];
+    Neighbor neighbors[G];
     for (unsigned g = 0; g < G; ++g) {
         const unsigned i = g * count + lanes.own;
-        c[g] = here.neighbor(are_all ? g * count : i < left ? i : 0);
+        neighbors[g] = here.neighbor(are_all ? g * count : i < left ? i : 0);
     }
 #ifdef __CUDA_ARCH__
-    // Else the compiler moves each load to where its value is used, and the waits lie one behind another.
-    for (unsigned g = 0; g < G; ++g) asm volatile("" : "+f"(c[g].fall));
+    // Else the compiler moves each load to the use of its value, and the waits lie one behind another.
+    for (unsigned g = 0; g < G; ++g) asm volatile("" : "+f"(neighbors[g].fall));
 #endif
     float strength[G];
     for (unsigned g = 0; g < G; ++g)
-        strength[g] = Kernel::of(c[g].view(), 0)
-                          .strength(at[0] - c[g].particle.x, at[1] - c[g].particle.y, at[2] - c[g].particle.z);
+        strength[g] = Kernel::of(neighbors[g].view(), 0)
+                          .strength(at[0] - neighbors[g].particle.x, at[1] - neighbors[g].particle.y,
+                                    at[2] - neighbors[g].particle.z);
     for (unsigned g = 0; g < G; ++g) {
         float of_lane[count];
         for (unsigned l = 0; l < count; ++l) of_lane[l] = lanes.from(strength[g], l);
         for (unsigned l = 0; l < count; ++l) {
-            auto share = Kernel::of(c[g].view(), 0);
+            auto share = Kernel::of(neighbors[g].view(), 0);
             if constexpr (!decltype(share)::has_own_support) share.weight = lanes.from(share.weight, l);
             if (are_all || g * count + l < left) sum = share.add_strength(sum, of_lane[l]);
         }
@@ -44,23 +45,23 @@ __device__ inline void add_particles(const LevelParticles<Kernel>& level, std::u
 
 /// `count` lanes for every particle.
 template <class Kernel, unsigned count>
-__global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const __grid_constant__ State state) {
     // None if the frame has stopped, which must not part the lanes.
-    const std::uint32_t n = same_in_all_lanes(f.particle_count());
-    LongLoop loop(f);
+    const std::uint32_t n = same_in_all_lanes(state.particle_count());
+    LongLoop loop(state);
     const SharingLanes<count> lanes;
     const GridLoop threads;
     for (std::uint64_t i = threads.first / count; i < n; i += threads.step / count) {
         // Lanes that share a particle end together: each waits for the values of the others.
         if (lanes.from(lanes.own == 0 && loop.goes_on() ? 1 : 0, 0) == 0) return;
-        const unsigned own_level = key_level(f.keys[i]);
-        const ParticleKey key = particle_key(f.keys[i]);
-        const Units3 origin = cell_corner(key.cell, f.settings.cell_units[own_level]);
+        const unsigned own_level = key_level(state.keys[i]);
+        const ParticleKey key = particle_key(state.keys[i]);
+        const Units3 origin = cell_corner(key.cell, state.settings.cell_units[own_level]);
         const Units3 place = place_in_cell(key);
         const float x = static_cast<float>(place.x), y = static_cast<float>(place.y), z = static_cast<float>(place.z);
         float sum = 0.0F;
         for (unsigned k = 0; k < particle_level_count; ++k) {
-            const LevelParticles<Kernel> level(f, k);
+            const LevelParticles<Kernel> level(state, k);
             if (level.set.cells.brick_count == 0) continue;
             NoBrickHints hints;
             level.set.for_each_run_near(
@@ -76,11 +77,11 @@ __global__ void __launch_bounds__(block_threads, 3) sum_at_each_particle(const _
                     if (j < end) add_particles<Kernel, group, false>(level, j, end - j, lanes, at, sum);
                 });
         }
-        if (lanes.own == 0) f.sums[i] = sum;
+        if (lanes.own == 0) state.sums[i] = sum;
     }
 }
 
-/// Into State::sums. Kernel: CubicSpline, Poly6 or Company.
+/// Puts the sums into State::sums. Kernel: CubicSpline, Poly6 or Company.
 template <class Kernel>
 void sum_at_particles(const State& state, const Launcher& launch) {
     launch_for_particles(state, launch, sum_at_each_particle<Kernel, lanes_to_share>, sum_at_each_particle<Kernel, 1>);

@@ -15,180 +15,183 @@ namespace meniscus::cuda {
 namespace {
 
 /// One thread: a crowded frame ends here, before it takes long.
-__global__ void stop_if_crowded(const __grid_constant__ State f) {
-    if (blockIdx.x == 0 && threadIdx.x == 0 && f.goes_on() &&
-        is_crowded(f.counts->crowd, f.input->particles, f.settings))
-        f.counts->stop = Stop::crowded;
+__global__ void stop_if_crowded(const __grid_constant__ State state) {
+    if (blockIdx.x == 0 && threadIdx.x == 0 && state.goes_on() &&
+        is_crowded(state.counts->crowd, state.input->particles, state.settings))
+        state.counts->stop = Stop::crowded;
 }
 
-__global__ void __launch_bounds__(block_threads) seed_probes(const __grid_constant__ State f) {
+__global__ void __launch_bounds__(block_threads) seed_probes(const __grid_constant__ State state) {
     Counter seed = 0;
-    GridLoop{}.each_together(probe_count(f.particle_count()), [&](std::uint32_t i, bool exists) {
-        if (exists) seed += key_bits(particle_key(f.keys[std::uint64_t{i} * particles_per_probe]));
+    GridLoop{}.each_together(probe_count(state.particle_count()), [&](std::uint32_t i, bool exists) {
+        if (exists) seed += key_bits(particle_key(state.keys[std::uint64_t{i} * particles_per_probe]));
     });
-    add_of_lanes(&f.counts->probe_seed, seed);
+    add_of_lanes(&state.counts->probe_seed, seed);
 }
 
-/// Whether what has been found near the probed particles is too much.
-__device__ bool sums_are_too_much(const State& f) {
-    const std::uint32_t particles = f.input->particles;
+/// Whether the neighbors that were found for the probed particles are too many.
+__device__ bool sums_are_too_much(const State& state) {
+    const std::uint32_t particles = state.input->particles;
     const double even =
-        even_work<EvenNeighbors>(f.settings, particles, [&](unsigned k) { return f.counts->has_level(k); });
-    // Other warps are adding.
-    const Counter neighbors = *const_cast<volatile Counter*>(&f.counts->neighbors);
-    return work_at_particles(neighbors, particles) > most_work(f.settings, even);
+        even_work<EvenNeighbors>(state.settings, particles, [&](unsigned k) { return state.counts->has_level(k); });
+    // Other warps add to it meanwhile.
+    const Counter neighbors = *const_cast<volatile Counter*>(&state.counts->neighbors);
+    return work_at_particles(neighbors, particles) > most_work(state.settings, even);
 }
 
 /// One warp for every probe.
-__global__ void __launch_bounds__(block_threads) count_neighbors(const __grid_constant__ State f) {
-    const std::uint32_t particles = f.particle_count();
-    LongLoop loop(f);
+__global__ void __launch_bounds__(block_threads) count_neighbors(const __grid_constant__ State state) {
+    const std::uint32_t particles = state.particle_count();
+    LongLoop loop(state);
     each_by_warp(probe_count(particles), [&](std::uint32_t probe) {
         if (!loop.goes_on_together()) return;
-        if (same_in_all_lanes(sums_are_too_much(f) ? 1 : 0) != 0) return;
-        const SortKey key = f.keys[probed_particle(probe, f.counts->probe_seed, particles)];
+        if (same_in_all_lanes(sums_are_too_much(state) ? 1 : 0) != 0) return;
+        const SortKey key = state.keys[probed_particle(probe, state.counts->probe_seed, particles)];
         const Units3 place = place_in_cell(particle_key(key));
         const float px = static_cast<float>(place.x), py = static_cast<float>(place.y),
                     pz = static_cast<float>(place.z);
         Counter neighbors = 0;
         for (unsigned k = 0; k < particle_level_count; ++k) {
-            const ParticleSetView set = f.set(k);
+            const ParticleSetView set = state.set(k);
             if (set.cells.brick_count == 0) continue;
             NoBrickHints hints;
             set.for_each_run_near(
-                cell_corner(particle_key(key).cell, f.settings.cell_units[key_level(key)]),
+                cell_corner(particle_key(key).cell, state.settings.cell_units[key_level(key)]),
                 {{px, py, pz}, {px, py, pz}}, hints, [&](std::uint32_t begin, std::uint32_t end, const float* shift) {
                     for (std::uint32_t i = begin + lane_index(); i < end; i += warp_threads) {
-                        const float4 p = f.particles[i];
+                        const float4 p = state.particles[i];
                         if (is_neighbor(p.x + shift[0] - px, p.y + shift[1] - py, p.z + shift[2] - pz, set.support))
                             ++neighbors;
                     }
                 });
         }
-        add_of_lanes(&f.counts->neighbors, neighbors);
+        add_of_lanes(&state.counts->neighbors, neighbors);
     });
 }
 
 /// One thread: ends a frame whose sums at the particles' places are too much work.
-__global__ void stop_if_sums_are_too_much(const __grid_constant__ State f) {
-    if (blockIdx.x != 0 || threadIdx.x != 0 || probe_count(f.particle_count()) == 0) return;
-    if (sums_are_too_much(f)) f.counts->stop = Stop::too_much_at_particles;
+__global__ void stop_if_sums_are_too_much(const __grid_constant__ State state) {
+    if (blockIdx.x != 0 || threadIdx.x != 0 || probe_count(state.particle_count()) == 0) return;
+    if (sums_are_too_much(state)) state.counts->stop = Stop::too_much_at_particles;
 }
 
 /// One thread: the same for those at the base cells.
-__global__ void stop_if_base_cells_are_too_much(const __grid_constant__ State f) {
-    if (blockIdx.x != 0 || threadIdx.x != 0 || !f.goes_on()) return;
-    const double even = even_work<EvenNearBaseCell>(f.settings, f.count(Resource::blocks),
-                                                    [&](unsigned k) { return f.counts->has_level(k); });
+__global__ void stop_if_base_cells_are_too_much(const __grid_constant__ State state) {
+    if (blockIdx.x != 0 || threadIdx.x != 0 || !state.goes_on()) return;
+    const double even = even_work<EvenNearBaseCell>(state.settings, state.count(Resource::blocks),
+                                                    [&](unsigned k) { return state.counts->has_level(k); });
     double even_cells = 0.0;
     for (unsigned k = 0; k < particle_level_count; ++k) {
-        const std::uint32_t begin = f.counts->first_particle_brick[k], end = f.counts->first_particle_brick[k + 1];
+        const std::uint32_t begin = state.counts->first_particle_brick[k],
+                            end = state.counts->first_particle_brick[k + 1];
         if (begin == end) continue;
-        const std::uint32_t last_cell =
-            end < f.count(Resource::particle_bricks) ? f.particle_bricks[end].first : f.counts->particle_cells;
-        f.counts->level_particles[k] = f.first_particle[last_cell] - f.first_particle[f.particle_bricks[begin].first];
-        even_cells += even_base_cells(f.settings, k, f.counts->level_particles[k]);
+        const std::uint32_t last_cell = end < state.count(Resource::particle_bricks) ? state.particle_bricks[end].first
+                                                                                     : state.counts->particle_cells;
+        state.counts->level_particles[k] =
+            state.first_particle[last_cell] - state.first_particle[state.particle_bricks[begin].first];
+        even_cells += even_base_cells(state.settings, k, state.counts->level_particles[k]);
     }
-    if (f.count(Resource::blocks) > most_base_cells(f.settings, even_cells))
-        f.counts->stop = Stop::too_many_base_cells;
-    else if (static_cast<double>(f.counts->pairs) > most_work(f.settings, even))
-        f.counts->stop = Stop::too_much_at_base_cells;
+    if (state.count(Resource::blocks) > most_base_cells(state.settings, even_cells))
+        state.counts->stop = Stop::too_many_base_cells;
+    else if (static_cast<double>(state.counts->pairs) > most_work(state.settings, even))
+        state.counts->stop = Stop::too_much_at_base_cells;
 }
 
 /// A brick's number in the box of all that may be reached, in the order of brick keys; and back.
-__device__ std::uint64_t boxed_brick(const State& f, const Int3& brick) {
-    const Int3 at = brick - f.counts->reached_low;
-    const std::uint32_t* const size = f.counts->reached_size;
+__device__ std::uint64_t boxed_brick(const State& state, const Int3& brick) {
+    const Int3 at = brick - state.counts->reached_low;
+    const std::uint32_t* const size = state.counts->reached_size;
     return (std::uint64_t{static_cast<std::uint32_t>(at.z)} * size[1] + static_cast<std::uint32_t>(at.y)) * size[0] +
            static_cast<std::uint32_t>(at.x);
 }
-__device__ Int3 coordinate_of_boxed(const State& f, std::uint64_t number) {
-    const std::uint32_t* const size = f.counts->reached_size;
+__device__ Int3 coordinate_of_boxed(const State& state, std::uint64_t number) {
+    const std::uint32_t* const size = state.counts->reached_size;
     const std::uint64_t row = number / size[0];
-    return f.counts->reached_low + Int3{static_cast<std::int32_t>(number % size[0]),
-                                        static_cast<std::int32_t>(row % size[1]),
-                                        static_cast<std::int32_t>(row / size[1])};
+    return state.counts->reached_low + Int3{static_cast<std::int32_t>(number % size[0]),
+                                            static_cast<std::int32_t>(row % size[1]),
+                                            static_cast<std::int32_t>(row / size[1])};
 }
 
-__global__ void __launch_bounds__(block_threads) list_reached_bricks(const __grid_constant__ State f) {
-    const std::uint64_t room = f.capacity[Resource::reached_bricks];
+__global__ void __launch_bounds__(block_threads) list_reached_bricks(const __grid_constant__ State state) {
+    const std::uint64_t room = state.capacity[Resource::reached_bricks];
     const auto reached_by = [&](std::uint32_t cell) {
-        const SortKey key = f.keys[f.first_particle[cell]];
+        const SortKey key = state.keys[state.first_particle[cell]];
         const unsigned level = key_level(key);
-        return reached_bricks(particle_key(key).cell, f.settings.cell_units[level], f.settings.support[level]);
+        return reached_bricks(particle_key(key).cell, state.settings.cell_units[level], state.settings.support[level]);
     };
-    // A stop for want of room keeps no one from listing, unless particles have not found their places.
+    // After a stop for want of room listing goes on, unless particles have not found their places.
     const auto fullest = static_cast<int>(Resource::cell_particles);
-    const bool is_sorted = f.counts->needed[fullest] <= f.capacity[Resource::cell_particles];
-    GridLoop{}.each_together(is_sorted ? f.counts->particle_cells : 0, [&](std::uint32_t cell, bool exists) {
+    const bool is_sorted = state.counts->needed[fullest] <= state.capacity[Resource::cell_particles];
+    GridLoop{}.each_together(is_sorted ? state.counts->particle_cells : 0, [&](std::uint32_t cell, bool exists) {
         ReachedBricks reached;
         std::uint32_t count = 0;
         if (exists) {
             reached = reached_by(cell);
-            // Most cells reach what the one before does.
+            // Most cells reach the same bricks as the one before.
             if (cell == 0 || !(reached == reached_by(cell - 1))) count = reached.count();
         }
-        Counter at = take_places(&f.counts->needed[static_cast<int>(Resource::reached_bricks)], count);
+        Counter at = take_places(&state.counts->needed[static_cast<int>(Resource::reached_bricks)], count);
         if (count == 0 || at + count > room) return;
         Int3 b;
         for (b.z = reached.low.z; b.z <= reached.high.z; ++b.z)
             for (b.y = reached.low.y; b.y <= reached.high.y; ++b.y)
                 for (b.x = reached.low.x; b.x <= reached.high.x; ++b.x)
-                    f.unsorted_reached_keys[at++] = boxed_brick(f, b);
+                    state.unsorted_reached_keys[at++] = boxed_brick(state, b);
     });
 }
 
 constexpr std::uint64_t no_brick = ~std::uint64_t{0};
 
-/// The sorted keys that may name a brick.
-__device__ std::uint64_t reached_key_count(const State& f) {
-    const std::uint64_t listed = f.counts->needed[static_cast<int>(Resource::reached_bricks)];
-    return listed < f.capacity[Resource::reached_bricks] ? listed : f.capacity[Resource::reached_bricks];
+/// The number of sorted keys that may name a brick.
+__device__ std::uint64_t reached_key_count(const State& state) {
+    const std::uint64_t listed = state.counts->needed[static_cast<int>(Resource::reached_bricks)];
+    return listed < state.capacity[Resource::reached_bricks] ? listed : state.capacity[Resource::reached_bricks];
 }
 
-__device__ bool is_first_of_key(const State& f, std::uint32_t i) {
-    return f.reached_keys[i] != no_brick && (i == 0 || f.reached_keys[i] != f.reached_keys[i - 1]);
+__device__ bool is_first_of_key(const State& state, std::uint32_t i) {
+    return state.reached_keys[i] != no_brick && (i == 0 || state.reached_keys[i] != state.reached_keys[i - 1]);
 }
 
-__global__ void __launch_bounds__(block_threads) mark_first_keys(const __grid_constant__ State f) {
-    GridLoop{}.each(reached_key_count(f), [&](std::uint32_t i) { f.first_of_key[i] = is_first_of_key(f, i) ? 1 : 0; });
+__global__ void __launch_bounds__(block_threads) mark_first_keys(const __grid_constant__ State state) {
+    GridLoop{}.each(reached_key_count(state),
+                    [&](std::uint32_t i) { state.first_of_key[i] = is_first_of_key(state, i) ? 1 : 0; });
 }
 
-__global__ void __launch_bounds__(block_threads) store_bricks(const __grid_constant__ State f) {
-    const std::uint64_t keys = reached_key_count(f);
+__global__ void __launch_bounds__(block_threads) store_bricks(const __grid_constant__ State state) {
+    const std::uint64_t keys = reached_key_count(state);
     GridLoop{}.each(keys, [&](std::uint32_t i) {
-        const std::uint32_t brick = f.first_of_key[i];
-        if (is_first_of_key(f, i) && brick < f.capacity[Resource::bricks]) {
-            const Int3 coordinate = coordinate_of_boxed(f, f.reached_keys[i]);
-            f.brick_keys[brick] = brick_key(coordinate);
-            f.bricks[brick].coordinate = coordinate;
-            f.bricks[brick].clear();
-            f.members_before[brick] = 0;
+        const std::uint32_t brick = state.first_of_key[i];
+        if (is_first_of_key(state, i) && brick < state.capacity[Resource::bricks]) {
+            const Int3 coordinate = coordinate_of_boxed(state, state.reached_keys[i]);
+            state.brick_keys[brick] = brick_key(coordinate);
+            state.bricks[brick].coordinate = coordinate;
+            state.bricks[brick].clear();
+            state.members_before[brick] = 0;
         }
     });
     if (blockIdx.x != 0 || threadIdx.x != 0) return;
-    f.need(Resource::bricks, f.first_of_key[keys]);
-    f.need(Resource::reached_bricks, f.counts->needed[static_cast<int>(Resource::reached_bricks)]);
+    state.need(Resource::bricks, state.first_of_key[keys]);
+    state.need(Resource::reached_bricks, state.counts->needed[static_cast<int>(Resource::reached_bricks)]);
 }
 
 /// Also gives the members of every brick their numbers.
-__global__ void __launch_bounds__(block_threads) find_neighbors(const __grid_constant__ State f) {
-    const BrickGridView grid = f.grid();
+__global__ void __launch_bounds__(block_threads) find_neighbors(const __grid_constant__ State state) {
+    const BrickGridView grid = state.grid();
     GridLoop{}.each(std::uint64_t{neighbor_slots} * grid.brick_count, [&](std::uint32_t i) {
         const std::uint32_t b = i / neighbor_slots;
         const int n = static_cast<int>(i % neighbor_slots);
-        f.neighbors[b].brick[n] = grid.find(f.bricks[b].coordinate + neighbor_offset(n));
-        if (n == 0) f.bricks[b].first = static_cast<std::uint32_t>(f.members_before[b]);
-        if (i == 0) f.need(Resource::blocks, f.members_before[grid.brick_count]);
+        state.neighbors[b].brick[n] = grid.find(state.bricks[b].coordinate + neighbor_offset(n));
+        if (n == 0) state.bricks[b].first = static_cast<std::uint32_t>(state.members_before[b]);
+        if (i == 0) state.need(Resource::blocks, state.members_before[grid.brick_count]);
     });
 }
 
 /// One warp for every word of a brick: neighboring lanes fill neighboring blocks.
-__global__ void __launch_bounds__(block_threads) make_blocks(const __grid_constant__ State f) {
-    each_by_warp(Brick::words * f.count(Resource::bricks), [&](std::uint32_t i) {
+__global__ void __launch_bounds__(block_threads) make_blocks(const __grid_constant__ State state) {
+    each_by_warp(Brick::words * state.count(Resource::bricks), [&](std::uint32_t i) {
         const std::uint32_t b = i / Brick::words;
         const int w = static_cast<int>(i % Brick::words);
-        const Brick& brick = f.bricks[b];
+        const Brick& brick = state.bricks[b];
         const std::uint64_t members = brick.occupied[w];
         if (members == 0) return;
         const std::uint32_t first = brick.first + brick.rank[w];
@@ -197,54 +200,55 @@ __global__ void __launch_bounds__(block_threads) make_blocks(const __grid_consta
             const int index = 64 * w + static_cast<int>(bit);
             const std::uint64_t below = members & ((std::uint64_t{1} << bit) - 1);
             const std::uint32_t block = first + static_cast<std::uint32_t>(popcount(below));
-            f.brick[block] = b;
-            f.place[block] = static_cast<std::uint16_t>(index);
-            f.level[block] = 0;
-            f.wanted_points[block] = 0;
-            f.corner_points[block] = 0;
-            f.particle_counts[block] = 0;
+            state.brick[block] = b;
+            state.place[block] = static_cast<std::uint16_t>(index);
+            state.level[block] = 0;
+            state.wanted_points[block] = 0;
+            state.corner_points[block] = 0;
+            state.particle_counts[block] = 0;
         }
     });
 }
 
-/// Particles of level 0 in every stored base cell.
-__global__ void __launch_bounds__(block_threads) count_particles(const __grid_constant__ State f) {
-    const BrickGridView grid = f.grid();
-    GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
-        if (key_level(f.keys[i]) != 0) return;
-        const ParticleKey key = particle_key(f.keys[i]);
-        const Units3 place = key_place(key, f.settings.cell_units[0]);
+/// Counts the particles of level 0 in every stored base cell.
+__global__ void __launch_bounds__(block_threads) count_particles(const __grid_constant__ State state) {
+    const BrickGridView grid = state.grid();
+    GridLoop{}.each(state.particle_count(), [&](std::uint32_t i) {
+        if (key_level(state.keys[i]) != 0) return;
+        const ParticleKey key = particle_key(state.keys[i]);
+        const Units3 place = key_place(key, state.settings.cell_units[0]);
         const auto cell = [](std::int64_t p) { return static_cast<std::int32_t>(floor_div(p, units_per_base_cell)); };
         const Int3 at{cell(place.x), cell(place.y), cell(place.z)};
         const std::uint32_t brick = grid.find(brick_of(at));
         // Cells beyond the domain are not stored.
         if (brick != no_index && grid.bricks[brick].holds(index_in_brick(at)))
-            atomicAdd(&f.particle_counts[grid.bricks[brick].number(index_in_brick(at))], 1U);
+            atomicAdd(&state.particle_counts[grid.bricks[brick].number(index_in_brick(at))], 1U);
     });
 }
 
-void require_bearable_particles(const State& f, const Launcher& launch) {
-    const std::uint64_t n = f.capacity.particles;
-    if (f.settings.work_limit != 0.0) {
+void require_bearable_particles(const State& state, const Launcher& launch) {
+    const std::uint64_t n = state.capacity.particles;
+    if (state.settings.work_limit != 0.0) {
         const std::uint64_t probes = probe_count(n);
-        launch(probes, block_threads, seed_probes, f);
-        launch(probes, block_warps, count_neighbors, f);
-        launch(1, block_threads, stop_if_sums_are_too_much, f);
+        launch(probes, block_threads, seed_probes, state);
+        launch(probes, block_warps, count_neighbors, state);
+        launch(1, block_threads, stop_if_sums_are_too_much, state);
     }
-    launch(1, block_threads, stop_if_crowded, f);
+    launch(1, block_threads, stop_if_crowded, state);
 }
 
-void store_reached_bricks(State& f, const Launcher& launch) {
-    const std::uint64_t keys = f.capacity[Resource::reached_bricks];
-    check(cudaMemsetAsync(f.unsorted_reached_keys, 0xFF, keys * sizeof(std::uint64_t), launch.stream),
+void store_reached_bricks(State& state, const Launcher& launch) {
+    const std::uint64_t keys = state.capacity[Resource::reached_bricks];
+    check(cudaMemsetAsync(state.unsorted_reached_keys, 0xFF, keys * sizeof(std::uint64_t), launch.stream),
           "cudaMemsetAsync");
-    launch(f.capacity.particles, block_threads, list_reached_bricks, f);
-    const auto bits = static_cast<unsigned>(std::bit_width(f.capacity[Resource::reached_box] - 1));
-    if (sort(f.scratch_memory(), f.unsorted_reached_keys, f.reached_keys, keys, bits, launch.stream) != f.reached_keys)
-        std::swap(f.reached_keys, f.unsorted_reached_keys);
-    launch(keys, block_threads, mark_first_keys, f);
-    exclusive_sum(f.scratch_memory(), f.first_of_key, keys + 1, launch.stream);
-    launch(keys, block_threads, store_bricks, f);
+    launch(state.capacity.particles, block_threads, list_reached_bricks, state);
+    const auto bits = static_cast<unsigned>(std::bit_width(state.capacity[Resource::reached_box] - 1));
+    if (sort(state.scratch_memory(), state.unsorted_reached_keys, state.reached_keys, keys, bits, launch.stream) !=
+        state.reached_keys)
+        std::swap(state.reached_keys, state.unsorted_reached_keys);
+    launch(keys, block_threads, mark_first_keys, state);
+    exclusive_sum(state.scratch_memory(), state.first_of_key, keys + 1, launch.stream);
+    launch(keys, block_threads, store_bricks, state);
 }
 
 }  // namespace

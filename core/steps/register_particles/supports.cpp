@@ -44,12 +44,12 @@ void find_spray(ParticleSets& sets) {
 
 }  // namespace
 
-void fit_supports(ParticleSets& sets, NeighborSearch& near) {
+void fit_supports(ParticleSets& sets, NeighborSearch& search) {
     for (unsigned k = 0; k < particle_level_count; ++k) {
         resize_for_overwrite(sets[k].fall, sets[k].count() + WideLanes::count);
         std::fill(sets[k].fall.end() - WideLanes::count, sets[k].fall.end(), 0.0F);
         sum_at_particles(sets, k, [&](const Units3& origin, const PointList& points, float* out, unsigned worker) {
-            sum_points<Company>(near.company_near_box(origin, box_of(points), worker), points, out);
+            sum_points<Company>(search.company_near_box(origin, box_of(points), worker), points, out);
         });
     }
     find_spray(sets);
@@ -60,12 +60,12 @@ void fit_supports(ParticleSets& sets, NeighborSearch& near) {
     });
     for (unsigned k = 0; k < particle_level_count; ++k)
         sum_at_particles(sets, k, [&](const Units3& origin, const PointList& points, float* out, unsigned worker) {
-            sum_points<Poly6>(near.near_box(origin, box_of(points), worker), points, out);
+            sum_points<Poly6>(search.near_box(origin, box_of(points), worker), points, out);
         });
     give_kernels(sets,
                  [&](unsigned, float value, const Poly6& kernel) { return lifted_kernel(kernel, value, smooth); });
-    near.even_out();
-    near.forget();
+    search.even_out();
+    search.forget();
 }
 
 }  // namespace meniscus::cpu

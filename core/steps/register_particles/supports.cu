@@ -10,37 +10,38 @@ namespace meniscus::cuda {
 namespace {
 
 /// Also counts the particles alone, and marks them where they are to be listed.
-__global__ void __launch_bounds__(block_threads) fit_kernels(const __grid_constant__ State f) {
-    const std::uint32_t n = f.particle_count();
+__global__ void __launch_bounds__(block_threads) fit_kernels(const __grid_constant__ State state) {
+    const std::uint32_t n = state.particle_count();
     Counter spray = 0;
-    GridLoop{}.each(f.capacity.particles, [&](std::uint32_t i) {
-        const bool is_alone = i < n && is_spray(f.sums[i], f.settings.smooth);
+    GridLoop{}.each(state.capacity.particles, [&](std::uint32_t i) {
+        const bool is_alone = i < n && is_spray(state.sums[i], state.settings.smooth);
         if (is_alone) ++spray;
-        if (f.settings.lists_spray) f.spray_before[i] = is_alone ? 1 : 0;
+        if (state.settings.lists_spray) state.spray_before[i] = is_alone ? 1 : 0;
         if (i >= n) return;
-        const Poly6 kernel = is_alone && f.settings.leaves_out_spray
+        const Poly6 kernel = is_alone && state.settings.leaves_out_spray
                                  ? Poly6::none()
-                                 : fitted_kernel(f.sums[i], key_level(f.keys[i]), f.settings.smooth);
-        f.particles[i].w = kernel.weight;
-        f.falls[i] = kernel.fall;
+                                 : fitted_kernel(state.sums[i], key_level(state.keys[i]), state.settings.smooth);
+        state.particles[i].w = kernel.weight;
+        state.falls[i] = kernel.fall;
     });
-    add_of_lanes(&f.counts->spray_particles, spray);
+    add_of_lanes(&state.counts->spray_particles, spray);
 }
 
-__global__ void __launch_bounds__(block_threads) list_spray(const __grid_constant__ State f) {
-    GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
-        if (!is_spray(f.sums[i], f.settings.smooth)) return;
-        const unsigned level = key_level(f.keys[i]);
-        f.spray[f.spray_before[i]] =
-            spray_point(particle_key(f.keys[i]), f.settings.cell_units[level], f.settings.units_per_length);
+__global__ void __launch_bounds__(block_threads) list_spray(const __grid_constant__ State state) {
+    GridLoop{}.each(state.particle_count(), [&](std::uint32_t i) {
+        if (!is_spray(state.sums[i], state.settings.smooth)) return;
+        const unsigned level = key_level(state.keys[i]);
+        state.spray[state.spray_before[i]] =
+            spray_point(particle_key(state.keys[i]), state.settings.cell_units[level], state.settings.units_per_length);
     });
 }
 
-__global__ void __launch_bounds__(block_threads) lift_kernels(const __grid_constant__ State f) {
-    GridLoop{}.each(f.particle_count(), [&](std::uint32_t i) {
-        const Poly6 kernel = lifted_kernel({f.particles[i].w, f.falls[i]}, f.sums[i], f.settings.smooth);
-        f.particles[i].w = kernel.weight;
-        f.falls[i] = kernel.fall;
+__global__ void __launch_bounds__(block_threads) lift_kernels(const __grid_constant__ State state) {
+    GridLoop{}.each(state.particle_count(), [&](std::uint32_t i) {
+        const Poly6 kernel =
+            lifted_kernel({state.particles[i].w, state.falls[i]}, state.sums[i], state.settings.smooth);
+        state.particles[i].w = kernel.weight;
+        state.falls[i] = kernel.fall;
     });
 }
 

@@ -13,12 +13,12 @@ namespace meniscus {
 // The company of a particle is the sum of poly6 kernels (1 at distance 0) over all particles, itself included, each
 // with the company's support of its level.
 
-/// A particle alone.
+/// Whether a particle is alone.
 MENISCUS_HD inline bool is_spray(float company, const SmoothField& f) {
     return company - 1.0F <= f.least_company;
 }
 
-/// By the particle's company.
+/// The kernel of a particle by its company.
 MENISCUS_HD inline Poly6 fitted_kernel(float company, unsigned level, const SmoothField& f) {
     const auto cube = [](float v) { return v * v * v; };
     const float u = (company - 1.0F - f.least_company) / (f.full_company - f.least_company);
@@ -34,12 +34,12 @@ MENISCUS_HD inline Poly6 fitted_kernel(float company, unsigned level, const Smoo
 }
 
 /// The field at a particle's place has a least value: otherwise a few particles close together sink below the
-/// threshold. value: what it is.
+/// threshold. value: the field there.
 MENISCUS_HD inline Poly6 lifted_kernel(const Poly6& kernel, float value, const SmoothField& f) {
     if (kernel.weight == 0.0F) return kernel;
     const float share = kernel.weight * kernel.weight * kernel.weight;
     const float neighbors = value / share;
-    // As fitted_kernel() had it for a particle among others.
+    // The company that fitted_kernel() had, for a particle among others.
     const float ratio = f.company_support / f.widest_support;
     const float company = ratio * ratio * ratio / share;
     const float squeezed = max(neighbors - f.group_size, 0.0F) * max(fma(-f.group_spread, neighbors, company), 0.0F);

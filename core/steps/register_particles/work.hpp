@@ -13,12 +13,12 @@
 
 namespace meniscus {
 
-/// Work is counted in pairs of a place at which the field is summed and a particle near it. So much is never refused.
+/// The work that is never refused, in pairs of a place at which the field is summed and a particle near it.
 inline constexpr double always_bearable = 268'435'456.0;
 
-/// One of so many particles, which lie next to each other in their order, is probed for those near it.
+/// One probe for this number of particles, next to each other in their order: its neighbors are counted.
 inline constexpr std::uint32_t particles_per_probe = 1024;
-/// All pairs of fewer particles are always_bearable.
+/// Frames of fewer particles are not probed: all of their pairs are always_bearable.
 inline constexpr std::uint32_t fewest_probed = 16'384;
 
 MENISCUS_HD inline std::uint32_t probe_count(std::uint64_t particles) {
@@ -42,12 +42,12 @@ MENISCUS_HD inline std::uint32_t probed_particle(std::uint32_t probe, std::uint6
     return static_cast<std::uint32_t>(first + spread_bits(seed + probe) % count);
 }
 
-/// Of a particle for the seed, which is the sum over the first particle of every probe.
+/// A particle's share in the seed, which is the sum over the first particle of every probe.
 MENISCUS_HD inline std::uint64_t key_bits(const ParticleKey& key) {
     return spread_bits(key.cell ^ spread_bits(key.place));
 }
 
-/// By the difference of two places, in units.
+/// Whether two places are neighbors, by their difference in units.
 MENISCUS_HD inline bool is_neighbor(float dx, float dy, float dz, float support) {
     return dx * dx + dy * dy + dz * dz < support * support;
 }
@@ -69,7 +69,8 @@ struct EvenNearBaseCell {
     }
 };
 
-/// So many base cells are never too many, about a second's work: each costs some, however few particles are near it.
+/// The number of base cells that is never refused, about a second's work: each cell costs some, however few particles
+/// are near it.
 inline constexpr double always_bearable_cells = 1'048'576.0;
 
 /// The number of base cells that a cube of particles of a level reaches, where they are at rest.
@@ -81,13 +82,14 @@ MENISCUS_HD inline double even_base_cells(const LatticeSettings& s, unsigned lev
     return cells * cells * cells;
 }
 
+/// The most base cells that a frame may reach.
 MENISCUS_HD inline double most_base_cells(const LatticeSettings& s, double even_cells) {
     const double most = s.work_limit * even_cells;
     return most > always_bearable_cells ? most : always_bearable_cells;
 }
 
-/// The work at so many places where particles are at rest. EvenNear: those near a place. has_level(k): whether there
-/// are particles of a level.
+/// The work at `places` where particles are at rest. EvenNear: number of those near a place. has_level(k): whether
+/// there are particles of a level.
 template <class EvenNear, class HasLevel>
 MENISCUS_HD double even_work(const LatticeSettings& s, std::uint64_t places, const HasLevel& has_level) {
     double near = 0.0;
@@ -95,12 +97,12 @@ MENISCUS_HD double even_work(const LatticeSettings& s, std::uint64_t places, con
         if (has_level(k)) near += EvenNear{}(s, k);
     return near * static_cast<double>(places);
 }
-/// By the probes' neighbors.
+/// The work at all particles, by the probes' neighbors.
 MENISCUS_HD inline double work_at_particles(std::uint64_t neighbors, std::uint64_t particles) {
     return static_cast<double>(neighbors) * (static_cast<double>(particles) / probe_count(particles));
 }
 
-/// At most so much may be done.
+/// The upper limit of the work for a frame.
 MENISCUS_HD inline double most_work(const LatticeSettings& s, double even_work) {
     const double most = s.work_limit * even_work;
     return most > always_bearable ? most : always_bearable;

@@ -16,7 +16,7 @@ class BaseVertices {
 public:
     int count() const { return count_; }
     std::uint32_t block(int i) const { return block_[i]; }
-    /// Its place in the cluster.
+    /// The i-th block's place in the cluster.
     const Int3& step(int i) const { return step_[i]; }
 
     void add(std::uint32_t block, const Int3& step) {
@@ -28,14 +28,14 @@ public:
         ++count_;
     }
 
-    // In a register whose lanes are F, enough for all blocks; what lanes beyond the last one find is nobody's. near:
-    // the particles near the cluster.
+    // By a register of lanes F, enough for all blocks; results of lanes beyond the last block are not used. near: the
+    // neighbors of the cluster.
 
     template <class Kernel, class F>
     void find_values(const NeighborLists::Levels& near, float* values) const {
         const F x[1] = {F::load(x_)}, y[1] = {F::load(y_)}, z[1] = {F::load(z_)};
         F sum[1] = {F(0.0F)};
-        for (const NeighborList& c : near) sum_values<Kernel, 1>(c.view(), x, y, z, sum);
+        for (const NeighborList& of_level : near) sum_values<Kernel, 1>(of_level.view(), x, y, z, sum);
         sum[0].store(values);
     }
 
@@ -44,7 +44,8 @@ public:
         const F half(base_edge / 2);
         const F x = F::load(x_) + half, y = F::load(y_) + half, z = F::load(z_) + half;
         F most(0.0F), nearest(0.0F);
-        for (const NeighborList& c : near) sum_bounds<Kernel>(c.view(), x, y, z, base_edge / 2, most, nearest);
+        for (const NeighborList& of_level : near)
+            sum_bounds<Kernel>(of_level.view(), x, y, z, base_edge / 2, most, nearest);
         alignas(64) float bound[cluster_blocks], closest[cluster_blocks];
         most.store(bound);
         nearest.store(closest);
@@ -59,17 +60,17 @@ private:
 };
 
 template <class Kernel>
-void sample(State& s, NeighborSearch& near) {
-    resize_for_overwrite(s.reaches, s.block_count());
-    s.samples.reserve(s.block_count());
-    s.samples.resize(s.block_count());
-    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+void sample(State& state, NeighborSearch& search) {
+    resize_for_overwrite(state.reaches, state.block_count());
+    state.samples.reserve(state.block_count());
+    state.samples.resize(state.block_count());
+    state.workers.for_ranges(state.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         alignas(64) float value[cluster_blocks];
         for (std::size_t b = begin; b < end; ++b) {
-            const Brick& brick = s.grid.bricks[b];
+            const Brick& brick = state.grid.bricks[b];
             for_each_cluster(brick.occupied, [&](const Int3& corner) {
                 const Int3 base = brick.corner() + corner;
-                const NeighborLists::Levels& list = near.near_cluster(base, worker);
+                const NeighborLists::Levels& list = search.near_cluster(base, worker);
                 BaseVertices stored, outside;
                 for (int i = 0; i < cluster_blocks; ++i) {
                     const int place = index_in_brick(corner + cluster_step(i));
@@ -80,32 +81,33 @@ void sample(State& s, NeighborSearch& near) {
                     const std::uint32_t block = stored.block(i);
                     const Int3 step = stored.step(i);
                     const bool allowed =
-                        !s.settings.has_domain ||
-                        (domain_points(base + step, s.settings.domain_low, s.settings.domain_high) & 1) != 0;
-                    const bool is_inside = allowed && value[i] > s.settings.iso;
-                    s.samples[block] = value[i];
-                    s.first_sample[block] = block;
-                    s.sampled[block] = 1;
-                    s.inside[block] = is_inside ? 1 : 0;
-                    // Nobody asks how far particles reach into a cell with a corner inside.
+                        !state.settings.has_domain ||
+                        (domain_points(base + step, state.settings.domain_low, state.settings.domain_high) & 1) != 0;
+                    const bool is_inside = allowed && value[i] > state.settings.iso;
+                    state.samples[block] = value[i];
+                    state.first_sample[block] = block;
+                    state.sampled[block] = 1;
+                    state.inside[block] = is_inside ? 1 : 0;
+                    // The reach of particles into a cell with a corner inside does not matter.
                     if (is_inside)
-                        s.reaches[block] = {std::numeric_limits<float>::infinity(), 1.0F};
+                        state.reaches[block] = {std::numeric_limits<float>::infinity(), 1.0F};
                     else
                         outside.add(block, step);
                 }
                 if (outside.count() == 0) return;
-                with_lanes_for(outside.count(), [&]<class F>() { outside.find_reaches<Kernel, F>(list, s.reaches); });
+                with_lanes_for(outside.count(),
+                               [&]<class F>() { outside.find_reaches<Kernel, F>(list, state.reaches); });
             });
         }
     });
-    s.field_evaluations += s.block_count();
-    near.even_out();
+    state.field_evaluations += state.block_count();
+    search.even_out();
 }
 
 }  // namespace
 
-void sample_base_vertices(State& s, NeighborSearch& near) {
-    with_kernel(s.settings, [&]<class Kernel>() { sample<Kernel>(s, near); });
+void sample_base_vertices(State& state, NeighborSearch& search) {
+    with_kernel(state.settings, [&]<class Kernel>() { sample<Kernel>(state, search); });
 }
 
 }  // namespace meniscus::cpu

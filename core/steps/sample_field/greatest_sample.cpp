@@ -6,11 +6,11 @@
 
 namespace meniscus::cpu {
 
-float greatest_sample(State& s) {
-    const BlocksView blocks = s.blocks();
+float greatest_sample(State& state) {
+    const BlocksView blocks = state.blocks();
     float greatest = 0.0F;
     for (std::uint32_t block = 0; block < blocks.count; ++block)
-        greatest = std::max(greatest, greatest_of_block(blocks, block, s.settings));
+        greatest = std::max(greatest, greatest_of_block(blocks, block, state.settings));
     return greatest;
 }
 

@@ -1,4 +1,4 @@
-// The greatest value of the field that was sampled: why there is no surface.
+// The greatest value of the field that was sampled: it explains a missing surface.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace meniscus {
 
-/// At the sampled points of a block, of those inside the domain; 0 without any.
+/// The greatest value at a block's sampled points inside the domain; 0 without any.
 MENISCUS_HD inline float greatest_of_block(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& s) {
     const BlockMask counted =
         s.has_domain ? domain_points(blocks.coordinate(block), s.domain_low, s.domain_high) : ~BlockMask{0};

@@ -15,48 +15,48 @@ namespace meniscus::cpu {
 namespace {
 
 /// Enters new values of a block's missing points, given by bit; its samples move to new room.
-void enter_samples(State& s, std::uint32_t block, BlockMask missing, std::array<float, 64>& values,
+void enter_samples(State& state, std::uint32_t block, BlockMask missing, std::array<float, 64>& values,
                    std::uint32_t room) {
-    const float* known = s.samples.data() + s.first_sample[block];
-    for (BlockMask left = s.sampled[block]; left != 0; left &= left - 1)
+    const float* known = state.samples.data() + state.first_sample[block];
+    for (BlockMask left = state.sampled[block]; left != 0; left &= left - 1)
         values[static_cast<std::size_t>(lowest_bit(left))] = *known++;
-    const BlockMask sampled = s.sampled[block] | missing;
-    float* out = s.samples.data() + room;
+    const BlockMask sampled = state.sampled[block] | missing;
+    float* out = state.samples.data() + room;
     BlockMask above = 0;
     if (sampled == ~BlockMask{0}) {
         std::copy(values.begin(), values.end(), out);
         for (int i = 0; i < 64; i += WideLanes::count)
-            above |= BlockMask{less_equal(WideLanes::load(out + i), WideLanes(s.settings.iso))} << i;
+            above |= BlockMask{less_equal(WideLanes::load(out + i), WideLanes(state.settings.iso))} << i;
         above = ~above;
     } else {
         for (BlockMask left = sampled; left != 0; left &= left - 1) {
             const int bit = lowest_bit(left);
             const float value = values[static_cast<std::size_t>(bit)];
             *out++ = value;
-            above |= BlockMask{value > s.settings.iso} << bit;
+            above |= BlockMask{value > state.settings.iso} << bit;
         }
     }
-    if (s.settings.has_domain)
-        above &= domain_points(s.blocks().coordinate(block), s.settings.domain_low, s.settings.domain_high);
-    s.first_sample[block] = room;
-    s.sampled[block] = sampled;
-    s.inside[block] = above;
-    s.sign_sets().any_inside.put(s.brick[block], s.place[block], above != 0);
-    s.sign_sets().all_inside.put(s.brick[block], s.place[block], above == sampled);
+    if (state.settings.has_domain)
+        above &= domain_points(state.blocks().coordinate(block), state.settings.domain_low, state.settings.domain_high);
+    state.first_sample[block] = room;
+    state.sampled[block] = sampled;
+    state.inside[block] = above;
+    state.sign_sets().any_inside.put(state.brick[block], state.place[block], above != 0);
+    state.sign_sets().all_inside.put(state.brick[block], state.place[block], above == sampled);
 }
 
-BlockMask missing_points(const State& s, std::uint32_t block) {
-    return s.wanted_points[block] & ~s.sampled[block];
+BlockMask missing_points(const State& state, std::uint32_t block) {
+    return state.wanted_points[block] & ~state.sampled[block];
 }
 
-/// Of a level-1 edge's middle follows that of one of its halves.
+/// The missing middles of level-1 edges: each is followed by the middle of one of its halves.
 BlockMask followed_points(Wanted wanted, BlockMask missing) {
     return wanted == Wanted::middles ? missing & level1_middles : 0;
 }
 
-/// Samples the chosen blocks of a cluster, whose samples move to `room` one after the other; returns how many points
-/// were new.
-std::uint64_t sample_cluster(State& s, FieldSource& field, Wanted wanted, const Brick& brick, const Int3& corner,
+/// Samples the chosen blocks of a cluster, whose samples move to `room` one after the other; returns the number of new
+/// points.
+std::uint64_t sample_cluster(State& state, FieldSource& field, Wanted wanted, const Brick& brick, const Int3& corner,
                              const std::uint64_t* chosen, std::uint64_t& room, unsigned worker) {
     const Int3 lowest = brick.corner() + corner;
     std::uint32_t block[cluster_blocks];
@@ -66,7 +66,7 @@ std::uint64_t sample_cluster(State& s, FieldSource& field, Wanted wanted, const 
         const int place = index_in_brick(corner + cluster_step(static_cast<int>(i)));
         if ((chosen[place >> 6] >> (place & 63) & 1) == 0) continue;
         block[i] = brick.number(place);
-        missing[i] = missing_points(s, block[i]);
+        missing[i] = missing_points(state, block[i]);
         followed[i] = followed_points(wanted, missing[i]);
     }
     ClusterValues values;
@@ -76,33 +76,33 @@ std::uint64_t sample_cluster(State& s, FieldSource& field, Wanted wanted, const 
         for (std::size_t i = 0; i < cluster_blocks; ++i) {
             if (points[i] == 0) continue;
             evaluations += static_cast<std::uint64_t>(popcount(points[i]));
-            enter_samples(s, block[i], points[i], values[i], room_of(i));
+            enter_samples(state, block[i], points[i], values[i], room_of(i));
         }
     };
     sample(missing, [&](std::size_t i) {
         const auto first = static_cast<std::uint32_t>(room);
-        room += static_cast<std::uint64_t>(popcount(s.sampled[block[i]] | missing[i]) + popcount(followed[i]));
+        room += static_cast<std::uint64_t>(popcount(state.sampled[block[i]] | missing[i]) + popcount(followed[i]));
         return first;
     });
     bool any = false;
     for (std::size_t i = 0; i < cluster_blocks; ++i)
         if (followed[i] != 0) {
-            followed[i] = half_edge_middles(s.inside[block[i]], followed[i]);
+            followed[i] = half_edge_middles(state.inside[block[i]], followed[i]);
             any = true;
         }
-    if (any) sample(followed, [&](std::size_t i) { return s.first_sample[block[i]]; });
+    if (any) sample(followed, [&](std::size_t i) { return state.first_sample[block[i]]; });
     return evaluations;
 }
 
-/// Chooses of some cells of a word those with missing points by wanted(block, bit), and notes these.
+/// Chooses those cells of a word that miss points of wanted(block, bit), and notes the wanted points.
 template <class WantedPoints>
-void choose_blocks(State& s, std::uint32_t brick, int w, std::uint64_t cells, const WantedPoints& wanted) {
+void choose_blocks(State& state, std::uint32_t brick, int w, std::uint64_t cells, const WantedPoints& wanted) {
     std::uint64_t chosen = 0;
-    for_each_cell(s.grid.bricks[brick], w, cells, [&](std::uint32_t block, int bit) {
-        s.wanted_points[block] = wanted(block, bit);
-        chosen |= std::uint64_t{missing_points(s, block) != 0} << bit;
+    for_each_cell(state.grid.bricks[brick], w, cells, [&](std::uint32_t block, int bit) {
+        state.wanted_points[block] = wanted(block, bit);
+        chosen |= std::uint64_t{missing_points(state, block) != 0} << bit;
     });
-    s.chosen_cells().word(brick, w) = chosen;
+    state.chosen_cells().word(brick, w) = chosen;
 }
 
 /// The cells of a word for which condition(number) holds.
@@ -116,117 +116,117 @@ std::uint64_t cells_where(const Brick& brick, int w, std::uint64_t cells, const 
 
 }  // namespace
 
-void sample_wanted_points(State& s, FieldSource& field, Wanted wanted) {
-    const CellSetView chosen = s.chosen_cells();
-    resize_for_overwrite(s.brick_counts, s.grid.bricks.size());
-    for_each_brick(s, [&](std::uint32_t b) {
+void sample_wanted_points(State& state, FieldSource& field, Wanted wanted) {
+    const CellSetView chosen = state.chosen_cells();
+    resize_for_overwrite(state.brick_counts, state.grid.bricks.size());
+    for_each_brick(state, [&](std::uint32_t b) {
         std::uint64_t room = 0;
-        const Brick& brick = s.grid.bricks[b];
+        const Brick& brick = state.grid.bricks[b];
         for_each_word(brick, [&](int w) {
             for_each_cell(brick, w, chosen.word(b, w), [&](std::uint32_t block, int) {
-                const BlockMask missing = missing_points(s, block);
-                room += static_cast<std::uint64_t>(popcount(s.sampled[block] | missing) +
+                const BlockMask missing = missing_points(state, block);
+                room += static_cast<std::uint64_t>(popcount(state.sampled[block] | missing) +
                                                    popcount(followed_points(wanted, missing)));
             });
         });
-        s.brick_counts[b] = room;
+        state.brick_counts[b] = room;
     });
     // A block that gains points moves to new room at the end of the samples; its old room stays unused until the next
     // frame.
-    const std::uint64_t added = counts_to_starts(s.brick_counts);
-    const std::size_t used = s.samples.size();
+    const std::uint64_t added = counts_to_starts(state.brick_counts);
+    const std::size_t used = state.samples.size();
     require_indexable(used + added, "the surface needs", "field samples");
     if (added == 0) return;
-    if (s.samples.capacity() < used + added) s.samples.reserve(used + added + (used + added) / 4);
-    s.samples.resize(used + added);
+    if (state.samples.capacity() < used + added) state.samples.reserve(used + added + (used + added) / 4);
+    state.samples.resize(used + added);
     std::atomic<std::uint64_t> evaluations{0};
-    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+    state.workers.for_ranges(state.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         std::uint64_t here = 0;
         for (std::size_t b = begin; b < end; ++b) {
             const std::uint64_t* const cells = &chosen.word(static_cast<std::uint32_t>(b), 0);
-            std::uint64_t room = used + s.brick_counts[b];
+            std::uint64_t room = used + state.brick_counts[b];
             for_each_cluster(cells, [&](const Int3& corner) {
-                here += sample_cluster(s, field, wanted, s.grid.bricks[b], corner, cells, room, worker);
+                here += sample_cluster(state, field, wanted, state.grid.bricks[b], corner, cells, room, worker);
             });
         }
         evaluations.fetch_add(here, std::memory_order_relaxed);
     });
-    s.field_evaluations += evaluations.load(std::memory_order_relaxed);
+    state.field_evaluations += evaluations.load(std::memory_order_relaxed);
 }
 
 namespace {
 
 /// Takes the cells into the band that a neighbor's samples show to hold surface; returns whether there were any.
-bool grow_band(State& s, const WantedLevel& wanted_level) {
-    const BlocksView blocks = s.blocks();
-    const LevelSets levels = s.level_sets();
-    const SignSets signs = s.sign_sets();
+bool grow_band(State& state, const WantedLevel& wanted_level) {
+    const BlocksView blocks = state.blocks();
+    const LevelSets levels = state.level_sets();
+    const SignSets signs = state.sign_sets();
     const auto joining = [&](std::uint32_t brick, int w) {
-        std::uint64_t cells = take_stale(s, StaleFor::band, brick, w) & ~levels.band(brick, w);
+        std::uint64_t cells = take_stale(state, StaleFor::band, brick, w) & ~levels.band(brick, w);
         if (cells != 0) cells &= levels.beside(1, brick, w) & signs.cells_seeing_both(brick, w);
-        return cells_where(s.grid.bricks[brick], w, cells,
+        return cells_where(state.grid.bricks[brick], w, cells,
                            [&](std::uint32_t block) { return holds_at_a_face(joins_band, blocks, block); });
     };
-    return raise_levels(s, joining, wanted_level);
+    return raise_levels(state, joining, wanted_level);
 }
 
 /// Raises the cells by one level that would cut off a finer neighbor's surface in a sliver; returns whether there were
 /// any. band_has_grown: the cells that have joined are not sampled yet, so that all must be looked at once more.
-bool raise_at_slivers(State& s, bool band_has_grown) {
-    const BlocksView blocks = s.blocks();
-    const LevelSets levels = s.level_sets();
-    const SignSets signs = s.sign_sets();
+bool raise_at_slivers(State& state, bool band_has_grown) {
+    const BlocksView blocks = state.blocks();
+    const LevelSets levels = state.level_sets();
+    const SignSets signs = state.sign_sets();
     const auto missing = [&](std::uint32_t brick, int w) {
-        std::uint64_t cells = band_has_grown ? s.stale_cells(StaleFor::slivers).word(brick, w)
-                                             : take_stale(s, StaleFor::slivers, brick, w);
+        std::uint64_t cells = band_has_grown ? state.stale_cells(StaleFor::slivers).word(brick, w)
+                                             : take_stale(state, StaleFor::slivers, brick, w);
         if (cells != 0) cells &= cells_beside_finer(levels, brick, w);
         if (cells != 0) cells &= signs.cells_seeing_both(brick, w);
-        return cells_where(s.grid.bricks[brick], w, cells,
+        return cells_where(state.grid.bricks[brick], w, cells,
                            [&](std::uint32_t block) { return holds_at_a_face(misses_surface, blocks, block); });
     };
-    return raise_levels(s, missing, [&s](std::uint32_t block) { return s.level[block] + 1; });
+    return raise_levels(state, missing, [&state](std::uint32_t block) { return state.level[block] + 1; });
 }
 
 /// Samples the corner points of the cells whose surroundings have changed.
-void sample_corner_points(State& s, FieldSource& field) {
-    const LevelSets levels = s.level_sets();
-    for_each_word(s, [&](std::uint32_t brick, int w) {
-        s.chosen_cells().word(brick, w) = 0;
-        const std::uint64_t stale = take_stale(s, StaleFor::corner_points, brick, w);
+void sample_corner_points(State& state, FieldSource& field) {
+    const LevelSets levels = state.level_sets();
+    for_each_word(state, [&](std::uint32_t brick, int w) {
+        state.chosen_cells().word(brick, w) = 0;
+        const std::uint64_t stale = take_stale(state, StaleFor::corner_points, brick, w);
         if (stale == 0) return;
         const LevelSetsAround around(levels, brick, w);
-        choose_blocks(s, brick, w, stale & around.with_corner_points(),
+        choose_blocks(state, brick, w, stale & around.with_corner_points(),
                       [&](std::uint32_t, int bit) { return corner_points(around(bit)); });
     });
-    sample_wanted_points(s, field, Wanted::corners);
+    sample_wanted_points(state, field, Wanted::corners);
 }
 
 }  // namespace
 
-void sample_field(State& s, FieldSource& field, const WantedLevel& wanted_level, Slivers slivers) {
+void sample_field(State& state, FieldSource& field, const WantedLevel& wanted_level, Slivers slivers) {
     for (;;) {
-        sample_corner_points(s, field);
-        const bool grown = grow_band(s, wanted_level);
-        const bool raised = slivers == Slivers::raised && raise_at_slivers(s, grown);
+        sample_corner_points(state, field);
+        const bool grown = grow_band(state, wanted_level);
+        const bool raised = slivers == Slivers::raised && raise_at_slivers(state, grown);
         if (!grown && !raised) return;
-        adjust_levels(s);
+        adjust_levels(state);
     }
 }
 
-void sample_edge_middles(State& s, FieldSource& field) {
-    const BlocksView blocks = s.blocks();
-    const LevelSets levels = s.level_sets();
-    const SignSets signs = s.sign_sets();
-    for_each_word(s, [&](std::uint32_t brick, int w) {
+void sample_edge_middles(State& state, FieldSource& field) {
+    const BlocksView blocks = state.blocks();
+    const LevelSets levels = state.level_sets();
+    const SignSets signs = state.sign_sets();
+    for_each_word(state, [&](std::uint32_t brick, int w) {
         const LevelSetsAround around(levels, brick, w);
         choose_blocks(
-            s, brick, w,
-            around.with_corner_points() & signs.blocks_seeing_both(brick, w) & s.grid.bricks[brick].occupied[w],
+            state, brick, w,
+            around.with_corner_points() & signs.blocks_seeing_both(brick, w) & state.grid.bricks[brick].occupied[w],
             [&](std::uint32_t block, int bit) {
-                return s.sampled[block] == ~BlockMask{0} ? 0 : edge_middles(blocks, block, around(bit));
+                return state.sampled[block] == ~BlockMask{0} ? 0 : edge_middles(blocks, block, around(bit));
             });
     });
-    sample_wanted_points(s, field, Wanted::middles);
+    sample_wanted_points(state, field, Wanted::middles);
 }
 
 }  // namespace meniscus::cpu

@@ -15,7 +15,7 @@ namespace {
 template <class Field>
 struct ClusterSampling {
     typename Field::Shared near;
-    std::uint32_t bits[warp_threads];  ///< of a block's missing points, where they are few
+    std::uint32_t bits[warp_threads];  ///< bits of a block's missing points, where they are few
 };
 
 /// A block's points, of which a lane has two: `lane` and lane + 32.
@@ -26,7 +26,7 @@ struct HalfMasks {
         : half{static_cast<unsigned>(points), static_cast<unsigned>(points >> 32)} {}
     __device__ unsigned count() const { return static_cast<unsigned>(__popc(half[0]) + __popc(half[1])); }
     __device__ bool holds(int h) const { return (half[h] >> lane_index() & 1) != 0; }
-    /// Points before this lane's.
+    /// Number of points before this lane's.
     __device__ unsigned before(int h) const {
         const auto in_half = lanes_below(half[h]);
         return h == 0 ? in_half : in_half + static_cast<unsigned>(__popc(half[0]));
@@ -36,10 +36,10 @@ struct HalfMasks {
 /// All lanes of a warp give values to a block's wanted points that have none; samples lie in the order of points, signs
 /// follow. step: the block's offset in its cluster.
 template <class Field, class Near>
-__device__ void sample_block(const State& f, Near& near, const BlocksView& blocks, std::uint32_t block,
+__device__ void sample_block(const State& state, Near& near, const BlocksView& blocks, std::uint32_t block,
                              const Int3& step, ClusterSampling<Field>& shared) {
     const unsigned lane = lane_index();
-    const HalfMasks missing(f.wanted_points[block] & ~blocks.sampled[block]);
+    const HalfMasks missing(state.wanted_points[block] & ~blocks.sampled[block]);
     const float corner[3] = {static_cast<float>(step.x * units_per_base_cell),
                              static_cast<float>(step.y * units_per_base_cell),
                              static_cast<float>(step.z * units_per_base_cell)};
@@ -72,12 +72,12 @@ __device__ void sample_block(const State& f, Near& near, const BlocksView& block
     const auto coordinate = [&](int axis) {
         return corner[axis] + static_cast<float>(point_coordinate(static_cast<int>(bit), axis) * units_per_cell);
     };
-    float fresh[2];  // of points `lane` and lane + 32
+    float fresh[2];  // values at points `lane` and lane + 32
     const float z = coordinate(2);
     near.column(box, coordinate(0), coordinate(1), z, z + static_cast<float>(2 * units_per_cell), are_many, fresh);
-    // Read anew: while particles were summed over, registers were dear.
+    // Loaded again: kept across the sum they would cost registers.
     const BlockMask known_points = blocks.sampled[block];
-    const BlockMask sampled_points = known_points | f.wanted_points[block];
+    const BlockMask sampled_points = known_points | state.wanted_points[block];
     const HalfMasks known(known_points);
     const HalfMasks sampled(sampled_points);
     if (!are_many) {
@@ -86,23 +86,24 @@ __device__ void sample_block(const State& f, Near& near, const BlocksView& block
         for (int h = 0; h < 2; ++h)
             fresh[h] = __shfl_sync(all_lanes, value, static_cast<int>(added.before(h) % warp_threads));
     }
-    const std::uint32_t old = f.old_first_sample[block];
-    const std::uint32_t first = f.first_sample[block];
+    const std::uint32_t old = state.old_first_sample[block];
+    const std::uint32_t first = state.first_sample[block];
     BlockMask above = 0;
     for (int h = 0; h < 2; ++h) {
         bool is_above = false;
         if (sampled.holds(h)) {
-            const float value = known.holds(h) ? f.samples[old + known.before(h)] : fresh[h];
-            f.samples[first + sampled.before(h)] = value;
-            is_above = value > f.settings.iso;
+            const float value = known.holds(h) ? state.samples[old + known.before(h)] : fresh[h];
+            state.samples[first + sampled.before(h)] = value;
+            is_above = value > state.settings.iso;
         }
         above |= static_cast<BlockMask>(__ballot_sync(all_lanes, is_above ? 1 : 0)) << (32 * h);
     }
     if (lane == 0) {
-        f.sampled[block] = sampled_points;
-        f.inside[block] = f.settings.has_domain ? above & domain_points(blocks.coordinate(block), f.settings.domain_low,
-                                                                        f.settings.domain_high)
-                                                : above;
+        state.sampled[block] = sampled_points;
+        state.inside[block] =
+            state.settings.has_domain
+                ? above & domain_points(blocks.coordinate(block), state.settings.domain_low, state.settings.domain_high)
+                : above;
     }
 }
 
@@ -127,49 +128,49 @@ __device__ inline UnitBox box_of_points(BlockMask missing, const Int3& step) {
 }
 
 template <class Field>
-__device__ void sample_listed(const State& f, const Field& field, List list,
+__device__ void sample_listed(const State& state, const Field& field, List list,
                               ClusterSampling<Field> (&shared)[block_warps]) {
-    const BlocksView blocks = f.blocks();
-    std::uint32_t evaluations = 0;  // a warp's are fewer than all samples
-    each_listed_cluster(f, blocks, list, [&](const Cluster& cluster) {
-        cluster.unmark(f);
+    const BlocksView blocks = state.blocks();
+    std::uint32_t evaluations = 0;  // the evaluations of a warp are fewer than all samples
+    each_listed_cluster(state, blocks, list, [&](const Cluster& cluster) {
+        cluster.unmark(state);
         const BlockMask missing =
-            cluster.block == no_index ? 0 : f.wanted_points[cluster.block] & ~blocks.sampled[cluster.block];
+            cluster.block == no_index ? 0 : state.wanted_points[cluster.block] & ~blocks.sampled[cluster.block];
         evaluations += static_cast<std::uint32_t>(popcount(missing));
         ClusterSampling<Field>& own = shared[warp_in_block()];
-        auto near = field.near(f, cluster, box_of_points(missing, cluster_step(lane_index())), own.near);
+        auto near = field.near(state, cluster, box_of_points(missing, cluster_step(lane_index())), own.near);
         for (unsigned left = __ballot_sync(all_lanes, missing != 0 ? 1 : 0); left != 0; left &= left - 1) {
             const auto k = static_cast<unsigned>(lowest_bit(left));
-            sample_block(f, near, blocks, __shfl_sync(all_lanes, cluster.block, static_cast<int>(k)), cluster_step(k),
-                         own);
+            sample_block(state, near, blocks, __shfl_sync(all_lanes, cluster.block, static_cast<int>(k)),
+                         cluster_step(k), own);
         }
     });
-    add_of_lanes(&f.counts->field_evaluations, evaluations);
+    add_of_lanes(&state.counts->field_evaluations, evaluations);
     if (blockIdx.x == 0 && threadIdx.x == 0)
-        f.need(Resource::samples, f.counts->needed[static_cast<int>(Resource::samples)]);
+        state.need(Resource::samples, state.counts->needed[static_cast<int>(Resource::samples)]);
 }
 
-__global__ void __launch_bounds__(block_threads, 4) list_corner_points(const __grid_constant__ State f) {
-    list_wanted_points(f, List::corner_points, [&](const BlocksView& blocks, std::uint32_t b) {
-        return f.corner_points[b] = corner_points(LevelsAround(blocks, b));
+__global__ void __launch_bounds__(block_threads, 4) list_corner_points(const __grid_constant__ State state) {
+    list_wanted_points(state, List::corner_points, [&](const BlocksView& blocks, std::uint32_t b) {
+        return state.corner_points[b] = corner_points(LevelsAround(blocks, b));
     });
 }
 
-__global__ void __launch_bounds__(block_threads, 4) list_edge_middles(const __grid_constant__ State f) {
-    list_wanted_points(f, List::edge_middles, [&](const BlocksView& blocks, std::uint32_t b) {
-        return f.corner_points[b] == 0 || blocks.sampled[b] == ~BlockMask{0}
+__global__ void __launch_bounds__(block_threads, 4) list_edge_middles(const __grid_constant__ State state) {
+    list_wanted_points(state, List::edge_middles, [&](const BlocksView& blocks, std::uint32_t b) {
+        return state.corner_points[b] == 0 || blocks.sampled[b] == ~BlockMask{0}
                    ? 0
                    : edge_middles(blocks, b, LevelsAround(blocks, b));
     });
 }
 
-__global__ void __launch_bounds__(block_threads) list_half_edge_middles(const __grid_constant__ State f) {
-    list_wanted_points(f, List::half_edge_middles, [&](const BlocksView& blocks, std::uint32_t b) {
-        return half_edge_middles(blocks.inside[b], f.wanted_points[b] & level1_middles);
+__global__ void __launch_bounds__(block_threads) list_half_edge_middles(const __grid_constant__ State state) {
+    list_wanted_points(state, List::half_edge_middles, [&](const BlocksView& blocks, std::uint32_t b) {
+        return half_edge_middles(blocks.inside[b], state.wanted_points[b] & level1_middles);
     });
 }
 
-/// Three blocks hide what a warp waits for, if registers suffice; on some GPUs shared memory has room for two.
+/// Three blocks hide the waits of a warp, if registers suffice; on some GPUs shared memory has room for two.
 #if defined(__CUDA_ARCH__) && (__CUDA_ARCH__ == 860 || __CUDA_ARCH__ == 890)
 template <class Field>
 inline constexpr int blocks_of_sampling = 2;
@@ -180,22 +181,23 @@ inline constexpr int blocks_of_sampling = Field::has_own_supports ? 3 : 2;
 
 template <class Field>
 __global__ void __launch_bounds__(block_threads, blocks_of_sampling<Field>)
-    sample_list(const __grid_constant__ State f, const Field field, List list) {
+    sample_list(const __grid_constant__ State state, const Field field, List list) {
     __shared__ ClusterSampling<Field> shared[block_warps];
-    sample_listed(f, field, list, shared);
+    sample_listed(state, field, list, shared);
 }
 
 /// Takes the cells into the band that a neighbor's samples show to hold surface, raises those that would cut off a
 /// finer neighbor's surface in a sliver, adjusts and samples, until there are none.
 template <Slivers slivers, class Field>
-__global__ void __launch_bounds__(block_threads, 2) settle_band(const __grid_constant__ State f, const Field field) {
+__global__ void __launch_bounds__(block_threads, 2)
+    settle_band(const __grid_constant__ State state, const Field field) {
     __shared__ ClusterSampling<Field> shared[block_warps];
-    Settling<slivers> settling(f);
+    Settling<slivers> settling(state);
     settling.begin();
     while (settling.raise()) {
-        sample_listed(f, field, List::later_round, shared);
+        sample_listed(state, field, List::later_round, shared);
         Team::grid().wait();
-        if (!f.goes_on()) return;
+        if (!state.goes_on()) return;
     }
 }
 

@@ -65,7 +65,7 @@ struct CellFace {
     static constexpr unsigned count = 6;
     MENISCUS_HD constexpr explicit CellFace(unsigned i)
         : axis(static_cast<int>(i >> 1)), side(static_cast<int>(i & 1)) {}
-    /// To the cell on the other side.
+    /// The offset of the cell on the other side.
     MENISCUS_HD constexpr Int3 offset() const { return axis_offset(axis, 2 * side - 1); }
 };
 

@@ -43,29 +43,30 @@ struct ListedFace {
 template <Slivers slivers>
 class Settling {
 public:
-    __device__ explicit Settling(const State& f)
-        : f_(f), blocks_(f.blocks()), sweeps_(f, Team::grid(), StaleCells(f)) {}
+    __device__ explicit Settling(const State& state)
+        : state_(state), blocks_(state.blocks()), sweeps_(state, Team::grid(), StaleCells(state)) {}
 
     /// Lists the faces at which a cell may go up by what is sampled so far.
     __device__ void begin() {
-        const LevelSets levels = f_.level_sets();
+        const LevelSets levels = state_.level_sets();
         Team::grid().each_part<CellFace::count>(
-            std::uint64_t{Brick::words} * f_.count(Resource::bricks), [&](std::uint64_t i, unsigned face) {
+            std::uint64_t{Brick::words} * state_.count(Resource::bricks), [&](std::uint64_t i, unsigned face) {
                 const auto word = static_cast<std::uint32_t>(i);
-                if (face == 0) f_.is_stale()[word] = 0;
-                const Brick& brick = f_.bricks[word / Brick::words];
+                if (face == 0) state_.is_stale()[word] = 0;
+                const Brick& brick = state_.bricks[word / Brick::words];
                 const std::uint32_t w = word % Brick::words;
                 std::uint64_t cells = brick.occupied[w];
                 if (cells != 0)
                     cells &= levels.below(word / Brick::words, static_cast<int>(w), CellFace(face).offset());
                 if (cells == 0) return;
-                std::uint32_t at = atomicAdd(&f_.counts->faces_to_settle, static_cast<std::uint32_t>(popcount(cells)));
+                std::uint32_t at =
+                    atomicAdd(&state_.counts->faces_to_settle, static_cast<std::uint32_t>(popcount(cells)));
                 for (; cells != 0; cells &= cells - 1)
-                    f_.faces_to_settle()[at++] =
+                    state_.faces_to_settle()[at++] =
                         ListedFace::entry(brick.number(static_cast<int>(64 * w) + lowest_bit(cells)), face);
             });
         sweeps_.team.wait();
-        faces_ = static_cast<volatile std::uint32_t&>(f_.counts->faces_to_settle);
+        faces_ = static_cast<volatile std::uint32_t&>(state_.counts->faces_to_settle);
     }
 
     /// Raises the cells that the rules find, adjusts, and lists what to sample then; returns whether there were any.
@@ -80,18 +81,18 @@ public:
             found = sweeps_.end_search();
             if (found == 0 && !sweeps_.team.is_alone()) return false;
             if (found != 0) raise_found(found, search);
-            if (sweeps_.team.is_first_thread()) f_.counts->is_settled = found == 0 ? 1 : 0;
+            if (sweeps_.team.is_first_thread()) state_.counts->is_settled = found == 0 ? 1 : 0;
         }
         Team::grid().wait();
-        if (static_cast<volatile std::uint32_t&>(f_.counts->is_settled) != 0) return false;
+        if (static_cast<volatile std::uint32_t&>(state_.counts->is_settled) != 0) return false;
         faces_ = 0;
         stale_count_ = sweeps_.places.count();
         GridLoop{}.each_together<std::uint64_t>(std::uint64_t{8} * stale_count_, [&](std::uint64_t i, bool exists) {
             const std::uint32_t block = exists ? sweeps_.places[i / 8] : no_index;
             const BlockMask wanted = corner_points(levels_around_together(blocks_, block));
             const bool is_first = exists && i % 8 == 0;
-            if (is_first) f_.corner_points[block] = wanted;
-            list_if_wanted(f_, List::later_round, is_first ? block : no_index, wanted);
+            if (is_first) state_.corner_points[block] = wanted;
+            list_if_wanted(state_, List::later_round, is_first ? block : no_index, wanted);
         });
         Team::grid().wait();
         return true;
@@ -103,9 +104,9 @@ private:
     /// Both rules look at the same levels. A cell that joins the band changes what slivers there are: they are looked
     /// for anew.
     __device__ void test(std::uint32_t block, const CellFace& face, bool joins) const {
-        if (f_.level[block] == 0) {
+        if (state_.level[block] == 0) {
             if (!joins || !joins_band(blocks_, block, face)) return;
-            f_.counts->last_joining = sweeps_.search();
+            state_.counts->last_joining = sweeps_.search();
         } else if (slivers == Slivers::kept || !misses_surface(blocks_, block, face)) {
             return;
         }
@@ -113,7 +114,7 @@ private:
     }
     __device__ void test_faces(bool joins) const {
         sweeps_.team.loop().each(faces_, [&](std::uint32_t i) {
-            const ListedFace listed(f_.faces_to_settle()[i]);
+            const ListedFace listed(state_.faces_to_settle()[i]);
             test(listed.block, CellFace(listed.face), joins);
         });
     }
@@ -125,24 +126,24 @@ private:
         sweeps_.team = sweeps_.team.narrowed_to(std::uint64_t{neighbor_slots} * found, 4);
         if (!sweeps_.team.has_this_thread()) return;
         // All have read the last round's list.
-        if (sweeps_.team.is_first_thread()) f_.counts->listed[static_cast<int>(List::later_round)] = 0;
-        if (static_cast<volatile std::uint32_t&>(f_.counts->last_joining) == search) {
-            sweeps_.raise_found(found,
-                                [&](std::uint32_t block) { return f_.level[block] == 0 ? f_.wanted_level[block] : 0; });
+        if (sweeps_.team.is_first_thread()) state_.counts->listed[static_cast<int>(List::later_round)] = 0;
+        if (static_cast<volatile std::uint32_t&>(state_.counts->last_joining) == search) {
+            sweeps_.raise_found(
+                found, [&](std::uint32_t block) { return state_.level[block] == 0 ? state_.wanted_level[block] : 0; });
             stale_count_ = sweeps_.places.count();
             test_faces(false);
             test_stale_cells(false);
             found = sweeps_.end_search();
         }
-        sweeps_.raise_found(found, [&](std::uint32_t block) { return f_.level[block] + 1; });
+        sweeps_.raise_found(found, [&](std::uint32_t block) { return state_.level[block] + 1; });
         sweeps_.adjust_levels();
     }
 
-    const State& f_;
+    const State& state_;
     BlocksView blocks_;
     Sweeps<StaleCells> sweeps_;
-    std::uint32_t faces_ = 0;        ///< to be tested in the first round
-    std::uint32_t stale_count_ = 0;  ///< when the round began
+    std::uint32_t faces_ = 0;        ///< number of faces to be tested in the first round
+    std::uint32_t stale_count_ = 0;  ///< number of stale cells when the round began
 };
 
 }  // namespace meniscus::cuda

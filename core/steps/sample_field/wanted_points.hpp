@@ -1,4 +1,4 @@
-// Lists of what is to be sampled next.
+// Lists of the blocks to be sampled next.
 #pragma once
 
 #include <cstdint>
@@ -12,31 +12,31 @@ namespace meniscus::cuda {
 /// Lists the clusters of blocks with wanted points that have no value. Blocks that gain points move to new room at the
 /// end of the samples; their old room stays unused until the next frame. A block for which there is no room is left
 /// out. All lanes of a warp call it, each with one block or none; no block is given twice.
-__device__ inline void list_if_wanted(const State& f, List list, std::uint32_t b, BlockMask wanted) {
+__device__ inline void list_if_wanted(const State& state, List list, std::uint32_t b, BlockMask wanted) {
     BlockMask missing = 0;
     BlockMask sampled = 0;
     if (b != no_index) {
-        sampled = f.sampled[b];
-        f.wanted_points[b] = wanted;
+        sampled = state.sampled[b];
+        state.wanted_points[b] = wanted;
         missing = wanted & ~sampled;
     }
     const std::uint32_t room = missing == 0 ? 0 : static_cast<std::uint32_t>(popcount(missing | sampled));
-    const Counter first = take_places(&f.counts->needed[static_cast<int>(Resource::samples)], room);
-    const bool fits = room != 0 && first + room <= f.capacity[Resource::samples];
+    const Counter first = take_places(&state.counts->needed[static_cast<int>(Resource::samples)], room);
+    const bool fits = room != 0 && first + room <= state.capacity[Resource::samples];
     if (fits) {
-        f.old_first_sample[b] = f.first_sample[b];
-        f.first_sample[b] = static_cast<std::uint32_t>(first);
+        state.old_first_sample[b] = state.first_sample[b];
+        state.first_sample[b] = static_cast<std::uint32_t>(first);
     } else if (room != 0) {
-        f.wanted_points[b] = sampled;
+        state.wanted_points[b] = sampled;
     }
-    list_clusters(f, list, b, fits);
+    list_clusters(state, list, b, fits);
 }
 /// The same for all blocks, by the whole grid; wanted(block) is asked once for each.
 template <class Wanted>
-__device__ void list_wanted_points(const State& f, List list, const Wanted& wanted) {
-    const BlocksView blocks = f.blocks();
+__device__ void list_wanted_points(const State& state, List list, const Wanted& wanted) {
+    const BlocksView blocks = state.blocks();
     GridLoop{}.each_together(blocks.count, [&](std::uint32_t b, bool exists) {
-        list_if_wanted(f, list, exists ? b : no_index, exists ? wanted(blocks, b) : 0);
+        list_if_wanted(state, list, exists ? b : no_index, exists ? wanted(blocks, b) : 0);
     });
 }
 

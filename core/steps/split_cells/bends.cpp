@@ -18,11 +18,11 @@ namespace {
 constexpr int cells_of_origin = 2;
 static_assert(cluster_size.y == cells_of_origin && cluster_size.z == cells_of_origin);
 
-/// Coordinates x of points from there.
+/// Coordinates x of points from that corner.
 template <class F>
 struct FromPair {
     F x;
-    F aside;  ///< from the origin of the neighbors to that of the points: whole units, so that this is exact
+    F aside;  ///< shift from the origin of the neighbors to that of the points: exact, in whole units
 
     friend F operator-(const FromPair& p, const F& neighbor) { return p.x - (neighbor - p.aside); }
 };
@@ -32,7 +32,7 @@ struct ClusterVertices {
     static constexpr int row = cluster_size.x + 1;
     static constexpr int count = 9 * row;
     float value[count];        ///< zero where no block is stored
-    std::uint64_t inside = 0;  ///< as bits
+    std::uint64_t inside = 0;  ///< signs as bits
 
     /// corner: lowest cell of the cluster, in this brick.
     ClusterVertices(const BlocksView& blocks, std::uint32_t brick, const Int3& corner) {
@@ -91,7 +91,7 @@ public:
         ++count_;
     }
 
-    /// In a register whose lanes are F, enough for all cells. near(box): the particles near it.
+    /// Searches by a register of lanes F, enough for all cells. near(box): the neighbors of a box.
     template <class Kernel, class F, class Near>
     void search(float iso, const Near& near) {
         // Lanes beyond the last cell repeat the first, so that the box around their points stays small.
@@ -101,7 +101,7 @@ public:
         const F aside = F::load(aside_);
         const auto jet_at = [&]<class Jet>(const Point3<F>& p, Jet jet) {
             const auto add_near = [&](const UnitBox& box, const auto& x) {
-                for (const NeighborList& c : near(box)) sum_jets<Kernel>(c.view(), x, p.y, p.z, jet);
+                for (const NeighborList& of_level : near(box)) sum_jets<Kernel>(of_level.view(), x, p.y, p.z, jet);
             };
             // A box that is rounded makes no difference: neighbors from a little farther than they reach.
             if constexpr (cluster_size.x == cells_of_origin)
@@ -118,17 +118,17 @@ public:
         found.inside.store(inside_);
     }
 
-    void enter_bends(State& s, const BlobRule& blobs) const {
+    void enter_bends(State& state, const BlobRule& blobs) const {
         for (int i = 0; i < count_; ++i)
-            s.bends[block_[i]] = cell_bend({curvature_[i], inside_[i]}, inside_corners_[i],
-                                           blobs.least_level(inside_corners_[i], s.reaches[block_[i]]));
+            state.bends[block_[i]] = cell_bend({curvature_[i], inside_[i]}, inside_corners_[i],
+                                               blobs.least_level(inside_corners_[i], state.reaches[block_[i]]));
     }
 
 private:
-    alignas(64) float corners_[8][cluster_blocks];  ///< less the iso-value
-    alignas(64) float mixed_[cluster_blocks];       ///< 1 where their signs are, else 0
+    alignas(64) float corners_[8][cluster_blocks];  ///< corner values less the iso-value
+    alignas(64) float mixed_[cluster_blocks];       ///< 1 where the corners' signs are mixed, else 0
     alignas(64) float lowest_[3][cluster_blocks];   ///< lowest points, units from their pair's
-    alignas(64) float aside_[cluster_blocks];       ///< of the pair along x, from the cluster's lowest point
+    alignas(64) float aside_[cluster_blocks];       ///< distance of the pair along x from the cluster's lowest point
     alignas(64) float curvature_[cluster_blocks];
     alignas(64) float inside_[cluster_blocks];
     std::uint32_t block_[cluster_blocks];
@@ -136,19 +136,19 @@ private:
     int count_ = 0;
 };
 
-/// Of the chosen cells.
+/// Finds the bends of the chosen cells.
 template <class Kernel>
-void measure(State& s, NeighborSearch& near) {
-    s.bends.assign(s.block_count(), {0.0F, 1});
-    const BlocksView blocks = s.blocks();
-    const BlobRule blobs{s.settings.blob_closest, s.settings.blob_level};
-    const float iso = s.settings.iso;
+void measure(State& state, NeighborSearch& search) {
+    state.bends.assign(state.block_count(), {0.0F, 1});
+    const BlocksView blocks = state.blocks();
+    const BlobRule blobs{state.settings.blob_closest, state.settings.blob_level};
+    const float iso = state.settings.iso;
     std::atomic<std::uint64_t> evaluations{0};
-    s.workers.for_ranges(s.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+    state.workers.for_ranges(state.grid.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
         std::uint64_t here = 0;
         for (std::size_t b = begin; b < end; ++b) {
-            const Brick& brick = s.grid.bricks[b];
-            const std::uint64_t* const chosen = &s.chosen_cells().word(static_cast<std::uint32_t>(b), 0);
+            const Brick& brick = state.grid.bricks[b];
+            const std::uint64_t* const chosen = &state.chosen_cells().word(static_cast<std::uint32_t>(b), 0);
             for_each_cluster(chosen, [&](const Int3& corner) {
                 const ClusterVertices vertices(blocks, static_cast<std::uint32_t>(b), corner);
                 SearchedCells cells;
@@ -159,24 +159,24 @@ void measure(State& s, NeighborSearch& near) {
                         cells.add(brick.number(place), step, vertices, iso);
                 }
                 const auto near_box = [&](const UnitBox& box) -> const NeighborLists::Levels& {
-                    return near.near_box(brick.corner() + corner, box, worker);
+                    return search.near_box(brick.corner() + corner, box, worker);
                 };
                 // A sheet of cells fills half of a wide register.
                 with_lanes_for(cells.count(), [&]<class F>() { cells.search<Kernel, F>(iso, near_box); });
-                cells.enter_bends(s, blobs);
+                cells.enter_bends(state, blobs);
                 here += 2 * static_cast<std::uint64_t>(cells.count());
             });
         }
         evaluations.fetch_add(here, std::memory_order_relaxed);
     });
-    s.field_evaluations += evaluations.load(std::memory_order_relaxed);
-    near.even_out();
+    state.field_evaluations += evaluations.load(std::memory_order_relaxed);
+    search.even_out();
 }
 
 }  // namespace
 
-void measure_bends(State& s, NeighborSearch& near) {
-    with_kernel(s.settings, [&]<class Kernel>() { measure<Kernel>(s, near); });
+void measure_bends(State& state, NeighborSearch& search) {
+    with_kernel(state.settings, [&]<class Kernel>() { measure<Kernel>(state, search); });
 }
 
 }  // namespace meniscus::cpu

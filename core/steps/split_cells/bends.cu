@@ -22,22 +22,22 @@ __device__ UnitBox box_of(const Point3<float>& p, bool counts) {
 }
 
 template <class Kernel>
-__global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_constant__ State f) {
-    __shared__ BoxNeighbors<Kernel, 4> particles[block_warps];
-    const BlocksView blocks = f.blocks();
-    const BlobRule blobs{f.settings.blob_closest, f.settings.blob_level};
-    const float iso = f.settings.iso;
+__global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_constant__ State state) {
+    __shared__ BoxNeighbors<Kernel, 4> neighbors[block_warps];
+    const BlocksView blocks = state.blocks();
+    const BlobRule blobs{state.settings.blob_closest, state.settings.blob_level};
+    const float iso = state.settings.iso;
     Counter evaluations = 0;
     const Int3 step = BendCluster::step(lane_index());
     // Relative to the corner of the cell's pair of cells a side, as on the CPU: the search meets points that are no
     // whole units.
     const Point3<float> corner{static_cast<float>(step.x & 1) * base_edge, static_cast<float>(step.y & 1) * base_edge,
                                static_cast<float>(step.z & 1) * base_edge};
-    LongLoop loop(f);
-    each_by_warp(BendCluster::of_brick * f.count(Resource::bricks), [&](std::uint64_t i) {
-        const BendCluster cluster(f, i);
-        std::uint32_t block = cluster.holds(f, step) ? cluster.block(f, step) : no_index;
-        if (block != no_index && f.level[block] == 0) block = no_index;
+    LongLoop loop(state);
+    each_by_warp(BendCluster::of_brick * state.count(Resource::bricks), [&](std::uint64_t i) {
+        const BendCluster cluster(state, i);
+        std::uint32_t block = cluster.holds(state, step) ? cluster.block(state, step) : no_index;
+        if (block != no_index && state.level[block] == 0) block = no_index;
         const bool is_asked = block != no_index;
         if (__ballot_sync(all_lanes, is_asked ? 1 : 0) == 0 || !loop.goes_on_together()) return;
         CellCorners<float> corners;
@@ -61,22 +61,23 @@ __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_co
                 box.low[axis] = max(box.low[axis] - 1.0F, cluster.box().low[axis]);
                 box.high[axis] = min(box.high[axis] + 1.0F, cluster.box().high[axis]);
             }
-            particles[warp_in_block()].for_each(f, cluster.brick, cluster.corner, box, [&](Neighbor c) {
+            neighbors[warp_in_block()].for_each(state, cluster.brick, cluster.corner, box, [&](Neighbor neighbor) {
                 // Whole units, so that this is exact.
-                c.particle.x -= aside[0];
-                c.particle.y -= aside[1];
-                c.particle.z -= aside[2];
-                sum_jets<Kernel>(c.view(), p.x, p.y, p.z, jet);
+                neighbor.particle.x -= aside[0];
+                neighbor.particle.y -= aside[1];
+                neighbor.particle.z -= aside[2];
+                sum_jets<Kernel>(neighbor.view(), p.x, p.y, p.z, jet);
             });
             return jet;
         };
         const SurfaceSearch<float> search =
             search_surface(corners, is_mixed(inside_corners) ? 1.0F : 0.0F, corner, iso, jet_at);
         if (is_asked)
-            f.bends[block] = cell_bend(search, inside_corners, blobs.least_level(inside_corners, f.reaches[block]));
+            state.bends[block] =
+                cell_bend(search, inside_corners, blobs.least_level(inside_corners, state.reaches[block]));
         evaluations += is_asked ? 2 : 0;
     });
-    add_of_lanes(&f.counts->field_evaluations, evaluations);
+    add_of_lanes(&state.counts->field_evaluations, evaluations);
 }
 
 }  // namespace

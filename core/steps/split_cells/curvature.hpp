@@ -83,9 +83,9 @@ MENISCUS_HD inline Point3<F> clamped_to_cell(const Point3<F>& p, const Point3<F>
             curvature_detail::clamped(p.z, corner.z, corner.z + edge)};
 }
 
-/// How much the surface bends near a point of a jet: both its principal curvatures, absolute, added; per unit. Those of
+/// The bend of the surface near a point of a jet: both its principal curvatures, absolute, added; per unit. Those of
 /// the point's own level set are the eigenvalues of the Hessian's tangential part over the length of the gradient.
-/// Level sets are taken as parallel: the surface's radii of curvature differ from these by its distance, which tells a
+/// Level sets are taken as parallel: the surface's radii of curvature differ from these by its distance, which gives a
 /// drop's size from outside of it.
 template <class F>
 MENISCUS_HD inline F total_curvature(const FieldJet<F>& j, float iso) {
@@ -104,7 +104,7 @@ MENISCUS_HD inline F total_curvature(const FieldJet<F>& j, float iso) {
     const F spread = sqrt(max(half * half - product, F(0.0F)));
     const F climb = (F(iso) - j.value) / size;  // the surface's distance along the gradient
     const auto curvature = [&](F eigenvalue) {
-        // Within a factor of 2: a gradient that almost vanishes tells neither distance nor radius.
+        // Within a factor of 2: a gradient that almost vanishes gives neither distance nor radius.
         const F gap = curvature_detail::clamped(fma(eigenvalue, climb, size), F(0.5F) * size, F(2.0F) * size);
         return max(eigenvalue, F(0.0F) - eigenvalue) / gap;
     };
@@ -114,7 +114,7 @@ MENISCUS_HD inline F total_curvature(const FieldJet<F>& j, float iso) {
 /// The result of search_surface().
 template <class F>
 struct SurfaceSearch {
-    F curvature;  ///< see total_curvature
+    F curvature;  ///< curvature there, see total_curvature
     F inside;     ///< distance of the point found from the cell's nearest face, units; negative if it left the cell
 };
 

@@ -9,9 +9,9 @@ namespace {
 
 /// A word of a brick that all lanes of a warp look at: half a word at a time, a lane for every bit.
 struct WordOfLanes {
-    std::uint32_t number;   ///< among the words of all bricks
-    std::uint64_t members;  ///< of the brick
-    std::uint32_t first;    ///< number of the first of them, or of the next one after it
+    std::uint32_t number;   ///< index among the words of all bricks
+    std::uint64_t members;  ///< members of the brick
+    std::uint32_t first;    ///< number of the first member, or of the next one after the word
 
     __device__ static int bit(int half) { return static_cast<int>(lane_index()) + 32 * half; }
     __device__ bool holds(int bit) const { return (members >> bit & 1) != 0; }
@@ -23,9 +23,9 @@ struct WordOfLanes {
 
 /// Calls visit(word) for the words of all bricks, each by all lanes of a warp.
 template <class Visit>
-__device__ void each_word_by_warp(const State& f, const Visit& visit) {
-    each_by_warp(Brick::words * f.count(Resource::bricks), [&](std::uint32_t i) {
-        const Brick& brick = f.bricks[i / Brick::words];
+__device__ void each_word_by_warp(const State& state, const Visit& visit) {
+    each_by_warp(Brick::words * state.count(Resource::bricks), [&](std::uint32_t i) {
+        const Brick& brick = state.bricks[i / Brick::words];
         const std::uint32_t w = i % Brick::words;
         visit(WordOfLanes{i, brick.occupied[w], brick.first + brick.rank[w]});
     });
@@ -47,10 +47,10 @@ __device__ CornerSets corner_sets_together(const BaseVertexSets& vertices, std::
 }
 
 /// All words: those without a member are neighbors of others.
-__global__ void __launch_bounds__(block_threads) collect_base_vertices(const __grid_constant__ State f) {
-    const BlocksView blocks = f.blocks();
-    const BandTest test{f.settings.iso, f.settings.deep_inside};
-    each_word_by_warp(f, [&](const WordOfLanes& word) {
+__global__ void __launch_bounds__(block_threads) collect_base_vertices(const __grid_constant__ State state) {
+    const BlocksView blocks = state.blocks();
+    const BandTest test{state.settings.iso, state.settings.deep_inside};
+    each_word_by_warp(state, [&](const WordOfLanes& word) {
         for (int half = 0; half < 2; ++half) {
             const int bit = WordOfLanes::bit(half);
             const std::uint32_t block = word.block(bit);
@@ -61,17 +61,17 @@ __global__ void __launch_bounds__(block_threads) collect_base_vertices(const __g
             if (lane_index() != 0) continue;
             // The lower half of a word comes first in memory.
             const std::uint64_t at = 2 * std::uint64_t{word.number} + static_cast<unsigned>(half);
-            reinterpret_cast<std::uint32_t*>(f.base_inside)[at] = all_inside;
-            reinterpret_cast<std::uint32_t*>(f.base_deep)[at] = all_deep;
+            reinterpret_cast<std::uint32_t*>(state.base_inside)[at] = all_inside;
+            reinterpret_cast<std::uint32_t*>(state.base_deep)[at] = all_deep;
         }
     });
 }
 
 /// Cells of the band get level 1.
-__global__ void __launch_bounds__(block_threads, 4) find_band(const __grid_constant__ State f, bool bends) {
-    const BaseVertexSets vertices{{f.grid(), f.base_inside}, {f.grid(), f.base_deep}};
-    const BandTest test{f.settings.iso, f.settings.deep_inside};
-    each_word_by_warp(f, [&](const WordOfLanes& word) {
+__global__ void __launch_bounds__(block_threads, 4) find_band(const __grid_constant__ State state, bool bends) {
+    const BaseVertexSets vertices{{state.grid(), state.base_inside}, {state.grid(), state.base_deep}};
+    const BandTest test{state.settings.iso, state.settings.deep_inside};
+    each_word_by_warp(state, [&](const WordOfLanes& word) {
         if (word.members == 0) return;
         const CornerSets corners =
             corner_sets_together(vertices, word.number / Brick::words, static_cast<int>(word.number % Brick::words));
@@ -79,19 +79,20 @@ __global__ void __launch_bounds__(block_threads, 4) find_band(const __grid_const
             const int bit = WordOfLanes::bit(half);
             const std::uint32_t block = word.block(bit);
             const bool exists = word.holds(bit);
-            const bool in_band = exists && corners.may_hold_surface(bit, test, f.reaches[block].bound);
-            if (exists) f.level[block] = in_band ? 1 : 0;
-            if (exists && bends) f.bends[block] = {0.0F, 1};
+            const bool in_band = exists && corners.may_hold_surface(bit, test, state.reaches[block].bound);
+            if (exists) state.level[block] = in_band ? 1 : 0;
+            if (exists && bends) state.bends[block] = {0.0F, 1};
         }
     });
 }
 
 template <class Rule>
-__global__ void __launch_bounds__(block_threads) choose_levels(const __grid_constant__ State f, const Rule level_of) {
-    const BlocksView blocks = f.blocks();
+__global__ void __launch_bounds__(block_threads)
+    choose_levels(const __grid_constant__ State state, const Rule level_of) {
+    const BlocksView blocks = state.blocks();
     GridLoop{}.each(blocks.count, [&](std::uint32_t b) {
-        f.wanted_level[b] = static_cast<std::uint8_t>(level_of(blocks, b));
-        if (f.level[b] != 0) f.level[b] = f.wanted_level[b];
+        state.wanted_level[b] = static_cast<std::uint8_t>(level_of(blocks, b));
+        if (state.level[b] != 0) state.level[b] = state.wanted_level[b];
     });
 }
 

@@ -41,7 +41,7 @@ struct UniformRule {
 /// core/README.md#neighbors-05-and-05).
 struct CurvatureRule {
     const CellBend* cells = nullptr;  ///< per block
-    float tolerance = 0.15F;          ///< in cells
+    float tolerance = 0.15F;          ///< largest departure, in cells
 
     MENISCUS_HD int operator()(const BlocksView& blocks, std::uint32_t block) const {
         float curvature = cells[block].curvature;
@@ -60,7 +60,7 @@ struct CurvatureRule {
 /// Drops that no corner shows: a cell whose corners are all outside, but with a particle so near that its own blob may
 /// reach in (core/README.md#drops-025-and-017).
 struct BlobRule {
-    float closest = 0.75F;  ///< see CellReach
+    float closest = 0.75F;  ///< threshold of CellReach::closest
     int level = 2;          ///< 3 where the finest cells are large against the support
 
     MENISCUS_HD int least_level(int inside_corners, const CellReach& reach) const {
@@ -98,10 +98,10 @@ struct BandTest {
 /// Base vertices as sets of the cells whose lowest corner they are.
 struct BaseVertexSets {
     CellSetView inside;
-    CellSetView deep;  ///< those inside that are deep, see BandTest
+    CellSetView deep;  ///< vertices inside that are deep, see BandTest
 };
 
-/// Of the 64 cells of a word.
+/// The base vertices at the corners of the 64 cells of a word.
 struct CornerSets {
     std::uint64_t any_inside = 0;
     std::uint64_t all_deep = ~std::uint64_t{0};

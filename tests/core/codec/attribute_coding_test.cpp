@@ -1,4 +1,4 @@
-// What vertices have travels with them: exactly, or within half a step of a range that stays.
+// Attributes travel with their vertices: exactly, or within half a step of a range that stays.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -156,7 +156,7 @@ TEST(CodedRange, StaysTheSameWhenValuesChangeALittle) {
     EXPECT_EQ(form.maximum[0], 3.0F);
     EXPECT_EQ(coded(points_with({-1.1F, 0.5F, 2.8F}), 8), form);
     EXPECT_EQ(coded(points_with({-1.2F, 2.76F}), 8).minimum, form.minimum);
-    // As the largest speed of water, which is another one in each frame.
+    // Like the largest speed of water, which differs in each frame.
     int changes = 0;
     CodedAttribute before = form;
     for (int frame = 0; frame < 100; ++frame) {

@@ -143,7 +143,7 @@ TEST(CanonicalOrder, IsThatOfComparisonHoweverVerticesLieAndTrianglesJoinThem) {
         const auto count = static_cast<std::uint32_t>(mesh.vertices.size());
         ASSERT_GT(count, 2U << 14) << "several slices";
         for (std::size_t level = 0; level < triangle_level_count; ++level) {
-            // Of level 2 none; of cracks all at a few vertices.
+            // No triangle of level 2; all of the cracks at a few vertices.
             const std::uint32_t triangles = level == 1 ? 0 : 40'000;
             const std::uint32_t vertices = level == 3 ? 100 : count;
             mesh.levels[level] = {static_cast<std::uint32_t>(mesh.triangles.size()), triangles};

@@ -28,7 +28,7 @@ struct Scene {
     Settings settings;
     test::Particles particles;
     CodingOptions options;
-    std::size_t brick;  ///< of the mesh
+    std::size_t brick;  ///< index among the mesh's bricks
     std::vector<AttributeWish> wishes{};
 };
 
@@ -47,8 +47,8 @@ Settings settings() {
     return s;
 }
 
-/// Of level 3, eight times as large as one of level 0: a surface that is coarse but for the place where a small one
-/// sits on it.
+/// Particles of level 3, eight times as large as those of level 0: a surface that is coarse but for the place where a
+/// small one sits on it.
 test::Particles large_and_small() {
     test::Particles particles;
     particles.add(2.0F, 2.0F, 2.0F);
@@ -65,7 +65,7 @@ test::Particles two_drops() {
     return particles;
 }
 
-/// As dense as water.
+/// A block of particles as dense as water.
 test::Particles block() {
     test::Particles particles;
     constexpr std::array places{1.0F, 1.25F, 1.5F};
@@ -161,7 +161,7 @@ CodedAttribute announced(const ordered_json& json) {
     return form;
 }
 
-/// What a decoder must make of the brick, in an order of its own: vertices ascending, triangles by their least vertex.
+/// The result of decoding the brick, in an order of its own: vertices ascending, triangles by their least vertex.
 ordered_json contents(const DecodedBrick& brick, std::uint32_t offset_bits) {
     std::vector<std::uint32_t> order(brick.vertices.size());
     for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = v;

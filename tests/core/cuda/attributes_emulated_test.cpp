@@ -19,7 +19,7 @@ Settings with_all(Settings settings = test::default_settings()) {
     return settings;
 }
 
-/// What a Reconstructor does around the backend.
+/// The part of a Reconstructor around the backend.
 class AttributesDevice {
 public:
     explicit AttributesDevice(const Settings& settings)

@@ -28,7 +28,7 @@ void expect_equal(const Mesh& mesh, const Mesh& expected) {
     EXPECT_TRUE(test::same_bytes(mesh.bricks, expected.bricks));
 }
 
-/// Particles, what the CPU makes of them, and what comes down of it.
+/// Particles, the CPU's mesh of them, and the mesh that comes down.
 struct Frame {
     explicit Frame(test::Particles made, const Settings& settings = test::default_settings())
         : particles(std::move(made)), expected(test::reconstruct(settings, particles.frame())) {
@@ -51,7 +51,7 @@ protected:
         device_account = std::make_shared<MemoryAccount>(limit, "on the GPU");
         device = cuda::make_reconstruction(settings, BackendOptions{}, account, device_account);
     }
-    /// As a reconstructor does after a failure.
+    /// Like a reconstructor after a failure.
     void make_device_again() {
         device.reset();
         device = cuda::make_reconstruction(test::default_settings(), BackendOptions{}, account, device_account);
@@ -291,7 +291,7 @@ TEST_F(CudaDownload, AMeshComesDownAfterItsReconstructorHasEnded) {
     EXPECT_EQ(device_account->bytes(), 0U);
 }
 
-TEST_F(CudaDownload, ADeviceThatFailsMeanwhileIsToldToWhoeverAsksAndTheNextFrameWorks) {
+TEST_F(CudaDownload, ADeviceThatFailsMeanwhileIsReportedToTheCallerAndTheNextFrameWorks) {
     make_device();
     Frame first(1), second(2);
     begin(first);

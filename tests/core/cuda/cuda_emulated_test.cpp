@@ -1,5 +1,5 @@
-// The CUDA backend's kernels, run by a device in software, give the CPU's mesh to the bit. (What only a GPU can show:
-// cuda_test.cpp.)
+// The CUDA backend's kernels, run by a device in software, give the CPU's mesh to the bit. (cuda_test.cpp has the tests
+// that need a GPU.)
 #include <gtest/gtest.h>
 
 #include "meniscus/meniscus.hpp"

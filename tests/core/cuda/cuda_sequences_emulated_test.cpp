@@ -1,5 +1,5 @@
 // Random sequences of frames on the device in software, with and without levels and payload, crowded ones, capped
-// emissions, downloads that wait and memory limits between: each mesh is the CPU's, whatever came before it.
+// emissions, downloads that wait and memory limits between: each mesh is the CPU's, after any frames before it.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -18,7 +18,7 @@ namespace {
 /// Frames that repeat in a sequence, with the CPU's meshes of them.
 struct Scene {
     test::Particles particles;
-    Mesh meshes[4];  ///< by cap of the levels, 1 to 3; 0: as the frame has them
+    Mesh meshes[4];  ///< meshes by cap of the levels, 1 to 3; 0: without a cap
 };
 
 std::vector<Scene> scenes_with_and_without_levels() {
@@ -129,7 +129,7 @@ private:
         std::optional<RandomPayload> payload;
         if (random_() % 2 == 0) frame.arrays = payload.emplace(random_, frame.count()).arrays;
         EXPECT_THROW(static_cast<void>(backend_->reconstruct(frame, mesh, statistics)), LimitExceeded);
-        // A reconstructor makes its backend anew. One that was refused memory cannot go on; one that found a crowd can.
+        // A reconstructor makes its backend anew. A backend that was refused memory cannot go on; after a crowd it can.
         if (device_limit_ != 0 || random_() % 2 == 0) begin();
     }
 

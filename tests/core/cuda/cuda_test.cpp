@@ -14,7 +14,7 @@
 namespace meniscus {
 namespace {
 
-/// Why there is no GPU; empty if there is one.
+/// The reason why there is no GPU; empty if there is one.
 std::string reason_without_gpu() {
     const BackendDescription description = describe_backend(Backend::automatic);
     return description.backend == Backend::cuda ? std::string() : description.reason;
@@ -195,7 +195,7 @@ TEST_F(Cuda, AFramePastTheDeviceMemoryLimitIsRefusedWithNumbersAndTheNextOneWork
 }
 
 TEST_F(CudaSmall, TakesParticlesThatAreOnTheDevice) {
-    // What is there already is a mesh: its normals serve as places on a sphere.
+    // A mesh is there already: its normals serve as places on a sphere.
     Settings settings = test::default_settings();
     const test::Particles particles = test::splash(9, 5);
     Reconstructor maker(settings, {Backend::cuda, 0, 0});

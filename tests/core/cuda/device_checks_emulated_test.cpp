@@ -1,4 +1,4 @@
-// What the device in software notices: kernels that break the rules of a GPU or of CUB do not pass.
+// The checks of the device in software: kernels that break the rules of a GPU or of CUB do not pass.
 #include <cooperative_groups.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -34,14 +34,14 @@ void run_together(unsigned blocks, void (*kernel)(Parameters...),
     stream.synchronize();
 }
 
-/// Of a brick that is the last of the most that there may be: all clusters together are more than 2^32.
-void find_the_last_cluster(const cuda::State* f, std::uint32_t* brick, int* corner) {
+/// The last cluster of the last brick that there may be: all clusters together are more than 2^32.
+void find_the_last_cluster(const cuda::State* state, std::uint32_t* brick, int* corner) {
     using Cluster = cuda::CellCluster<4, 2, 2>;
-    const Cluster cluster(*f, Cluster::of_brick * cuda::too_many(cuda::Resource::bricks) - 1);
+    const Cluster cluster(*state, Cluster::of_brick * cuda::too_many(cuda::Resource::bricks) - 1);
     *brick = cluster.brick;
     *corner = index_in_brick(cluster.corner);
 }
-/// As many elements as 32 bits cannot count, from the last few on.
+/// A loop over more elements than 32 bits can count, from the last few on.
 void count_the_last_of_many(unsigned long long* sum) {
     constexpr std::uint64_t many = (std::uint64_t{1} << 32) + 2;
     cuda::GridLoop loop;
@@ -168,7 +168,7 @@ TEST(DeviceChecksEmulated, AnOverrunOfSharedMemoryIsFound) {
 void note_order(unsigned* noted, unsigned* count) {
     if (threadIdx.x == 0) noted[atomicAdd(count, 1U)] = blockIdx.x;
 }
-/// Each block's first thread notes what the next block's has written before the grid waited.
+/// Each block's first thread notes the value that the next block's has written before the grid waited.
 void pass_on(unsigned* written, unsigned* read, bool waits) {
     if (threadIdx.x == 0) written[blockIdx.x] = blockIdx.x + 1;
     if (waits) cooperative_groups::this_grid().sync();
@@ -281,7 +281,7 @@ TEST(DeviceChecksEmulated, PairsWithEqualKeysKeepTheirOrderWhicheverBufferHoldsT
         std::vector<std::uint32_t> values(n), values_room(n);
         constexpr unsigned bits = 42;
         for (std::size_t i = 0; i < n; ++i) {
-            // What lies above the sorted bits would order them the other way round.
+            // The bits above the sorted ones would order them the other way round.
             keys[i] = (i % 3) << (bits - 2) | (n - i) << bits;
             values[i] = static_cast<std::uint32_t>(i);
         }

@@ -25,7 +25,7 @@ public:
           bytes_of_positions_(particles.positions.size() * sizeof(float)) {
         memory_.assign(bytes_of_positions_ + particles.levels.size() + 1);
         stream_.synchronize();
-        // On their way: whoever does not wait for the stream finds zeros.
+        // On their way: code that does not wait for the stream finds zeros.
         copy(particles_.positions.data(), bytes_of_positions_, memory_.get());
         copy(particles_.levels.data(), particles_.levels.size(), memory_.get() + bytes_of_positions_);
     }
@@ -60,7 +60,7 @@ public:
     ParticlesByLevel validate(const OnDevice& particles) {
         return backend_->validate_on_device(particles.frame(), particles.stream(), settings_);
     }
-    /// What a frame is refused with; empty if it is not.
+    /// The text with which a frame is refused; empty if it is not.
     std::string refusal(const ParticleFrame& frame, void* stream) {
         try {
             backend_->validate_on_device(frame, stream, settings_);

@@ -1,5 +1,5 @@
-// Ten faults, put into the software device's copies of the CUDA backend, and for each the check that catches it. Where
-// that check were missing, the faulty backend would pass for a right one, and its test here would fail.
+// Ten faults, put into the software device's copies of the CUDA backend, and for each the check that catches it.
+// Without that check the faulty backend would pass for a right one, and its test here would fail.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -43,7 +43,7 @@ public:
                test::same_bytes(mesh.normals, expected_.normals) &&
                test::same_bytes(mesh.triangles, expected_.triangles) && test::same_bytes(mesh.spray, expected_.spray);
     }
-    /// In a few orders of threads and blocks.
+    /// Reconstructs in a few orders of threads and blocks.
     bool gives_the_cpus_bytes_in_any_order() {
         for (unsigned seed = 1; seed <= 4; ++seed) {
             emulated_device::seed_order(seed);
@@ -51,7 +51,7 @@ public:
         }
         return true;
     }
-    /// What the device's error says; empty if there is none.
+    /// The text of the device's error; empty if there is none.
     std::string error() {
         try {
             reconstruct();

@@ -13,7 +13,7 @@
 namespace meniscus {
 namespace {
 
-/// On the software device, whose backend the Reconstructor cannot be asked for.
+/// Reconstructs on the software device, which the Reconstructor does not offer as a backend.
 Mesh reconstruct(const Settings& settings, const ParticleFrame& frame, int max_level) {
     const auto backend = cuda::make_reconstruction(settings, BackendOptions{}, std::make_shared<MemoryAccount>(),
                                                    std::make_shared<MemoryAccount>(0, "on the GPU"));

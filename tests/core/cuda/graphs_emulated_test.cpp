@@ -1,4 +1,4 @@
-// Graphs and the times of stages are a matter of speed and of knowledge: a frame that has neither has the same mesh.
+// Graphs and the times of stages are a matter of speed and of knowledge: a frame without them has the same mesh.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -25,7 +25,7 @@ public:
             payloads.push_back(particles.payload_of(run_.state().sources[i]));
         return payloads;
     }
-    /// Of the sorted particles, all levels in one.
+    /// Indices in the frame of the sorted particles, all levels in one.
     std::vector<std::uint32_t> sources(const ParticleFrame& frame) {
         run_.run(frame);
         return {run_.state().sources, run_.state().sources + frame.count()};

@@ -54,7 +54,7 @@ protected:
         EXPECT_TRUE(test::same_bytes(mesh.triangles, expected.triangles));
         EXPECT_TRUE(test::same_bytes(mesh.bricks, expected.bricks));
     }
-    /// Charged as a reconstructor's meshes are.
+    /// A mesh that is charged as a reconstructor's meshes are.
     void adopt_mesh() {
         mesh.vertices = Array<LatticePosition>(AccountAllocator<LatticePosition>(account));
         mesh.normals = Array<Normal>(AccountAllocator<Normal>(account));
@@ -121,7 +121,7 @@ TEST_F(PinnedArrays, NothingIsWrittenToAMeshAfterItsDownloadHasFailed) {
     emulated_device::before_copy_to_host = nullptr;
     const LatticePosition mark{1, 2, 3};
     std::fill(mesh.vertices.begin(), mesh.vertices.end(), mark);
-    device.reset();  // works off what is left on its streams
+    device.reset();  // works off the rest on its streams
     download = {};
     EXPECT_TRUE(std::ranges::all_of(mesh.vertices, [&](const LatticePosition& v) { return v == mark; }));
 }

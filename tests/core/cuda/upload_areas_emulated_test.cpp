@@ -1,5 +1,5 @@
 // Frames that are sent to a GPU while the frame before is reconstructed there: on a device in software whose streams do
-// nothing before they are waited for, so that whoever does not wait meets what was in the area before.
+// nothing before they are waited for, so that code that does not wait meets the old bytes of the area.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,7 @@
 namespace meniscus {
 namespace {
 
-/// Particles in pinned memory, and what the CPU makes of them.
+/// Particles in pinned memory, and the CPU's mesh of them.
 struct Frame {
     explicit Frame(unsigned seed, int side = 6, float stretch = 1.0F)
         : particles(test::splash(seed, side)), pinning(cuda::page_pinning(0)) {
@@ -61,7 +61,7 @@ protected:
         const std::uint64_t number = sender->send(frame.view());
         return number != 0 ? FrameUpload(std::move(sender), number) : FrameUpload();
     }
-    /// Returns how many bytes of its particles were asked for meanwhile.
+    /// Returns the number of bytes of its particles that were asked for meanwhile.
     std::size_t reconstruct(const Frame& frame, const FrameUpload* sent = nullptr) {
         std::size_t copied = 0;
         emulated_device::on_copy = [&](const void*, const void* from, std::size_t bytes, cudaMemcpyKind kind) {
@@ -92,8 +92,8 @@ protected:
         emulated_device::before_copy_to_host = nullptr;
         return ahead;
     }
-    /// So that there are two areas for frames of this size.
-    void wish_for_two(const Frame& frame) {
+    /// Makes two areas exist for frames of this size.
+    void make_two_areas(const Frame& frame) {
         EXPECT_FALSE(send(frame).has_begun()) << "there is no area yet";
         reconstruct(frame);
     }
@@ -106,7 +106,7 @@ protected:
 TEST_F(UploadAreas, EachFrameIsSentWhileTheOneBeforeIsWorkedAt) {
     make_device();
     const std::array<Frame, 2> frames{Frame(1), Frame(2)};
-    wish_for_two(frames[0]);
+    make_two_areas(frames[0]);
     FrameUpload sent;
     for (std::size_t i = 0; i < 6; ++i) {
         FrameUpload next = reconstruct_and_send(frames.at(i % 2), &sent, frames.at((i + 1) % 2));
@@ -122,7 +122,7 @@ TEST_F(UploadAreas, EachFrameIsSentWhileTheOneBeforeIsWorkedAt) {
 TEST_F(UploadAreas, AFrameThatNeedsMoreRoomIsNotSentAgain) {
     make_device();
     const Frame close(1), wide(1, 6, 3.0F);
-    wish_for_two(close);
+    make_two_areas(close);
     const FrameUpload sent = send(wide);
     ASSERT_TRUE(sent.has_begun());
     const std::uint64_t allocations = device_account->allocations();
@@ -134,7 +134,7 @@ TEST_F(UploadAreas, AFrameThatIsGivenUpIsNotReadAnyMoreAndLeavesItsAreaToTheNext
     make_device();
     Frame first(1);
     const Frame second(2);
-    wish_for_two(first);
+    make_two_areas(first);
     for (int round = 0; round < 3; ++round) {
         FrameUpload sent = send(first);
         EXPECT_TRUE(sent.has_begun());
@@ -147,7 +147,7 @@ TEST_F(UploadAreas, AFrameThatIsGivenUpIsNotReadAnyMoreAndLeavesItsAreaToTheNext
 TEST_F(UploadAreas, AFrameBetweenLeavesTheOneThatWasSentWhereItIs) {
     make_device();
     const Frame first(1), second(2);
-    wish_for_two(first);
+    make_two_areas(first);
     const FrameUpload sent = send(second);
     EXPECT_EQ(reconstruct(first), first.bytes());
     EXPECT_EQ(reconstruct(first), first.bytes());
@@ -157,13 +157,13 @@ TEST_F(UploadAreas, AFrameBetweenLeavesTheOneThatWasSentWhereItIs) {
 TEST_F(UploadAreas, OtherArraysThanWereSentAndOtherReconstructionsFramesAreCopied) {
     make_device();
     const Frame first(1), second(2);
-    wish_for_two(first);
+    make_two_areas(first);
     const FrameUpload sent = send(first);
     ASSERT_TRUE(sent.has_begun());
     EXPECT_EQ(reconstruct(second, &sent), second.bytes());
     const auto other = std::move(device);
     make_device();
-    wish_for_two(first);
+    make_two_areas(first);
     EXPECT_EQ(reconstruct(first, &sent), first.bytes());
 }
 
@@ -171,7 +171,7 @@ TEST_F(UploadAreas, MemoryThatIsNotPinnedIsNotSentAndALargerFrameNotBeforeItsSiz
     make_device();
     const Frame small(1);
     Frame large(2, 9);
-    wish_for_two(small);
+    make_two_areas(small);
     EXPECT_FALSE(send(large).has_begun());
     EXPECT_EQ(reconstruct(large), large.bytes());
     EXPECT_TRUE(send(large).has_begun());
@@ -208,7 +208,7 @@ TEST_F(UploadAreas, WhereTheLimitLeavesNoSecondAreaFramesAreSentIfNoneIsWorkedAt
 TEST_F(UploadAreas, ACopyThatFailsFailsNoFrame) {
     make_device();
     const Frame first(1), second(2);
-    wish_for_two(first);
+    make_two_areas(first);
     emulated_device::on_copy = [](const void*, const void*, std::size_t, cudaMemcpyKind) {
         return cudaErrorLaunchFailure;
     };
@@ -222,7 +222,7 @@ TEST_F(UploadAreas, AFrameThatIsStoppedLeavesTheNextOneSent) {
     const auto stop = std::make_shared<StopFlag>();
     make_device(0, stop);
     const Frame first(1), second(2);
-    wish_for_two(first);
+    make_two_areas(first);
     const FrameUpload sent_first = send(first);
     stop->raise();
     EXPECT_THROW(reconstruct(first, &sent_first), Stopped);
@@ -236,7 +236,7 @@ TEST_F(UploadAreas, AFrameThatIsStoppedLeavesTheNextOneSent) {
 TEST_F(UploadAreas, AReconstructionThatEndsTakesWhatWasSentWithIt) {
     make_device();
     const Frame frame(1);
-    wish_for_two(frame);
+    make_two_areas(frame);
     const auto sender = device->sender();
     const FrameUpload sent = send(frame);
     EXPECT_TRUE(sent.has_begun());
@@ -248,7 +248,7 @@ TEST_F(UploadAreas, AReconstructionThatEndsTakesWhatWasSentWithIt) {
 TEST_F(UploadAreas, OneThreadSendsWhatAnotherReconstructs) {
     make_device();
     const std::array<Frame, 3> frames{Frame(1), Frame(2), Frame(3)};
-    wish_for_two(frames[0]);
+    make_two_areas(frames[0]);
     FrameUpload sent;
     for (std::size_t i = 0; i < 9; ++i) {
         FrameUpload next;

@@ -18,7 +18,7 @@
 namespace meniscus {
 namespace {
 
-/// In the place of cuda::ParticleField.
+/// A field in the place of cuda::ParticleField.
 struct NoiseField {
     struct Shared {};
     static constexpr bool has_own_supports = false;
@@ -42,14 +42,14 @@ struct NoiseField {
             return {none, none, none};
         }
     };
-    Near near(const cuda::State& f, const cuda::Cluster& cluster, const UnitBox&, Shared&) const {
-        return {world, cluster.coordinate(f.blocks())};
+    Near near(const cuda::State& state, const cuda::Cluster& cluster, const UnitBox&, Shared&) const {
+        return {world, cluster.coordinate(state.blocks())};
     }
 };
-/// Which has none.
+/// Such a field has no attributes.
 void place_attributes(const cuda::State&, const NoiseField&, const cuda::Launcher&) {}
 
-/// The device's memory is the host's: what asks for particles is done by the host between waits for the stream.
+/// The device's memory is the host's: the steps that need particles are done by the host between waits for the stream.
 template <Slivers slivers>
 class NoiseSteps : public cuda::SurfaceSteps<NoiseField, slivers> {
     using Surface = cuda::SurfaceSteps<NoiseField, slivers>;
@@ -151,7 +151,7 @@ public:
         return mesh;
     }
 
-    /// Of the mesh before its levels were capped.
+    /// Six times the volume of the mesh before its levels were capped.
     std::uint64_t measured_sixfold_volume() const { return sixfold_volume_; }
 
 private:

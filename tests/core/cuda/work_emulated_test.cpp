@@ -12,7 +12,7 @@
 namespace meniscus {
 namespace {
 
-/// Calls it whenever a kernel asks the time, as those do that look at the stop flag.
+/// Calls a function whenever a kernel asks the time, as kernels do that look at the stop flag.
 struct ClockHook {
     explicit ClockHook(std::function<void()> call) { emulated_device::on_clock = std::move(call); }
     ~ClockHook() { emulated_device::on_clock = nullptr; }
@@ -38,7 +38,7 @@ std::string refusal_of(BackendReconstruction& backend, const test::Particles& pa
 
 TEST(WorkEmulated, IsEstimatedAsOnTheCpu) {
     BackendOptions options{Backend::cpu, 1, 0};
-    // Few particles can be too much only where little is.
+    // Few particles are too much work only under a low limit.
     options.work_limit = 20.0;
     Settings fine = test::default_settings();
     fine.particle_radius = 1.0;
@@ -67,7 +67,7 @@ TEST(WorkEmulated, IsEstimatedAsOnTheCpu) {
     EXPECT_NE(sums.find("the field at the particles' places"), std::string::npos) << sums;
 }
 
-/// At so many of the places at which kernels ask, evenly over the frame.
+/// Raises the stop flag at `tries` of the places at which kernels ask, evenly over the frame.
 void expect_stops(const test::Particles& particles, int tries) {
     const Settings settings = test::default_settings();
     const std::string expected = mesh_sha256(test::reconstruct(settings, particles.frame()));

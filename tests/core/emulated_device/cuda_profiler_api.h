@@ -1,4 +1,4 @@
-// The calls that tell a profiler when to look, for the device in software: it has none.
+// The calls that start and stop a profiler, for the device in software: it has none.
 #pragma once
 
 #include "cuda_runtime.h"

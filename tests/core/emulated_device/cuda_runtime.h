@@ -1,10 +1,10 @@
 // A device in software, so that the CUDA backend's kernels run where there is no GPU: this stands in for CUDA's own
 // header when they are compiled as C++. Every thread of a block is a fiber; fibers change where threads wait for each
 // other, in an order of chance. Blocks begin in an order of chance, too: two at once, and all at once in a cooperative
-// grid. Work waits in its stream until the host waits for it, so that whoever does not wait meets old bytes. It shows
-// what a kernel computes, and waits that do not fit together; not races within a warp's step, nor speed.
+// grid. Work waits in its stream until the host waits for it, so that code that does not wait meets old bytes. It
+// shows the results of a kernel, and waits that do not fit together; not races within a warp's step, nor speed.
 //
-// What is compiled are copies: of `__shared__ type name;` the build makes a call of emulated_device::shared()
+// Copies of the sources are compiled: of `__shared__ type name;` the build makes a call of emulated_device::shared()
 // (copy_source.cmake), and a test can put faults in force in them (faults.cmake).
 #pragma once
 
@@ -39,15 +39,15 @@ struct Index {
 };
 extern Index thread_index, block_index, block_size, grid_size;
 
-/// What the lanes of a warp, or the threads of a block or grid, wait for together.
+/// The kinds of meetings for which the lanes of a warp, or the threads of a block or grid, wait together.
 enum class Meeting : std::uint8_t { sync_warp, ballot, shuffle, shuffle_up, shuffle_xor, sync_block, sync_grid };
 using Place = std::source_location;
 
 /// Waits for all threads of the block or grid, which must come to the same place.
 void wait_for_block(Place place);
 void wait_for_grid(Place place);
-/// Lets every lane see what the lanes of its warp have given, once all have that the mask names: to the same meeting at
-/// the same place, by the same mask.
+/// Lets every lane see the values that the lanes of its warp have given, once all lanes of the mask have: to the same
+/// meeting at the same place, by the same mask.
 const std::uint64_t* exchange(std::uint64_t value, unsigned mask, Meeting meeting, Place place);
 
 /// Memory of the running block, the same for all that ask in one line; rubbish when the block begins.
@@ -58,24 +58,24 @@ T& shared(Place place = Place::current()) {
     return *static_cast<T*>(shared_memory(sizeof(T), alignof(T), place.line()));
 }
 
-/// Into the stream, or the graph that it is being captured into.
+/// Puts work into the stream, or the graph that it is being captured into.
 void submit(cudaStream_t stream, const std::function<void()>& work);
 /// Called, if there, whenever a thread asks the clock.
 extern std::function<void()> on_clock;
 void run_kernel(unsigned blocks, unsigned threads, bool cooperative, const std::function<void()>& kernel);
-/// Of the shuffles that choose what comes next; the same seed gives the same order.
+/// Seed of the shuffles that choose the next thread; the same seed gives the same order.
 void seed_order(unsigned seed);
 
-/// What runs kernels in place of this device's threads, if there: with the addresses of the arguments.
+/// Runs kernels in place of this device's threads, if set: with the addresses of the arguments.
 struct KernelRunner {
     std::function<void(const void* kernel, unsigned blocks, unsigned threads, bool cooperative, void* const* arguments)>
         run;
-    unsigned processors = 1;                                     ///< as many as the backend is told of
-    std::function<int(const void* kernel)> blocks_of_processor;  ///< that run at once
+    unsigned processors = 1;                                     ///< number of multiprocessors that the backend sees
+    std::function<int(const void* kernel)> blocks_of_processor;  ///< number of blocks that run at once on one
 };
 extern KernelRunner* runner;
 
-/// What the device has.
+/// The properties of the device.
 inline constexpr unsigned processors = 1;
 inline constexpr unsigned blocks_of_processor = 4;
 
@@ -96,7 +96,7 @@ inline emulated_device::Index& blockIdx = emulated_device::block_index;
 inline emulated_device::Index& blockDim = emulated_device::block_size;
 inline emulated_device::Index& gridDim = emulated_device::grid_size;
 
-/// A clock that ticks in long steps: whoever asks something every few milliseconds asks it every time.
+/// A clock that ticks in long steps: a question every few milliseconds is asked every time.
 inline long long clock64() {
     static long long now = 0;
     if (emulated_device::on_clock) emulated_device::on_clock();
@@ -177,10 +177,10 @@ enum cudaError_t {
     cudaErrorHostMemoryNotRegistered,
     cudaErrorInvalidConfiguration,
     cudaErrorCooperativeLaunchTooLarge,
-    cudaErrorStreamCaptureUnsupported,  ///< what would wait or allocate while this thread captures a graph
+    cudaErrorStreamCaptureUnsupported,  ///< for calls that would wait or allocate while this thread captures a graph
 };
 namespace emulated_device {
-/// Called, if there, before every copy to the host, by whoever asks for that; what it answers is the copy's status.
+/// Called, if set, before every copy to the host, in the thread that asks for it; its answer is the copy's status.
 extern std::function<cudaError_t()> before_copy_to_host;
 }  // namespace emulated_device
 enum cudaDeviceAttr { cudaDevAttrMultiProcessorCount };
@@ -230,7 +230,7 @@ struct cudaLaunchConfig_t {
     unsigned numAttrs;
 };
 
-/// Of a kernel; this device has no registers.
+/// Attributes of a kernel; this device has no registers.
 struct cudaFuncAttributes {
     int numRegs;
     std::size_t sharedSizeBytes;
@@ -238,7 +238,7 @@ struct cudaFuncAttributes {
 
 const char* cudaGetErrorString(cudaError_t);
 cudaError_t cudaFuncGetAttributes(cudaFuncAttributes*, const void* kernel);
-/// The mangled name; cudaErrorInvalidValue for what is no function of this program.
+/// The mangled name; cudaErrorInvalidValue for an address that is no function of this program.
 cudaError_t cudaFuncGetName(const char** name, const void* kernel);
 cudaError_t cudaGetLastError();
 cudaError_t cudaGetDevice(int* device);

@@ -1,4 +1,4 @@
-// What tests ask of the software device's events and graphs, and tell them.
+// Questions and orders of tests to the software device's events and graphs.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace emulated_device {
 
-/// How many graphs were launched in this process.
+/// Number of graphs that were launched in this process.
 extern std::size_t graph_launches;
-/// What cudaEventElapsedTime answers.
+/// The answer of cudaEventElapsedTime.
 extern cudaError_t elapsed_time_status;
 
 }  // namespace emulated_device

@@ -7,7 +7,7 @@ plant(index_off_by_one steps/place_vertices/place_vertices.cu
   [=[Vertex v(edges, place.i);]=]
   [=[Vertex v(edges, std::min(place.i + (FAULTY(index_off_by_one) ? 1 : 0), edges.count() - 1));]=])
 
-# A block's triangles are told before all warps have counted theirs.
+# A block's triangles are added up before all warps have counted theirs.
 plant(missing_barrier steps/count_triangles/count_triangles.cu
   [=[    __syncthreads();
     if (threadIdx.x < 3 && total]=]
@@ -19,10 +19,10 @@ plant(wrong_mask neighbors/cuda/neighbor_list.hpp
   [=[__ballot_sync(all_lanes, has_one ? 1 : 0);]=]
   [=[__ballot_sync(FAULTY(wrong_mask) ? all_lanes >> 1 : all_lanes, has_one ? 1 : 0);]=])
 
-# The normal of each cluster's last vertex is what lies in memory.
+# The normal of each cluster's last vertex is not written.
 plant(unset_word steps/place_vertices/place_vertices.cu
-  [=[if (i < count) f.normals[place.number] =]=]
-  [=[if (i < count - (FAULTY(unset_word) ? 1 : 0)) f.normals[place.number] =]=])
+  [=[if (i < count) state.normals[place.number] =]=]
+  [=[if (i < count - (FAULTY(unset_word) ? 1 : 0)) state.normals[place.number] =]=])
 
 # The sum of counts of vertices goes on one behind the array.
 plant(guard_overrun steps/place_vertices/place_vertices.cu
@@ -44,10 +44,10 @@ plant(wrong_block_count engine/cuda/launch.hpp
   [=[launch(FAULTY(wrong_block_count) ? static_cast<unsigned>(most + 1) : blocks_for(elements, block_threads, most), true,
                kernel, arguments...);]=])
 
-# Cells that blocks but the grid's first have found in a search are not told to the others.
+# Cells that other blocks than the grid's first have found in a search are not listed.
 plant(lost_flag steps/adjust_levels/sweeps.hpp
-  [=[if ((cell.put_into(f_.raised) & cell.bit) == 0) list(block);]=]
-  [=[if ((cell.put_into(f_.raised) & cell.bit) == 0 && !(FAULTY(lost_flag) && blockIdx.x != 0)) list(block);]=])
+  [=[if ((cell.put_into(state_.raised) & cell.bit) == 0) list(block);]=]
+  [=[if ((cell.put_into(state_.raised) & cell.bit) == 0 && !(FAULTY(lost_flag) && blockIdx.x != 0)) list(block);]=])
 
 # Triangles of a cell lie in the order in which its lanes come by.
 plant(unstable_order steps/emit_triangles/emit_triangles.cu

@@ -20,10 +20,10 @@ enum class Fault : std::uint8_t {
     scratch_too_small,
 };
 
-/// The one in force.
+/// The fault in force.
 inline Fault fault = Fault::none;
 
-/// For the time of its life.
+/// Puts a fault in force for the time of its life.
 class FaultInForce {
 public:
     explicit FaultInForce(Fault chosen) { fault = chosen; }

@@ -33,14 +33,14 @@ public:
     static void change(Fiber& from, Fiber& to) { change(from, to, false); }
     /// The same for a fiber that has come to its end.
     [[noreturn]] static void leave(Fiber& from, Fiber& to);
-    /// What entry() calls first.
+    /// Called first by entry().
     static void arrive();
 
 private:
     static void change(Fiber& from, Fiber& to, bool for_good);
 
     void* at_ = nullptr;  ///< the stack's pointer, while it does not run
-    // What the address sanitizer wants to know.
+    // For the address sanitizer.
     const void* stack_ = nullptr;
     std::size_t stack_bytes_ = 0;
     void* fake_stack_ = nullptr;

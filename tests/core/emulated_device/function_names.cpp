@@ -18,7 +18,7 @@ const T* at(const std::vector<char>& file, std::uint64_t offset) {
     return reinterpret_cast<const T*>(file.data() + offset);
 }
 
-/// Where the program lies in memory, less where its file says.
+/// The program's address in memory, less the one in its file.
 std::uint64_t load_offset() {
     std::uint64_t offset = 0;
     dl_iterate_phdr(

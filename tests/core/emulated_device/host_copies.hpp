@@ -1,4 +1,4 @@
-// What tests ask of the software device's copies and of memory that it pins, and tell them.
+// Questions and orders of tests to the software device's copies and the memory that it pins.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace emulated_device {
 
-/// Called, if there, for every copy as it is asked for; what it answers is the copy's status.
+/// Called, if set, for every copy as it is asked for; its answer is the copy's status.
 extern std::function<cudaError_t(const void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind)> on_copy;
-/// What cudaHostRegister answers.
+/// The answer of cudaHostRegister.
 extern cudaError_t register_status;
-/// What cudaHostUnregister answers, which does nothing then unless it is cudaSuccess.
+/// The answer of cudaHostUnregister, which does nothing unless it is cudaSuccess.
 extern cudaError_t unregister_status;
 
 }  // namespace emulated_device

@@ -1,4 +1,4 @@
-// What threads of the device wait for together, and where: all must come to the same.
+// Meetings of the device's threads, and their places: all must come to the same one.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct Waiting {
 /// The threads of a block, or of a grid.
 struct Barrier {
     unsigned arrived = 0;
-    Waiting waiting;  ///< of the first that has arrived
+    Waiting waiting;  ///< meeting of the first thread that has arrived
 };
 
 }  // namespace emulated_device

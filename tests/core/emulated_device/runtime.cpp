@@ -25,7 +25,7 @@ struct EmulatedStream {
 };
 struct EmulatedEvent {
     EmulatedStream* stream = nullptr;  ///< none before it is recorded
-    std::size_t after = 0;             ///< work of the stream
+    std::size_t after = 0;             ///< amount of the stream's work before it
 };
 
 namespace {
@@ -34,7 +34,7 @@ thread_local bool captures = false;
 
 std::mutex device;  // its threads are one set of fibers: it works for one thread of the host at a time
 
-/// Of device memory, and of the host's that is pinned, by their begin.
+/// Sizes of pieces of device memory, and of pinned host memory, by their begin.
 struct Piece {
     std::size_t bytes;
     cudaMemoryType type;
@@ -50,7 +50,7 @@ bool remove_piece(void* memory) {
     const std::lock_guard lock(pieces_mutex);
     return pieces.erase(static_cast<const std::byte*>(memory)) != 0;
 }
-/// Whether some bytes of memory of the host's are pinned and others are not.
+/// Whether some bytes of this host memory are pinned and others are not.
 bool is_partly_pinned(const void* memory, std::size_t bytes) {
     const auto* const begin = static_cast<const std::byte*>(memory);
     const std::byte* const end = begin + bytes;
@@ -61,7 +61,7 @@ bool is_partly_pinned(const void* memory, std::size_t bytes) {
             pinned += static_cast<std::size_t>(std::min(end, at + piece.bytes) - std::max(begin, at));
     return pinned != 0 && pinned != bytes;
 }
-/// No byte more, so that the address sanitizer sees what is beside it.
+/// Allocates no byte more, so that the address sanitizer sees accesses beside it.
 cudaError_t allocate(void** memory, std::size_t bytes) {
     if (captures) return cudaErrorStreamCaptureUnsupported;
     return posix_memalign(memory, 256, bytes) == 0 ? cudaSuccess : cudaErrorMemoryAllocation;
@@ -211,7 +211,7 @@ cudaError_t cudaEventSynchronize(cudaEvent_t event) {
     return cudaSuccess;
 }
 cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t, cudaEvent_t) {
-    // Of a call that fails nobody may take the number.
+    // The number that a failing call has given must not be used.
     *milliseconds = emulated_device::elapsed_time_status == cudaSuccess ? 0.0F : 1e9F;
     return emulated_device::elapsed_time_status;
 }
@@ -231,7 +231,7 @@ cudaError_t cudaFreeAsync(void* memory, cudaStream_t stream) {
     if (captures) return cudaErrorStreamCaptureUnsupported;
     remove_piece(memory);
     emulated_device::submit(stream, [=] {
-        std::memset(memory, 0xDD, malloc_usable_size(memory));  // for whoever still reads it
+        std::memset(memory, 0xDD, malloc_usable_size(memory));  // for code that still reads it
         std::free(memory);
     });
     return cudaSuccess;

@@ -12,7 +12,7 @@ struct SharedVariable {
     static constexpr std::byte guard{0xDD};
     static constexpr std::byte rubbish{0xA5};
 
-    unsigned line;  ///< in which it is declared
+    unsigned line;  ///< line of its declaration
     std::size_t bytes;
     std::unique_ptr<std::byte[]> room;
     std::byte* memory;

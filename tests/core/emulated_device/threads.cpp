@@ -29,20 +29,20 @@ namespace {
 
 constexpr unsigned lanes = 32;
 constexpr unsigned all_lanes = ~0U;
-constexpr unsigned most_turns = 16;     ///< of a warp, one after the other
-constexpr unsigned blocks_at_once = 2;  ///< of a grid that is not cooperative
+constexpr unsigned most_turns = 16;     ///< turns of a warp, one after the other
+constexpr unsigned blocks_at_once = 2;  ///< running blocks of a grid that is not cooperative
 
 struct Block;
 
 /// Meetings of some lanes of a warp, always the same ones.
 struct Meetings {
-    unsigned mask = 0;  ///< of these lanes; 0: there was no meeting
+    unsigned mask = 0;  ///< set of these lanes; 0: there was no meeting
     unsigned arrived = 0;
-    unsigned number = 0;  ///< of the next meeting
+    unsigned number = 0;  ///< number of the next meeting
     Waiting waiting;
 };
 
-/// What lanes have given, for two meetings in turn: nobody gets to the second next before all have read.
+/// Values that lanes have given, for two meetings in turn: no lane gets to the second next before all have read.
 using Given = std::array<std::array<std::uint64_t, lanes>, 2>;
 
 /// Lanes are bits of its sets.
@@ -50,16 +50,16 @@ struct Warp {
     Block* block = nullptr;
     unsigned first_thread = 0;
     std::array<Fiber, lanes> fibers;
-    unsigned ready = 0;  ///< those that wait for nothing
-    unsigned turn = 0;   ///< those of them that are still to go on in this turn
-    unsigned turns = 0;  ///< to come before another warp goes on
+    unsigned ready = 0;  ///< lanes that wait for nothing
+    unsigned turn = 0;   ///< ready lanes that are still to go on in this turn
+    unsigned turns = 0;  ///< turns to come before another warp goes on
     bool is_listed = false;
 
     Meetings whole;
     Given given_to_whole{};
-    Meetings parts[lanes];  ///< by their lowest lane
+    Meetings parts[lanes];  ///< meetings of parts, by their lowest lane
     Given given_to_parts{};
-    unsigned in_parts = 0;  ///< lanes that wait for others of their part
+    unsigned in_parts = 0;  ///< number of lanes that wait for others of their part
 };
 
 struct Block {
@@ -69,11 +69,11 @@ struct Block {
     std::vector<SharedVariable> shared;
     Barrier barrier;
     std::vector<Block*> alone{this};
-    unsigned finished = 0;  ///< threads
+    unsigned finished = 0;  ///< number of threads that have ended
 };
 
 std::mt19937 order(1);
-std::vector<Block*> live;  ///< whose threads run
+std::vector<Block*> live;  ///< blocks whose threads run
 std::vector<Warp*> ready_warps;
 Barrier grid_barrier;
 bool grid_is_cooperative = false;
@@ -179,8 +179,8 @@ Block& run_until_one_ends() {
     }
 }
 
-/// Those that a lane comes to: of all lanes, or of a part of a warp that is the same for as long as a block runs. Lanes
-/// of one part may wait for all others while those of another still meet, but not at the same place.
+/// The meetings that a lane comes to: of all lanes, or of a part of a warp that is the same for as long as a block
+/// runs. Lanes of one part may wait for all others while those of another still meet, but not at the same place.
 Meetings& meetings_of(Warp& own, const Waiting& waiting) {
     const auto require_other_place = [&](const Meetings& of_others) {
         if (of_others.arrived != 0 && of_others.waiting.is_at_place_of(waiting)) [[unlikely]]
@@ -201,7 +201,7 @@ Meetings& meetings_of(Warp& own, const Waiting& waiting) {
     return part;
 }
 
-/// For as many threads, which are those of these blocks.
+/// Meetings for the number of threads of these blocks.
 void wait_at(Barrier& barrier, unsigned threads, const std::vector<Block*>& blocks, const Waiting& waiting) {
     if (barrier.arrived == 0) barrier.waiting = waiting;
     require_same(barrier.waiting, waiting);

@@ -23,12 +23,12 @@ TEST(DriverMemory, IsNotToldByAGpuThatRefuses) {
 
 TEST(DriverMemory, IsNotToldWithoutTheLibrary) {
     EXPECT_FALSE(driver_memory("0000:3b:00.0", "libnot-there.so.1"));
-    // One that is no such library.
+    // A library without NVML's functions.
     EXPECT_FALSE(driver_memory("0000:3b:00.0", "libm.so.6"));
 }
 
 TEST(DriverMemory, StartsTheLibraryOnce) {
-    // The stand-in refuses to tell anything once it has been started a second time.
+    // The stand-in refuses to answer once it has been started a second time.
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(driver_memory("0000:3b:00.0", MENISCUS_STAND_IN_FOR_NVML));
 }
 

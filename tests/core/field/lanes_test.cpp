@@ -1,4 +1,4 @@
-// Lanes round as scalars do: what the same bits on every path rest on.
+// Lanes round as scalars do: the same bits on every path rest on it.
 #include <gtest/gtest.h>
 
 #include <bit>

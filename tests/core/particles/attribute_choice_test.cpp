@@ -1,5 +1,4 @@
-// Settings that name attributes, and frames that do not bring what they name: refused with the name, and nothing
-// changes.
+// Settings that name attributes, and frames without them: refused with the name, and nothing changes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -130,7 +129,7 @@ TEST(AttributeChoice, WhatIsNotNamedIsPassedOver) {
     Reconstructor reconstructor(naming({"id"}), {Backend::cpu, 1});
     Mesh mesh;
     reconstructor.reconstruct(p.frame(), mesh);
-    // Twice, not finite, of another form than before: nobody asks.
+    // Twice, not finite, of another form than before: not refused, since no setting names them.
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(p.bytes[0].data(), &nan, sizeof nan);
     p.names[2] = "velocity";

@@ -15,7 +15,7 @@
 namespace meniscus {
 namespace {
 
-/// What the CPU's first step makes of a frame.
+/// The sorted particles of a frame after the CPU's first step.
 class Registered {
 public:
     Registered(const ParticleFrame& frame, unsigned threads) : workers_(threads) {

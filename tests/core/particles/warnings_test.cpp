@@ -1,4 +1,4 @@
-// What a frame's owner surely did not mean is said, with what fits, and nothing else is.
+// Frames that their owners surely did not mean have a warning with a value that fits, and no others have one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ test::Particles lattice(int nx, int ny, int nz, float jitter = 0.0F, unsigned se
     return particles;
 }
 
-/// At random in a cube, so many radii apart in the mean.
+/// Particles at random in a cube, `apart` radii apart in the mean.
 test::Particles cloud(int count, float apart, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> place(
@@ -237,7 +237,7 @@ TEST(EmptySurfaceWarning, SaysThatAllIsSprayOrThatTheDomainHoldsNothing) {
     warnings = warnings_of(lone.frame(), settings);
     ASSERT_EQ(warnings.size(), 1U);
     EXPECT_NE(warnings[0].text.find("none lies in the domain"), std::string::npos) << warnings[0].text;
-    EXPECT_LT(warnings[0].value, settings.iso);  // what lies beyond the border is not counted
+    EXPECT_LT(warnings[0].value, settings.iso);  // samples beyond the border are not counted
 }
 
 TEST(EmptySurfaceWarning, IsNotGivenWithoutParticles) {

@@ -36,7 +36,7 @@ TEST(Golden, MeshesKeepTheirBitsOnThreeThreads) {
         [](const test::GoldenRow& row, const ParticleFrame& frame) { return reconstruct(row, frame, 3); });
 }
 
-/// As the environment says, until the end of its life.
+/// The environment's choice, until the end of its life.
 class WithInstructions {
 public:
     explicit WithInstructions(const std::string& set) { setenv("MENISCUS_INSTRUCTIONS", set.c_str(), 1); }
@@ -55,7 +55,7 @@ TEST(Golden, MeshesKeepTheirBitsWithEveryInstructionSet) {
     }
 }
 
-/// Where the first tolerance from `low` on changes the mesh: hashes just before and at it.
+/// The first tolerance from `low` on that changes the mesh, and the hashes just before and at it.
 struct Threshold {
     float before, at;
     std::string sha256_before, sha256_at;

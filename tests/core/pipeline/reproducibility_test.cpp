@@ -1,4 +1,4 @@
-// The same frame gives the same mesh, bit for bit, whoever computes it and wherever it lies.
+// The same frame gives the same mesh, bit for bit, on any backend and at any place.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -21,7 +21,7 @@ std::vector<compare::Point> world_positions(const Mesh& mesh) {
     return positions;
 }
 
-/// Of the adaptive surface (a) and the uniform one (b).
+/// The comparison of the adaptive surface (a) and the uniform one (b).
 compare::Comparison compare_modes(const test::Particles& particles, Field field, double tolerance) {
     Settings settings = test::default_settings();
     settings.field = field;

@@ -1,4 +1,4 @@
-// What the vertices get of the particles' arrays: means by the field's own weights, and ids.
+// Attributes of the vertices: means of the particles' values by the field's own weights, and ids.
 #include <gtest/gtest.h>
 
 #include <cfloat>
@@ -204,7 +204,7 @@ TEST(Attributes, LeaveTheSurfaceAsItIs) {
         EXPECT_TRUE(test::same_bytes(with.vertices, without.vertices));
         EXPECT_TRUE(test::same_bytes(with.normals, without.normals));
         EXPECT_TRUE(test::same_bytes(with.triangles, without.triangles));
-        // What nobody names takes no memory either.
+        // An array that no setting names takes no memory either.
         Reconstructor of_positions(settings, {Backend::cpu, 1});
         of_positions.reconstruct(particles.particles.frame(), without);
         EXPECT_EQ(passing_over.statistics().peak_bytes, of_positions.statistics().peak_bytes);
@@ -269,11 +269,10 @@ TEST(Attributes, WhereNoParticleHasAShareTheNearestCounts) {
     EXPECT_EQ(reconstructor.statistics().vertices_without_particles, 0U);
 }
 
-/// How far a linear field arrives from its own values at the vertices on top of a calm block, in parts of its slope
-/// times the support.
+/// The errors of a linear field at the vertices on top of a calm block, in parts of its slope times the support.
 struct Departure {
-    double largest_along = 0.0, usual_along = 0.0;  ///< usual: the root of the mean square
-    double across = 0.0;                            ///< mean
+    double largest_along = 0.0, usual_along = 0.0;  ///< largest error, and root of the mean square
+    double across = 0.0;                            ///< mean error
 };
 /// jitter: of the spacing, to either side.
 Departure departure_on_top(Settings settings, float jitter) {
@@ -318,7 +317,7 @@ Departure departure_on_top(Settings settings, float jitter) {
 TEST(Attributes, AFieldThatIsLinearAlongTheSurfaceArrivesAndAcrossItThatOfWaterInside) {
     struct Row {
         Field field;
-        double largest_jittered;  ///< by a tenth of the spacing, a fifth of the radius, to either side
+        double largest_jittered;  ///< particles moved by a tenth of the spacing, a fifth of the radius, to either side
         double usual_of_twice_the_jitter;
         double across;
     };

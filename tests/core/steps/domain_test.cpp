@@ -37,7 +37,7 @@ TEST(Domain, CropsTheSurfaceClosedAtItsBorder) {
                 }
 }
 
-// What the documents tell those who send a part of a frame.
+// The margin that the documents give for a part of a frame.
 TEST(Domain, DependsOnNoParticleBeyondTheMargin) {
     const test::Particles all = test::splash(33, 24);
     for (const Field field : choices<Field>)

@@ -1,4 +1,4 @@
-// The mesh is welded and ordered by level, then brick; its table says where each brick's triangles are.
+// The mesh is welded and ordered by level, then brick; its table has the places of each brick's triangles.
 #include <gtest/gtest.h>
 
 #include <algorithm>

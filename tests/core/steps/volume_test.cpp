@@ -43,7 +43,7 @@ void expect_exact(const Mesh& mesh) {
         EXPECT_TRUE(sixfold_by_tetrahedra(mesh, apex) == Int128{static_cast<std::int64_t>(sixfold(mesh))});
 }
 
-/// Of a mesh made by a reconstructor of its own.
+/// The statistics of a frame, whose mesh a reconstructor of its own makes.
 Statistics statistics_of(const Settings& settings, const ParticleFrame& frame, Mesh& mesh, unsigned threads = 1) {
     Reconstructor reconstructor(settings, {Backend::cpu, threads, 0});
     reconstructor.reconstruct(frame, mesh);

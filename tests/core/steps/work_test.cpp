@@ -37,7 +37,7 @@ BackendOptions limited() {
     return options;
 }
 
-/// Jittered, two radii apart.
+/// A jittered block of particles two radii apart.
 test::Particles evenly_spread(int count) {
     const int side = static_cast<int>(std::ceil(std::cbrt(count)));
     std::mt19937 random(7);
@@ -50,7 +50,7 @@ test::Particles evenly_spread(int count) {
     return particles;
 }
 
-/// So many clumps, 50 radii apart, each of so many particles within a distance of its middle.
+/// `number` clumps, 50 radii apart, each of `of` particles within `size` of its middle along each axis.
 test::Particles clumps(int number, int of, float size) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> place(-size, size);
@@ -62,7 +62,7 @@ test::Particles clumps(int number, int of, float size) {
     return particles;
 }
 
-/// In the order of the first ones, so that none of them lie together.
+/// The particles of both in turn, so that those of neither lie together.
 test::Particles shuffled_together(const test::Particles& a, const test::Particles& b) {
     test::Particles all;
     for (std::size_t i = 0; i < std::max(a.positions.size(), b.positions.size()); i += 3)
@@ -71,7 +71,7 @@ test::Particles shuffled_together(const test::Particles& a, const test::Particle
     return all;
 }
 
-/// The refusal's text; empty: it was not refused.
+/// The refusal's text; empty if the frame was not refused.
 std::string refusal_of(Reconstructor& reconstructor, const test::Particles& particles) {
     Mesh mesh;
     try {

@@ -16,7 +16,7 @@
 
 namespace meniscus::test {
 
-/// Owns what frame() borrows.
+/// Owns the arrays that frame() borrows.
 struct ParticlesWithArrays {
     Particles particles;
     std::vector<std::string> names;
@@ -106,7 +106,7 @@ T vertex_value(const MeshAttribute& attribute, std::size_t vertex, std::size_t c
     return number;
 }
 
-/// To the bit.
+/// Expects the same attributes, to the bit.
 inline bool same_attributes(const Mesh& a, const Mesh& b) {
     if (a.attributes.size() != b.attributes.size()) return false;
     for (std::size_t i = 0; i < a.attributes.size(); ++i)

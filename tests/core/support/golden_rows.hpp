@@ -1,7 +1,7 @@
-// The golden table: for each scene and its settings the mesh, as hashes. Those of color and density are what commit
-// 609d103 made, those of smooth what the commit made that brought the field.
+// The golden table: for each scene and its settings the mesh, as hashes. Those of color and density are of commit
+// 609d103, those of smooth of the commit that brought the field.
 //
-// A mesh that differs in a single bit is a change of what users get. Only a commit that wants such a change replaces
+// A mesh that differs in a single bit is a change for users. Only a commit that wants such a change replaces
 // hashes: a row that fails prints its name and the line to put into golden_hashes.cpp.
 #pragma once
 
@@ -20,17 +20,17 @@ namespace meniscus::test {
 /// Everything that the row's mesh depends on, so that a changed default changes no mesh.
 struct GoldenRow {
     std::string name;
-    std::string scene;  ///< of golden_scenes()
+    std::string scene;  ///< name of one of golden_scenes()
     Field field;
     Mode mode;
-    double smoothing;               ///< the smoothing length, or the smoothness of the smooth field; radii
-    double cell_size;               ///< radii
-    double iso;                     ///< field value at the surface
-    double tolerance;               ///< of the curvature criterion, finest cells; 0: the count criterion decides
-    std::uint32_t count_threshold;  ///< of the count criterion; 0: the curvature criterion decides
+    double smoothing;  ///< the smoothing length, or the smoothness of the smooth field; radii
+    double cell_size;  ///< radii
+    double iso;        ///< field value at the surface
+    double tolerance;  ///< tolerance of the curvature criterion, finest cells; 0: the count criterion decides
+    std::uint32_t count_threshold;  ///< threshold of the count criterion; 0: the curvature criterion decides
     std::uint32_t bisection_steps;  ///< 0: edge points are interpolated
     bool normals;
-    bool cropped;   ///< by a domain that cuts every scene
+    bool cropped;   ///< whether a domain cuts the scene
     int max_level;  ///< 3: as reconstructed; 1, 2: emitted once more with the levels capped
 
     Settings settings() const;
@@ -38,7 +38,7 @@ struct GoldenRow {
 
 std::vector<GoldenRow> golden_rows();
 
-/// What golden_rows() must give.
+/// The expected hashes of golden_rows().
 struct GoldenHashes {
     std::string_view row;
     std::string_view mesh_sha256;
@@ -47,7 +47,7 @@ struct GoldenHashes {
 std::vector<GoldenHashes> golden_hashes();
 
 /// FNV-1a with 64 bits, as 16 hexadecimal digits, over the bytes of vertices, normals, triangles and bricks in the
-/// mesh's order, and its levels' ranges: what mesh_sha256 leaves out.
+/// mesh's order, and its levels' ranges: all that mesh_sha256 leaves out.
 std::string golden_bytes(const Mesh& mesh);
 
 /// Reconstructs a row's frame on some backend.

@@ -5,7 +5,7 @@
 namespace meniscus::test {
 namespace {
 
-/// In ticks of 2^-12 world units.
+/// A place in ticks of 2^-12 world units.
 using Point = std::array<int, 3>;
 
 /// The distance of neighbors in calm water: two radii of 0.025, rounded to whole ticks.
@@ -23,7 +23,7 @@ public:
         h = (h ^ (h >> 13)) * 0xC2B2AE35U;
         return h ^ (h >> 16);
     }
-    /// Both ends included.
+    /// A number of a range, both ends included.
     int between(int low, int high) {
         return low + static_cast<int>(next() % static_cast<std::uint32_t>(high - low + 1));
     }
@@ -86,7 +86,7 @@ Particles drops() {
     return particles;
 }
 
-/// Alone, in pairs, on top of each other, on a lattice point, far away.
+/// Particles alone, in pairs, on top of each other, on a lattice point, far away.
 Particles lone() {
     Particles particles;
     for (const Point& p : {Point{0, 0, 0}, Point{2048, 3, -700}, Point{2148, 3, -700}, Point{-2000, 777, 1024},

@@ -1,4 +1,4 @@
-// Attributes for meshes of tests: what a vertex has follows from where it lies.
+// Attributes for meshes of tests: a vertex's values follow from its place.
 #pragma once
 
 #include <algorithm>
@@ -29,11 +29,11 @@ std::vector<Number> numbers_of(const MeshAttribute& attribute) {
     return numbers;
 }
 
-/// One of every form: `speed`, `velocity` and `tensor` (float32), `phase`, `color` and `paint` (uint8), `charge`
-/// (int32), `id` (uint32).
+/// An attribute of every form: `speed`, `velocity` and `tensor` (float32), `phase`, `color` and `paint` (uint8),
+/// `charge` (int32), `id` (uint32).
 void add_attributes(Mesh& mesh);
 
-/// Each attribute of the mesh, float32 with these bits.
+/// A request for each attribute of the mesh, float32 with these bits.
 std::vector<AttributeWish> wish_for_all(const Mesh& mesh, int bits);
 
 }  // namespace meniscus::test

@@ -9,12 +9,12 @@
 namespace meniscus::test {
 
 struct MeshReport {
-    std::size_t repeated_vertices = 0;  ///< vertices at the place of another
+    std::size_t repeated_vertices = 0;  ///< number of vertices at the place of another
     std::size_t unused_vertices = 0;
-    std::size_t degenerate_triangles = 0;  ///< that name a vertex twice
-    std::size_t unbalanced_edges = 0;      ///< not used equally often in both directions
-    std::size_t nonmanifold_edges = 0;     ///< of more than two triangles
-    std::size_t nonmanifold_vertices = 0;  ///< whose triangles are not one fan
+    std::size_t degenerate_triangles = 0;  ///< number of triangles that name a vertex twice
+    std::size_t unbalanced_edges = 0;      ///< number of edges that are not used equally often in both directions
+    std::size_t nonmanifold_edges = 0;     ///< number of edges of more than two triangles
+    std::size_t nonmanifold_vertices = 0;  ///< number of vertices whose triangles are not one fan
     double volume = 0.0;                   ///< world units cubed
     double area = 0.0;                     ///< world units squared
     std::size_t components = 0;

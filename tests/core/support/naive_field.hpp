@@ -44,7 +44,7 @@ public:
         for (std::size_t i = 0; i < weights_.size(); ++i) sum += share(i, x, y, z);
         return sum;
     }
-    /// Of a particle in the value.
+    /// The share of a particle in the value.
     double share(std::size_t i, double x, double y, double z) const {
         const auto p = position(i);
         const double distance = std::hypot(x - p[0], y - p[1], z - p[2]);

@@ -14,22 +14,22 @@ namespace meniscus::test {
 struct NoiseWorld {
     std::uint64_t seed = 0;
     int side = 5;        ///< base cells
-    double share = 0.5;  ///< of the points that are inside
+    double share = 0.5;  ///< share of the points that are inside
     bool ties = false;   ///< many values lie exactly on the iso-value
     bool uniform = false;
     bool bisects = false;
     bool keeps_slivers = true;  ///< see Slivers
-    int max_level = 3;          ///< of the levels from which the mesh is emitted
-    double band_share = 1.0;    ///< base cells that start in the band; the others must join where the samples say so
+    int max_level = 3;          ///< cap of the levels from which the mesh is emitted
+    double band_share = 1.0;    ///< share of base cells that start in the band; others must join by the samples
 };
 
 /// The iso-value is 1.
 Settings noise_settings(const NoiseWorld& world);
 
-/// Of every base cell of the world, in the order of their numbers.
+/// Levels of every base cell of the world, in the order of their numbers.
 struct NoiseLevels {
     std::vector<std::uint8_t> wanted;
-    std::vector<bool> starts;  ///< in the band, even if its corners agree
+    std::vector<bool> starts;  ///< whether a cell starts in the band, even if its corners agree
 };
 NoiseLevels noise_levels(const NoiseWorld& world);
 
@@ -53,7 +53,7 @@ MENISCUS_HD inline float noise_value(const NoiseWorld& world, const Int3& base_c
 /// The bits of the one brick that the world lies in, as Brick::occupied has them.
 void mark_world(const NoiseWorld& world, std::uint64_t* occupied);
 
-/// Through the pipeline with the CPU's steps.
+/// The mesh of a world by the pipeline with the CPU's steps.
 Mesh mesh_of_noise_on_cpu(const NoiseWorld& world);
 
 /// Calls visit(world) for the worlds of a test: `count` seeds from `first` on.

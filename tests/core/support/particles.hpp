@@ -13,7 +13,7 @@
 
 namespace meniscus::test {
 
-/// Owns what a ParticleFrame borrows.
+/// Owns the arrays that a ParticleFrame borrows.
 struct Particles {
     std::vector<float> positions;
     std::vector<std::uint8_t> levels;
@@ -25,7 +25,7 @@ struct Particles {
     ParticleFrame frame() const;
 };
 
-/// In process, on the CPU, by a reconstructor of its own.
+/// The mesh of a frame on the CPU, by a reconstructor of its own.
 Mesh reconstruct(const Settings& settings, const ParticleFrame& frame, unsigned threads = 1);
 
 /// Radius 0.025 and the defaults.

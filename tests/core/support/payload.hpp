@@ -12,7 +12,7 @@
 
 namespace meniscus::test {
 
-/// A velocity and a phase for each particle. Owns what frame() borrows.
+/// A velocity and a phase for each particle. Owns the arrays that frame() borrows.
 struct ParticlesWithPayload {
     Particles particles;
     std::vector<float> velocities;     ///< three for each

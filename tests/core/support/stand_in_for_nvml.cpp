@@ -1,4 +1,4 @@
-// In the place of the driver's management library: a GPU of 80 GiB, 20 of them taken, and one that refuses to tell.
+// In the place of the driver's management library: a GPU of 80 GiB, 20 of them taken, and one that refuses to answer.
 #include <cstring>
 
 namespace {

@@ -1,5 +1,5 @@
-// What CUB asks of its callers, checked at every call: as much scratch memory as it has named for as many elements, and
-// arrays that either are the same or do not touch. Its work waits in the stream as a kernel does.
+// The demands of CUB on its callers, checked at every call: as much scratch memory as it has named for as many
+// elements, and arrays that either are the same or do not touch. Its work waits in the stream as a kernel does.
 #pragma once
 
 #include <cstddef>

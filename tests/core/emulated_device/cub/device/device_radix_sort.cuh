@@ -19,7 +19,7 @@ struct DoubleBuffer {
     T* Alternate() const { return d_buffers[selector ^ 1]; }
 };
 
-/// Which of two buffers holds the result is CUB's choice: here another one from call to call. The other holds rubbish.
+/// CUB chooses the buffer that holds the result: here another one from call to call. The other buffer holds rubbish.
 struct DeviceRadixSort {
     template <class Key>
     static cudaError_t SortKeys(void* memory, std::size_t& bytes, DoubleBuffer<Key>& keys, std::int64_t n,

@@ -16,13 +16,13 @@ inline constexpr unsigned closed_cells_a_warp = warp_threads / 8;  ///< each lan
 inline constexpr unsigned closed_half_words = 16;  ///< block dx + 2 dy + 4 dz has numbers 2 block and 2 block + 1
 inline constexpr int points_a_side = base_cell_size + 1;
 
-/// Where the points of a closed cell lie, by their places x + 5 y + 25 z. For a block of threads.
+/// The bits of a closed cell's points, by their places x + 5 y + 25 z. For a block of threads.
 struct ClosedPoints {
     static constexpr int count = points_a_side * points_a_side * points_a_side;
 
     struct alignas(8) Point {
         std::uint32_t below;  ///< the bits below the point's own in its half word
-        std::uint32_t half;   ///< the number of that
+        std::uint32_t half;   ///< the number of that half word
     };
     Point point[count];
 
@@ -69,7 +69,7 @@ struct CellsOfLanes {
 struct SubcellPair {
     std::uint32_t cube_case[2];  ///< 0 where there is no subcell: beyond the first, none has a stride above 1
 
-    /// Of the first one's lower corner.
+    /// Coordinates and place of the first subcell's lower corner.
     __device__ static unsigned x() { return 2 * (lane_index() & 1); }
     __device__ static unsigned y() { return lane_index() >> 1 & 3; }
     __device__ static unsigned z() { return lane_index() >> 3; }
