@@ -96,7 +96,7 @@ SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& bac
         }
     });
     if (const auto interval = idle_check_interval(limits); interval.count() != 0)
-        idle_check_.emplace(interval, [this] { end_idle(std::chrono::steady_clock::now()); });
+        idle_check_.emplace().every(interval, [this] { end_idle(std::chrono::steady_clock::now()); });
 }
 
 SessionRegistry::~SessionRegistry() {

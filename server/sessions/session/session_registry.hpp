@@ -17,7 +17,7 @@
 #include "meniscus/backend_options.hpp"
 #include "meniscus/settings.hpp"
 #include "sessions/handover/channel.hpp"
-#include "sessions/handover/periodic.hpp"
+#include "sessions/handover/timer.hpp"
 #include "sessions/limits/limits.hpp"
 #include "sessions/limits/snapshot_places.hpp"
 #include "sessions/session/idle_buffers.hpp"
@@ -123,7 +123,7 @@ private:
     const std::shared_ptr<WorkerPool> workers_;
     const std::shared_ptr<Metrics> metrics_;
     const std::shared_ptr<BytesInFlight> bytes_in_flight_;
-    const std::shared_ptr<Deadlines> deadlines_ = std::make_shared<Deadlines>();
+    const std::shared_ptr<Timer> deadlines_ = std::make_shared<Timer>();
     const std::shared_ptr<IdleBuffers> idle_buffers_ = std::make_shared<IdleBuffers>();
     const std::shared_ptr<SharedMemory> memory_;
 
@@ -145,7 +145,7 @@ private:
 
     std::mutex idle_check_mutex_;              ///< of end_idle(), for what follows
     std::vector<std::future<void>> releases_;  ///< of buffers, that were not over then
-    std::optional<Periodic> idle_check_;       ///< last: it uses the others
+    std::optional<Timer> idle_check_;          ///< last: it uses the others
 };
 
 }  // namespace meniscus::server
