@@ -34,6 +34,7 @@
 #include "rpc/known_methods.hpp"
 #include "rpc/server_instance.hpp"
 #include "rpc/services.hpp"
+#include "rpc/standard_services.hpp"
 #include "security/access.hpp"
 #include "security/trusted_peers.hpp"
 #include "sessions/session/session_registry.hpp"
@@ -97,10 +98,9 @@ void keep_alive(grpc::ServerBuilder& builder) {
 void require_closed_to_others(const ServerOptions& options) {
     if (!options.insecure && !options.tls.any()) require_loopback("--listen", options.listen);
     if (!options.insecure && !options.tls.any() && !options.http.empty()) require_loopback("--http", options.http);
-    const StandardServices& services = options.standard_services;
-    if (!options.tokens.empty() && (services.reflection || services.channelz))
+    if (!options.tokens.empty() && (options.reflection || options.channelz))
         throw InvalidInput(fmt::format("{} cannot be had with --tokens: gRPC answers it without asking for one",
-                                       services.reflection ? "--reflection" : "--channelz"));
+                                       options.reflection ? "--reflection" : "--channelz"));
 }
 
 /// What clients cannot do to gRPC itself. (That of keep_alive() is for both ends.)
@@ -260,7 +260,7 @@ Server::Impl::Impl(const ServerOptions& options)
     builder.RegisterService(&session_service_);
     builder.RegisterService(&surface_service_);
     builder.RegisterService(&recording_service_);
-    add_standard_services(builder, options.standard_services);
+    add_standard_services(builder, {.reflection = options.reflection, .channelz = options.channelz});
     std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
     interceptors.push_back(make_call_counter(metrics_));
     interceptors.push_back(make_instance_marker());

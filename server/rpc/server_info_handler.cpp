@@ -1,10 +1,46 @@
 #include "rpc/server_info_handler.hpp"
 
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
+#include <concepts>
 #include <string>
+#include <string_view>
 
 #include "conversion/codec_conversion.hpp"
+#include "process/seconds.hpp"
 
 namespace meniscus::server {
+
+namespace {
+
+void set(v1::Limits& message, const google::protobuf::FieldDescriptor& field, std::chrono::milliseconds limit) {
+    message.GetReflection()->SetDouble(&message, &field, seconds_of(limit));
+}
+
+void set(v1::Limits& message, const google::protobuf::FieldDescriptor& field, double limit) {
+    message.GetReflection()->SetDouble(&message, &field, limit);
+}
+
+template <std::unsigned_integral Number>
+void set(v1::Limits& message, const google::protobuf::FieldDescriptor& field, Number limit) {
+    if (field.cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_UINT32)
+        message.GetReflection()->SetUInt32(&message, &field, static_cast<std::uint32_t>(limit));
+    else
+        message.GetReflection()->SetUInt64(&message, &field, limit);
+}
+
+/// The limits that have a field there, by its name.
+v1::Limits limits_message(const Limits& limits) {
+    v1::Limits message;
+    Limits::rows(limits, [&](std::string_view name, const auto& limit, const Facts&, const auto&...) {
+        const auto* const field = v1::Limits::descriptor()->FindFieldByName(std::string(name));
+        if (field != nullptr) set(message, *field, limit);
+    });
+    return message;
+}
+
+}  // namespace
 
 v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, unsigned threads, const Limits& limits) {
     v1::GetServerInfoResponse response;
@@ -14,34 +50,7 @@ v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, uns
     response.set_backend_reason(backend.reason);
     response.set_threads(threads);
     conversion::add_known_codecs(*response.mutable_codecs());
-    v1::Limits& wire = *response.mutable_limits();
-    wire.set_sessions(limits.sessions);
-    wire.set_watchers_per_session(limits.watchers_per_session);
-    wire.set_particles_per_frame(limits.particles_per_frame);
-    wire.set_frame_work(limits.work_per_frame);
-    wire.set_frame_seconds(std::chrono::duration<double>(limits.frame_time).count());
-    wire.set_bytes_per_session(limits.bytes_per_session);
-    wire.set_device_bytes_per_session(limits.device_bytes_per_session);
-    wire.set_chunk_bytes(chunk_bytes);
-    wire.set_bytes_in_flight(limits.bytes_in_flight);
-    wire.set_frames_per_second(limits.frames_per_second);
-    wire.set_chunks_per_frame(limits.chunks_per_frame);
-    wire.set_idle_seconds(std::chrono::duration<double>(limits.idle_time).count());
-    wire.set_message_bytes(limits.message_bytes);
-    wire.set_upload_seconds(limits.least_pace.time.count());
-    wire.set_upload_bytes_per_second(limits.least_pace.bytes_per_second);
-    wire.set_orphan_seconds(std::chrono::duration<double>(limits.orphan_time).count());
-    wire.set_total_bytes(limits.total_bytes);
-    wire.set_total_device_bytes(limits.total_device_bytes);
-    wire.set_idle_buffers_seconds(std::chrono::duration<double>(limits.idle_buffers_time).count());
-    wire.set_sessions_per_name(limits.per_name.sessions);
-    wire.set_watchers_per_name(limits.per_name.watchers);
-    wire.set_frames_per_second_per_name(limits.per_name.frames_per_second);
-    wire.set_bytes_in_flight_per_name(limits.per_name.bytes_in_flight);
-    wire.set_connections(limits.connections);
-    wire.set_connections_per_peer(limits.connections_per_peer);
-    wire.set_formats_per_session(limits.formats_per_session);
-    wire.set_recording_readers(limits.recording_readers);
+    *response.mutable_limits() = limits_message(limits);
     return response;
 }
 

@@ -36,6 +36,7 @@ struct Facts {
     std::string_view standard{};  ///< the default in words, where the member's own says too little
     std::string_view group{};     ///< heading of the flag in --help
     bool by_hand = false;         ///< whether flags, texts and dicts show it by hand, since they join two members
+    std::string_view gauge{};     ///< of a limit: its name in the server's metrics
 };
 
 namespace detail {

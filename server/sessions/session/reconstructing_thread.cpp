@@ -8,6 +8,7 @@
 #include "process/call_log.hpp"
 #include "process/log.hpp"
 #include "process/open_work.hpp"
+#include "process/seconds.hpp"
 #include "sessions/handover/start_thread.hpp"
 #include "sessions/limits/refusal.hpp"
 
@@ -137,7 +138,7 @@ void ReconstructingThread::throw_stopped(std::uint64_t index) const {
     const std::string& id = context_.identity.id;
     switch (stop_.reason()) {
         case FrameStop::Reason::too_long: {
-            const double seconds = std::chrono::duration<double>(context_.limits.frame_time).count();
+            const double seconds = seconds_of(context_.limits.frame_time);
             log_warning({.session = id, .frame = index}, "stopped: it had the device for {:.3g} s", seconds);
             throw LimitExceeded(fmt::format(
                 "frame {}: it has had the device for {:.3g} s, as long as the server gives to one frame: use "
