@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "meniscus/error.hpp"
-#include "rpc/session_id.hpp"
+#include "rpc/messages/session_id.hpp"
 #include "security/web_peer.hpp"
 #include "web/beast_text.hpp"
 #include "web/call_metadata.hpp"

@@ -1,5 +1,5 @@
 #include "meniscus/v1/surface_service.pb.h"
-#include "rpc/watch_wishes.hpp"
+#include "rpc/messages/watch_wishes.hpp"
 #include "support.hpp"
 
 namespace meniscus::fuzz {

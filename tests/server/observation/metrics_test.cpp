@@ -16,7 +16,7 @@
 #include "meniscus/names.hpp"
 #include "meniscus/statistics.hpp"
 #include "observation/metrics.hpp"
-#include "rpc/known_methods.hpp"
+#include "rpc/services/known_methods.hpp"
 #include "running_server.hpp"
 #include "sessions/limits/limit_reached.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "observation/metrics.hpp"
-#include "rpc/one_request.hpp"
+#include "rpc/calls/one_request.hpp"
 #include "running_server.hpp"
 #include "test_folder.hpp"
 

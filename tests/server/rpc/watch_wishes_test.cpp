@@ -1,5 +1,5 @@
 // What watchers may wish for, what they get, and what is refused.
-#include "rpc/watch_wishes.hpp"
+#include "rpc/messages/watch_wishes.hpp"
 
 #include <gtest/gtest.h>
 
