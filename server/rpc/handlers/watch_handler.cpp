@@ -16,9 +16,9 @@
 #include "rpc/calls/caller.hpp"
 #include "rpc/calls/cancel_timer.hpp"
 #include "rpc/calls/one_request.hpp"
-#include "rpc/messages/session_id.hpp"
 #include "rpc/calls/status.hpp"
-#include "rpc/messages/watch_wishes.hpp"
+#include "rpc/messages/session_id.hpp"
+#include "rpc/messages/watch_options.hpp"
 #include "rpc/messages/wire_bytes.hpp"
 #include "sessions/limits/refusal.hpp"
 
@@ -30,7 +30,7 @@ namespace {
 constexpr std::chrono::seconds snapshot_patience{20};
 
 /// Receives its request, then sends what the watch has for it, message by message. Finishes after a cancellation as
-/// soon as neither a read nor a write is under way. Request: what names the session and the wishes.
+/// soon as neither a read nor a write is under way. Request: names the session and the options.
 template <class Request>
 class WatchReactor final : public ByteReactor, public std::enable_shared_from_this<WatchReactor<Request>> {
 public:
@@ -111,7 +111,7 @@ private:
         const auto wake = [self = this->weak_from_this()] {
             if (const auto reactor = self.lock()) reactor->write();
         };
-        watch_ = session_->open_watch(watch_wishes_of(request, session_->settings()), wake, account);
+        watch_ = session_->open_watch(watch_options_of(request, session_->settings()), wake, account);
         if (is_snapshot)
             give_up_after(snapshot_patience);
         else

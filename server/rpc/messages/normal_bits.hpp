@@ -1,4 +1,4 @@
-// The wish for normals that Stream and Watch share.
+// The bits of normals, for which Stream and Watch ask alike.
 #pragma once
 
 #include <fmt/format.h>

@@ -196,20 +196,20 @@ void Session::cancel_upload(const std::shared_ptr<Upload>& upload, UploadEnd end
     end_upload(upload, nullptr);
 }
 
-std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::function<void()> wake,
+std::shared_ptr<Watch> Session::open_watch(const WatchOptions& options, std::function<void()> wake,
                                            const std::shared_ptr<const NameAccount>& watcher) {
-    auto watch = std::make_shared<Watch>(wishes, std::move(wake), context_.shared.metrics, watcher);
+    auto watch = std::make_shared<Watch>(options, std::move(wake), context_.shared.metrics, watcher);
     const std::lock_guard lock(mutex_);
     if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
     if (draining_) throw shutting_down();
-    if (!wishes.once) {
-        require_room_for(wishes, watcher.get(), watchers_.list(), id(), limits());
+    if (!options.once) {
+        require_room_for(options, watcher.get(), watchers_.list(), id(), limits());
     } else if (reconstructing_.progress().frames == 0) {
         watch->finish(nullptr);
         return watch;
     }
     if (watchers_.add(watch)) return watch;
-    if (!wishes.max_particles) encoding_.look_for_watchers();
+    if (!options.max_particles) encoding_.look_for_watchers();
     received_.put({.watchers = true});
     return watch;
 }
@@ -217,7 +217,7 @@ std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::funct
 void Session::close_watch(const std::shared_ptr<Watch>& watch) {
     const std::lock_guard lock(mutex_);
     watchers_.remove(watch);
-    if (!watch->wishes().once) last_used_ = std::chrono::steady_clock::now();
+    if (!watch->options().once) last_used_ = std::chrono::steady_clock::now();
 }
 
 void Session::finish_upload(const std::shared_ptr<Upload>& upload, std::exception_ptr error) {
@@ -397,7 +397,7 @@ void Session::close() {
         upload->output.abort(error);
         upload->stop(error);
     }
-    for (const auto& watch : attached.watches) watch->finish(watch->wishes().once ? error : nullptr);
+    for (const auto& watch : attached.watches) watch->finish(watch->options().once ? error : nullptr);
 }
 
 Session::Attached Session::detach() {

@@ -94,7 +94,7 @@ public:
 
     /// The watch has the newest mesh, or its particles, at once if they are there. watcher: may be none. A snapshot is
     /// no watcher: it ends at once if no frame has come. Throws LimitExceeded, or Refusal if the session ends.
-    std::shared_ptr<Watch> open_watch(const WatchWishes& wishes, std::function<void()> wake,
+    std::shared_ptr<Watch> open_watch(const WatchOptions& options, std::function<void()> wake,
                                       const std::shared_ptr<const NameAccount>& watcher = nullptr);
     void close_watch(const std::shared_ptr<Watch>& watch);
 

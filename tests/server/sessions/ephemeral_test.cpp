@@ -156,7 +156,7 @@ TEST_F(EphemeralSession, MayBeDeletedByItsOwnerAsItsTimeEnds) {
     }
 }
 
-TEST_F(EphemeralSession, IsNoneThatWasCreatedWithoutThatWish) {
+TEST_F(EphemeralSession, IsNoneThatWasNotCreatedAsOne) {
     const auto session = registry.create(test::id, test::settings()).session;
     session->cancel_upload(open(*session, milliseconds(1)), UploadEnd::answered);
     EXPECT_TRUE(is_there_after(10 * orphaned));

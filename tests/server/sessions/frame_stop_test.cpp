@@ -206,9 +206,9 @@ TEST(FrameOfARealSession, ThatIsRefusedKeepsTheSurfaceForTheWatcherOfACoarserLev
     EXPECT_EQ(simulator.receive_all(), std::vector<std::uint64_t>{0});
     EXPECT_THROW(std::rethrow_exception(simulator.error), InvalidInput);
     std::counting_semaphore<> awake{0};
-    WatchWishes wishes{.format = {.position_bits = 6, .normal_bits = 8}};
-    wishes.format.max_level = 1;
-    const auto watch = session->open_watch(wishes, [&] { awake.release(); });
+    WatchOptions options{.format = {.position_bits = 6, .normal_bits = 8}};
+    options.format.max_level = 1;
+    const auto watch = session->open_watch(options, [&] { awake.release(); });
     // A message comes: the mesh that was there before.
     for (;;) {
         const auto next = watch->take();

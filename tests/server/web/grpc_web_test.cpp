@@ -185,7 +185,7 @@ TEST(GrpcWebRecordings, AreTheBytesThatAWatcherGot) {
     EXPECT_FALSE(reading.next());
     EXPECT_EQ(reading.status, 0) << reading.message;
     EXPECT_GT(read.size(), 2U);
-    // A watcher gets the bricks in the order of its wishes.
+    // A watcher gets the bricks in the order that it asks for.
     std::sort(watched.begin(), watched.end());
     std::sort(read.begin(), read.end());
     EXPECT_EQ(read, watched);

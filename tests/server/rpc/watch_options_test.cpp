@@ -1,5 +1,5 @@
-// What watchers may wish for, what they get, and what is refused.
-#include "rpc/messages/watch_wishes.hpp"
+// What watchers may ask for, what they get, and what is refused.
+#include "rpc/messages/watch_options.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ v1::WatchRequest request(const std::function<void(v1::WatchRequest&)>& change) {
 
 void expect_refused(const std::string& part, const std::function<void(v1::WatchRequest&)>& change) {
     try {
-        watch_wishes_of(request(change), settings());
+        watch_options_of(request(change), settings());
         ADD_FAILURE() << part;
     } catch (const InvalidInput& error) {
         EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
@@ -41,7 +41,7 @@ void set_region(v1::WatchRequest& message, double low, double high) {
     max.set_z(1.0);
 }
 
-TEST(WatchWishes, AreRefusedOutOfRangeWithValueAndLimit) {
+TEST(WatchOptions, AreRefusedOutOfRangeWithValueAndLimit) {
     expect_refused("normal_bits is 1;", [](auto& m) { m.set_normal_bits(1); });
     expect_refused("normal_bits is 17;", [](auto& m) { m.set_normal_bits(17); });
     expect_refused("position_bits is 1; it must be 2 to 6", [](auto& m) { m.set_position_bits(1); });
@@ -56,32 +56,32 @@ TEST(WatchWishes, AreRefusedOutOfRangeWithValueAndLimit) {
                    [](auto& m) { m.mutable_viewpoint()->set_x(std::numeric_limits<double>::infinity()); });
 }
 
-TEST(WatchWishes, ForNormalsAreRefusedOutOfRangeAlsoWhereThereAreNone) {
+TEST(WatchOptions, ForNormalsAreRefusedOutOfRangeAlsoWhereThereAreNone) {
     Settings without_normals = settings();
     without_normals.normals = false;
     v1::SnapshotRequest snapshot;
     snapshot.set_normal_bits(17);
-    EXPECT_THROW(watch_wishes_of(snapshot, without_normals), InvalidInput);
-    EXPECT_THROW(watch_wishes_of(request([](auto& m) { m.set_normal_bits(1); }), without_normals), InvalidInput);
-    EXPECT_EQ(watch_wishes_of(request([](auto& m) { m.set_normal_bits(16); }), without_normals).format.normal_bits, 0);
+    EXPECT_THROW(watch_options_of(snapshot, without_normals), InvalidInput);
+    EXPECT_THROW(watch_options_of(request([](auto& m) { m.set_normal_bits(1); }), without_normals), InvalidInput);
+    EXPECT_EQ(watch_options_of(request([](auto& m) { m.set_normal_bits(16); }), without_normals).format.normal_bits, 0);
 }
 
-TEST(WatchWishes, AreTakenOnTheirLimits) {
+TEST(WatchOptions, AreTakenOnTheirLimits) {
     for (const std::uint32_t bits : {0U, 2U, 16U})
-        EXPECT_EQ(watch_wishes_of(request([&](auto& m) { m.set_normal_bits(bits); }), settings()).format.normal_bits,
+        EXPECT_EQ(watch_options_of(request([&](auto& m) { m.set_normal_bits(bits); }), settings()).format.normal_bits,
                   static_cast<int>(bits));
     for (const std::uint32_t bits : {2U, 6U})
         EXPECT_EQ(
-            watch_wishes_of(request([&](auto& m) { m.set_position_bits(bits); }), settings()).format.position_bits,
+            watch_options_of(request([&](auto& m) { m.set_position_bits(bits); }), settings()).format.position_bits,
             static_cast<int>(bits));
     for (const std::uint32_t level : {1U, 3U})
-        EXPECT_EQ(watch_wishes_of(request([&](auto& m) { m.set_max_level(level); }), settings()).format.max_level,
+        EXPECT_EQ(watch_options_of(request([&](auto& m) { m.set_max_level(level); }), settings()).format.max_level,
                   static_cast<int>(level));
-    EXPECT_TRUE(watch_wishes_of(request([](auto& m) { set_region(m, -1e300, 1e300); }), settings()).region);
+    EXPECT_TRUE(watch_options_of(request([](auto& m) { set_region(m, -1e300, 1e300); }), settings()).region);
 }
 
-TEST(WatchWishes, ShareAnEncodeWhereTheyComeToTheSame) {
-    const MeshFormat plain = watch_wishes_of(v1::WatchRequest(), settings()).format;
+TEST(WatchOptions, ShareAnEncodeWhereTheyComeToTheSame) {
+    const MeshFormat plain = watch_options_of(v1::WatchRequest(), settings()).format;
     const auto spelled_out = [](auto& m) {
         m.set_position_bits(6);
         m.set_max_level(3);
@@ -90,11 +90,11 @@ TEST(WatchWishes, ShareAnEncodeWhereTheyComeToTheSame) {
         m.mutable_viewpoint();
         set_region(m, 0.0, 1.0);
     };
-    EXPECT_EQ(watch_wishes_of(request(spelled_out), settings()).format, plain);
+    EXPECT_EQ(watch_options_of(request(spelled_out), settings()).format, plain);
     Settings without_normals = settings();
     without_normals.normals = false;
-    EXPECT_EQ(watch_wishes_of(v1::WatchRequest(), without_normals).format,
-              watch_wishes_of(request([](auto& m) { m.set_normal_bits(0); }), settings()).format);
+    EXPECT_EQ(watch_options_of(v1::WatchRequest(), without_normals).format,
+              watch_options_of(request([](auto& m) { m.set_normal_bits(0); }), settings()).format);
 }
 
 struct WatcherOfAFrame : testing::Test {
@@ -115,7 +115,7 @@ compare::Defects defects(const Mesh& mesh) {
     return compare::find_defects({.positions = points, .triangles = mesh.triangles});
 }
 
-TEST_F(WatcherOfAFrame, GetsAClosedMeshOfEveryWish) {
+TEST_F(WatcherOfAFrame, GetsAClosedMeshForAllOptions) {
     Mesh full;
     for (const int max_level : {3, 2, 1})
         for (int position_bits = 6; position_bits >= 2; --position_bits) {
@@ -169,7 +169,7 @@ TEST_F(WatcherOfAFrame, GetsTheBricksThatTouchItsRegion) {
     EXPECT_EQ(part->changed, expected);
 }
 
-TEST_F(WatcherOfAFrame, IsRefusedForAWishOutOfRange) {
+TEST_F(WatcherOfAFrame, IsRefusedForAnOptionOutOfRange) {
     auto watcher = running.client.watch(id, {.position_bits = 7});
     EXPECT_THROW(watcher.next(), InvalidInput);
 }

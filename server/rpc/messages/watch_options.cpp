@@ -1,4 +1,4 @@
-#include "rpc/messages/watch_wishes.hpp"
+#include "rpc/messages/watch_options.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
 #include "rpc/messages/normal_bits.hpp"
-#include "sessions/watching/canonical_wishes.hpp"
+#include "sessions/watching/canonical_attributes.hpp"
 
 namespace meniscus::server {
 
@@ -43,7 +43,7 @@ MeshFormat format_of(const Request& request, const Settings& settings) {
             .position_bits = position_bits_of(request, settings),
             .normal_bits = settings.normals ? normal_bits : 0,
             .codec = conversion::chosen_codec(request.codecs()),
-            .attributes = canonical_wishes(conversion::attribute_wishes(request.attributes()), settings)};
+            .attributes = canonical_attributes(conversion::attribute_wishes(request.attributes()), settings)};
 }
 
 Box region_of(const v1::Box& wire) {
@@ -67,27 +67,27 @@ std::array<double, 3> viewpoint_of(const v1::Vector3& wire) {
 
 }  // namespace
 
-WatchWishes watch_wishes_of(const v1::WatchRequest& request, const Settings& settings) {
-    WatchWishes wishes;
-    wishes.format = format_of(request, settings);
-    if (request.has_region()) wishes.region = region_of(request.region());
-    wishes.bytes_per_second = request.bytes_per_second();
-    wishes.spray = request.with_spray();
-    if (request.has_viewpoint()) wishes.viewpoint = viewpoint_of(request.viewpoint());
-    return wishes;
+WatchOptions watch_options_of(const v1::WatchRequest& request, const Settings& settings) {
+    WatchOptions options;
+    options.format = format_of(request, settings);
+    if (request.has_region()) options.region = region_of(request.region());
+    options.bytes_per_second = request.bytes_per_second();
+    options.spray = request.with_spray();
+    if (request.has_viewpoint()) options.viewpoint = viewpoint_of(request.viewpoint());
+    return options;
 }
 
-WatchWishes watch_wishes_of(const v1::SnapshotRequest& request, const Settings& settings) {
-    WatchWishes wishes;
-    wishes.format = format_of(request, settings);
-    wishes.once = true;
-    return wishes;
+WatchOptions watch_options_of(const v1::SnapshotRequest& request, const Settings& settings) {
+    WatchOptions options;
+    options.format = format_of(request, settings);
+    options.once = true;
+    return options;
 }
 
-WatchWishes watch_wishes_of(const v1::WatchParticlesRequest& request, const Settings& /*settings*/) {
-    WatchWishes wishes;
-    wishes.max_particles = request.max_particles();
-    return wishes;
+WatchOptions watch_options_of(const v1::WatchParticlesRequest& request, const Settings& /*settings*/) {
+    WatchOptions options;
+    options.max_particles = request.max_particles();
+    return options;
 }
 
 }  // namespace meniscus::server

@@ -1,4 +1,4 @@
-// The form in which a watcher wishes for frames, validated.
+// The form in which a watcher asks for frames, validated.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace meniscus::server {
 /// What is encoded for a watcher: a format of meshes, or a number of particles.
 using WatchForm = std::variant<MeshFormat, std::uint64_t>;
 
-struct WatchWishes {
+struct WatchOptions {
     MeshFormat format;
     std::optional<Box> region{};         ///< world units: only bricks that touch it
     std::uint64_t bytes_per_second = 0;  ///< in the mean; 0: no limit
