@@ -113,7 +113,7 @@ void bound_connections(grpc::ServerBuilder& builder) {
     builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, metadata_bytes);
     constexpr int streams = 1000;
     builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, streams);
-    // Who connects and says nothing has a place for so long.
+    // A connection that sends nothing keeps its place for this time.
     constexpr int handshake_milliseconds = 20'000;
     builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, handshake_milliseconds);
 }
@@ -302,7 +302,7 @@ void Server::Impl::shutdown() {
         const OpenWork::Entry working(open_work(), "the answers to streams");
         streams_.wait_until_none(deadline);
     }
-    // The frames are done. Who only receives, and may have stopped reading long ago, holds nobody up.
+    // The frames are done. A client that only receives, and may have stopped reading long ago, holds nobody up.
     const auto at_most = [&](std::chrono::milliseconds wait) {
         return std::min(deadline, std::chrono::system_clock::now() + wait);
     };

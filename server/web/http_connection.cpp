@@ -33,7 +33,7 @@ namespace {
 /// What a client may still be sending while it is answered for the last time.
 constexpr std::size_t linger_bytes = std::size_t{1} << 20;
 constexpr auto linger_time = std::chrono::seconds(2);
-/// Of what a client sent, in what it is told.
+/// Of what a client sent, in the answer to it.
 constexpr std::size_t shown_bytes = 64;
 
 constexpr std::string_view not_tls =
@@ -114,7 +114,7 @@ void HttpConnection::read() {
     parser_.emplace();
     parser_->header_limit(limits_.header_bytes);
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // none is read: answer() refuses them
-    // For the whole header: who sends it byte by byte gains nothing.
+    // For the whole header: a client that sends it byte by byte gains nothing.
     stream_.tcp().expires_after(limits_.patience);
     http::async_read_header(
         stream_, buffer_, *parser_,

@@ -12,7 +12,7 @@ namespace meniscus::server {
 /// Those of the contract have some hundred bytes.
 inline constexpr std::size_t max_request_bytes = 64 << 10;
 
-/// came: as OnReadDone() is told. Throws InvalidInput for a call without a request, LimitExceeded for one too large.
+/// came: what OnReadDone() receives. Throws InvalidInput for a call without a request, LimitExceeded for one too large.
 void require_request(bool came, const grpc::ByteBuffer& bytes);
 
 /// The same; throws InvalidInput for bytes that are not such a message, too.

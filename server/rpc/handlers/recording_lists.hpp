@@ -10,7 +10,7 @@
 
 namespace meniscus::server {
 
-/// Thread-safe. Callers who may see the same share an answer, too: a call costs hardly more than its sending.
+/// Thread-safe. Callers that may see the same share an answer, too: a call costs hardly more than its sending.
 class RecordingLists : public std::enable_shared_from_this<RecordingLists> {
 public:
     /// Answers with what is in the folder at a moment after this, or refuses once the server goes down.

@@ -283,7 +283,7 @@ private:
         write();
     }
 
-    /// The next read starts once a slot is free, and the simulator reads what it is told: until then gRPC's flow
+    /// The next read starts once a slot is free, and the simulator reads its answers: until then gRPC's flow
     /// control slows it down.
     void request_input() {
         {

@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// Which session it waits for is told to admins alone.
+/// The session that it waits for is named to admins alone.
 v1::Session session_message(const Session& session, const Caller& caller);
 
 }  // namespace meniscus::server

@@ -34,7 +34,7 @@ void add_services(const google::protobuf::FileDescriptor* file, Methods& methods
         }
 }
 
-/// Of descriptors, which gRPC's handlers do not tell: to them each of the server's own calls is a stream both ways.
+/// From descriptors: for gRPC's handlers each of the server's own calls is a stream both ways.
 Methods all_methods() {
     Methods methods;
     for (const google::protobuf::Descriptor* request :

@@ -25,7 +25,7 @@ public:
 
     void Intercept(grpc::experimental::InterceptorBatchMethods* methods) override {
         using Point = grpc::experimental::InterceptionHookPoints;
-        // A call that ends at once has initial metadata only where its handler gives some: that is how watchers tell a
+        // A call that ends at once has initial metadata only where its handler gives some: by that, watchers know a
         // refusal.
         if (methods->QueryInterceptionHookPoint(Point::PRE_SEND_STATUS))
             methods->GetSendTrailingMetadata()->emplace(key, name_);

@@ -1,4 +1,4 @@
-// Tells clients which server answers: behind a proxy they see one address.
+// Names the server that answers to its clients: behind a proxy they see one address.
 #pragma once
 
 #include <grpcpp/support/server_interceptor.h>

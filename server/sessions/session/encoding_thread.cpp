@@ -170,7 +170,7 @@ void EncodingThread::perform(EndSession& task) {
 }
 
 void EncodingThread::perform(EncodeForWatchers&) {
-    looks_for_watchers_ = false;  // first: those who come from here on may be overlooked
+    looks_for_watchers_ = false;  // first: watchers that come from here on may be overlooked
     encode_for_watchers();
 }
 

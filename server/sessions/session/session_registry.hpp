@@ -38,7 +38,7 @@ ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOpt
 /// Whether the sessions of this owner exist for a caller.
 using MaySee = std::function<bool(const std::string& owner)>;
 
-/// Who creates a session.
+/// The caller that creates a session.
 struct Creator {
     std::string name{};                      ///< empty where callers have no names
     std::shared_ptr<NameAccount> account{};  ///< none: no limits of its own
@@ -112,7 +112,7 @@ private:
 
     /// Where the next session reconstructs.
     BackendOptions place_session() const;
-    /// Memory of at most so many bytes, for which idle sessions give theirs back.
+    /// Memory of at most `limit` bytes, for which idle sessions give theirs back.
     std::shared_ptr<SharedMemory> shared_memory(std::size_t limit);
 
     const Limits limits_;

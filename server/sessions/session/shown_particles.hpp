@@ -1,4 +1,4 @@
-// The particles of a session's frames, on their way to the observer and to those who watch particles.
+// The particles of a session's frames, on their way to the observer and to watchers of particles.
 #pragma once
 
 #include <memory>

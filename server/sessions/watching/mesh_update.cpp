@@ -41,7 +41,7 @@ double squared_distance(const Box& box, const std::array<double, 3>& point) {
     return sum;
 }
 
-/// The best first, for who sees the mesh while it arrives.
+/// The best first, for a viewer that shows the mesh while it arrives.
 void order(std::vector<const BrickMessages*>& bricks, const WatchOptions& options, double cell_size) {
     if (!options.viewpoint) {
         std::ranges::stable_sort(bricks, std::ranges::greater(), &BrickMessages::triangles);

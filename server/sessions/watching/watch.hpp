@@ -64,7 +64,7 @@ public:
     /// frame: in the form that the watcher asks for. Replaces a frame that has not been taken. It is the last where
     /// the watcher asks for one alone.
     void put(WatchedFrame frame, Clock::time_point now = Clock::now());
-    /// Tells the watcher, between two messages, that the server goes down after this time.
+    /// Announces to the watcher, between two messages, that the server goes down after this time.
     void announce_end(std::chrono::duration<double> grace);
     /// No frames follow those that are here now, which go out without waiting for the rate. Later calls do nothing.
     void finish(std::exception_ptr error);

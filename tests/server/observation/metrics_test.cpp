@@ -1,4 +1,4 @@
-// /metrics tells what was done.
+// /metrics counts the work that was done.
 #include <grpcpp/create_channel.h>
 #include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What particles carry, from a simulator's frame to the vertices of those who receive its meshes.
+// What particles carry, from a simulator's frame to the vertices of received meshes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

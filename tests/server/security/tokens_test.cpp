@@ -1,4 +1,4 @@
-// Tokens: who may do what.
+// Tokens: the rights that each role has.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,4 +1,4 @@
-// The attributes of a session's meshes: announced to everyone, in the bricks for those who ask, by difference.
+// The attributes of a session's meshes: announced to everyone, in the bricks for receivers that ask, by difference.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -68,7 +68,7 @@ std::vector<std::string> web_frame(WebCall& call) {
     return messages;
 }
 
-/// Waits for the session to have so many watchers; a hang guard bounds it.
+/// Waits for the session to have this number of watchers; a hang guard bounds it.
 bool becomes(client::Client& client, const std::string& id, std::uint32_t watchers) {
     const auto guard = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (client.session(id).watchers != watchers) {
