@@ -1,5 +1,5 @@
-// Asks the server's own gRPC port, again and again, whether it answers. For /healthz: orchestrators probe it by HTTP, and
-// restart a server whose gRPC port hangs while its HTTP port still answers.
+// Asks the server's own gRPC port, again and again, whether it answers. For /healthz: orchestrators probe it by HTTP,
+// and restart a server whose gRPC port hangs while its HTTP port still answers.
 #pragma once
 
 #include <sys/socket.h>

@@ -17,8 +17,8 @@ inline constexpr std::chrono::seconds first_message_patience{10};
 /// For a client to take what is under way to it once nothing else follows.
 inline constexpr std::chrono::seconds last_message_patience{5};
 
-/// Of a reactor. One thread at a time, but for what gRPC calls. An alarm of gRPC, which needs no thread and no lock that
-/// thousands of calls share; see Timer for the rest of the server.
+/// Of a reactor. One thread at a time, but for what gRPC calls. An alarm of gRPC, which needs no thread and no lock
+/// that thousands of calls share; see Timer for the rest of the server.
 class CancelTimer {
 public:
     explicit CancelTimer(grpc::CallbackServerContext& context) : call_(std::make_shared<Call>(context)) {}

@@ -7,6 +7,7 @@
 #include "meniscus/v1/server_service.grpc.pb.h"
 #include "meniscus/v1/session_service.grpc.pb.h"
 #include "meniscus/v1/surface_service.grpc.pb.h"
+#include "rpc/calls/unary_call.hpp"
 #include "rpc/handlers/create_session_handler.hpp"
 #include "rpc/handlers/delete_recording_handler.hpp"
 #include "rpc/handlers/delete_session_handler.hpp"
@@ -15,10 +16,9 @@
 #include "rpc/handlers/read_recording_handler.hpp"
 #include "rpc/handlers/recording_lists.hpp"
 #include "rpc/handlers/server_info_handler.hpp"
-#include "rpc/messages/session_id.hpp"
 #include "rpc/handlers/stream_handler.hpp"
-#include "rpc/calls/unary_call.hpp"
 #include "rpc/handlers/watch_handler.hpp"
+#include "rpc/messages/session_id.hpp"
 
 namespace meniscus::server {
 

@@ -92,8 +92,8 @@ public:
     /// Begins a frame of this size; the one before is released. Throws LimitExceeded if there could never be room for
     /// it.
     void announce(std::size_t bytes);
-    /// Books this number of the announced bytes, which have arrived. If it returns false, they are booked later, and the
-    /// function is called then, by another thread, unless the frame is released before.
+    /// Books this number of the announced bytes, which have arrived. If it returns false, they are booked later, and
+    /// the function is called then, by another thread, unless the frame is released before.
     bool book(std::size_t arrived, std::function<void()> booked);
     void release() noexcept;
 

@@ -98,8 +98,8 @@ public:
                                       const std::shared_ptr<const NameAccount>& watcher = nullptr);
     void close_watch(const std::shared_ptr<Watch>& watch);
 
-    /// Lets the frame on its way in be the last, then ends the watchers. grace: announced to streams and watchers. Returns
-    /// at once.
+    /// Lets the frame on its way in be the last, then ends the watchers. grace: announced to streams and watchers.
+    /// Returns at once.
     void drain(std::chrono::duration<double> grace);
     /// Ends an upload that has been idle for Limits::idle_time, or whose frame comes too slowly, or whose answers are
     /// taken too slowly while frames of others wait for the bytes of its own, or are refused for its memory.

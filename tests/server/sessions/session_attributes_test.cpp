@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "conversion/attribute_conversion.hpp"
+#include "meniscus/error.hpp"
 #include "sessions/session/session.hpp"
 #include "sessions/watching/canonical_attributes.hpp"
 #include "simulator_player.hpp"
