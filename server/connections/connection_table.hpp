@@ -19,7 +19,7 @@ struct ConnectionLimits {
     std::size_t for_each_peer = 0;  ///< loopback, Unix sockets and trusted proxies excepted; 0: no limit
 };
 
-/// gRPC owns its connections' descriptors and tells nobody when it closes one. A descriptor's file is known again by
+/// gRPC owns its connections' descriptors and closes them without notice. A descriptor's file is known again by
 /// its inode: where it is another, or none, the connection is gone. That is looked up only where a limit is reached. Of
 /// one thread at a time.
 class ConnectionTable {

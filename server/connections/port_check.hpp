@@ -1,4 +1,5 @@
-// Asks the server's own gRPC port, again and again, whether it answers.
+// Asks the server's own gRPC port, again and again, whether it answers. For /healthz: orchestrators probe it by HTTP,
+// and restart a server whose gRPC port hangs while its HTTP port still answers.
 #pragma once
 
 #include <sys/socket.h>
@@ -26,7 +27,7 @@ public:
     };
     enum class Protocol { http2, tls };
 
-    /// sockets: that the port listens on. own: told of each connection before it is made.
+    /// sockets: that the port listens on. own: learns of each connection before it is made.
     PortCheck(std::vector<int> sockets, Protocol protocol, OwnConnections& own, Times times);
     PortCheck(std::vector<int> sockets, Protocol protocol, OwnConnections& own)
         : PortCheck(std::move(sockets), protocol, own, Times{}) {}
@@ -36,7 +37,7 @@ public:
 
     /// False once three checks in a row have failed. A check for which there is no descriptor does not count.
     bool answers() const noexcept { return answers_; }
-    /// What answers() says stays as it is.
+    /// From then on answers() does not change.
     void stop();
 
 private:

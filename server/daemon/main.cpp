@@ -68,7 +68,7 @@ void log_grpc_for_debugging(gpr_log_func_args* message) {
 void log_grpc(gpr_log_func_args* message) {
     static meniscus::server::LineLimit warnings(10);
     const std::string_view text(message->message);
-    // A refusal, which its client is told.
+    // A refusal, which its client receives.
     const bool is_refusal = text.find("ompression algorithm") != std::string_view::npos;
     const auto left = message->severity == GPR_LOG_SEVERITY_ERROR && !is_refusal ? warnings.pass() : std::nullopt;
     spdlog::log(left ? spdlog::level::warn : spdlog::level::debug, "gRPC: {}{}", text,

@@ -29,11 +29,12 @@
 #include "recording/recording_tidying.hpp"
 #include "recording/recording_writer.hpp"
 #include "recording/session_recording.hpp"
-#include "rpc/call_counter.hpp"
-#include "rpc/health_service.hpp"
-#include "rpc/known_methods.hpp"
-#include "rpc/server_instance.hpp"
-#include "rpc/services.hpp"
+#include "rpc/services/call_counter.hpp"
+#include "rpc/services/health_service.hpp"
+#include "rpc/services/known_methods.hpp"
+#include "rpc/services/server_instance.hpp"
+#include "rpc/services/services.hpp"
+#include "rpc/services/standard_services.hpp"
 #include "security/access.hpp"
 #include "security/trusted_peers.hpp"
 #include "sessions/session/session_registry.hpp"
@@ -97,10 +98,9 @@ void keep_alive(grpc::ServerBuilder& builder) {
 void require_closed_to_others(const ServerOptions& options) {
     if (!options.insecure && !options.tls.any()) require_loopback("--listen", options.listen);
     if (!options.insecure && !options.tls.any() && !options.http.empty()) require_loopback("--http", options.http);
-    const StandardServices& services = options.standard_services;
-    if (!options.tokens.empty() && (services.reflection || services.channelz))
+    if (!options.tokens.empty() && (options.reflection || options.channelz))
         throw InvalidInput(fmt::format("{} cannot be had with --tokens: gRPC answers it without asking for one",
-                                       services.reflection ? "--reflection" : "--channelz"));
+                                       options.reflection ? "--reflection" : "--channelz"));
 }
 
 /// What clients cannot do to gRPC itself. (That of keep_alive() is for both ends.)
@@ -113,7 +113,7 @@ void bound_connections(grpc::ServerBuilder& builder) {
     builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, metadata_bytes);
     constexpr int streams = 1000;
     builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, streams);
-    // Who connects and says nothing has a place for so long.
+    // A connection that sends nothing keeps its place for this time.
     constexpr int handshake_milliseconds = 20'000;
     builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, handshake_milliseconds);
 }
@@ -260,7 +260,7 @@ Server::Impl::Impl(const ServerOptions& options)
     builder.RegisterService(&session_service_);
     builder.RegisterService(&surface_service_);
     builder.RegisterService(&recording_service_);
-    add_standard_services(builder, options.standard_services);
+    add_standard_services(builder, {.reflection = options.reflection, .channelz = options.channelz});
     std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
     interceptors.push_back(make_call_counter(metrics_));
     interceptors.push_back(make_instance_marker());
@@ -302,7 +302,7 @@ void Server::Impl::shutdown() {
         const OpenWork::Entry working(open_work(), "the answers to streams");
         streams_.wait_until_none(deadline);
     }
-    // The frames are done. Who only receives, and may have stopped reading long ago, holds nobody up.
+    // The frames are done. A client that only receives, and may have stopped reading long ago, holds nobody up.
     const auto at_most = [&](std::chrono::milliseconds wait) {
         return std::min(deadline, std::chrono::system_clock::now() + wait);
     };

@@ -3,10 +3,10 @@
 
 #include <prometheus/metric_family.h>
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace meniscus::server {
 
@@ -26,7 +26,7 @@ inline prometheus::MetricFamily counter(std::string name, std::string help, doub
 
 /// One gauge for each value of a label.
 inline prometheus::MetricFamily gauges(std::string name, std::string help, const std::string& label,
-                                       std::initializer_list<std::pair<std::string_view, double>> values) {
+                                       const std::vector<std::pair<std::string_view, double>>& values) {
     prometheus::MetricFamily family{std::move(name), std::move(help), prometheus::MetricType::Gauge, {}};
     for (const auto& [value_of_label, value] : values) {
         prometheus::ClientMetric& metric = family.metric.emplace_back();

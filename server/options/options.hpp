@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "meniscus/described.hpp"
 #include "options/server_options.hpp"
 #include "process/log.hpp"
 
@@ -14,6 +15,20 @@ struct CommandLine {
     LogLevel log_level = LogLevel::info;
     LogFormat log_format = LogFormat::text;
     bool check_config = false;  ///< only report whether the settings can be used
+
+    /// Calls visit for each setting, as ServerOptions::rows does.
+    template <class Self, class Visit>
+    static void rows(Self& self, const Visit& visit) {
+        ServerOptions::rows(self.server, visit);
+        visit(
+            "log_level", self.log_level,
+            {.subject = "--log-level", .argument = "NAME", .manual = "`debug`, `info`, `warning`, `error` or `off`."});
+        visit("log_format", self.log_format,
+              {.help = "text, or json: one object a line",
+               .subject = "--log-format",
+               .argument = "NAME",
+               .manual = "`text`, or `json`: one object a line."});
+    }
 };
 
 /// What main() prints and returns where the server does not start.

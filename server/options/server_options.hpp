@@ -1,4 +1,4 @@
-// All that a server is told when it starts.
+// All that a server is given when it starts.
 #pragma once
 
 #include <chrono>
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "meniscus/backend_options.hpp"
+#include "meniscus/described.hpp"
 #include "recording/recording_options.hpp"
-#include "rpc/standard_services.hpp"
 #include "security/certificates.hpp"
 #include "sessions/limits/limits.hpp"
 
@@ -25,13 +25,100 @@ struct ServerOptions {
     std::vector<std::string> trusted_proxies;  ///< addresses and networks without limits for each peer address
     std::vector<std::string> web_origins;      ///< pages of other machines that may call over the HTTP port
     std::vector<std::string> web_frame_ancestors;  ///< pages that may show the viewer in a frame; empty: none
-    StandardServices standard_services;
+    bool reflection = false;                       ///< whether clients may read the contract, by gRPC's own service
+    bool channelz = false;     ///< whether clients may read the connections and their traffic, by gRPC's own service
     BackendOptions backend;    ///< backend and threads alone; the rest comes from `limits` and `devices`
     std::vector<int> devices;  ///< the GPUs to use; empty: all that can reconstruct
     Limits limits;
     RecordingOptions recording;
     /// How long shutdown() waits for clients to take their answers.
     std::chrono::milliseconds shutdown_grace = std::chrono::seconds(10);
+
+    /// Calls visit(name, value, facts) for each member that has a flag, in the order of --help; see Limits::rows for
+    /// those of limits.
+    template <class Self, class Visit>
+    static void rows(Self& self, const Visit& visit) {
+        visit("listen", self.listen,
+              {.help = "HOST:PORT (port 0: a free one, which is logged) or unix:PATH (for this user alone)",
+               .argument = "HOST:PORT | unix:PATH",
+               .manual = "Address to serve at. Port 0 is a free port, which is logged. An address that other machines "
+                         "reach needs TLS or `--insecure`. Let strangers come through a proxy: the gRPC library of "
+                         "Debian 12 does not withstand rapid resets (CVE-2023-44487) and headers without an end. A "
+                         "Unix socket is for the user that runs the server."});
+        TlsFiles::rows(self.tls, visit);
+        visit("tokens", self.tokens,
+              {.help = "Lines ROLE NAME TOKEN, the role being uploader, watcher or admin: calls need one of these "
+                       "tokens",
+               .argument = "FILE",
+               .manual = "Calls need a token. Lines `ROLE NAME TOKEN`; an `uploader` has the sessions of its name, a "
+                         "`watcher` sees all sessions, an `admin` may do everything. Only the file's user and group "
+                         "may be able to read it. Shares of that name may follow on the line, in place of those of the "
+                         "flags: `sessions=4 watchers=8 frames-per-second=60 bytes-in-flight=2G`."});
+        visit("insecure", self.insecure,
+              {.help = "Let other machines connect without TLS, also to --http",
+               .manual = "Let other machines connect without TLS, also to `--http`."});
+        visit("http", self.http,
+              {.help = "HOST:PORT (port 0: a free one, which is logged) of the viewer, /metrics, /healthz and "
+                       "/readyz; off: none. Default: where --listen is TCP on loopback, its port 9464, or a free one "
+                       "where that is taken; otherwise off",
+               .argument = "HOST:PORT",
+               .manual = "Also serve the viewer, metrics for Prometheus (`/metrics`), and the probes `/healthz` and "
+                         "`/readyz` here. `off` is none. By default, where `--listen` is TCP on loopback, its port "
+                         "9464, or a free one where that is taken, which is logged; otherwise off."});
+        visit("probes", self.probes,
+              {.help = "HOST:PORT of /metrics, /healthz and /readyz alone, always without TLS, also for other "
+                       "machines: they tell numbers only",
+               .argument = "HOST:PORT",
+               .manual = "Also serve metrics and probes, and nothing else, here. This port never has TLS, and other "
+                         "machines may ask it: it gives away numbers only. Off by default."});
+        visit("trusted_proxies", self.trusted_proxies,
+              {.help = "Addresses and networks, as 192.0.2.7,10.0.0.0/8, of proxies through which others come: limits "
+                       "for each peer address do not hold for them, nor for loopback and Unix sockets",
+               .argument = "LIST",
+               .manual = "Addresses and networks, such as `192.0.2.7,10.0.0.0/8`, of proxies through which others "
+                         "come. Limits for each peer address do not hold for them, nor for loopback and Unix sockets. "
+                         "The log names the clients that they pass on in `X-Forwarded-For`."});
+        visit("web_origin", self.web_origins,
+              {.help = "Page, as https://example.org, that may call over the HTTP port; those of this machine may",
+               .argument = "ORIGIN",
+               .manual = "A page of another machine, such as `https://example.org`, that may call over the HTTP port. "
+                         "May be repeated."});
+        visit("web_frame_ancestors", self.web_frame_ancestors,
+              {.help = "Pages, as https://example.org,https://example.org:8443, that may show the viewer in a frame",
+               .argument = "ORIGINS",
+               .manual = "Pages, such as `https://example.org,https://example.org:8443`, that may show the viewer in a "
+                         "frame of theirs. Each origin is named exactly; there are no patterns. May be repeated. By "
+                         "default no page may."});
+        visit("reflection", self.reflection,
+              {.help = "Let clients ask for the contract, as grpcurl does",
+               .manual = "Offer gRPC server reflection. Not together with `--tokens`."});
+        visit("channelz", self.channelz,
+              {.help = "Let clients ask for connections and their traffic",
+               .manual = "Offer gRPC channelz. Not together with `--tokens`."});
+        visit("backend", self.backend.backend,
+              {.subject = "backend",
+               .argument = "NAME",
+               .manual = "`cuda`, `cpu`, or `auto`, which takes the CPU where no GPU can be used, and logs why."});
+        visit("devices", self.devices,
+              {.help = "GPUs to use, as 0,1: each session on the one with the most free memory. Default: all that can "
+                       "be used",
+               .argument = "LIST",
+               .manual = "GPUs to use, such as `0,1`. A new session goes to the one with the most free memory. By "
+                         "default all GPUs that can be used."});
+        visit("threads", self.backend.threads,
+              {.help = "Worker threads; 0: one per processor",
+               .range = {.most = max_threads},
+               .argument = "N",
+               .manual = "Worker threads; 0 is one per processor."});
+        Limits::rows(self.limits, visit);
+        visit("shutdown_grace", self.shutdown_grace,
+              {.help = "Seconds that clients get after SIGTERM to take the frames they are owed",
+               .unit = "s",
+               .range = {.most = 3600.0},
+               .argument = "SECONDS",
+               .manual = "Time that clients have after `SIGTERM` to take the frames in flight."});
+        RecordingOptions::rows(self.recording, visit);
+    }
 };
 
 /// The reasons why a server cannot start with these options, one line each. Does not notice an address that is in use

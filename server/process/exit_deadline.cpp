@@ -6,6 +6,7 @@
 #include <string>
 
 #include "process/open_work.hpp"
+#include "process/seconds.hpp"
 
 namespace meniscus::server {
 
@@ -25,8 +26,7 @@ void ExitDeadline::start(std::chrono::milliseconds time) {
         std::unique_lock lock(mutex_);
         if (met_.wait_until(lock, deadline, [this] { return is_met_; })) return;
         const std::string unfinished = open_work().text();
-        spdlog::warn("stopped at the end of the {:.3g} s of grace: {} left unfinished",
-                     std::chrono::duration<double>(time).count(),
+        spdlog::warn("stopped at the end of the {:.3g} s of grace: {} left unfinished", seconds_of(time),
                      unfinished.empty() ? "the release of its memory was" : unfinished + " was");
         // Nobody is owed anything any more, and threads that still work use what an orderly exit would destroy.
         std::_Exit(EXIT_SUCCESS);

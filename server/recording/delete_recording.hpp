@@ -1,4 +1,4 @@
-// The deletion of a recording, which the log tells of.
+// The deletion of a recording, with its line in the log.
 #pragma once
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 
 namespace meniscus::server {
 
-/// A number from 1 that is free, as `taken` tells. Where numbers were taken in order, it is the one after them. Asks
+/// A number from 1 that is free, by `taken`. Where numbers were taken in order, it is the one after them. Asks
 /// twice for each bit of it, and so finds the millionth file as soon as the tenth.
 template <class Taken>
 std::uint32_t free_number(const Taken& taken) {

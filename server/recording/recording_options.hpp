@@ -7,13 +7,14 @@
 #include <filesystem>
 
 #include "meniscus/attribute_coding.hpp"
+#include "meniscus/described.hpp"
 
 namespace meniscus::server {
 
 /// Which recordings go by themselves, none that is being written or read.
 struct RecordingRetention {
     std::uint64_t min_frames = 0;         ///< those of fewer frames, once they are closed; 0: none
-    std::chrono::milliseconds max_age{};  ///< those that were last written so long ago; 0: none
+    std::chrono::milliseconds max_age{};  ///< those to which nothing was written for this time; 0: none
 
     bool keeps_all() const noexcept { return min_frames == 0 && max_age.count() == 0; }
 };
@@ -26,6 +27,44 @@ struct RecordingOptions {
     /// Of float32 attributes in the meshes, per component; 0: exact.
     int attribute_bits = default_attribute_bits;
     RecordingRetention retention{};
+
+    /// Calls visit(name, value, facts) for each member that has a flag.
+    template <class Self, class Visit>
+    static void rows(Self& self, const Visit& visit) {
+        visit("record", self.directory,
+              {.help = "Folder to keep every session's particles and meshes in; see meniscus recordings, replay, "
+                       "convert",
+               .argument = "DIR",
+               .manual = "Folder to keep every session's particles and meshes in. meniscus(1) lists, replays and "
+                         "converts them."});
+        visit("record_limit", self.limit,
+              {.help = "Bytes of all recordings in that folder, as 100G; 0: no limit. Nothing is deleted: recording "
+                       "stops",
+               .unit = "bytes",
+               .argument = "BYTES",
+               .manual = "Bytes of all recordings in that folder. Nothing is deleted at the limit: recording stops, "
+                         "with a line in the log."});
+        visit("record_attribute_bits", self.attribute_bits,
+              {.help = "Bits per component of the float32 attributes in recorded meshes, 1 to 16; 0: exact",
+               .range = {.most = max_attribute_bits},
+               .argument = "BITS",
+               .manual = "Bits per component of the float32 attributes in recorded meshes, 1 to 16; 0: exact. "
+                         "Recorded particles always carry the values as they came."});
+        visit("record_min_frames", self.retention.min_frames,
+              {.help = "A recording with fewer frames is deleted when it is closed; 0: none is",
+               .argument = "N",
+               .manual = "A recording with fewer frames is deleted when it is closed, or when the server starts if an "
+                         "earlier one has left it. 0 deletes none."});
+        visit("record_max_age", self.retention.max_age,
+              {.help = "Seconds after which a recording to which nothing more was written is deleted, as 2592000 for "
+                       "30 days; 0: none is",
+               .unit = "s",
+               .range = {.most = 1e9},
+               .argument = "SECONDS",
+               .manual = "A recording to which nothing was written for so long is deleted, such as 2592000 for 30 "
+                         "days, unless it is being written or read. The folder is looked through at the start and once "
+                         "a minute; each deletion is a line in the log. 0 deletes none."});
+    }
 };
 
 /// Throws InvalidInput if the directory is not one that can be written to, or made. Makes nothing.

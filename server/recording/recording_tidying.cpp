@@ -12,7 +12,7 @@ RecordingTidying::RecordingTidying(RecordingReads& reads, const RecordingRetenti
     : reads_(reads), retention_(retention) {
     if (retention.keeps_all()) return;
     look();
-    periodic_ = std::make_unique<Periodic>(interval, [this] { look(); });
+    timer_.every(interval, [this] { look(); });
 }
 
 void RecordingTidying::look() {

@@ -8,14 +8,14 @@
 
 #include "recording/recording_options.hpp"
 #include "recording/recording_reads.hpp"
-#include "sessions/handover/periodic.hpp"
+#include "sessions/handover/timer.hpp"
 
 namespace meniscus::server {
 
 class RecordingTidying {
 public:
-    /// Looks into the folder at once, and again and again, on the thread that reads; never where all are to be kept.
-    /// reads outlives this object.
+    /// Looks into the folder at once, and after each interval, on the thread that reads; never where all are to be
+    /// kept. reads outlives this object.
     RecordingTidying(RecordingReads& reads, const RecordingRetention& retention,
                      std::chrono::milliseconds interval = std::chrono::minutes(1));
 
@@ -26,7 +26,7 @@ private:
     const RecordingRetention retention_;
     /// A folder of very many files takes longer than the interval.
     const std::shared_ptr<std::atomic<bool>> waits_ = std::make_shared<std::atomic<bool>>(false);
-    std::unique_ptr<Periodic> periodic_;
+    Timer timer_;  ///< last: it uses the others
 };
 
 }  // namespace meniscus::server

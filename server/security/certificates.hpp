@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "meniscus/described.hpp"
+
 namespace meniscus::server {
 
 struct TlsFiles {
@@ -13,6 +15,20 @@ struct TlsFiles {
 
     /// Whether TLS is asked for.
     bool any() const { return !certificate.empty() || !key.empty() || !client_ca.empty(); }
+
+    /// Calls visit(name, value, facts) for each file.
+    template <class Self, class Visit>
+    static void rows(Self& self, const Visit& visit) {
+        visit("tls_cert", self.certificate,
+              {.help = "Certificate chain for TLS, PEM",
+               .argument = "FILE",
+               .manual = "Certificate chain for TLS, PEM."});
+        visit("tls_key", self.key, {.help = "Its key, PEM", .argument = "FILE", .manual = "Its key, PEM."});
+        visit("tls_client_ca", self.client_ca,
+              {.help = "Mutual TLS: clients need a certificate of one of these, PEM",
+               .argument = "FILE",
+               .manual = "Mutual TLS: clients need a certificate that one of these certificates has signed, PEM."});
+    }
 };
 
 /// The files' contents.

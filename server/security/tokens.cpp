@@ -9,6 +9,7 @@
 #include <limits>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
@@ -49,24 +50,15 @@ bool is_control(char byte) {
 bool add_share(std::string_view word, OwnShares& shares) {
     const std::size_t equals = word.find('=');
     if (equals == std::string_view::npos) return false;
-    const std::string_view key = word.substr(0, equals);
-    const auto number = number_of(word.substr(equals + 1), key == "bytes-in-flight");
-    if (!number) return false;
-    if (key == "bytes-in-flight") {
-        shares.bytes_in_flight = *number;
-        return true;
-    }
-    if (*number > std::numeric_limits<std::uint32_t>::max()) return false;
-    const auto count = static_cast<std::uint32_t>(*number);
-    if (key == "sessions")
-        shares.sessions = count;
-    else if (key == "watchers")
-        shares.watchers = count;
-    else if (key == "frames-per-second")
-        shares.frames_per_second = count;
-    else
-        return false;
-    return true;
+    bool is_added = false;
+    OwnShares::rows(shares, [&]<class Number>(std::string_view key, std::optional<Number>& share, const Facts& facts) {
+        if (key != word.substr(0, equals)) return;
+        const auto number = number_of(word.substr(equals + 1), facts.unit == "bytes");
+        if (!number || !std::in_range<Number>(*number)) return;
+        share = static_cast<Number>(*number);
+        is_added = true;
+    });
+    return is_added;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@
 
 #include "meniscus/error.hpp"
 #include "meniscus/quoted.hpp"
-#include "rpc/session_id.hpp"
+#include "rpc/messages/session_id.hpp"
 #include "security/web_peer.hpp"
 #include "web/beast_text.hpp"
 #include "web/call_metadata.hpp"
@@ -113,7 +113,7 @@ void HttpConnection::read() {
     parser_.emplace();
     parser_->header_limit(limits_.header_bytes);
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // none is read: answer() refuses them
-    // For the whole header: who sends it byte by byte gains nothing.
+    // For the whole header: a client that sends it byte by byte gains nothing.
     stream_.tcp().expires_after(limits_.patience);
     http::async_read_header(
         stream_, buffer_, *parser_,

@@ -8,7 +8,7 @@
 
 #include "meniscus/error.hpp"
 #include "meniscus/v1/session_service.pb.h"
-#include "rpc/wire_bytes.hpp"
+#include "rpc/messages/wire_bytes.hpp"
 #include "web/mesh_glb.hpp"
 
 namespace meniscus::server {

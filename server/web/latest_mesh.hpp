@@ -1,4 +1,5 @@
 // A session's newest mesh as a page: a snapshot, made by a call as native gRPC makes it, with its rights and limits.
+// For users that fetch latest.glb: with a browser, curl, or any program that reads glTF and knows nothing of gRPC.
 #pragma once
 
 #include <grpcpp/channel.h>

@@ -18,7 +18,7 @@
 #include "files/glb_document.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/error.hpp"
-#include "rpc/wire_bytes.hpp"
+#include "rpc/messages/wire_bytes.hpp"
 
 namespace meniscus::server {
 

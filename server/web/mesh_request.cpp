@@ -64,9 +64,9 @@ v1::SnapshotRequest snapshot_request(const MeshRequest& asked) {
     request.set_session_id(asked.session);
     request.add_codecs(v1::CODEC_DRACO);
     for (const std::string& name : asked.attributes) {
-        v1::AttributeWish& wish = *request.add_attributes();
-        if (name != all_attributes) wish.set_name(name);
-        wish.set_bits(0);
+        v1::AttributeWish& attribute = *request.add_attributes();
+        if (name != all_attributes) attribute.set_name(name);
+        attribute.set_bits(0);
     }
     return request;
 }

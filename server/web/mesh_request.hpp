@@ -26,7 +26,8 @@ MeshRequest mesh_request(std::string_view target);
 
 v1::SnapshotRequest snapshot_request(const MeshRequest& asked);
 
-/// Equal only for equal files. Empty for a run without a name, whose frames may be told from another's by nothing.
+/// Equal only for equal files. Empty for a run without a name: nothing sets its frames apart from those
+/// of another.
 std::string entity_tag(const MeshRequest& asked, const v1::MeshBegin& mesh);
 
 }  // namespace meniscus::server

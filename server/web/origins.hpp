@@ -18,8 +18,8 @@ public:
     /// origin: as the browser sends it; empty: no browser asks. host: the request's, which the server is known by.
     bool admits(std::string_view origin, std::string_view host) const;
     /// Whether a request for this host ("HOST:PORT", "HOST", or empty: none was named) can be meant for this server: by
-    /// address, as localhost, or by a name that it was given. Any other name may be an attacker's, whose DNS tells a
-    /// browser that this machine is its page's own (DNS rebinding).
+    /// address, as localhost, or by a name that it was given. Any other name may be an attacker's, whose DNS leads a
+    /// browser to this machine for its own page (DNS rebinding).
     bool knows_host(std::string_view host) const;
 
 private:

@@ -16,7 +16,7 @@
 #include "benchmarks.hpp"
 #include "meniscus/client/client.hpp"
 #include "report.hpp"
-#include "rpc/services.hpp"
+#include "rpc/services/services.hpp"
 #include "sessions/session/session_registry.hpp"
 #include "socket_copy.hpp"
 #include "warm_runs.hpp"

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "meniscus/v1/surface_service.pb.h"
-#include "rpc/frame_chunk_reader.hpp"
+#include "rpc/messages/frame_chunk_reader.hpp"
 #include "support.hpp"
 
 namespace meniscus::fuzz {

@@ -1,5 +1,5 @@
 #include "meniscus/v1/surface_service.pb.h"
-#include "rpc/watch_wishes.hpp"
+#include "rpc/messages/watch_options.hpp"
 #include "support.hpp"
 
 namespace meniscus::fuzz {
@@ -10,12 +10,13 @@ void watch_requests(Bytes bytes) {
     Settings settings;
     settings.particle_radius = 0.1;
     may_refuse([&] {
-        const server::WatchWishes wishes = server::watch_wishes_of(request, settings);
-        require(wishes.format.max_level >= 1 && wishes.format.max_level <= 3, "a level cap is a level");
-        require(wishes.format.position_bits >= 2 && wishes.format.position_bits <= 6,
+        const server::WatchOptions options = server::watch_options_of(request, settings);
+        require(options.format.max_level >= 1 && options.format.max_level <= 3, "a level cap is a level");
+        require(options.format.position_bits >= 2 && options.format.position_bits <= 6,
                 "positions are no finer than the mesh");
-        require(wishes.format.normal_bits == 0 || (wishes.format.normal_bits >= 2 && wishes.format.normal_bits <= 16),
-                "normals have bits that Draco takes");
+        require(
+            options.format.normal_bits == 0 || (options.format.normal_bits >= 2 && options.format.normal_bits <= 16),
+            "normals have bits that Draco takes");
     });
 }
 

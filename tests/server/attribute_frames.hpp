@@ -49,12 +49,12 @@ struct ParticlesWithArrays {
     std::vector<ParticleArray> arrays;
 };
 
-/// In its canonical order, with the attributes as they come to who has these wishes.
-inline Mesh made_here(const ParticleFrame& frame, const Settings& with, const std::vector<AttributeWish>& wishes) {
+/// In its canonical order, with the attributes as they come to a receiver that asks for these.
+inline Mesh made_here(const ParticleFrame& frame, const Settings& with, const std::vector<AttributeWish>& attributes) {
     Reconstructor reconstructor(with, {.threads = 1});
     Mesh mesh;
     reconstructor.reconstruct(frame, mesh);
-    round_attributes(mesh, wishes);
+    round_attributes(mesh, attributes);
     return in_canonical_order(mesh);
 }
 

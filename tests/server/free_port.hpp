@@ -1,4 +1,4 @@
-// A port for a program that cannot be told to choose one.
+// A port for a program that cannot choose one itself.
 #pragma once
 
 #include <arpa/inet.h>

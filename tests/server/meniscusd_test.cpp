@@ -129,7 +129,7 @@ TEST(Meniscusd, EndsWellWithAClientThatNeverReads) {
     EXPECT_EQ(process.exit_code(), 0);
 }
 
-// Whose simulators have their answers: who only watches, and has stopped reading, is owed nothing.
+// Whose simulators have their answers: a client that only watches, and has stopped reading, is owed nothing.
 TEST(Meniscusd, EndsWithItsWorkThoughWatchersHaveStoppedReadingOrVanished) {
     Process process(on_free_port({"--shutdown-grace", "60"}));
     const std::string address = process.address();

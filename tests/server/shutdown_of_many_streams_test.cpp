@@ -1,4 +1,4 @@
-// A server with 200 calls, half of whose clients do not read, is told to stop.
+// A server with 200 calls, half of whose clients do not read, is asked to stop.
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 #include <gtest/gtest.h>

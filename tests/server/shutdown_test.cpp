@@ -13,7 +13,7 @@
 namespace meniscus::server::test {
 namespace {
 
-/// Holds who logs that a stream is opened until it is released.
+/// Holds a thread that logs the opening of a stream until it is released.
 class HeldOpening final : public spdlog::sinks::sink {
 public:
     void log(const spdlog::details::log_msg& message) override {

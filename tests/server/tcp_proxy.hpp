@@ -47,7 +47,7 @@ public:
 
     std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
 
-    /// Ends all connections, and for so long each new one at once.
+    /// Ends all connections, and for this time each new one at once.
     void refuse_for(std::chrono::milliseconds time) {
         refuses_until_ = std::chrono::steady_clock::now() + time;
         cut();
@@ -62,7 +62,7 @@ public:
     /// From now on nothing arrives, on either side, and no connection ends: as from a server that was stopped.
     void swallow() { swallows_ = true; }
 
-    /// From now on nothing is read, on either side, and no connection ends: who goes on writing waits.
+    /// From now on nothing is read, on either side, and no connection ends: a client that goes on writing waits.
     void stall() { stalls_ = true; }
 
 private:

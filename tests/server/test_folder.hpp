@@ -22,7 +22,7 @@ public:
     TestFolder& operator=(const TestFolder&) = delete;
 
     std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-    /// Readable for this user alone, unless told otherwise.
+    /// Readable for this user alone, unless the mode says otherwise.
     std::string write(const std::string& name, const std::string& text, int mode = 0600) const {
         std::string path = *this / name;
         std::ofstream(path) << text;

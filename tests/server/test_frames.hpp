@@ -35,7 +35,7 @@ struct Particles {
     }
 };
 
-/// A block of side^3 particles whose top is a wave; `phase` tells frames apart.
+/// A block of side^3 particles whose top is a wave; `phase` makes frames differ.
 inline Particles wave(std::size_t side, double phase) {
     Particles particles;
     for (std::size_t z = 0; z < side; ++z)

@@ -38,6 +38,7 @@ struct Facts {
     std::string_view group{};     ///< heading of the flag in --help
     std::span<const std::string_view> entries{};  ///< names of an array's elements
     bool by_hand = false;                         ///< whether flags and texts show it by hand, as they do lists
+    std::string_view gauge{};     ///< of a limit: its name in the server's metrics
 };
 
 namespace detail {

@@ -30,7 +30,7 @@ std::optional<Turns::Turn> Turns::wait(const std::stop_token& stop, const std::s
 Turns::Line& Turns::line_of(const std::string& name) {
     const auto found = std::ranges::find(lines_, name, &Line::name);
     if (found != lines_.end()) return *found;
-    // A name that has the turn comes after all who have come meanwhile.
+    // A name that has the turn comes after all that have come meanwhile.
     return *lines_.insert(began_ ? std::prev(lines_.end()) : lines_.end(), Line{.name = name});
 }
 

@@ -34,7 +34,7 @@ std::vector<conversion::FurtherArray> arrays_to_keep(const conversion::ParticleL
 std::uint64_t kept_bytes_per_particle(const conversion::ParticleLayout& layout,
                                       const std::vector<conversion::FurtherArray>& kept);
 
-/// count: particles, so many that all of the frame's bytes can be counted.
+/// count: of particles, small enough that all of the frame's bytes can be counted.
 FramePlan plan_frame(const conversion::ParticleLayout& layout, const std::vector<conversion::FurtherArray>& kept,
                      std::size_t count);
 

@@ -30,7 +30,7 @@ void FrameStop::begin(const Upload* upload) {
         if (closed_) stop(Reason::closed);
     }
     if (longest_.count() == 0) return;
-    deadline_ = deadlines_->add(Deadlines::Clock::now() + longest_, [this] {
+    deadline_ = deadlines_->at(Timer::Clock::now() + longest_, [this] {
         const std::lock_guard lock(mutex_);
         stop(Reason::too_long);
     });

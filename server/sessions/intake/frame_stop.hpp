@@ -7,7 +7,7 @@
 #include <mutex>
 
 #include "meniscus/stop_flag.hpp"
-#include "sessions/handover/deadlines.hpp"
+#include "sessions/handover/timer.hpp"
 #include "sessions/intake/upload.hpp"
 
 namespace meniscus::server {
@@ -23,7 +23,7 @@ public:
     };
 
     /// flag: none where nothing can be stopped. longest: 0 for no limit.
-    FrameStop(std::shared_ptr<StopFlag> flag, std::shared_ptr<Deadlines> deadlines, std::chrono::milliseconds longest)
+    FrameStop(std::shared_ptr<StopFlag> flag, std::shared_ptr<Timer> deadlines, std::chrono::milliseconds longest)
         : flag_(std::move(flag)), deadlines_(std::move(deadlines)), longest_(longest) {}
 
     /// A frame, or meshes of the last one, while they have the device: their time runs.
@@ -53,7 +53,7 @@ private:
     void stop(Reason reason);
 
     const std::shared_ptr<StopFlag> flag_;
-    const std::shared_ptr<Deadlines> deadlines_;
+    const std::shared_ptr<Timer> deadlines_;
     const std::chrono::milliseconds longest_;
 
     mutable std::mutex mutex_;  ///< for what follows

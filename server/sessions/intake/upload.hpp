@@ -58,9 +58,12 @@ struct Upload {
     /// wake: see OutputQueue. stop_receiving: called when the frame on its way in is to be the last. stop_at_once: when
     /// it is not wanted any more; the stream then ends with the error.
     Upload(
-        const UploadOptions& wishes, std::function<void()> wake, std::function<void()> stop_receiving,
+        const UploadOptions& upload_options, std::function<void()> wake, std::function<void()> stop_receiving,
         std::function<void(std::exception_ptr)> stop_at_once = [](const std::exception_ptr&) {})
-        : options(wishes), output(std::move(wake)), drain(std::move(stop_receiving)), stop(std::move(stop_at_once)) {}
+        : options(upload_options),
+          output(std::move(wake)),
+          drain(std::move(stop_receiving)),
+          stop(std::move(stop_at_once)) {}
 
     const UploadOptions options;
     OutputQueue output;

@@ -60,7 +60,7 @@ private:
     // With the lock held.
     bool grant(FrameInFlight& frame);
     bool admit(FrameInFlight& frame);
-    /// Whether all frames that have begun can arrive whole, if this one has so many more bytes.
+    /// Whether all frames that have begun can arrive whole, if this one has `more` bytes.
     bool is_safe(const FrameInFlight& frame, std::size_t more) const;
     void forget(FrameInFlight& frame);
     /// Those whose bytes are booked by now, in the order of their frames.
@@ -89,11 +89,11 @@ public:
     FrameInFlight& operator=(const FrameInFlight&) = delete;
     FrameInFlight& operator=(FrameInFlight&&) = delete;
 
-    /// Begins a frame of so many bytes; the one before is released. Throws LimitExceeded if there could never be as
-    /// many.
+    /// Begins a frame of this size; the one before is released. Throws LimitExceeded if there could never be room for
+    /// it.
     void announce(std::size_t bytes);
-    /// Books so many of the announced bytes, which have arrived. If it returns false, they are booked later, and the
-    /// function is called then, by another thread, unless the frame is released before.
+    /// Books this number of the announced bytes, which have arrived. If it returns false, they are booked later, and
+    /// the function is called then, by another thread, unless the frame is released before.
     bool book(std::size_t arrived, std::function<void()> booked);
     void release() noexcept;
 

@@ -65,7 +65,7 @@ constexpr std::string_view name_of(LimitName limit) {
     return {};
 }
 
-/// For limits that callers share, so that it can be counted which one is too low, or who asks for too much.
+/// For limits that callers share, so that it can be counted which one is too low, or which caller asks for too much.
 class LimitReached : public LimitExceeded {
 public:
     LimitReached(LimitName limit, const std::string& message) : LimitExceeded(message), limit_(limit) {}

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "meniscus/described.hpp"
+
 namespace meniscus::server {
 
 /// Of one token's name, or without tokens of one peer address. 0 means no limit.
@@ -24,6 +26,15 @@ struct OwnShares {
     std::optional<std::uint32_t> watchers{};
     std::optional<std::uint32_t> frames_per_second{};
     std::optional<std::size_t> bytes_in_flight{};
+
+    /// Calls visit(key, share, facts) for each, the key being that of the tokens file.
+    template <class Self, class Visit>
+    static void rows(Self& self, const Visit& visit) {
+        visit("sessions", self.sessions, {});
+        visit("watchers", self.watchers, {});
+        visit("frames-per-second", self.frames_per_second, {});
+        visit("bytes-in-flight", self.bytes_in_flight, {.unit = "bytes"});
+    }
 
     NameShares over(const NameShares& everybody) const {
         return {.sessions = sessions.value_or(everybody.sessions),

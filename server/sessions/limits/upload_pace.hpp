@@ -13,8 +13,8 @@ namespace meniscus::server {
 /// A frame may take `time`. If it takes longer, it must come with `bytes_per_second` from then on: what came quickly
 /// before is no credit for a standstill.
 struct LeastPace {
-    std::chrono::duration<double> time{};  ///< 0: no limit
-    std::size_t bytes_per_second = 0;      ///< 0: a frame that takes longer is too slow
+    std::chrono::milliseconds time{};  ///< 0: no limit
+    std::size_t bytes_per_second = 0;  ///< 0: a frame that takes longer is too slow
 };
 
 /// Measures a transfer against its least pace, in windows of five seconds, or of the time that it has if that is less.
@@ -29,7 +29,7 @@ public:
         const bool is_up = taken >= least.time;
         if (least.bytes_per_second == 0) return is_up;
         const Seconds passed = taken - begin_;
-        if (passed < std::min(least.time, longest_window)) return false;
+        if (passed < std::min<Seconds>(least.time, longest_window)) return false;
         const bool is_slow =
             static_cast<double>(bytes - bytes_) < passed.count() * static_cast<double>(least.bytes_per_second);
         begin_ = taken;

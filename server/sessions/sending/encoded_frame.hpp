@@ -27,7 +27,7 @@ struct MeshFormat {
     int position_bits = 0;  ///< vertices lie on multiples of c / 2^position_bits; 0: as reconstructed
     int normal_bits = 0;    ///< per octahedral component; 0: no normals
     Codec codec = Codec::draco;
-    std::vector<AttributeWish> attributes{};  ///< of canonical_wishes()
+    std::vector<AttributeWish> attributes{};  ///< of canonical_attributes()
     auto operator<=>(const MeshFormat&) const =
         default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
 };
@@ -56,7 +56,7 @@ struct EncodedFrame {
     SharedMessage begin;               ///< announces the whole mesh
     std::vector<SharedBrick> bricks;   ///< ordered by place (z, y, x)
     std::uint64_t spray_count = 0;     ///< points in all of the next
-    std::vector<SharedMessage> spray;  ///< for those who wish for it
+    std::vector<SharedMessage> spray;  ///< for receivers that ask for it
     FrameStatistics statistics;
     SharedMessage end;  ///< carries the statistics
 

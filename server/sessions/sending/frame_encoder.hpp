@@ -21,7 +21,7 @@ namespace meniscus::server {
 
 /// A frame after its reconstruction.
 struct ReconstructedFrame {
-    /// The surface with its levels capped; `made` if a watcher wished for it.
+    /// The surface with its levels capped; `made` if a watcher asked for it.
     struct CappedMesh {
         bool made = false;
         Mesh mesh;

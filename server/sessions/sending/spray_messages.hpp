@@ -1,4 +1,4 @@
-// A frame's spray as it goes out, to those who wish for it.
+// A frame's spray as it goes out, to receivers that ask for it.
 #pragma once
 
 #include <span>

@@ -8,9 +8,9 @@
 
 namespace meniscus::server {
 
-/// Tells a simulator that the frame will not be answered.
+/// For a simulator: the frame will not be answered.
 SharedMessage frame_dropped_message(const DroppedFrame& frame);
-/// Tells a simulator or a watcher that the server goes down, and ends the call after this time whatever is left.
+/// For a simulator or a watcher: the server goes down, and ends the call after this time whatever is left.
 SharedMessage draining_message(std::chrono::duration<double> grace);
 
 }  // namespace meniscus::server

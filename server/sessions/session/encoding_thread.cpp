@@ -10,20 +10,20 @@
 #include "process/log.hpp"
 #include "sessions/handover/start_thread.hpp"
 #include "sessions/sending/stream_notices.hpp"
-#include "sessions/watching/canonical_wishes.hpp"
+#include "sessions/watching/canonical_attributes.hpp"
 
 namespace meniscus::server {
 
 namespace {
 
-/// A watcher that wishes for the same shares the stream's encode.
+/// A watcher that asks for the same shares the stream's encode.
 MeshFormat stream_format(int normal_bits, Codec codec, const std::vector<AttributeWish>& attributes,
                          const Settings& settings) {
     return {.max_level = 3,
             .position_bits = static_cast<int>(offset_bits(settings)),
             .normal_bits = settings.normals ? normal_bits : 0,
             .codec = codec,
-            .attributes = canonical_wishes(attributes, settings)};
+            .attributes = canonical_attributes(attributes, settings)};
 }
 
 MeshFormat stream_format(const UploadOptions& options, const Settings& settings) {
@@ -170,7 +170,7 @@ void EncodingThread::perform(EndSession& task) {
 }
 
 void EncodingThread::perform(EncodeForWatchers&) {
-    looks_for_watchers_ = false;  // first: those who come from here on may be overlooked
+    looks_for_watchers_ = false;  // first: watchers that come from here on may be overlooked
     encode_for_watchers();
 }
 

@@ -44,7 +44,7 @@ public:
         std::exception_ptr error;
     };
     struct EncodeForWatchers {};
-    /// The mesh of a level cap that was wished for after its frame had been reconstructed.
+    /// The mesh of a level cap that was asked for after its frame had been reconstructed.
     struct AddCapped {
         std::uint64_t frame_number = 0;
         int max_level = 0;
@@ -126,7 +126,7 @@ private:
 
     std::shared_ptr<const EncodedFrame> encode_newest(const MeshFormat& format, const MessageSink& sink,
                                                       bool spray_to_sink = false);
-    /// Encodes the newest mesh in formats that watchers wish for and nobody has published, until a frame waits: the
+    /// Encodes the newest mesh in formats that watchers ask for and nobody has published, until a frame waits: the
     /// simulator comes first, and a format may skip frames.
     void encode_for_watchers();
     /// For the watchers whose turn it is. Returns false if there is none, or it failed.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "process/seconds.hpp"
 #include "sessions/session/session_name.hpp"
 
 namespace meniscus::server {
@@ -32,7 +33,7 @@ std::string name_idle_sessions(const std::vector<std::shared_ptr<Session>>& sess
     std::string text = "; you may delete, of those without a stream, ";
     for (const auto& [time, session] : idle)
         text += fmt::format("{}{}{} (for {:.0f} s)", session == idle.front().second ? "" : ", ", named(session->name()),
-                            session->id(), std::chrono::duration<double>(time).count());
+                            session->id(), seconds_of(time));
     if (const std::size_t others = sessions.size() - idle.size(); others != 0)
         text += fmt::format("; others: {}", others);
     return text;

@@ -28,7 +28,7 @@ struct ReconstructFunctions {
     /// Reconstructor::reconstruct_for_download throws.
     std::function<Reconstructed(const ParticleFrame& frame, Mesh& mesh)> reconstruct;
     /// Replaces the mesh by the last frame's surface with its levels capped; throws what Reconstructor::emit_capped
-    /// throws. None if no watcher will wish for a level cap.
+    /// throws. None if no watcher will ask for a level cap.
     std::function<void(int max_level, Mesh& mesh)> emit_capped{};
     /// Once it is raised, both throw Stopped soon. None: nothing stops them.
     std::shared_ptr<StopFlag> stop{};

@@ -8,6 +8,7 @@
 #include "process/call_log.hpp"
 #include "process/log.hpp"
 #include "process/open_work.hpp"
+#include "process/seconds.hpp"
 #include "sessions/handover/start_thread.hpp"
 #include "sessions/limits/refusal.hpp"
 
@@ -98,7 +99,7 @@ bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn)
         shown_ = {.number = next_mesh_->number, .run_id = next_mesh_->run_id, .statistics = next_mesh_->statistics};
         meshes_released_ = false;
     }
-    // Its simulator's answer first: watchers may wish for much.
+    // Its simulator's answer first: watchers may ask for much.
     encoding_.put(
         EncodingThread::Encode{.upload = std::move(received.upload), .frame = std::exchange(next_mesh_, nullptr)});
     if (shown) particles_.encode(input);
@@ -137,7 +138,7 @@ void ReconstructingThread::throw_stopped(std::uint64_t index) const {
     const std::string& id = context_.identity.id;
     switch (stop_.reason()) {
         case FrameStop::Reason::too_long: {
-            const double seconds = std::chrono::duration<double>(context_.limits.frame_time).count();
+            const double seconds = seconds_of(context_.limits.frame_time);
             log_warning({.session = id, .frame = index}, "stopped: it had the device for {:.3g} s", seconds);
             throw LimitExceeded(fmt::format(
                 "frame {}: it has had the device for {:.3g} s, as long as the server gives to one frame: use "
@@ -157,7 +158,7 @@ void ReconstructingThread::throw_stopped(std::uint64_t index) const {
 void ReconstructingThread::cap_levels(ReconstructedFrame& frame) {
     for (const int max_level : {1, 2}) {
         auto& capped = frame.capped_at(max_level);
-        capped.made = watchers_.wish_for_level(max_level) && emit_capped(max_level, capped.mesh);
+        capped.made = watchers_.want_level(max_level) && emit_capped(max_level, capped.mesh);
         if (!capped.made) capped.mesh = {};  // nobody's memory
         capped_.at(static_cast<std::size_t>(max_level - 1)) = capped.made;
     }
@@ -171,7 +172,7 @@ void ReconstructingThread::serve_watchers() {
 
 void ReconstructingThread::cap_levels_again(int max_level) {
     bool& made = capped_.at(static_cast<std::size_t>(max_level - 1));
-    if (!has_surface_ || made || !watchers_.wish_for_level(max_level)) return;
+    if (!has_surface_ || made || !watchers_.want_level(max_level)) return;
     const auto turn = begin_work();
     if (!turn) return;
     const FrameStop::UnderWay under_way(stop_, nullptr);

@@ -64,7 +64,7 @@ private:
     void serve_watchers();
     /// Makes the newest meshes again, for a watcher that has come since.
     void make_meshes_again();
-    /// Adds the meshes of coarser levels that watchers wish for now.
+    /// Adds the meshes of coarser levels that watchers ask for now.
     void cap_levels(ReconstructedFrame& frame);
     /// Makes such a mesh of the last frame, for a watcher that has come since.
     void cap_levels_again(int max_level);

@@ -11,6 +11,7 @@
 #include "meniscus/error.hpp"
 #include "process/call_log.hpp"
 #include "process/log.hpp"
+#include "process/seconds.hpp"
 #include "sessions/limits/limit_reached.hpp"
 #include "sessions/limits/refusal.hpp"
 #include "sessions/sending/stream_notices.hpp"
@@ -195,20 +196,20 @@ void Session::cancel_upload(const std::shared_ptr<Upload>& upload, UploadEnd end
     end_upload(upload, nullptr);
 }
 
-std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::function<void()> wake,
+std::shared_ptr<Watch> Session::open_watch(const WatchOptions& options, std::function<void()> wake,
                                            const std::shared_ptr<const NameAccount>& watcher) {
-    auto watch = std::make_shared<Watch>(wishes, std::move(wake), context_.shared.metrics, watcher);
+    auto watch = std::make_shared<Watch>(options, std::move(wake), context_.shared.metrics, watcher);
     const std::lock_guard lock(mutex_);
     if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
     if (draining_) throw shutting_down();
-    if (!wishes.once) {
-        require_room_for(wishes, watcher.get(), watchers_.list(), id(), limits());
+    if (!options.once) {
+        require_room_for(options, watcher.get(), watchers_.list(), id(), limits());
     } else if (reconstructing_.progress().frames == 0) {
         watch->finish(nullptr);
         return watch;
     }
     if (watchers_.add(watch)) return watch;
-    if (!wishes.max_particles) encoding_.look_for_watchers();
+    if (!options.max_particles) encoding_.look_for_watchers();
     received_.put({.watchers = true});
     return watch;
 }
@@ -216,7 +217,7 @@ std::shared_ptr<Watch> Session::open_watch(const WatchWishes& wishes, std::funct
 void Session::close_watch(const std::shared_ptr<Watch>& watch) {
     const std::lock_guard lock(mutex_);
     watchers_.remove(watch);
-    if (!watch->wishes().once) last_used_ = std::chrono::steady_clock::now();
+    if (!watch->options().once) last_used_ = std::chrono::steady_clock::now();
 }
 
 void Session::finish_upload(const std::shared_ptr<Upload>& upload, std::exception_ptr error) {
@@ -287,11 +288,10 @@ void Session::end_slow_upload(std::chrono::steady_clock::time_point now) {
                                      "come with {} bytes per "
                                      "second from then on",
                                      frame->index, frame->arrived, frame->announced, frame->time.count(),
-                                     limits().least_pace.time.count(), limits().least_pace.bytes_per_second))));
+                                     seconds_of(limits().least_pace.time), limits().least_pace.bytes_per_second))));
 }
 
 void Session::end_stalled_uploads(std::chrono::steady_clock::time_point now, bool memory_is_short) {
-    using Seconds = std::chrono::duration<double>;
     const LeastPace& least = limits().least_pace;
     const bool keeps_others_waiting = memory_is_short || context_.shared.bytes_in_flight->others_wait(*in_flight_);
     if (least.time.count() == 0 || !keeps_others_waiting) return;
@@ -311,7 +311,7 @@ void Session::end_stalled_uploads(std::chrono::steady_clock::time_point now, boo
             LimitName::answer_time,
             fmt::format("{} bytes of the meshes were taken in {:.3g} s, while there is no room for frames of other "
                         "sessions; take the first within {:.3g} s, or {} bytes per second from then on",
-                        stall->bytes_taken, stall->time.count(), Seconds(least.time).count(), least.bytes_per_second)));
+                        stall->bytes_taken, stall->time.count(), seconds_of(least.time), least.bytes_per_second)));
         // First, as nobody may ever take what waits.
         upload->output.abort(error);
         cancel_upload(upload, UploadEnd::vanished);
@@ -320,7 +320,6 @@ void Session::end_stalled_uploads(std::chrono::steady_clock::time_point now, boo
 }
 
 void Session::end_idle_upload(std::chrono::steady_clock::time_point now, bool memory_is_short) {
-    using Seconds = std::chrono::duration<double>;
     end_slow_upload(now);
     end_stalled_uploads(now, memory_is_short);
     std::shared_ptr<Upload> idle;
@@ -335,7 +334,7 @@ void Session::end_idle_upload(std::chrono::steady_clock::time_point now, bool me
         idle->output.finish(std::make_exception_ptr(IdleStream(
             fmt::format("nothing has arrived for {:.3g} s; the server keeps an idle stream for {:.3g} s: open another "
                         "when there are frames",
-                        Seconds(now - idle->last_activity.load()).count(), Seconds(limits().idle_time).count()))));
+                        seconds_of(now - idle->last_activity.load()), seconds_of(limits().idle_time)))));
 }
 
 std::optional<std::string> Session::unused(std::chrono::steady_clock::time_point now) const {
@@ -348,7 +347,7 @@ std::optional<std::string> Session::unused(std::chrono::steady_clock::time_point
     if (orphaned_ && reaches(limits().orphan_time))
         return "its simulator vanished, and nobody has watched or resumed it since";
     if (!reaches(limits().idle_time)) return std::nullopt;
-    return fmt::format("nobody has used it for {:.3g} s", std::chrono::duration<double>(limits().idle_time).count());
+    return fmt::format("nobody has used it for {:.3g} s", seconds_of(limits().idle_time));
 }
 
 std::optional<std::string> Session::unused_as_ephemeral(std::chrono::steady_clock::time_point now) const {
@@ -357,8 +356,7 @@ std::optional<std::string> Session::unused_as_ephemeral(std::chrono::steady_cloc
     const auto awaited_for = orphan_time.count() == 0 ? awaited_for_ : std::min(awaited_for_, orphan_time);
     const auto kept_for = std::max(limits().ephemeral_time, awaited_for);
     if (now - without_stream_since_ < kept_for) return std::nullopt;
-    return fmt::format("it is ephemeral, and has had no stream for {:.3g} s",
-                       std::chrono::duration<double>(kept_for).count());
+    return fmt::format("it is ephemeral, and has had no stream for {:.3g} s", seconds_of(kept_for));
 }
 
 bool Session::has_stream() const {
@@ -399,7 +397,7 @@ void Session::close() {
         upload->output.abort(error);
         upload->stop(error);
     }
-    for (const auto& watch : attached.watches) watch->finish(watch->wishes().once ? error : nullptr);
+    for (const auto& watch : attached.watches) watch->finish(watch->options().once ? error : nullptr);
 }
 
 Session::Attached Session::detach() {

@@ -94,12 +94,12 @@ public:
 
     /// The watch has the newest mesh, or its particles, at once if they are there. watcher: may be none. A snapshot is
     /// no watcher: it ends at once if no frame has come. Throws LimitExceeded, or Refusal if the session ends.
-    std::shared_ptr<Watch> open_watch(const WatchWishes& wishes, std::function<void()> wake,
+    std::shared_ptr<Watch> open_watch(const WatchOptions& options, std::function<void()> wake,
                                       const std::shared_ptr<const NameAccount>& watcher = nullptr);
     void close_watch(const std::shared_ptr<Watch>& watch);
 
-    /// Lets the frame on its way in be the last, then ends the watchers. grace: told to streams and watchers. Returns
-    /// at once.
+    /// Lets the frame on its way in be the last, then ends the watchers. grace: announced to streams and watchers.
+    /// Returns at once.
     void drain(std::chrono::duration<double> grace);
     /// Ends an upload that has been idle for Limits::idle_time, or whose frame comes too slowly, or whose answers are
     /// taken too slowly while frames of others wait for the bytes of its own, or are refused for its memory.
@@ -185,7 +185,7 @@ private:
     std::vector<std::shared_ptr<Upload>> unanswered_;  ///< and those whose last frames are still on their way
     bool orphaned_ = false;  ///< its simulator has vanished without a word, and nobody has resumed it
     std::chrono::steady_clock::time_point without_stream_since_ = std::chrono::steady_clock::now();
-    const Upload* last_upload_ = nullptr;       ///< the stream opened last, which may have gone; to tell it from others
+    const Upload* last_upload_ = nullptr;       ///< the stream opened last, which may have gone; to know it from others
     std::chrono::milliseconds awaited_for_{0};  ///< its simulator, since its end
     bool draining_ = false;
     bool closed_ = false;

@@ -32,7 +32,7 @@ BackendOptions with_limits(BackendOptions backend, const Limits& limits) {
 std::chrono::milliseconds idle_check_interval(const Limits& limits) {
     auto shortest = std::chrono::milliseconds::max();
     for (const auto time : {limits.idle_time, limits.orphan_time, limits.ephemeral_time, limits.idle_buffers_time,
-                            std::chrono::ceil<std::chrono::milliseconds>(limits.least_pace.time)})
+                            limits.least_pace.time})
         if (time.count() != 0) shortest = std::min(shortest, time);
     if (shortest == std::chrono::milliseconds::max()) return {};
     return std::clamp(shortest / 4, std::chrono::milliseconds(10), std::chrono::milliseconds(10'000));
@@ -96,7 +96,7 @@ SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& bac
         }
     });
     if (const auto interval = idle_check_interval(limits); interval.count() != 0)
-        idle_check_.emplace(interval, [this] { end_idle(std::chrono::steady_clock::now()); });
+        idle_check_.emplace().every(interval, [this] { end_idle(std::chrono::steady_clock::now()); });
 }
 
 SessionRegistry::~SessionRegistry() {

@@ -17,7 +17,7 @@
 #include "meniscus/backend_options.hpp"
 #include "meniscus/settings.hpp"
 #include "sessions/handover/channel.hpp"
-#include "sessions/handover/periodic.hpp"
+#include "sessions/handover/timer.hpp"
 #include "sessions/limits/limits.hpp"
 #include "sessions/limits/snapshot_places.hpp"
 #include "sessions/session/idle_buffers.hpp"
@@ -38,7 +38,7 @@ ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOpt
 /// Whether the sessions of this owner exist for a caller.
 using MaySee = std::function<bool(const std::string& owner)>;
 
-/// Who creates a session.
+/// The caller that creates a session.
 struct Creator {
     std::string name{};                      ///< empty where callers have no names
     std::shared_ptr<NameAccount> account{};  ///< none: no limits of its own
@@ -112,7 +112,7 @@ private:
 
     /// Where the next session reconstructs.
     BackendOptions place_session() const;
-    /// Memory of at most so many bytes, for which idle sessions give theirs back.
+    /// Memory of at most `limit` bytes, for which idle sessions give theirs back.
     std::shared_ptr<SharedMemory> shared_memory(std::size_t limit);
 
     const Limits limits_;
@@ -123,7 +123,7 @@ private:
     const std::shared_ptr<WorkerPool> workers_;
     const std::shared_ptr<Metrics> metrics_;
     const std::shared_ptr<BytesInFlight> bytes_in_flight_;
-    const std::shared_ptr<Deadlines> deadlines_ = std::make_shared<Deadlines>();
+    const std::shared_ptr<Timer> deadlines_ = std::make_shared<Timer>();
     const std::shared_ptr<IdleBuffers> idle_buffers_ = std::make_shared<IdleBuffers>();
     const std::shared_ptr<SharedMemory> memory_;
 
@@ -145,7 +145,7 @@ private:
 
     std::mutex idle_check_mutex_;              ///< of end_idle(), for what follows
     std::vector<std::future<void>> releases_;  ///< of buffers, that were not over then
-    std::optional<Periodic> idle_check_;       ///< last: it uses the others
+    std::optional<Timer> idle_check_;          ///< last: it uses the others
 };
 
 }  // namespace meniscus::server

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "meniscus/memory.hpp"
-#include "sessions/handover/deadlines.hpp"
+#include "sessions/handover/timer.hpp"
 #include "sessions/handover/turns.hpp"
 #include "sessions/handover/worker_pool.hpp"
 #include "sessions/limits/bytes_in_flight.hpp"
@@ -21,7 +21,7 @@ struct SharedResources {
     /// Of what the device that the session reconstructs on copies from and to; none: it copies nothing by itself.
     std::shared_ptr<PagePinning> pinning{};
     std::shared_ptr<BytesInFlight> bytes_in_flight = std::make_shared<BytesInFlight>();
-    std::shared_ptr<Deadlines> deadlines = std::make_shared<Deadlines>();  ///< of frames on the device
+    std::shared_ptr<Timer> deadlines = std::make_shared<Timer>();  ///< of frames on the device
 };
 
 }  // namespace meniscus::server

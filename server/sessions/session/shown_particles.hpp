@@ -1,4 +1,4 @@
-// The particles of a session's frames, on their way to the observer and to those who watch particles.
+// The particles of a session's frames, on their way to the observer and to watchers of particles.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace meniscus::server {
 
-/// Of the reconstructing thread. Particles are encoded once for each stride that watchers wish for.
+/// Of the reconstructing thread. Particles are encoded once for each stride that watchers ask for.
 class ShownParticles {
 public:
     /// session: its id, for the log. particle_radius: of level 0, world units. observer: may be none.

@@ -41,16 +41,16 @@ double squared_distance(const Box& box, const std::array<double, 3>& point) {
     return sum;
 }
 
-/// The best first, for who sees the mesh while it arrives.
-void order(std::vector<const BrickMessages*>& bricks, const WatchWishes& wishes, double cell_size) {
-    if (!wishes.viewpoint) {
+/// The best first, for a viewer that shows the mesh while it arrives.
+void order(std::vector<const BrickMessages*>& bricks, const WatchOptions& options, double cell_size) {
+    if (!options.viewpoint) {
         std::ranges::stable_sort(bricks, std::ranges::greater(), &BrickMessages::triangles);
         return;
     }
     std::vector<std::pair<double, const BrickMessages*>> distances;
     distances.reserve(bricks.size());
     for (const BrickMessages* brick : bricks)
-        distances.emplace_back(squared_distance(box_of(*brick, cell_size), *wishes.viewpoint), brick);
+        distances.emplace_back(squared_distance(box_of(*brick, cell_size), *options.viewpoint), brick);
     std::ranges::stable_sort(distances, {}, [](const auto& entry) { return entry.first; });
     std::ranges::transform(distances, bricks.begin(), [](const auto& entry) { return entry.second; });
 }
@@ -98,12 +98,12 @@ SharedMessage begin_message(const EncodedFrame& frame, const Difference& differe
 
 }  // namespace
 
-FrameUpdate update_mesh(const EncodedFrame& frame, const WatchWishes& wishes, const WatcherMesh* base) {
+FrameUpdate update_mesh(const EncodedFrame& frame, const WatchOptions& options, const WatcherMesh* base) {
     std::vector<SharedBrick> inside;
     std::span<const SharedBrick> bricks = frame.bricks;
-    if (wishes.region) {
+    if (options.region) {
         std::ranges::copy_if(frame.bricks, std::back_inserter(inside), [&](const SharedBrick& brick) {
-            return touch(box_of(*brick, frame.cell_size), *wishes.region);
+            return touch(box_of(*brick, frame.cell_size), *options.region);
         });
         bricks = inside;
     }
@@ -113,7 +113,7 @@ FrameUpdate update_mesh(const EncodedFrame& frame, const WatchWishes& wishes, co
         base = nullptr;
         difference = compare(bricks, {});
     }
-    order(difference.changed, wishes, frame.cell_size);
+    order(difference.changed, options, frame.cell_size);
 
     FrameUpdate update;
     std::uint64_t triangles = 0;
@@ -126,7 +126,7 @@ FrameUpdate update_mesh(const EncodedFrame& frame, const WatchWishes& wishes, co
     update.messages.push_back(begin_message(frame, difference, triangles, base));
     for (const BrickMessages* brick : difference.changed)
         update.messages.insert(update.messages.end(), brick->messages.begin(), brick->messages.end());
-    if (wishes.spray) update.messages.insert(update.messages.end(), frame.spray.begin(), frame.spray.end());
+    if (options.spray) update.messages.insert(update.messages.end(), frame.spray.begin(), frame.spray.end());
     update.messages.push_back(frame.end);
     for (const SharedMessage& message : update.messages) update.bytes += message->size();
     return update;

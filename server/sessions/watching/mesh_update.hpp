@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sessions/sending/encoded_frame.hpp"
-#include "sessions/watching/watch_wishes.hpp"
+#include "sessions/watching/watch_options.hpp"
 
 namespace meniscus::server {
 
@@ -34,6 +34,6 @@ struct FrameUpdate {
 inline constexpr std::size_t max_vanished = 65536;
 
 /// base: what the watcher has; none: the mesh is sent whole.
-FrameUpdate update_mesh(const EncodedFrame& frame, const WatchWishes& wishes, const WatcherMesh* base);
+FrameUpdate update_mesh(const EncodedFrame& frame, const WatchOptions& options, const WatcherMesh* base);
 
 }  // namespace meniscus::server

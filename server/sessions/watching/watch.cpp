@@ -9,22 +9,22 @@ namespace {
 /// What to send of a frame, against the mesh that was sent before.
 struct Update {
     FrameUpdate operator()(const std::shared_ptr<const EncodedFrame>& frame) const {
-        return update_mesh(*frame, wishes, base);
+        return update_mesh(*frame, options, base);
     }
     FrameUpdate operator()(const std::shared_ptr<const ParticleMessages>& frame) const {
         return {.messages = {frame->messages.begin(), frame->messages.end()}, .bytes = frame->bytes};
     }
 
-    const WatchWishes& wishes;
+    const WatchOptions& options;
     const WatcherMesh* base;
 };
 
 }  // namespace
 
-Watch::Watch(const WatchWishes& wishes, std::function<void()> wake, std::shared_ptr<Metrics> metrics,
+Watch::Watch(const WatchOptions& options, std::function<void()> wake, std::shared_ptr<Metrics> metrics,
              std::shared_ptr<const NameAccount> account)
-    : wishes_(wishes), wake_(std::move(wake)), metrics_(std::move(metrics)), account_(std::move(account)) {
-    if (wishes_.bytes_per_second != 0) bucket_.emplace(wishes_.bytes_per_second, Clock::now());
+    : options_(options), wake_(std::move(wake)), metrics_(std::move(metrics)), account_(std::move(account)) {
+    if (options_.bytes_per_second != 0) bucket_.emplace(options_.bytes_per_second, Clock::now());
 }
 
 void Watch::put(WatchedFrame frame, Clock::time_point now) {
@@ -40,7 +40,7 @@ void Watch::put(WatchedFrame frame, Clock::time_point now) {
         else
             newest_since_ = now;
         newest_.swap(replaced);
-        finished_ = wishes_.once;
+        finished_ = options_.once;
         if (!behind_since_) behind_since_ = now;
         if (!update_.messages.empty() && writing_since_ && now - *writing_since_ > stalled_after) {
             given_up.swap(update_.messages);
@@ -113,7 +113,7 @@ Watch::Next Watch::take(Clock::time_point now) {
             return Later{at};
         }
     }
-    update_ = std::visit(Update{wishes_, sent_ ? &*sent_ : nullptr}, *newest_);
+    update_ = std::visit(Update{options_, sent_ ? &*sent_ : nullptr}, *newest_);
     received_at_ = std::visit([](const auto& frame) { return frame->received_at; }, *newest_);
     newest_.reset();
     if (bucket_) bucket_->spend(update_.bytes, now);

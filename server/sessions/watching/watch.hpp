@@ -18,7 +18,7 @@
 #include "sessions/sending/metrics.hpp"
 #include "sessions/watching/mesh_update.hpp"
 #include "sessions/watching/particle_messages.hpp"
-#include "sessions/watching/watch_wishes.hpp"
+#include "sessions/watching/watch_options.hpp"
 
 namespace meniscus::server {
 
@@ -51,20 +51,20 @@ public:
 
     /// wake: called once, by a producing thread, after take() has found nothing and there is something again;
     /// and by finish().
-    Watch(const WatchWishes& wishes, std::function<void()> wake,
+    Watch(const WatchOptions& options, std::function<void()> wake,
           std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>(),
           std::shared_ptr<const NameAccount> account = nullptr);
 
-    const WatchWishes& wishes() const noexcept { return wishes_; }
+    const WatchOptions& options() const noexcept { return options_; }
     /// Of the watcher; may be none.
     const std::shared_ptr<const NameAccount>& account() const noexcept { return account_; }
 
     // The session's side.
 
-    /// frame: in the form that the watcher wishes for. Replaces a frame that has not been taken. It is the last where
-    /// the watcher wishes for one alone.
+    /// frame: in the form that the watcher asks for. Replaces a frame that has not been taken. It is the last where
+    /// the watcher asks for one alone.
     void put(WatchedFrame frame, Clock::time_point now = Clock::now());
-    /// Tells the watcher, between two messages, that the server goes down after this time.
+    /// Announces to the watcher, between two messages, that the server goes down after this time.
     void announce_end(std::chrono::duration<double> grace);
     /// No frames follow those that are here now, which go out without waiting for the rate. Later calls do nothing.
     void finish(std::exception_ptr error);
@@ -81,7 +81,7 @@ private:
 
     SharedMessage next_message(Clock::time_point now);
 
-    const WatchWishes wishes_;
+    const WatchOptions options_;
     const std::function<void()> wake_;
     const std::shared_ptr<Metrics> metrics_;
     const std::shared_ptr<const NameAccount> account_;

@@ -17,13 +17,13 @@ namespace meniscus::server {
 namespace {
 
 /// Not all of many: the list goes into a status message, which gRPC limits to some kilobytes.
-std::string described(const std::vector<AttributeWish>& wishes) {
+std::string described(const std::vector<AttributeWish>& attributes) {
     constexpr std::size_t most = 4;
     std::string list;
-    for (std::size_t i = 0; i < std::min(most, wishes.size()); ++i)
+    for (std::size_t i = 0; i < std::min(most, attributes.size()); ++i)
         list += fmt::format("{} {} of {} bits", i == 0 ? ", attributes" : " and",
-                            wishes[i].name.empty() ? "all others" : wishes[i].name, wishes[i].bits);
-    if (wishes.size() > most) list += fmt::format(" and {} more", wishes.size() - most);
+                            attributes[i].name.empty() ? "all others" : attributes[i].name, attributes[i].bits);
+    if (attributes.size() > most) list += fmt::format(" and {} more", attributes.size() - most);
     return list;
 }
 
@@ -45,9 +45,9 @@ std::string described(const std::set<WatchForm>& forms) {
 
 }  // namespace
 
-void require_room_for(const WatchWishes& wishes, const NameAccount* watcher,
+void require_room_for(const WatchOptions& options, const NameAccount* watcher,
                       std::vector<std::shared_ptr<Watch>> watches, const std::string& session, const Limits& limits) {
-    std::erase_if(watches, [](const auto& watch) { return watch->wishes().once; });
+    std::erase_if(watches, [](const auto& watch) { return watch->options().once; });
     const auto is_of_the_name = [&](const auto& watch) { return watch->account().get() == watcher; };
     if (limits.watchers_per_session != 0 && watches.size() >= limits.watchers_per_session)
         throw LimitReached(LimitName::watchers,
@@ -62,10 +62,10 @@ void require_room_for(const WatchWishes& wishes, const NameAccount* watcher,
     std::set<WatchForm> forms;
     std::set<WatchForm> forms_of_the_name;
     for (const auto& watch : watches) {
-        forms.insert(watch->wishes().form());
-        if (is_of_the_name(watch)) forms_of_the_name.insert(watch->wishes().form());
+        forms.insert(watch->options().form());
+        if (is_of_the_name(watch)) forms_of_the_name.insert(watch->options().form());
     }
-    if (forms.contains(wishes.form())) return;
+    if (forms.contains(options.form())) return;
     if (limits.formats_per_session != 0 && forms.size() >= limits.formats_per_session)
         throw LimitReached(LimitName::formats,
                            fmt::format("the watchers of session {} have {} formats; the server takes at most {} per "

@@ -10,15 +10,15 @@ namespace {
 
 /// Not a snapshot.
 bool is_watcher(const std::shared_ptr<Watch>& watch) {
-    return !watch->wishes().once;
+    return !watch->options().once;
 }
 
 }  // namespace
 
 bool Watchers::add(const std::shared_ptr<Watch>& watch) {
     const std::lock_guard lock(mutex_);
-    if (watch->wishes().once) {
-        const auto found = meshes_.find(watch->wishes().format);
+    if (watch->options().once) {
+        const auto found = meshes_.find(watch->options().format);
         if (found == meshes_.end())
             watches_.push_back(watch);
         else
@@ -26,14 +26,14 @@ bool Watchers::add(const std::shared_ptr<Watch>& watch) {
         return found != meshes_.end();
     }
     watches_.push_back(watch);
-    if (!watch->wishes().wants_meshes()) {
+    if (!watch->options().wants_meshes()) {
         const auto stride = stride_of(*watch);
         const auto found = stride ? particles_.find(*stride) : particles_.end();
         if (found == particles_.end()) return false;
         watch->put(found->second);
         return true;
     }
-    const auto found = meshes_.find(watch->wishes().format);
+    const auto found = meshes_.find(watch->options().format);
     if (found == meshes_.end()) return false;
     watch->put(found->second);
     return true;
@@ -45,10 +45,9 @@ void Watchers::remove(const std::shared_ptr<Watch>& watch) {
     decltype(particles_)::node_type particles;
     const std::lock_guard lock(mutex_);
     if (std::erase(watches_, watch) != 0) skipped_by_the_gone_ += watch->progress().frames_skipped;
-    const MeshFormat& format = watch->wishes().format;
+    const MeshFormat& format = watch->options().format;
     if (!keeps(format)) mesh = meshes_.extract(format);
-    if (const auto stride = stride_of(*watch); stride && !wish_for_stride(*stride))
-        particles = particles_.extract(*stride);
+    if (const auto stride = stride_of(*watch); stride && !want_stride(*stride)) particles = particles_.extract(*stride);
 }
 
 std::size_t Watchers::count() const {
@@ -75,19 +74,19 @@ Watchers::Progress Watchers::progress() const {
 }
 
 std::optional<std::uint64_t> Watchers::stride_of(const Watch& watch) const {
-    if (watch.wishes().wants_meshes() || !particle_count_) return std::nullopt;
-    return stride_for(*particle_count_, *watch.wishes().max_particles);
+    if (watch.options().wants_meshes() || !particle_count_) return std::nullopt;
+    return stride_for(*particle_count_, *watch.options().max_particles);
 }
 
-bool Watchers::wish_for(const MeshFormat& format) const {
-    return std::ranges::any_of(watches_, [&](const auto& watch) { return watch->wishes().wants(format); });
+bool Watchers::want(const MeshFormat& format) const {
+    return std::ranges::any_of(watches_, [&](const auto& watch) { return watch->options().wants(format); });
 }
 
 bool Watchers::keeps(const MeshFormat& format) const {
-    return kept_.contains(format) || of_snapshot_ == format || wish_for(format);
+    return kept_.contains(format) || of_snapshot_ == format || want(format);
 }
 
-bool Watchers::wish_for_stride(std::uint64_t stride) const {
+bool Watchers::want_stride(std::uint64_t stride) const {
     return std::ranges::any_of(watches_, [&](const auto& watch) { return stride_of(*watch) == stride; });
 }
 
@@ -110,7 +109,7 @@ void Watchers::publish(std::uint64_t stride, const std::shared_ptr<const Particl
     std::vector<std::shared_ptr<Watch>> watches;
     {
         const std::lock_guard lock(mutex_);
-        if (wish_for_stride(stride)) particles_[stride] = particles;
+        if (want_stride(stride)) particles_[stride] = particles;
         std::ranges::copy_if(watches_, std::back_inserter(watches),
                              [&](const auto& watch) { return stride_of(*watch) == stride; });
     }
@@ -124,18 +123,18 @@ Encodings Watchers::replace_meshes() {
     return std::exchange(meshes_, {});
 }
 
-bool Watchers::wish_for_level(int max_level) const {
+bool Watchers::want_level(int max_level) const {
     const std::lock_guard lock(mutex_);
     return std::ranges::any_of(watches_,
-                               [&](const auto& watch) { return watch->wishes().format.max_level == max_level; });
+                               [&](const auto& watch) { return watch->options().format.max_level == max_level; });
 }
 
 std::set<MeshFormat> Watchers::unpublished_formats() const {
     std::set<MeshFormat> formats;
     const std::lock_guard lock(mutex_);
     for (const auto& watch : watches_) {
-        const MeshFormat& format = watch->wishes().format;
-        if (watch->wishes().wants(format) && !meshes_.contains(format)) formats.insert(format);
+        const MeshFormat& format = watch->options().format;
+        if (watch->options().wants(format) && !meshes_.contains(format)) formats.insert(format);
     }
     return formats;
 }
@@ -143,12 +142,12 @@ std::set<MeshFormat> Watchers::unpublished_formats() const {
 std::optional<MeshFormat> Watchers::next_unpublished_format(const std::function<bool(int max_level)>& is_there) {
     const std::lock_guard lock(mutex_);
     const auto next = std::ranges::find_if(watches_, [&](const auto& watch) {
-        const MeshFormat& format = watch->wishes().format;
-        return watch->wishes().wants_meshes() && !meshes_.contains(format) && is_there(format.max_level);
+        const MeshFormat& format = watch->options().format;
+        return watch->options().wants_meshes() && !meshes_.contains(format) && is_there(format.max_level);
     });
     if (next == watches_.end()) return std::nullopt;
-    const MeshFormat format = (*next)->wishes().format;
-    std::ranges::stable_partition(watches_, [&](const auto& watch) { return !watch->wishes().wants(format); });
+    const MeshFormat format = (*next)->options().format;
+    std::ranges::stable_partition(watches_, [&](const auto& watch) { return !watch->options().wants(format); });
     return format;
 }
 
@@ -159,14 +158,15 @@ void Watchers::publish(const MeshFormat& format, const std::shared_ptr<const Enc
         const std::lock_guard lock(mutex_);
         if (keep == Keep::until_the_next_frame) kept_.insert(format);
         std::ranges::copy_if(watches_, std::back_inserter(watches),
-                             [&](const auto& watch) { return watch->wishes().wants(format); });
+                             [&](const auto& watch) { return watch->options().wants(format); });
         if (!std::ranges::all_of(watches, is_watcher)) {
             const auto other = std::exchange(of_snapshot_, format);
             if (other && !keeps(*other)) of_other_snapshot = meshes_.extract(*other);
         }
         if (!keeps(format)) return;
         meshes_[format] = frame;
-        std::erase_if(watches_, [&](const auto& watch) { return !is_watcher(watch) && watch->wishes().wants(format); });
+        std::erase_if(watches_,
+                      [&](const auto& watch) { return !is_watcher(watch) && watch->options().wants(format); });
     }
     for (const auto& watch : watches) watch->put(frame);
 }

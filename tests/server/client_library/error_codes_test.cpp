@@ -1,4 +1,4 @@
-// What a program is told of an error, beside its text.
+// The code of an error, beside its text.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Waits that end though nothing has come, and tell that from the end.
+// Waits that end though nothing has come, which differs from the end of the stream.
 #include <gtest/gtest.h>
 
 #include <chrono>

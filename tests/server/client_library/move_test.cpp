@@ -1,4 +1,4 @@
-// A simulator that goes on with another server, and how clients tell servers apart.
+// A simulator that goes on with another server, and how clients know servers apart.
 #include <gtest/gtest.h>
 
 #include "running_server.hpp"

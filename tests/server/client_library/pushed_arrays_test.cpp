@@ -192,7 +192,7 @@ TEST_F(PushedArrays, AreSentAgainAfterAConnectionBroke) {
     expect_same_attributes(resuming.next()->mesh(), carrying.mesh(of));
 }
 
-TEST_F(PushedArrays, ReachWatchersAsTheyWish) {
+TEST_F(PushedArrays, ReachWatchersAsTheyAsk) {
     const Settings of = with_attributes({"velocity", "id"});
     client::Session session = open(of);
     client::Watcher exact = session.watch({.attributes = exactly});
@@ -208,8 +208,8 @@ TEST_F(PushedArrays, ReachWatchersAsTheyWish) {
     EXPECT_EQ(all->attributes[1].range, ranges[1]);
 
     Mesh expected = carrying.mesh(of);
-    const std::vector<AttributeWish> wish{{"velocity", 8}};
-    round_attributes(expected, wish);
+    const std::vector<AttributeWish> asked{{"velocity", 8}};
+    round_attributes(expected, asked);
     expect_same_attributes(rounded.next()->mesh(), expected);
 
     const auto bare = none.next();
@@ -232,7 +232,7 @@ TEST_F(PushedArrays, ReachWatchersAsTheyWish) {
     EXPECT_TRUE(none.next()->changed.empty());
 }
 
-TEST_F(PushedArrays, WishesOutOfRangeAreRefusedBeforeACall) {
+TEST_F(PushedArrays, AttributesOutOfRangeAreRefusedBeforeACall) {
     client::Session session = open(with_attributes({"velocity"}));
     EXPECT_THROW(session.stream({.attributes = {{"velocity", 17}}}), InvalidInput);
     EXPECT_THROW(session.watch({.attributes = {{"velocity", -1}}}), InvalidInput);

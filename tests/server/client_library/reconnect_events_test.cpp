@@ -1,4 +1,4 @@
-// What a caller is told while a connection is broken.
+// The events that a caller receives while a connection is broken.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Keeps what it is told, and throws all the same.
+/// Keeps the events, and throws all the same.
 struct Listener {
     client::ReconnectHandler handler() {
         return [this](const client::ReconnectEvent& event) {

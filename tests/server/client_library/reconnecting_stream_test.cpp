@@ -23,7 +23,8 @@ std::vector<std::uint64_t> numbers(std::uint64_t count) {
     return result;
 }
 
-/// Pushes frames 0 to count - 1 in a thread; returns the indices of the frames received, `on_frame` being told each.
+/// Pushes frames 0 to count - 1 in a thread; returns the indices of the frames received, each of which goes to
+/// `on_frame`.
 std::vector<std::uint64_t> exchange_frames(client::Stream& stream, std::uint64_t count,
                                            const std::function<void(std::uint64_t)>& on_frame) {
     std::thread pusher([&] {

@@ -64,7 +64,7 @@ TEST_F(SilentServer, HoldsUpNoLimitedWait) {
     EXPECT_FALSE(reader.try_next().ended);
 }
 
-// gRPC holds up who writes there, canceled or not.
+// gRPC holds up a writer there, canceled or not.
 TEST(ServerThatReadsNothingMore, HoldsUpNoStreamThatIsLeft) {
     RunningServer running{on_tcp()};
     const std::string id = running.session();

@@ -1,4 +1,4 @@
-// /metrics tells what was done.
+// /metrics counts the work that was done.
 #include <grpcpp/create_channel.h>
 #include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 #include "meniscus/names.hpp"
 #include "meniscus/statistics.hpp"
 #include "observation/metrics.hpp"
-#include "rpc/known_methods.hpp"
+#include "rpc/services/known_methods.hpp"
 #include "running_server.hpp"
 #include "sessions/limits/limit_reached.hpp"
 

@@ -110,7 +110,7 @@ TEST(Probes, TellOfDrainingWhileTheServerStillAnswers) {
 TEST(Probes, ReflectionAndChannelzAnswerOnlyIfChosen) {
     const std::string list_services("\x3a\x00", 2);
     ServerOptions options = test_options();
-    options.standard_services = {.reflection = true, .channelz = true};
+    options.reflection = options.channelz = true;
     const RunningServer open(options);
     const RunningServer closed;  // beside it in one process
     const client::Connection to_open(open.server.address());
@@ -131,7 +131,7 @@ TEST(Probes, ReflectionAndChannelzAnswerOnlyIfChosen) {
 /// Each of its calls holds a thread.
 TEST(Probes, ReflectionCallsThatStayOpenAreBounded) {
     ServerOptions options = test_options();
-    options.standard_services.reflection = true;
+    options.reflection = true;
     RunningServer running(options);
     const client::Connection connection(running.server.address());
     grpc::GenericStub stub(connection.channel);

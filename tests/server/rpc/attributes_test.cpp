@@ -1,4 +1,4 @@
-// What particles carry, from a simulator's frame to the vertices of those who receive its meshes.
+// What particles carry, from a simulator's frame to the vertices of received meshes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,15 +33,15 @@ Settings with_all() {
 }
 
 /// A stream's meshes carry all attributes, exactly.
-client::StreamOptions asking_for(const std::vector<AttributeWish>& wishes) {
+client::StreamOptions asking_for(const std::vector<AttributeWish>& attributes) {
     client::StreamOptions options;
-    options.attributes = wishes;
+    options.attributes = attributes;
     return options;
 }
 
 void expect_mesh(const Mesh& received, const ParticlesWithArrays& particles, const Settings& with,
-                 const std::vector<AttributeWish>& wishes) {
-    const Mesh expected = made_here(particles.view(), with, wishes);
+                 const std::vector<AttributeWish>& attributes) {
+    const Mesh expected = made_here(particles.view(), with, attributes);
     EXPECT_EQ(mesh_sha256(received), mesh_sha256(expected));
     EXPECT_FALSE(expected.vertices.empty());
     EXPECT_EQ(attributes_of(in_canonical_order(received)), attributes_of(expected));
@@ -78,9 +78,9 @@ TEST(Attributes, ThatChangeWhereTheSurfaceRestsReachAWatcherByDifference) {
     RunningServer running;
     const Settings with = settings_with({"velocity"});
     const std::string id = session(running.client, with);
-    client::WatchOptions wishes;
-    wishes.attributes = all_exact;
-    auto watcher = running.client.watch(id, wishes);
+    client::WatchOptions options;
+    options.attributes = all_exact;
+    auto watcher = running.client.watch(id, options);
     auto stream = running.client.stream(id, asking_for({}));
     for (std::uint64_t frame = 0; frame < 3; ++frame) {
         const ParticlesWithArrays particles(wave(10, 0.0), static_cast<double>(frame / 2));
@@ -138,9 +138,9 @@ TEST(Attributes, ThatCannotBeUsedEndTheirStreamByNameAndNeitherTheSessionNorOthe
     const Settings with = settings_with({"velocity"});
     const std::string id = session(running.client, with);
     auto watcher = running.client.watch(id, [] {
-        client::WatchOptions wishes;
-        wishes.attributes = all_exact;
-        return wishes;
+        client::WatchOptions options;
+        options.attributes = all_exact;
+        return options;
     }());
     const ParticlesWithArrays good(wave(8, 0.0));
     ParticlesWithArrays endless(wave(8, 1.0));

@@ -1,4 +1,4 @@
-#include "rpc/frame_chunk_reader.hpp"
+#include "rpc/messages/frame_chunk_reader.hpp"
 
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <gtest/gtest.h>

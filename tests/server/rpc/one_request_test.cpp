@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "observation/metrics.hpp"
-#include "rpc/one_request.hpp"
+#include "rpc/calls/one_request.hpp"
 #include "running_server.hpp"
 #include "test_folder.hpp"
 
@@ -122,7 +122,7 @@ TEST_F(OneRequest, ThatIsLargerThanAnyMessageIsRefused) {
 TEST_F(OneRequest, NeedNotComeWhereTheCallIsCanceled) {
     std::vector<std::unique_ptr<OpenCall>> calls;
     for (const char* method : methods) calls.push_back(std::make_unique<OpenCall>(connection, method));
-    // Behind them on the same connection: its answer tells that they have begun.
+    // Behind them on the same connection: its answer shows that they have begun.
     OpenCall last(connection, methods[0]);
     last.send({});
     EXPECT_TRUE(last.end().ok());

@@ -1,4 +1,4 @@
-#include "rpc/refusals.hpp"
+#include "rpc/calls/refusals.hpp"
 
 #include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>

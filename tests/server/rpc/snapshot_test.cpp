@@ -19,7 +19,7 @@ void play(RunningServer& running, const std::string& id, const Particles& partic
     }
 }
 
-TEST(Snapshot, IsTheNewestMeshWholeAsAWatcherWithTheSameWishesReceivesIt) {
+TEST(Snapshot, IsTheNewestMeshWholeAsAWatcherWithTheSameOptionsReceivesIt) {
     RunningServer running;
     const std::string id = running.session();
     play(running, id, wave(6, 0.0), 4);

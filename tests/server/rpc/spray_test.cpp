@@ -1,4 +1,4 @@
-// Particles without company, from a simulator's frame to those who ask for points beside the surface.
+// Particles without company, from a simulator's frame to receivers that ask for points beside the surface.
 #include <gtest/gtest.h>
 
 #include <chrono>

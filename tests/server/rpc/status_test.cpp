@@ -1,4 +1,4 @@
-#include "rpc/status.hpp"
+#include "rpc/calls/status.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Warnings of a frame, as its simulator and its watchers are told them.
+// Warnings of a frame, as its simulator and its watchers receive them.
 #include <gtest/gtest.h>
 
 #include <string>

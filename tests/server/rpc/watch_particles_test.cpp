@@ -1,4 +1,4 @@
-// Particles back to those who watch them, over real sockets.
+// Particles back to their watchers, over real sockets.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -178,7 +178,7 @@ TEST(Access, TellsWhenTheFilesInUseExpire) {
     EXPECT_EQ(Access({}, "").expiry().server, std::numeric_limits<double>::infinity());
 }
 
-/// Nobody writes into it: who waits for that, waits for ever.
+/// Nobody writes into it: a reader waits for ever.
 TEST(Tls, DoesNotWaitForAPipeInTheCertificatesPlace) {
     const TestCertificates certificates;
     Server server(tls_options(certificates.server_files()));

@@ -1,4 +1,4 @@
-// Tokens: who may do what.
+// Tokens: the rights that each role has.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -465,10 +465,9 @@ TEST(Server, RefusesOtherMachinesWithoutTlsUnlessThatIsMeant) {
 
 TEST(Server, OffersNothingBesideItsTokensThatDoesNotAskForOne) {
     const TestFolder folder;
-    for (const StandardServices& services :
-         {StandardServices{.reflection = true}, StandardServices{.channelz = true}}) {
+    for (bool ServerOptions::*const service : {&ServerOptions::reflection, &ServerOptions::channelz}) {
         ServerOptions options = test_options();
-        options.standard_services = services;
+        options.*service = true;
         EXPECT_TRUE(problems_of(options).empty());
         options.tokens = folder.write("tokens", file_text);
         EXPECT_EQ(problems_of(options).size(), 1U);

@@ -1,4 +1,4 @@
-// Sessions that go with their stream; times are told to the registry, not waited for.
+// Sessions that go with their stream; times are given to the registry, not waited for.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -36,7 +36,7 @@ struct EphemeralSession : testing::Test {
     static void wait_for_end(Session& session) {
         while (!session.without_stream(Clock::now())) std::this_thread::yield();
     }
-    /// Whether it is there after so long.
+    /// Whether it is there after this time.
     bool is_there_after(Clock::duration time) {
         registry.end_idle(Clock::now() + time);
         return !registry.list().empty();
@@ -156,7 +156,7 @@ TEST_F(EphemeralSession, MayBeDeletedByItsOwnerAsItsTimeEnds) {
     }
 }
 
-TEST_F(EphemeralSession, IsNoneThatWasCreatedWithoutThatWish) {
+TEST_F(EphemeralSession, IsNoneThatWasNotCreatedAsOne) {
     const auto session = registry.create(test::id, test::settings()).session;
     session->cancel_upload(open(*session, milliseconds(1)), UploadEnd::answered);
     EXPECT_TRUE(is_there_after(10 * orphaned));

@@ -120,7 +120,7 @@ TEST_F(FrameStops, ButTheWaitForItsTurnIsNotCounted) {
 
 TEST(FrameStop, EndsAFrameThatWasCanceledBeforeItBegan) {
     const auto flag = std::make_shared<StopFlag>();
-    FrameStop stop(flag, std::make_shared<Deadlines>(), milliseconds(0));
+    FrameStop stop(flag, std::make_shared<Timer>(), milliseconds(0));
     Upload upload(
         {}, [] {}, [] {});
     Upload other(
@@ -142,25 +142,37 @@ TEST(FrameStop, EndsAFrameThatWasCanceledBeforeItBegan) {
     EXPECT_EQ(stop.reason(), FrameStop::Reason::closed);
 }
 
-TEST(Deadlines, CallAtTheirTimesInWhateverOrderTheyWereAdded) {
-    Deadlines deadlines;
-    const auto start = Deadlines::Clock::now();
+TEST(Timer, CallsAtTheirTimesInWhateverOrderTheyWereAdded) {
+    Timer timer;
+    const auto start = Timer::Clock::now();
     std::vector<int> called;
     std::latch all(3);
     const auto at = [&](int ms) {
-        deadlines.add(start + milliseconds(ms), [&, ms] {
+        timer.at(start + milliseconds(ms), [&, ms] {
             called.push_back(ms);
-            EXPECT_GE(Deadlines::Clock::now(), start + milliseconds(ms));
+            EXPECT_GE(Timer::Clock::now(), start + milliseconds(ms));
             all.count_down();
         });
     };
     at(30);
     at(10);
-    deadlines.remove(deadlines.add(start, [&] { called.push_back(-1); }));
+    timer.remove(timer.at(start, [&] { called.push_back(-1); }));
     at(20);
     all.wait();
     std::erase(called, -1);  // whether it was called before it was removed is left to chance
     EXPECT_EQ(called, (std::vector<int>{10, 20, 30}));
+}
+
+TEST(Timer, CallsAgainAndAgain) {
+    int calls = 0;
+    std::latch three(3);
+    Timer timer;
+    const auto start = Timer::Clock::now();
+    timer.every(milliseconds(5), [&] {
+        EXPECT_GE(Timer::Clock::now(), start + ++calls * milliseconds(5));
+        if (calls <= 3) three.count_down();
+    });
+    three.wait();
 }
 
 TEST(FrameOfARealSession, IsStoppedAfterItsTimeAndTheNextIsAnswered) {
@@ -194,9 +206,9 @@ TEST(FrameOfARealSession, ThatIsRefusedKeepsTheSurfaceForTheWatcherOfACoarserLev
     EXPECT_EQ(simulator.receive_all(), std::vector<std::uint64_t>{0});
     EXPECT_THROW(std::rethrow_exception(simulator.error), InvalidInput);
     std::counting_semaphore<> awake{0};
-    WatchWishes wishes{.format = {.position_bits = 6, .normal_bits = 8}};
-    wishes.format.max_level = 1;
-    const auto watch = session->open_watch(wishes, [&] { awake.release(); });
+    WatchOptions options{.format = {.position_bits = 6, .normal_bits = 8}};
+    options.format.max_level = 1;
+    const auto watch = session->open_watch(options, [&] { awake.release(); });
     // A message comes: the mesh that was there before.
     for (;;) {
         const auto next = watch->take();

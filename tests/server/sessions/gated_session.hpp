@@ -13,7 +13,7 @@ namespace meniscus::server::test {
 struct GatedSession {
     ~GatedSession() { gate.release(1000); }
 
-    /// Until so many reconstructions have begun.
+    /// Until this number of reconstructions has begun.
     void wait_for_begun(int count) const {
         while (begun < count) std::this_thread::yield();
     }

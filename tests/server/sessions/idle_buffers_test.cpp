@@ -22,14 +22,14 @@ std::string session_id(int number) {
 }
 
 /// What a watcher gets of the newest frame: the beginning and the bricks, or the particles.
-std::vector<std::string> first_frame(Session& session, const WatchWishes& wishes) {
+std::vector<std::string> first_frame(Session& session, const WatchOptions& options) {
     std::counting_semaphore<> awake{0};
-    const auto watch = session.open_watch(wishes, [&] { awake.release(); });
+    const auto watch = session.open_watch(options, [&] { awake.release(); });
     std::vector<std::string> messages;
     for (bool ended = false; !ended;) {
         auto next = watch->take();
         if (const auto* message = std::get_if<SharedMessage>(&next)) {
-            if (wishes.max_particles) {
+            if (options.max_particles) {
                 v1::WatchParticlesResponse response;
                 EXPECT_TRUE(response.ParseFromString(**message));
                 ended = response.has_frame_end();
@@ -84,8 +84,8 @@ struct IdleBuffersOfASession : testing::Test {
         session->release_buffers().wait();
     }
 
-    std::vector<WatchWishes> mesh_wishes() const {
-        std::vector<WatchWishes> all;
+    std::vector<WatchOptions> mesh_options() const {
+        std::vector<WatchOptions> all;
         for (const int max_level : {1, 2, 3})
             for (const int position_bits : {static_cast<int>(offset_bits(test::settings())), 4})
                 for (const int normal_bits : {0, 8})
@@ -121,12 +121,12 @@ TEST_F(IdleBuffersOfASession, AreGivenBackOfFramesThatNeverBecameComplete) {
 
 TEST_F(IdleBuffersOfASession, AreNotMissedByWhoJoinsLater) {
     for (Session* each : {session.get(), other.get()}) send(*each, 3, particles);
-    for (const WatchWishes& wishes : mesh_wishes()) {
+    for (const WatchOptions& options : mesh_options()) {
         release();
         EXPECT_EQ(registry.reconstruction_bytes(), kept);
-        const auto messages = first_frame(*session, wishes);
+        const auto messages = first_frame(*session, options);
         EXPECT_FALSE(messages.empty());
-        EXPECT_EQ(messages, first_frame(*other, wishes)) << wishes.format.max_level;
+        EXPECT_EQ(messages, first_frame(*other, options)) << options.format.max_level;
     }
     release();
     for (const std::uint64_t most : {0U, 50U})
@@ -139,8 +139,8 @@ TEST_F(IdleBuffersOfASession, AreTakenAgainByTheNextFrame) {
     release();
     const test::Particles next = test::wave(6, 1.0);
     for (Session* each : {session.get(), other.get()}) send(*each, 4, next);
-    for (const WatchWishes& wishes : mesh_wishes())
-        EXPECT_EQ(first_frame(*session, wishes), first_frame(*other, wishes)) << wishes.format.max_level;
+    for (const WatchOptions& options : mesh_options())
+        EXPECT_EQ(first_frame(*session, options), first_frame(*other, options)) << options.format.max_level;
 }
 
 TEST_F(IdleBuffersOfASession, AreGivenBackAfterAFrameThatWasRefused) {
@@ -156,9 +156,9 @@ TEST_F(IdleBuffersOfASession, AreGivenBackAfterAFrameThatWasRefused) {
     const std::size_t before = registry.reconstruction_bytes();
     release();
     EXPECT_LT(registry.reconstruction_bytes(), before);
-    WatchWishes new_wishes = mesh_wishes().back();
-    new_wishes.format.normal_bits = 11;
-    EXPECT_FALSE(first_frame(*session, new_wishes).empty()) << "the mesh of the good frame stays";
+    WatchOptions new_options = mesh_options().back();
+    new_options.format.normal_bits = 11;
+    EXPECT_FALSE(first_frame(*session, new_options).empty()) << "the mesh of the good frame stays";
 }
 
 TEST(IdleBuffers, AreGivenBackAfterTheTimeOfTheLimit) {

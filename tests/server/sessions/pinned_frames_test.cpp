@@ -103,7 +103,7 @@ TEST_F(PinnedFrames, ASessionPinsItsBuffersAndGivesThemBack) {
     EXPECT_EQ(pinning->now(), 0U);
 }
 
-/// A device to which frames are sent, and which tells what becomes of them.
+/// A device to which frames are sent, and which records what becomes of them.
 class Receiver final : public FrameUpload::Sender {
 public:
     void withdraw(std::uint64_t number) noexcept override {

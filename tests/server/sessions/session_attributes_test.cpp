@@ -1,4 +1,4 @@
-// The attributes of a session's meshes: announced to everyone, in the bricks for those who ask, by difference.
+// The attributes of a session's meshes: announced to everyone, in the bricks for receivers that ask, by difference.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "conversion/attribute_conversion.hpp"
+#include "meniscus/error.hpp"
 #include "sessions/session/session.hpp"
-#include "sessions/watching/canonical_wishes.hpp"
+#include "sessions/watching/canonical_attributes.hpp"
 #include "simulator_player.hpp"
 #include "test_frames.hpp"
 
@@ -30,11 +31,11 @@ std::vector<AttributeWish> everything(int bits) {
     return {{.name = {}, .bits = bits}};
 }
 
-MeshFormat format_of(const std::vector<AttributeWish>& wishes, int max_level = 3) {
+MeshFormat format_of(const std::vector<AttributeWish>& attributes, int max_level = 3) {
     return {.max_level = max_level,
             .position_bits = static_cast<int>(offset_bits(with_attributes())),
             .normal_bits = 8,
-            .attributes = canonical_wishes(wishes, with_attributes())};
+            .attributes = canonical_attributes(attributes, with_attributes())};
 }
 
 /// One frame as a watcher is sent it.
@@ -72,10 +73,10 @@ struct SessionAttributes : testing::Test {
         Sent next() { return next_frame(*watch, *awake); }
     };
 
-    Watcher watcher(const std::vector<AttributeWish>& wishes, int max_level = 3) {
+    Watcher watcher(const std::vector<AttributeWish>& attributes, int max_level = 3) {
         Watcher made;
-        made.watch =
-            session.open_watch({.format = format_of(wishes, max_level)}, [awake = made.awake] { awake->release(); });
+        made.watch = session.open_watch({.format = format_of(attributes, max_level)},
+                                        [awake = made.awake] { awake->release(); });
         return made;
     }
 
@@ -176,7 +177,7 @@ TEST_F(SessionAttributes, AreAllSentAgainWhereTheRangeThatTheyAreCodedOverChange
     EXPECT_LE(exact.next().bricks, most_of_a_vertex);
 }
 
-TEST_F(SessionAttributes, OfEqualWishesAreEncodedOnce) {
+TEST_F(SessionAttributes, OfEqualOptionsAreEncodedOnce) {
     Watcher first = watcher(everything(8));
     Watcher second = watcher({{.name = "id", .bits = 8}, {.name = "speed", .bits = 8}, {.name = "no_such", .bits = 3}});
     Watcher other = watcher({{.name = "id", .bits = 8}, {.name = "speed", .bits = 9}});
@@ -209,7 +210,7 @@ TEST_F(SessionAttributes, AreNamedWhereThereAreTooManyFormatsShortlyHoweverManyT
     std::vector<std::shared_ptr<Watch>> watches;
     const auto watch = [&](int bits) {
         watches.push_back(
-            limited.open_watch({.format = {.attributes = canonical_wishes(everything(bits), many)}}, [] {}));
+            limited.open_watch({.format = {.attributes = canonical_attributes(everything(bits), many)}}, [] {}));
     };
     for (int bits = 0; bits < 8; ++bits) watch(bits);
     try {
@@ -223,19 +224,19 @@ TEST_F(SessionAttributes, AreNamedWhereThereAreTooManyFormatsShortlyHoweverManyT
     }
 }
 
-TEST(CanonicalWishes, AreEqualForWishesThatComeToTheSame) {
+TEST(CanonicalAttributes, AreEqualForListsThatComeToTheSame) {
     const Settings settings = with_attributes();
     const std::vector<AttributeWish> both{{"id", 8}, {"speed", 8}};
-    EXPECT_EQ(canonical_wishes(everything(8), settings), both);
-    EXPECT_EQ(canonical_wishes({{"speed", 8}, {"id", 8}, {"other", 1}}, settings), both);
-    EXPECT_EQ(canonical_wishes({{"speed", 8}, {"", 8}}, settings), both);
-    EXPECT_EQ(canonical_wishes({{"speed", 3}, {"", 8}}, settings),
+    EXPECT_EQ(canonical_attributes(everything(8), settings), both);
+    EXPECT_EQ(canonical_attributes({{"speed", 8}, {"id", 8}, {"other", 1}}, settings), both);
+    EXPECT_EQ(canonical_attributes({{"speed", 8}, {"", 8}}, settings), both);
+    EXPECT_EQ(canonical_attributes({{"speed", 3}, {"", 8}}, settings),
               (std::vector<AttributeWish>{{"id", 8}, {"speed", 3}}));
-    EXPECT_EQ(canonical_wishes({{"other", 8}}, settings), std::vector<AttributeWish>{});
-    EXPECT_EQ(canonical_wishes(everything(8), test::settings()), std::vector<AttributeWish>{});
+    EXPECT_EQ(canonical_attributes({{"other", 8}}, settings), std::vector<AttributeWish>{});
+    EXPECT_EQ(canonical_attributes(everything(8), test::settings()), std::vector<AttributeWish>{});
     Settings all = test::settings();
     all.all_attributes = true;
-    EXPECT_EQ(canonical_wishes({{"speed", 3}, {"", 8}}, all), (std::vector<AttributeWish>{{"", 8}, {"speed", 3}}));
+    EXPECT_EQ(canonical_attributes({{"speed", 3}, {"", 8}}, all), (std::vector<AttributeWish>{{"", 8}, {"speed", 3}}));
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ struct SessionParticles : testing::Test {
     }
 };
 
-TEST_F(SessionParticles, AreEncodedOnceForAllWhoWishForAsMany) {
+TEST_F(SessionParticles, AreEncodedOnceForAllThatAskForAsMany) {
     ParticleSpectator first(session, 10);
     ParticleSpectator second(session, 10);
     ParticleSpectator other(session, 20);

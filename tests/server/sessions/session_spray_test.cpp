@@ -1,4 +1,4 @@
-// The particles that a surface leaves out come beside it, to those who ask.
+// The particles that a surface leaves out come beside it, to receivers that ask.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -25,14 +25,14 @@ using test::id;
 using test::reconstruct_on_the_cpu;
 using test::Simulator;
 
-WatchWishes normals(int bits) {
+WatchOptions normals(int bits) {
     return {.format = {.position_bits = 6, .normal_bits = bits}};
 }
 
 /// Plays a watcher.
 struct Spectator {
-    explicit Spectator(Session& s, const WatchWishes& wishes = normals(8))
-        : session(s), watch(session.open_watch(wishes, [this] { awake.release(); })) {}
+    explicit Spectator(Session& s, const WatchOptions& options = normals(8))
+        : session(s), watch(session.open_watch(options, [this] { awake.release(); })) {}
     ~Spectator() { session.close_watch(watch); }
 
     /// The messages of the next frame, none at the end. That the server goes down is put aside.
@@ -77,10 +77,10 @@ void emit_capped(int max_level, Mesh& mesh) {
     reconstructor.reconstruct(test::wave(static_cast<std::size_t>(max_level) + 1, 0.0).view(), mesh);
 }
 
-WatchWishes at_most(int max_level) {
-    WatchWishes wishes = normals(8);
-    wishes.format.max_level = max_level;
-    return wishes;
+WatchOptions at_most(int max_level) {
+    WatchOptions options = normals(8);
+    options.format.max_level = max_level;
+    return options;
 }
 
 struct SessionPipeline : testing::Test {
@@ -171,7 +171,7 @@ TEST_F(SessionPipeline, SendsStatisticsAloneToWhoWantsNoMeshes) {
     EXPECT_EQ(simulator.receive(), std::nullopt);
 }
 
-TEST_F(SessionPipeline, SharesOneEncodeBetweenStreamAndWatchersWithTheSameWishes) {
+TEST_F(SessionPipeline, SharesOneEncodeBetweenStreamAndWatchersWithTheSameOptions) {
     Spectator first(session);
     Spectator second(session);
     Spectator other(session, normals(0));
@@ -186,7 +186,7 @@ TEST_F(SessionPipeline, SharesOneEncodeBetweenStreamAndWatchersWithTheSameWishes
     simulator.end();
 }
 
-TEST_F(SessionPipeline, GivesALateWatcherTheCurrentMeshWhateverItsWishes) {
+TEST_F(SessionPipeline, GivesALateWatcherTheCurrentMeshWhateverItsOptions) {
     Simulator simulator(session, {.receive_meshes = false, .normal_bits = 0});
     simulator.send(3, particles);
     simulator.end();
@@ -208,7 +208,7 @@ TEST_F(SessionPipeline, GivesALaggingWatcherTheNewestFrame) {
     EXPECT_EQ(session.state().frames_skipped, 5U);
 }
 
-TEST_F(SessionPipeline, EmitsALevelCapOncePerFrameForAllWhoWishForItAndOnlyThen) {
+TEST_F(SessionPipeline, EmitsALevelCapOncePerFrameForAllThatAskForItAndOnlyThen) {
     Simulator simulator(session, {.receive_meshes = false, .normal_bits = 0});
     simulator.send(0, particles);
     EXPECT_TRUE(simulator.receive());

@@ -75,7 +75,7 @@ struct Simulator {
         return indices;
     }
 
-    /// What the stream is told, in order: "7" for an answer, "-7 replaced" or "-7 not nth" for a dropped frame,
+    /// The messages to the stream, in order: "7" for an answer, "-7 replaced" or "-7 not nth" for a dropped frame,
     /// "draining".
     std::vector<std::string> receive_story() {
         std::vector<std::string> story;

@@ -18,7 +18,7 @@
 namespace meniscus::server {
 namespace {
 
-WatchWishes snapshot(int normal_bits) {
+WatchOptions snapshot(int normal_bits) {
     return {.format = {.position_bits = 6, .normal_bits = normal_bits}, .once = true};
 }
 
@@ -43,11 +43,11 @@ TEST(Snapshots, EndAfterTheFrameThatIsPublishedFirst) {
     Watchers watchers;
     const auto watch = waiting(watchers, 8);
     EXPECT_EQ(watchers.unpublished_formats().size(), 1U);
-    watchers.publish(watch->wishes().format, test::made_frame(0, {{{0, 0, 0}, 3}}));
+    watchers.publish(watch->options().format, test::made_frame(0, {{{0, 0, 0}, 3}}));
     EXPECT_TRUE(watchers.unpublished_formats().empty());
     watchers.replace_meshes();
     EXPECT_TRUE(watchers.unpublished_formats().empty()) << "the next frame is not for it";
-    watchers.publish(watch->wishes().format, test::made_frame(1, {{{0, 0, 0}, 9}}));
+    watchers.publish(watch->options().format, test::made_frame(1, {{{0, 0, 0}, 9}}));
     EXPECT_EQ(count_messages(*watch), 3U);
 }
 
@@ -62,7 +62,7 @@ TEST(Snapshots, OfOneFormatShareOneEncodeAndOnlyTheLastFormatIsKept) {
     Watchers watchers;
     const auto take = [&](int normal_bits, const std::shared_ptr<const EncodedFrame>& frame) {
         const auto watch = waiting(watchers, normal_bits);
-        watchers.publish(watch->wishes().format, frame);
+        watchers.publish(watch->options().format, frame);
         EXPECT_GT(count_messages(*watch), 0U);
         watchers.remove(watch);
     };
@@ -81,15 +81,15 @@ TEST(Snapshots, OfOneFormatShareOneEncodeAndOnlyTheLastFormatIsKept) {
 
 TEST(Snapshots, TakeNothingFromTheWatchersOfTheirFormat) {
     Watchers watchers;
-    const auto watcher = std::make_shared<Watch>(WatchWishes{.format = snapshot(8).format}, [] {});
+    const auto watcher = std::make_shared<Watch>(WatchOptions{.format = snapshot(8).format}, [] {});
     watchers.add(watcher);
     const auto watch = waiting(watchers, 8);
     auto frame = test::made_frame(0, {{{0, 0, 0}, 3}});
-    watchers.publish(watch->wishes().format, frame);
+    watchers.publish(watch->options().format, frame);
     watchers.remove(watch);
     const auto other = waiting(watchers, 9);
-    watchers.publish(other->wishes().format, test::made_frame(0, {{{0, 0, 0}, 3}}));
-    EXPECT_TRUE(watchers.published(watcher->wishes().format)) << "it is watched still";
+    watchers.publish(other->options().format, test::made_frame(0, {{{0, 0, 0}, 3}}));
+    EXPECT_TRUE(watchers.published(watcher->options().format)) << "it is watched still";
 }
 
 TEST(Snapshots, ThatWaitEndWithTheirSessionAndSayThatItWasDeleted) {
@@ -99,10 +99,10 @@ TEST(Snapshots, ThatWaitEndWithTheirSessionAndSayThatItWasDeleted) {
     gated.gate.release();
     while (gated.session.state().frames == 0) std::this_thread::yield();
     // Without the function that emits them, no mesh of a coarser level comes.
-    WatchWishes wishes = snapshot(8);
-    wishes.format.max_level = 1;
+    WatchOptions options = snapshot(8);
+    options.format.max_level = 1;
     std::counting_semaphore<> awake{0};
-    const auto watch = gated.session.open_watch(wishes, [&] { awake.release(); });
+    const auto watch = gated.session.open_watch(options, [&] { awake.release(); });
     EXPECT_TRUE(std::holds_alternative<Watch::Nothing>(watch->take()));
     gated.session.close();
     awake.acquire();

@@ -65,11 +65,11 @@ struct Figures {
 Figures run(std::uint32_t seed, const std::optional<Box>& region) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    WatchWishes wishes;
-    wishes.region = region;
-    if (seed % 3 == 1) wishes.viewpoint = {0.0, 1.0, 2.0};
-    if (seed % 3 == 2) wishes.bytes_per_second = 3000;
-    Watch watch(wishes, [] {});
+    WatchOptions options;
+    options.region = region;
+    if (seed % 3 == 1) options.viewpoint = {0.0, 1.0, 2.0};
+    if (seed % 3 == 2) options.bytes_per_second = 3000;
+    Watch watch(options, [] {});
     auto now = Watch::Clock::now();
     client::FrameReceiver receiver(true, true);
     std::vector<Versions> states;

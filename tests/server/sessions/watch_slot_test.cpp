@@ -188,9 +188,9 @@ TEST(WatchOrder, SendsTheBricksWithTheMostTrianglesFirst) {
 }
 
 TEST(WatchOrder, SendsTheBricksNearestToTheViewpointFirst) {
-    WatchWishes wishes;
-    wishes.viewpoint = {2.6, 40.0, 0.5};
-    Watch watch(wishes, [] {});
+    WatchOptions options;
+    options.viewpoint = {2.6, 40.0, 0.5};
+    Watch watch(options, [] {});
     watch.put(test::made_frame(0, {{{0, 0, 0}, 9}, {{4, 0, 0}, 3}, {{2, 0, 0}, 6}, {{2, 9, 0}, 12}}));
     std::vector<std::int32_t> order;
     for (int i = 0; i < 5; ++i) {
@@ -202,9 +202,9 @@ TEST(WatchOrder, SendsTheBricksNearestToTheViewpointFirst) {
 
 TEST(WatchRate, SpacesWholeFramesSoThatTheirMeanKeepsIt) {
     constexpr std::uint64_t rate = 100000;
-    WatchWishes wishes;
-    wishes.bytes_per_second = rate;
-    Watch watch(wishes, [] {});
+    WatchOptions options;
+    options.bytes_per_second = rate;
+    Watch watch(options, [] {});
     const auto start = Watch::Clock::now() + 10s;
     auto now = start;
     std::uint64_t bytes = 0;
@@ -230,10 +230,10 @@ TEST(WatchRate, SpacesWholeFramesSoThatTheirMeanKeepsIt) {
 }
 
 TEST(WatchRate, SaysWhenTheNextFrameMayGoAndLetsTheLastOneGoAtOnce) {
-    WatchWishes wishes;
-    wishes.bytes_per_second = 1000;
+    WatchOptions options;
+    options.bytes_per_second = 1000;
     int woken = 0;
-    Watch watch(wishes, [&] { ++woken; });
+    Watch watch(options, [&] { ++woken; });
     const auto now = Watch::Clock::now() + 1s;
     watch.put(test::made_frame(0, {{{0, 0, 0}, 3}}, 20000), now);
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(std::holds_alternative<SharedMessage>(watch.take(now)));

@@ -27,14 +27,14 @@ using test::Simulator;
 constexpr std::chrono::seconds long_enough(10);
 constexpr UploadOptions with_meshes{.receive_meshes = true, .normal_bits = 8};
 
-WatchWishes normals(int bits) {
+WatchOptions normals(int bits) {
     return {.format = {.position_bits = 6, .normal_bits = bits}};
 }
 
-WatchWishes at_most(int max_level) {
-    WatchWishes wishes = normals(8);
-    wishes.format.max_level = max_level;
-    return wishes;
+WatchOptions at_most(int max_level) {
+    WatchOptions options = normals(8);
+    options.format.max_level = max_level;
+    return options;
 }
 
 /// The index of the next frame that the simulator has an answer to.
@@ -96,9 +96,9 @@ TEST_F(WatchersCost, IsNoMemoryForFormatsThatNobodyWatchesAnyMore) {
     Simulator simulator(session, with_meshes);
     simulator.send(0, particles);
     EXPECT_EQ(answer(simulator), 0U);
-    const auto watched_once = [&](const WatchWishes& wishes) {
+    const auto watched_once = [&](const WatchOptions& options) {
         std::counting_semaphore<> awake{0};
-        const auto watch = session.open_watch(wishes, [&] { awake.release(); });
+        const auto watch = session.open_watch(options, [&] { awake.release(); });
         const std::weak_ptr<const std::string> message = last_of_frame(*watch, awake);
         session.close_watch(watch);
         return message;
@@ -165,14 +165,14 @@ TEST_F(WatchersCost, IsOneOfTheirFormatsBetweenTwoFramesAndEachHasItsTurn) {
 
 /// Goes as soon as it has a frame, and comes again.
 struct RestlessWatcher {
-    RestlessWatcher(Session& s, const WatchWishes& w) : session(s), wishes(w) { come(); }
+    RestlessWatcher(Session& s, const WatchOptions& w) : session(s), options(w) { come(); }
     ~RestlessWatcher() {
         rests = true;
         session.close();
         session.join();
     }
     void come() {
-        watch = session.open_watch(wishes, [this] {
+        watch = session.open_watch(options, [this] {
             if (rests) return;
             session.close_watch(watch);
             come();
@@ -181,16 +181,16 @@ struct RestlessWatcher {
     }
 
     Session& session;
-    const WatchWishes wishes;
+    const WatchOptions options;
     std::atomic<bool> rests{false};
     std::shared_ptr<Watch> watch;
 };
 
 TEST_F(WatchersCost, IsNoEndlessWorkForOneThatComesAgainAndAgain) {
     Session other({.id = id}, test::settings(), {}, {.reconstruct = test::reconstruct_on_the_cpu()}, shared);
-    const auto answers = [&](Session& watched, const WatchWishes& wishes) {
+    const auto answers = [&](Session& watched, const WatchOptions& options) {
         Simulator simulator(watched, with_meshes);
-        RestlessWatcher watcher(watched, wishes);
+        RestlessWatcher watcher(watched, options);
         for (std::uint64_t i = 0; i < 3; ++i) simulator.send(i, particles);
         simulator.end();
         auto answered = std::async(std::launch::async, [&] { return simulator.receive_all(); });
@@ -209,17 +209,17 @@ struct LimitedFormats : testing::Test {
                     {.formats_per_session = 3},
                     {.reconstruct = test::reconstruct_on_the_cpu()},
                     {.workers = std::make_shared<WorkerPool>(1)}};
-    const WatchWishes some_particles{.format = {}, .max_particles = 100};
+    const WatchOptions some_particles{.format = {}, .max_particles = 100};
 
-    std::shared_ptr<Watch> watch(const WatchWishes& wishes, const std::shared_ptr<NameAccount>& name = nullptr) {
+    std::shared_ptr<Watch> watch(const WatchOptions& options, const std::shared_ptr<NameAccount>& name = nullptr) {
         return session.open_watch(
-            wishes, [] {}, name);
+            options, [] {}, name);
     }
     /// Why it is refused; empty: it is not.
-    std::string refusal(LimitName limit, const WatchWishes& wishes,
+    std::string refusal(LimitName limit, const WatchOptions& options,
                         const std::shared_ptr<NameAccount>& name = nullptr) {
         try {
-            watch(wishes, name);
+            watch(options, name);
             return "";
         } catch (const LimitReached& error) {
             EXPECT_EQ(error.limit(), limit);
@@ -238,8 +238,8 @@ TEST_F(LimitedFormats, RefuseAnotherAndNameThoseInUseWhichMayBeWatchedStill) {
         " have 3 formats; the server takes at most 3 per session: wish for one of (max_level 3, position_bits 6, "
         "normal_bits 8, codec Draco), (max_level 3, position_bits 6, normal_bits 9, codec Draco), (max_particles 100)");
     EXPECT_NE(refusal(LimitName::formats, {.format = {}, .max_particles = 101}), "");
-    for (const WatchWishes& wishes : {normals(8), normals(9), some_particles})
-        EXPECT_EQ(refusal(LimitName::formats, wishes), "");
+    for (const WatchOptions& options : {normals(8), normals(9), some_particles})
+        EXPECT_EQ(refusal(LimitName::formats, options), "");
 }
 
 TEST_F(LimitedFormats, HaveRoomAgainWhenTheLastWatcherOfOneGoes) {

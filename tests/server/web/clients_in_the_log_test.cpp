@@ -1,4 +1,4 @@
-// Whom the log names as the client of a call, where proxies and clients say who it is.
+// The client of a call, as the log names it, where proxies and clients name one.
 #include <gtest/gtest.h>
 
 #include <spdlog/sinks/ostream_sink.h>
@@ -22,7 +22,7 @@ ServerOptions with_a_viewer() {
     return options;
 }
 
-/// What is logged of a watcher by the HTTP port and one by gRPC, who both say that others have sent them.
+/// The log lines of a watcher by the HTTP port and one by gRPC, both of which name another client.
 std::string log_of_watchers(const ServerOptions& options) {
     std::ostringstream out;
     const auto before = spdlog::default_logger();

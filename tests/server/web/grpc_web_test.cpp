@@ -68,7 +68,7 @@ std::vector<std::string> web_frame(WebCall& call) {
     return messages;
 }
 
-/// Waits for the session to have so many watchers; a hang guard bounds it.
+/// Waits for the session to have this number of watchers; a hang guard bounds it.
 bool becomes(client::Client& client, const std::string& id, std::uint32_t watchers) {
     const auto guard = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (client.session(id).watchers != watchers) {
@@ -185,7 +185,7 @@ TEST(GrpcWebRecordings, AreTheBytesThatAWatcherGot) {
     EXPECT_FALSE(reading.next());
     EXPECT_EQ(reading.status, 0) << reading.message;
     EXPECT_GT(read.size(), 2U);
-    // A watcher gets the bricks in the order of its wishes.
+    // A watcher gets the bricks in the order that it asks for.
     std::sort(watched.begin(), watched.end());
     std::sort(read.begin(), read.end());
     EXPECT_EQ(read, watched);

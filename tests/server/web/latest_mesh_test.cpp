@@ -1,4 +1,4 @@
-// GET /sessions/ID/latest.glb: the newest mesh for everything that reads glTF, to those who may see it.
+// GET /sessions/ID/latest.glb: the newest mesh for everything that reads glTF, to callers that may see it.
 #include <grpcpp/create_channel.h>
 #include <gtest/gtest.h>
 

@@ -44,7 +44,7 @@ public:
         header.resize(end);
     }
 
-    /// The next message; none after the trailers, which `status` and `message` then tell.
+    /// The next message; none after the trailers, which `status` and `message` then hold.
     std::optional<std::string> next() {
         constexpr std::size_t header_bytes = 5;
         for (;;) {

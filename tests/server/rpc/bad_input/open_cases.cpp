@@ -1,4 +1,4 @@
-// Streams that are refused as they are opened: ids, wishes, sessions that are not there or not free.
+// Streams that are refused as they are opened: ids, options, sessions that are not there or not free.
 #include <limits>
 #include <utility>
 

@@ -1,4 +1,4 @@
-// Watchers' wishes, and watchers too many.
+// Watchers' options, and watchers too many.
 #include <limits>
 #include <utility>
 
@@ -45,9 +45,9 @@ grpc::Status watch(RunningServer& running, const std::string& session, const v1:
     return watch(running, session, *connection.surfaces->Snapshot(&context, request));
 }
 
-/// Watches a new session, with this wish.
+/// Watches a new session, with this change of the request.
 template <class Request>
-std::function<grpc::Status(RunningServer&)> wish(std::function<void(Request&)> change) {
+std::function<grpc::Status(RunningServer&)> watch_with(std::function<void(Request&)> change) {
     return [change = std::move(change)](RunningServer& running) {
         const std::string session = running.session();
         Request request;
@@ -57,16 +57,16 @@ std::function<grpc::Status(RunningServer&)> wish(std::function<void(Request&)> c
     };
 }
 
-std::function<grpc::Status(RunningServer&)> wish(std::function<void(v1::WatchRequest&)> change) {
-    return wish<v1::WatchRequest>(std::move(change));
+std::function<grpc::Status(RunningServer&)> watch_with(std::function<void(v1::WatchRequest&)> change) {
+    return watch_with<v1::WatchRequest>(std::move(change));
 }
 
-std::function<grpc::Status(RunningServer&)> wish_for_particles(std::function<void(v1::WatchParticlesRequest&)> change) {
-    return wish<v1::WatchParticlesRequest>(std::move(change));
+std::function<grpc::Status(RunningServer&)> particles_with(std::function<void(v1::WatchParticlesRequest&)> change) {
+    return watch_with<v1::WatchParticlesRequest>(std::move(change));
 }
 
-std::function<grpc::Status(RunningServer&)> wish_for_snapshot(std::function<void(v1::SnapshotRequest&)> change) {
-    return wish<v1::SnapshotRequest>(std::move(change));
+std::function<grpc::Status(RunningServer&)> snapshot_with(std::function<void(v1::SnapshotRequest&)> change) {
+    return watch_with<v1::SnapshotRequest>(std::move(change));
 }
 
 /// Watches a session that has this many watchers already.
@@ -86,10 +86,10 @@ std::function<grpc::Status(RunningServer&)> beside(std::size_t watchers) {
 
 std::vector<BadInputCase> watch_cases() {
     const auto normal_bits = [](std::uint32_t bits) {
-        return wish([=](v1::WatchRequest& request) { request.set_normal_bits(bits); });
+        return watch_with([=](v1::WatchRequest& request) { request.set_normal_bits(bits); });
     };
     const auto attributes = [](int count, std::uint32_t bits) {
-        return wish([=](v1::WatchRequest& request) {
+        return watch_with([=](v1::WatchRequest& request) {
             for (int i = 0; i < count; ++i) {
                 v1::AttributeWish& attribute = *request.add_attributes();
                 attribute.set_name("a" + std::to_string(i));
@@ -98,13 +98,13 @@ std::vector<BadInputCase> watch_cases() {
         });
     };
     const auto position_bits = [](std::uint32_t bits) {
-        return wish([=](v1::WatchRequest& request) { request.set_position_bits(bits); });
+        return watch_with([=](v1::WatchRequest& request) { request.set_position_bits(bits); });
     };
     const auto max_level = [](std::uint32_t level) {
-        return wish([=](v1::WatchRequest& request) { request.set_max_level(level); });
+        return watch_with([=](v1::WatchRequest& request) { request.set_max_level(level); });
     };
     const auto region = [](double low, double high) {
-        return wish([=](v1::WatchRequest& request) {
+        return watch_with([=](v1::WatchRequest& request) {
             request.mutable_region()->mutable_min()->set_y(low);
             request.mutable_region()->mutable_max()->set_x(1.0);
             request.mutable_region()->mutable_max()->set_y(high);
@@ -129,13 +129,13 @@ std::vector<BadInputCase> watch_cases() {
         {"ARegionThatIsNoNumber", invalid, "region runs from nan to 1 on the y axis",
          region(std::numeric_limits<double>::quiet_NaN(), 1.0)},
         {"ARegionWithoutACorner", invalid, "region needs both its corners, min and max",
-         wish([](v1::WatchRequest& request) { request.mutable_region()->mutable_min(); })},
+         watch_with([](v1::WatchRequest& request) { request.mutable_region()->mutable_min(); })},
         {"AViewpointThatIsNoNumber", invalid, "viewpoint is (0, 0, nan); it must be finite",
-         wish([](v1::WatchRequest& request) {
+         watch_with([](v1::WatchRequest& request) {
              request.mutable_viewpoint()->set_z(std::numeric_limits<double>::quiet_NaN());
          })},
-        {"OneBytePerSecond", ok, "", wish([](v1::WatchRequest& request) { request.set_bytes_per_second(1); })},
-        {"MoreBytesPerSecondThanThereAre", ok, "", wish([](v1::WatchRequest& request) {
+        {"OneBytePerSecond", ok, "", watch_with([](v1::WatchRequest& request) { request.set_bytes_per_second(1); })},
+        {"MoreBytesPerSecondThanThereAre", ok, "", watch_with([](v1::WatchRequest& request) {
              request.set_bytes_per_second(std::numeric_limits<std::uint64_t>::max());
          })},
         {"AWatcherWithSixteenNormalBits", ok, "", normal_bits(16)},
@@ -149,41 +149,41 @@ std::vector<BadInputCase> watch_cases() {
         {"AWatcherOfSeventeenAttributeBits", invalid,
          "wished attribute 'a0' has 17 bits, must have 1 to 16, or 0 for exact values", attributes(1, 17)},
         {"AWatcherOfAnAttributeTwice", invalid, "wished attribute 'a' comes twice; each comes once",
-         wish([](v1::WatchRequest& request) {
+         watch_with([](v1::WatchRequest& request) {
              request.add_attributes()->set_name("a");
              request.add_attributes()->set_name("a");
          })},
-        {"AWatcherOfAllAttributes", ok, "", wish([](v1::WatchRequest& request) { request.add_attributes(); })},
+        {"AWatcherOfAllAttributes", ok, "", watch_with([](v1::WatchRequest& request) { request.add_attributes(); })},
         {"AWatcherOfAllAttributesTwice", invalid, "wished attribute '' comes twice; each comes once",
-         wish([](v1::WatchRequest& request) {
+         watch_with([](v1::WatchRequest& request) {
              request.add_attributes();
              request.add_attributes();
          })},
         {"AWatcherOfAnAttributeWhoseNameNoneHas", invalid,
          "the name of wished attribute 0 must be 1 to 64 of a-z, 0-9 and _",
-         wish([](v1::WatchRequest& request) { request.add_attributes()->set_name("A\n"); })},
+         watch_with([](v1::WatchRequest& request) { request.add_attributes()->set_name("A\n"); })},
         {"ASnapshotOfSeventeenAttributeBits", invalid,
          "wished attribute 'a' has 17 bits, must have 1 to 16, or 0 for exact values",
-         wish_for_snapshot([](v1::SnapshotRequest& request) {
+         snapshot_with([](v1::SnapshotRequest& request) {
              request.add_attributes()->set_name("a");
              request.mutable_attributes(0)->set_bits(17);
          })},
         {"AWatcherOfTheCodecDraco", ok, "",
-         wish([](v1::WatchRequest& request) { request.add_codecs(v1::CODEC_DRACO); })},
+         watch_with([](v1::WatchRequest& request) { request.add_codecs(v1::CODEC_DRACO); })},
         {"AWatcherOfACodecOfTheFuture", invalid,
          "codecs has the value 2, which this version does not offer; it offers 1 (Draco)",
-         wish([](v1::WatchRequest& request) { request.add_codecs(static_cast<v1::Codec>(2)); })},
+         watch_with([](v1::WatchRequest& request) { request.add_codecs(static_cast<v1::Codec>(2)); })},
         {"AWatcherWithoutSessionId", invalid, "the message's session id is \"\"; it must be a UUID",
-         wish([](v1::WatchRequest& request) { request.clear_session_id(); })},
+         watch_with([](v1::WatchRequest& request) { request.clear_session_id(); })},
         {"AWatcherOfAnotherSessionThanItsMetadataSays", invalid, "but the message's session id is " + no_session,
-         wish([](v1::WatchRequest& request) { request.set_session_id(no_session); })},
+         watch_with([](v1::WatchRequest& request) { request.set_session_id(no_session); })},
         {"AWatcherOfNoSession", grpc::StatusCode::NOT_FOUND, "no session " + no_session,
          [](RunningServer& running) {
              v1::WatchRequest request;
              request.set_session_id(no_session);
              return watch(running, no_session, request);
          }},
-        {"AWishThatIsNoMessage", invalid, "is not a WatchRequest", wish([](v1::WatchRequest& request) {
+        {"AWatchThatIsNoMessage", invalid, "is not a WatchRequest", watch_with([](v1::WatchRequest& request) {
              request = with_raw_field<v1::WatchRequest>(v1::WatchRequest::kRegionFieldNumber, "\x0a\x7f");
          })},
         {"AsManyWatchersAsTheLimit", ok, "", beside<v1::WatchRequest>(1)},
@@ -194,15 +194,15 @@ std::vector<BadInputCase> watch_cases() {
          "has 2 watchers; the server takes at most 2 per session", beside<v1::WatchParticlesRequest>(2)},
         {"ASnapshotOfASessionFullOfWatchers", ok, "", beside<v1::SnapshotRequest>(2)},
         {"ASnapshotOfTheLevelZeroOfGrid", invalid, "max_level is 0; it must be 1 to 3, or not set",
-         wish_for_snapshot([](v1::SnapshotRequest& request) { request.set_max_level(0); })},
+         snapshot_with([](v1::SnapshotRequest& request) { request.set_max_level(0); })},
         {"ASnapshotOfPositionsFinerThanTheMesh", invalid, "position_bits is 7; it must be 2 to 6",
-         wish_for_snapshot([](v1::SnapshotRequest& request) { request.set_position_bits(7); })},
+         snapshot_with([](v1::SnapshotRequest& request) { request.set_position_bits(7); })},
         {"ASnapshotWithSeventeenNormalBits", invalid, "normal_bits is 17; it must be 0 (no normals) or 2 to 16",
-         wish_for_snapshot([](v1::SnapshotRequest& request) { request.set_normal_bits(17); })},
+         snapshot_with([](v1::SnapshotRequest& request) { request.set_normal_bits(17); })},
         {"ASnapshotOfACodecOfTheFuture", invalid, "codecs has the value 2, which this version does not offer",
-         wish_for_snapshot([](v1::SnapshotRequest& request) { request.add_codecs(static_cast<v1::Codec>(2)); })},
+         snapshot_with([](v1::SnapshotRequest& request) { request.add_codecs(static_cast<v1::Codec>(2)); })},
         {"ASnapshotOfAnotherSessionThanTheMetadataSays", invalid, "but the message's session id is " + no_session,
-         wish_for_snapshot([](v1::SnapshotRequest& request) { request.set_session_id(no_session); })},
+         snapshot_with([](v1::SnapshotRequest& request) { request.set_session_id(no_session); })},
         {"ASnapshotOfNoSession", grpc::StatusCode::NOT_FOUND, "no session " + no_session,
          [](RunningServer& running) {
              v1::SnapshotRequest request;
@@ -210,24 +210,24 @@ std::vector<BadInputCase> watch_cases() {
              return watch(running, no_session, request);
          }},
         {"ARequestForASnapshotThatIsNoMessage", invalid, "is not a SnapshotRequest",
-         wish_for_snapshot([](v1::SnapshotRequest& request) {
+         snapshot_with([](v1::SnapshotRequest& request) {
              request = with_raw_field<v1::SnapshotRequest>(v1::SnapshotRequest::kSessionIdFieldNumber, "\xff\xfe");
          })},
-        {"AsManyParticlesAsThereAreNumbers", ok, "", wish_for_particles([](v1::WatchParticlesRequest& request) {
+        {"AsManyParticlesAsThereAreNumbers", ok, "", particles_with([](v1::WatchParticlesRequest& request) {
              request.set_max_particles(std::numeric_limits<std::uint64_t>::max());
          })},
         {"ParticlesWithoutSessionId", invalid, "the message's session id is \"\"; it must be a UUID",
-         wish_for_particles([](v1::WatchParticlesRequest& request) { request.clear_session_id(); })},
+         particles_with([](v1::WatchParticlesRequest& request) { request.clear_session_id(); })},
         {"ParticlesOfAnotherSessionThanTheMetadataSays", invalid, "but the message's session id is " + no_session,
-         wish_for_particles([](v1::WatchParticlesRequest& request) { request.set_session_id(no_session); })},
+         particles_with([](v1::WatchParticlesRequest& request) { request.set_session_id(no_session); })},
         {"ParticlesOfNoSession", grpc::StatusCode::NOT_FOUND, "no session " + no_session,
          [](RunningServer& running) {
              v1::WatchParticlesRequest request;
              request.set_session_id(no_session);
              return watch(running, no_session, request);
          }},
-        {"AWishForParticlesThatIsNoMessage", invalid, "is not a WatchParticlesRequest",
-         wish_for_particles([](v1::WatchParticlesRequest& request) {
+        {"AWatchOfParticlesThatIsNoMessage", invalid, "is not a WatchParticlesRequest",
+         particles_with([](v1::WatchParticlesRequest& request) {
              request = with_raw_field<v1::WatchParticlesRequest>(v1::WatchParticlesRequest::kSessionIdFieldNumber,
                                                                  "\xff\xfe");
          })},

@@ -1,0 +1,21 @@
+// SurfaceService.Watch, Snapshot and WatchParticles: a session's newest meshes, by difference; the newest one, whole;
+// its newest particles.
+#pragma once
+
+#include <grpcpp/server_context.h>
+
+#include "rpc/calls/active_calls.hpp"
+#include "rpc/calls/byte_service.hpp"
+#include "rpc/calls/refusals.hpp"
+#include "security/authorizer.hpp"
+#include "sessions/session/session_registry.hpp"
+
+namespace meniscus::server {
+
+/// The call's reactor, which owns itself until the call is done. Request: v1::WatchRequest, v1::SnapshotRequest or
+/// v1::WatchParticlesRequest.
+template <class Request>
+ByteReactor* start_watch(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,
+                         ActiveCalls& calls, grpc::CallbackServerContext& context);
+
+}  // namespace meniscus::server
