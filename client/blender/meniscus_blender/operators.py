@@ -6,7 +6,8 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from . import package, properties, sequence, sequence_objects, services, space, status, wheel
+from . import package, sequence, sequence_objects, services, space, status, wheel
+from .quiet import quiet
 
 #: As meniscus.particle_extensions(), for a Blender that lacks the package.
 _EXTENSIONS = (".vtk", ".vtu", ".vtp", ".ply", ".npy", ".npz", ".bgeo", ".bgeo.gz", ".h5", ".hdf5", ".h5part")
@@ -87,7 +88,7 @@ class ImportSequence(bpy.types.Operator, ImportHelper):
         name = os.path.basename(pattern).split(".")[0].replace("{}", "").strip("_-. ") or "Particles"
         obj = new_object(context, name, "SEQUENCE")
         settings = obj.meniscus.sequence
-        with properties.quiet():
+        with quiet():
             if found:
                 sequence_objects.set_files(settings, found)
                 settings.start = context.scene.frame_start

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import bpy
 
-from . import mesh_data, properties, services, status
+from . import mesh_data, services, status
+from .quiet import quiet
 from .reconstruction import Request
 from .sequence import Timing, span
 from .worker import error_text
@@ -107,7 +108,7 @@ def fill(obj, scene, quality):
 
 def set_files(settings, numbers):
     """Sets the range of a pattern's files."""
-    with properties.quiet():
+    with quiet():
         settings.first, settings.last, settings.stride = span(numbers)
 
 
