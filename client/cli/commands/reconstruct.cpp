@@ -23,7 +23,7 @@
 #include "cli/surfaces/array_forms.hpp"
 #include "cli/surfaces/particle_input.hpp"
 #include "cli/surfaces/surfaces.hpp"
-#include "formats/standard_streams.hpp"
+#include "formats/bytes/standard_streams.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
 

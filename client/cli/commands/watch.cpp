@@ -19,8 +19,8 @@
 #include "cli/print/warnings.hpp"
 #include "cli/surfaces/mesh_output.hpp"
 #include "cli/surfaces/session_lookup.hpp"
-#include "formats/atomic_file.hpp"
-#include "formats/point_writer.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/meshes/point_writer.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {

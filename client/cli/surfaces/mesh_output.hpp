@@ -10,9 +10,9 @@
 #include "cli/surfaces/mesh_edits.hpp"
 #include "cli/surfaces/surfaces.hpp"
 #include "compare/closedness.hpp"
-#include "formats/mesh_content.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/mesh_format.hpp"
+#include "formats/meshes/mesh_content.hpp"
+#include "formats/meshes/mesh_formats.hpp"
+#include "formats/meshes/triangle_mesh.hpp"
 
 namespace meniscus::cli {
 

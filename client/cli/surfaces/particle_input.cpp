@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "editing/particle_box.hpp"
-#include "formats/standard_streams.hpp"
+#include "formats/bytes/standard_streams.hpp"
+#include "formats/particles/particle_file.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
 

@@ -1,4 +1,4 @@
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "formats/standard_streams.hpp"
+#include "formats/bytes/standard_streams.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::formats {

@@ -1,4 +1,4 @@
-#include "formats/base64.hpp"
+#include "formats/bytes/base64.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "formats/byte_cursor.hpp"
+#include "formats/bytes/byte_cursor.hpp"
 
 namespace meniscus::formats {
 

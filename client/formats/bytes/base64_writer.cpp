@@ -1,4 +1,4 @@
-#include "formats/base64_writer.hpp"
+#include "formats/bytes/base64_writer.hpp"
 
 #include <algorithm>
 #include <cstdint>

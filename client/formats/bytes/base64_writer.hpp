@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 
 namespace meniscus::formats {
 

@@ -1,4 +1,4 @@
-#include "formats/byte_cursor.hpp"
+#include "formats/bytes/byte_cursor.hpp"
 
 #include <charconv>
 #include <fstream>

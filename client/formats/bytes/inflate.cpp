@@ -1,4 +1,4 @@
-#include "formats/inflate.hpp"
+#include "formats/bytes/inflate.hpp"
 
 #include <zlib.h>
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "formats/byte_cursor.hpp"
-#include "formats/read_limits.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_limits.hpp"
 
 namespace meniscus::formats {
 

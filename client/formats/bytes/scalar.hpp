@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <string_view>
 
 namespace meniscus::formats {
 
@@ -80,6 +81,12 @@ void store(std::string& out, T value, std::endian order = std::endian::little) {
     std::memcpy(raw, &value, sizeof(T));
     if (order != std::endian::native) std::reverse(raw, raw + sizeof(T));
     out.append(raw, sizeof(T));
+}
+
+/// The numbers of an array as bytes, where they lie.
+template <class Number>
+std::string_view bytes_of(const Number* numbers, std::size_t count) {
+    return {reinterpret_cast<const char*>(numbers), count * sizeof(Number)};
 }
 
 }  // namespace meniscus::formats

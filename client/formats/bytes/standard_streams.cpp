@@ -1,4 +1,4 @@
-#include "formats/standard_streams.hpp"
+#include "formats/bytes/standard_streams.hpp"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "formats/byte_cursor.hpp"
+#include "formats/bytes/byte_cursor.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::formats {

@@ -1,4 +1,4 @@
-#include "formats/array_collector.hpp"
+#include "formats/containers/array_collector.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "formats/byte_cursor.hpp"
-#include "formats/particles.hpp"
+#include "formats/bytes/byte_cursor.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -117,6 +116,17 @@ bool is_reserved(std::string_view name) {
 }
 
 }  // namespace
+
+std::string array_name(std::string_view name) {
+    std::string out;
+    for (const char c : name.substr(0, 64)) {
+        if (c >= 'A' && c <= 'Z')
+            out += static_cast<char>(c - 'A' + 'a');
+        else
+            out += (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ? c : '_';
+    }
+    return out.empty() ? "_" : out;
+}
 
 ArrayBuilder::ArrayBuilder(std::string_view name, ScalarType type, std::size_t components, std::size_t count)
     : values_{array_name(name), element_type_of(type), components, {}}, type_(type) {

@@ -11,10 +11,13 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/named_values.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/containers/named_values.hpp"
 
 namespace meniscus::formats {
+
+/// A name of a file as one of arrays: lower case, other characters than a-z, 0-9 and _ become _, at most 64.
+std::string array_name(std::string_view name);
 
 /// One array in the making.
 class ArrayBuilder {

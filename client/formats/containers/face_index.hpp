@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "formats/byte_cursor.hpp"
+#include "formats/bytes/byte_cursor.hpp"
 
 namespace meniscus::formats {
 

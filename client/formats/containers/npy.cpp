@@ -1,4 +1,4 @@
-#include "formats/npy.hpp"
+#include "formats/containers/npy.hpp"
 
 #include <array>
 #include <charconv>

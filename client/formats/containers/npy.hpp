@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/byte_cursor.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/scalar.hpp"
 #include "meniscus/element_type.hpp"
 
 namespace meniscus::formats {

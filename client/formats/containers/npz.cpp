@@ -1,4 +1,4 @@
-#include "formats/npz.hpp"
+#include "formats/containers/npz.hpp"
 
 #include <algorithm>
 

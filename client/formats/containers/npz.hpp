@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/array_collector.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/npy.hpp"
-#include "formats/read_budget.hpp"
-#include "formats/zip_archive.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_budget.hpp"
+#include "formats/containers/array_collector.hpp"
+#include "formats/containers/npy.hpp"
+#include "formats/containers/zip_archive.hpp"
 
 namespace meniscus::formats {
 

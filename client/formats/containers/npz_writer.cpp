@@ -1,8 +1,8 @@
-#include "formats/npz_writer.hpp"
+#include "formats/containers/npz_writer.hpp"
 
 #include <array>
 
-#include "formats/npy.hpp"
+#include "formats/containers/npy.hpp"
 
 namespace meniscus::formats {
 void NpzWriter::add(const std::string& name, std::string_view descr, const std::vector<std::size_t>& shape,

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/zip_archive.hpp"
+#include "formats/containers/zip_archive.hpp"
 #include "meniscus/particle_frame.hpp"
 
 namespace meniscus::formats {

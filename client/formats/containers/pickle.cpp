@@ -1,4 +1,4 @@
-#include "formats/pickle.hpp"
+#include "formats/containers/pickle.hpp"
 
 #include <algorithm>
 #include <limits>

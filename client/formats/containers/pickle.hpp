@@ -1,4 +1,6 @@
 // Python's pickles as a tree of values: nothing in them is called or looked up, so that any bytes are safe to read.
+//
+// For users of PySPH, whose .npz hold their particles as a pickle; numpy.load() would run what is in it.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/byte_cursor.hpp"
+#include "formats/bytes/byte_cursor.hpp"
 
 namespace meniscus::formats {
 

@@ -1,4 +1,4 @@
-#include "formats/ply.hpp"
+#include "formats/containers/ply.hpp"
 
 #include <array>
 #include <utility>

@@ -1,10 +1,10 @@
-#include "formats/ply_properties.hpp"
+#include "formats/containers/ply_properties.hpp"
 
 #include <array>
 #include <bit>
 #include <string_view>
 
-#include "formats/named_values.hpp"
+#include "formats/containers/named_values.hpp"
 
 namespace meniscus::formats {
 namespace {

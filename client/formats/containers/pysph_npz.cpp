@@ -1,10 +1,10 @@
-#include "formats/pysph_npz.hpp"
+#include "formats/containers/pysph_npz.hpp"
 
 #include <limits>
 #include <optional>
 #include <string>
 
-#include "formats/pickle.hpp"
+#include "formats/containers/pickle.hpp"
 
 namespace meniscus::formats {
 namespace {

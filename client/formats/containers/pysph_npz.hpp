@@ -1,11 +1,12 @@
 // What PySPH writes as .npz: a pickled dictionary of its kinds of particles, each with a dictionary of numpy arrays.
+// For users of PySPH: its files are read as they are, without a script that converts them.
 #pragma once
 
 #include <string_view>
 #include <vector>
 
-#include "formats/byte_cursor.hpp"
-#include "formats/npy.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/containers/npy.hpp"
 
 namespace meniscus::formats {
 

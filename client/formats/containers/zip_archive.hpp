@@ -1,7 +1,7 @@
 // Zip files, as far as numpy's .npz are such: members stored or deflated, also beyond 4 GiB.
 //
-// By hand: zlib knows no zip, and here every size is held against the file and the budget before memory is taken for
-// it.
+// By hand: zlib knows no zip. libzip would copy stored members, which are read here where they lie, names neither the
+// member nor its sizes in its errors, and writes 64-bit sizes only where they are needed, thus other bytes.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/atomic_file.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/read_budget.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_budget.hpp"
 
 namespace meniscus::formats {
 

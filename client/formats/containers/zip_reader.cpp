@@ -5,9 +5,9 @@
 #include <bit>
 #include <optional>
 
-#include "formats/inflate.hpp"
-#include "formats/scalar.hpp"
-#include "formats/zip_archive.hpp"
+#include "formats/bytes/inflate.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/containers/zip_archive.hpp"
 
 namespace meniscus::formats {
 namespace {

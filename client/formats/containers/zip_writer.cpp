@@ -1,7 +1,7 @@
 #include <zlib.h>
 
-#include "formats/scalar.hpp"
-#include "formats/zip_archive.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/containers/zip_archive.hpp"
 
 namespace meniscus::formats {
 namespace {

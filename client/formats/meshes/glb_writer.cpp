@@ -1,5 +1,5 @@
 // A mesh as GLB: positions are float32 around the middle of the mesh; a node puts them in place, by float64.
-#include "formats/glb_writer.hpp"
+#include "formats/meshes/glb_writer.hpp"
 
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>
@@ -11,7 +11,7 @@
 
 #include "files/centered_positions.hpp"
 #include "files/glb_document.hpp"
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -111,8 +111,8 @@ std::string to_glb(const TriangleMesh& mesh, GlbCoding coding) {
     return std::move(document).file();
 }
 
-void write_glb(const std::filesystem::path& path, const TriangleMesh& mesh, GlbCoding coding) {
-    write_file(path, to_glb(mesh, coding));
+void write_glb(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing) {
+    write_file(path, to_glb(mesh, writing.compress ? GlbCoding::draco : GlbCoding::plain));
 }
 
 }  // namespace meniscus::formats

@@ -4,7 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "formats/mesh_file.hpp"
+#include "formats/meshes/mesh_writing.hpp"
+#include "formats/meshes/triangle_mesh.hpp"
 
 namespace meniscus::formats {
 
@@ -15,7 +16,7 @@ enum class GlbCoding {
 
 /// The file's bytes. Attributes are `_NAME`, `color` of uint8 is COLOR_0. Throws LimitExceeded beyond 4 GiB.
 std::string to_glb(const TriangleMesh& mesh, GlbCoding coding = GlbCoding::plain);
-/// Atomic. Throws InvalidInput if the path cannot be written.
-void write_glb(const std::filesystem::path& path, const TriangleMesh& mesh, GlbCoding coding = GlbCoding::plain);
+/// Atomic; compressed by Draco. Throws InvalidInput if the path cannot be written.
+void write_glb(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing = {});
 
 }  // namespace meniscus::formats

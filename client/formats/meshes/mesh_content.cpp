@@ -1,21 +1,10 @@
-#include "formats/mesh_content.hpp"
+#include "formats/meshes/mesh_content.hpp"
 
 #include <utility>
 
-#include "formats/usda_writer.hpp"
-
 namespace meniscus::formats {
-namespace {
-
-/// Whether the format is written from a Mesh as well.
-bool is_from_mesh(MeshFormat format) {
-    return format == MeshFormat::ply || format == MeshFormat::obj;
-}
-
-}  // namespace
-
 MeshContent::MeshContent(Mesh ordered, MeshFormat format) : format_(format), ordered_(std::move(ordered)) {
-    if (!is_from_mesh(format)) triangles();
+    if (row_of(format).write_reconstructed == nullptr) triangles();
 }
 
 TriangleMesh& MeshContent::triangles() {
@@ -26,10 +15,9 @@ TriangleMesh& MeshContent::triangles() {
     return *triangles_;
 }
 
-void MeshContent::write(const std::filesystem::path& path, std::optional<double> time, bool compress) const {
-    if (!triangles_) return format_ == MeshFormat::obj ? write_obj(path, ordered_) : write_ply(path, ordered_);
-    if (format_ == MeshFormat::usda) return write_usda(path, *triangles_, time);
-    write_mesh(path, *triangles_, format_, compress);
+void MeshContent::write(const std::filesystem::path& path, const MeshWriting& writing) const {
+    if (!triangles_) return row_of(format_).write_reconstructed(path, ordered_);
+    write_mesh(path, *triangles_, format_, writing);
 }
 
 TriangleMesh MeshContent::form() const {

@@ -4,13 +4,12 @@
 #include <filesystem>
 #include <optional>
 
-#include "formats/mesh_file.hpp"
-#include "formats/mesh_format.hpp"
+#include "formats/meshes/mesh_file.hpp"
 #include "meniscus/mesh.hpp"
 
 namespace meniscus::formats {
 
-/// A mesh as it is written: in its canonical order, so that a file tells nothing of the way of its mesh. Of all formats
+/// A mesh as it is written: in its canonical order, so that a file shows nothing of the way of its mesh. Of all formats
 /// but bricks.
 class MeshContent {
 public:
@@ -18,9 +17,8 @@ public:
     MeshContent(Mesh ordered, MeshFormat format);
     /// To be changed: what is written from then on.
     TriangleMesh& triangles();
-    /// time: the time code of a USD file of a sequence. compress: as write_mesh(). Throws as write_mesh() does.
-    void write(const std::filesystem::path& path, std::optional<double> time = std::nullopt,
-               bool compress = false) const;
+    /// Throws as write_mesh() does.
+    void write(const std::filesystem::path& path, const MeshWriting& writing = {}) const;
     /// What the mesh has beside positions and triangles, without values: for the stage of a sequence of USD files.
     TriangleMesh form() const;
 

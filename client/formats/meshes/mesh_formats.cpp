@@ -1,35 +1,35 @@
-#include "formats/mesh_format.hpp"
+#include "formats/meshes/mesh_formats.hpp"
 
-#include <array>
-#include <string>
+#include <vector>
 
-#include "formats/extension.hpp"
+#include "formats/bytes/extension.hpp"
 #include "meniscus/error.hpp"
-#include "meniscus/names.hpp"
 
 namespace meniscus::formats {
 
-namespace {
-
-constexpr std::array<std::string_view, 8> extensions_of_meshes{".ply", ".obj", ".bricks", ".vtk",
-                                                               ".vtp", ".npz", ".glb",    ".usda"};
-static_assert(extensions_of_meshes.size() == choices<MeshFormat>.size());
-
-}  // namespace
-
 std::span<const std::string_view> mesh_extensions() {
-    return extensions_of_meshes;
+    static constexpr auto all = [] {
+        std::array<std::string_view, mesh_formats.size()> extensions;
+        for (std::size_t i = 0; i < extensions.size(); ++i) extensions[i] = mesh_formats[i].extension;
+        return extensions;
+    }();
+    return all;
 }
 
 std::span<const std::string_view> read_mesh_formats() {
-    static_assert(names<MeshFormat>[6] == "glb" && names<MeshFormat>[7] == "usda");
-    return std::span(names<MeshFormat>).first(6);
+    static const std::vector<std::string_view> read = [] {
+        std::vector<std::string_view> names;
+        for (const MeshFormatRow& row : mesh_formats)
+            if (row.read != nullptr) names.push_back(row.name);
+        return names;
+    }();
+    return read;
 }
 
 MeshFormat mesh_format_of(const std::filesystem::path& path) {
     const std::string extension = lower_extension(path);
-    for (const MeshFormat format : choices<MeshFormat>)
-        if (extension == mesh_extensions()[static_cast<std::size_t>(format)]) return format;
+    for (const MeshFormatRow& row : mesh_formats)
+        if (row.extension == extension) return row.format;
     throw InvalidInput(path.string() + ": mesh files end in " + listed(mesh_extensions()) + ", not in '" + extension +
                        "'");
 }

@@ -1,8 +1,8 @@
-#include "formats/face_index.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/npz.hpp"
-#include "formats/particles.hpp"
-#include "formats/vtk_dataset.hpp"
+#include "formats/containers/face_index.hpp"
+#include "formats/containers/npz.hpp"
+#include "formats/containers/point_numbers.hpp"
+#include "formats/meshes/mesh_readers.hpp"
+#include "formats/vtk/vtk_dataset.hpp"
 
 namespace meniscus::formats {
 

@@ -1,10 +1,12 @@
-#include "formats/file_numbers.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/npz_writer.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/containers/named_values.hpp"
+#include "formats/containers/npz_writer.hpp"
+#include "formats/meshes/file_numbers.hpp"
+#include "formats/meshes/mesh_writers.hpp"
 
 namespace meniscus::formats {
 
-void write_mesh_npz(const std::filesystem::path& path, const TriangleMesh& mesh) {
+void write_mesh_npz(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& /*writing*/) {
     NpzWriter out(path);
     out.add("positions", mesh.wide ? "<f8" : "<f4", {mesh.positions.size(), 3},
             coordinate_bytes(mesh.positions, mesh.wide));

@@ -4,15 +4,11 @@
 #include <limits>
 #include <utility>
 
-#include "formats/array_collector.hpp"
-#include "formats/brick_file.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/face_index.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/ply.hpp"
-#include "formats/standard_streams.hpp"
-#include "formats/vtk_dataset.hpp"
-#include "meniscus/error.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/containers/array_collector.hpp"
+#include "formats/containers/face_index.hpp"
+#include "formats/containers/ply.hpp"
+#include "formats/meshes/mesh_readers.hpp"
 #include "meniscus/names.hpp"
 
 namespace meniscus::formats {
@@ -39,58 +35,7 @@ bool is_ignored(std::string_view keyword) {
 
 }  // namespace
 
-TriangleMesh read_mesh(const std::filesystem::path& path, std::optional<MeshFormat> format, const ReadLimits& limits) {
-    if (!format) format = mesh_format_of(path);
-    const std::string bytes = read_input(path, limits.most_bytes);
-    const std::string name = input_name(path);
-    TriangleMesh mesh;
-    switch (*format) {
-        case MeshFormat::ply:
-            mesh = read_mesh_ply(name, bytes);
-            break;
-        case MeshFormat::obj:
-            mesh = read_obj(name, bytes);
-            break;
-        case MeshFormat::bricks:
-            mesh = to_triangles(read_bricks(name, bytes).mesh());
-            break;
-        case MeshFormat::vtk:
-            mesh = read_mesh_vtk(name, bytes);
-            break;
-        case MeshFormat::vtp:
-            mesh = read_mesh_vtp(name, bytes, limits);
-            break;
-        case MeshFormat::npz:
-            mesh = read_mesh_npz(name, bytes, limits);
-            break;
-        case MeshFormat::glb:
-        case MeshFormat::usda:
-            throw InvalidInput(name + ": " + std::string(name_of(*format)) + " is written, and not read; read are " +
-                               listed(read_mesh_formats()));
-    }
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-        for (const double x : mesh.positions[i])
-            if (!std::isfinite(x))
-                throw InvalidInput(name + ": vertex " + std::to_string(i) + " has the coordinate " + std::to_string(x) +
-                                   "; coordinates are finite");
-    return mesh;
-}
-
-TriangleMesh to_triangles(const Mesh& mesh) {
-    TriangleMesh out;
-    out.positions.reserve(mesh.vertices.size());
-    for (const LatticePosition& p : mesh.vertices) out.positions.push_back(mesh.world(p));
-    out.normals.assign(mesh.normals.begin(), mesh.normals.end());
-    out.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
-    out.levels.resize(mesh.triangles.size());
-    for (std::size_t i = 0; i < out.levels.size(); ++i) out.levels[i] = level_byte(mesh.level_of(i));
-    for (const MeshAttribute& a : mesh.attributes)
-        out.attributes.push_back({a.name, a.type, a.components, {a.data.begin(), a.data.end()}});
-    out.wide = needs_double(mesh);
-    return out;
-}
-
-TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes) {
+TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
     PlyReader ply(name, bytes);
     TriangleMesh mesh;
     bool has_vertices = false;
@@ -159,7 +104,7 @@ int level_of_group(std::string_view group) {
     return level ? level_byte(*level) : -1;
 }
 
-TriangleMesh read_obj(const std::string& name, std::string_view bytes) {
+TriangleMesh read_obj(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
     ByteCursor in(name, bytes);
     TriangleMesh mesh;
     std::vector<Normal> normals;
@@ -202,14 +147,6 @@ TriangleMesh read_obj(const std::string& name, std::string_view bytes) {
     if (normals.size() == mesh.positions.size()) mesh.normals = std::move(normals);
     if (mesh.levels.size() != mesh.triangles.size()) mesh.levels.clear();
     return mesh;
-}
-
-TriangleMesh read_mesh_vtk(const std::string& name, std::string_view bytes) {
-    return to_triangle_mesh(read_legacy_vtk(name, bytes, VtkUse::mesh));
-}
-
-TriangleMesh read_mesh_vtp(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
-    return to_triangle_mesh(read_xml_vtk(name, bytes, limits, VtkUse::mesh));
 }
 
 }  // namespace meniscus::formats

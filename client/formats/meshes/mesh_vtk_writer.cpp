@@ -3,16 +3,16 @@
 #include <limits>
 #include <string>
 
-#include "formats/atomic_file.hpp"
-#include "formats/file_numbers.hpp"
-#include "formats/legacy_vtk_arrays.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/standard_streams.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/standard_streams.hpp"
+#include "formats/meshes/file_numbers.hpp"
+#include "formats/meshes/mesh_writers.hpp"
+#include "formats/vtk/legacy_vtk_arrays.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::formats {
 
-void write_mesh_vtk(const std::filesystem::path& path, const TriangleMesh& mesh) {
+void write_mesh_vtk(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& /*writing*/) {
     constexpr std::size_t most = std::size_t{std::numeric_limits<std::int32_t>::max()} / 5;
     const std::size_t face_count = mesh.triangles.size() + mesh.quads.size();
     if (face_count > most || mesh.positions.size() > most)

@@ -2,9 +2,10 @@
 #include <string>
 #include <vector>
 
-#include "formats/file_numbers.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/vtp_writer.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/meshes/file_numbers.hpp"
+#include "formats/meshes/mesh_writers.hpp"
+#include "formats/vtk/vtp_writer.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -47,7 +48,8 @@ void add_polygons(VtpWriter& out, const TriangleMesh& mesh) {
 
 }  // namespace
 
-void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh, VtpCompression compression) {
+void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing) {
+    const VtpCompression compression = writing.compress ? VtpCompression::zlib : VtpCompression::none;
     VtpWriter out(path, mesh.positions.size(), {.polys = mesh.triangles.size() + mesh.quads.size()}, compression);
     out.begin("PointData", mesh.normals.empty() ? "" : " Normals=\"Normals\"");
     if (!mesh.normals.empty()) out.add("Normals", "Float32", 3, bytes_of(mesh.normals.data(), mesh.normals.size()));

@@ -6,13 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "formats/atomic_file.hpp"
-#include "formats/glb_writer.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/ply_properties.hpp"
-#include "formats/standard_streams.hpp"
-#include "formats/usda_writer.hpp"
-#include "meniscus/error.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/containers/ply_properties.hpp"
+#include "formats/meshes/mesh_writers.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -202,47 +198,18 @@ void write_obj_of(const std::filesystem::path& path, const AnyMesh& mesh) {
 
 }  // namespace
 
-bool needs_double(const Mesh& mesh) {
-    constexpr std::int32_t limit = 1 << 23;
-    return std::any_of(mesh.vertices.begin(), mesh.vertices.end(), [](const LatticePosition& p) {
-        return std::any_of(p.begin(), p.end(), [](std::int32_t x) { return x <= -limit || x >= limit; });
-    });
-}
-
 void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
     write_ply_of(path, mesh);
 }
-void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {
+void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& /*writing*/) {
     write_ply_of(path, mesh);
 }
 
 void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
     write_obj_of(path, mesh);
 }
-void write_obj(const std::filesystem::path& path, const TriangleMesh& mesh) {
+void write_obj(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& /*writing*/) {
     write_obj_of(path, mesh);
-}
-
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, MeshFormat format, bool compress) {
-    switch (format) {
-        case MeshFormat::ply:
-            return write_ply(path, mesh);
-        case MeshFormat::obj:
-            return write_obj(path, mesh);
-        case MeshFormat::bricks:
-            throw InvalidInput(output_name(path) +
-                               ": triangles are not written as bricks, which have the lattice of a reconstruction");
-        case MeshFormat::vtk:
-            return write_mesh_vtk(path, mesh);
-        case MeshFormat::vtp:
-            return write_mesh_vtp(path, mesh, compress ? VtpCompression::zlib : VtpCompression::none);
-        case MeshFormat::npz:
-            return write_mesh_npz(path, mesh);
-        case MeshFormat::glb:
-            return write_glb(path, mesh, compress ? GlbCoding::draco : GlbCoding::plain);
-        case MeshFormat::usda:
-            return write_usda(path, mesh);
-    }
 }
 
 }  // namespace meniscus::formats

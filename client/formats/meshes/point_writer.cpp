@@ -1,9 +1,9 @@
-#include "formats/point_writer.hpp"
+#include "formats/meshes/point_writer.hpp"
 
 #include <string>
 
-#include "formats/atomic_file.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/scalar.hpp"
 
 namespace meniscus::formats {
 

@@ -1,4 +1,4 @@
-#include "formats/pvd_writer.hpp"
+#include "formats/meshes/pvd_writer.hpp"
 
 #include <array>
 #include <charconv>
@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 
 namespace meniscus::formats {
 namespace {

@@ -9,8 +9,8 @@
 #include <system_error>
 
 #include "files/centered_positions.hpp"
-#include "formats/atomic_file.hpp"
-#include "formats/usda_writer.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/meshes/usda_writer.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -187,9 +187,9 @@ std::string asset(const std::filesystem::path& file, const std::filesystem::path
 
 }  // namespace
 
-void write_usda(const std::filesystem::path& path, const TriangleMesh& mesh, std::optional<double> time) {
+void write_usda(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing) {
     AtomicFile file(path);
-    MeshWriter(file, time).write(mesh);
+    MeshWriter(file, writing.time).write(mesh);
     file.commit();
 }
 

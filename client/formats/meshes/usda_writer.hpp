@@ -2,18 +2,18 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <span>
 
-#include "formats/mesh_file.hpp"
+#include "formats/meshes/mesh_writing.hpp"
+#include "formats/meshes/triangle_mesh.hpp"
 
 namespace meniscus::formats {
 
 /// Writes a prim "/surface": positions, triangles, normals and attributes, which are `primvars:NAME` (`primvars:_2nd`
 /// for `2nd`, since no name of USD begins with a digit), but `velocity`, which is `velocities`, by which renderers
-/// blur. time: the time code of the values; without it they hold always.
+/// blur.
 /// Atomic. Throws InvalidInput if the path cannot be written.
-void write_usda(const std::filesystem::path& path, const TriangleMesh& mesh, std::optional<double> time = std::nullopt);
+void write_usda(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing = {});
 
 struct UsdaClip {
     double time = 0.0;  ///< time code

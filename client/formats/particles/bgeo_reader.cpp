@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "formats/array_collector.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/inflate.hpp"
-#include "formats/particles.hpp"
-#include "formats/read_budget.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/inflate.hpp"
+#include "formats/bytes/read_budget.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/containers/array_collector.hpp"
+#include "formats/particles/particle_readers.hpp"
 
 namespace meniscus::formats {
 namespace {

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "formats/array_collector.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/particles.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/containers/array_collector.hpp"
+#include "formats/particles/particle_readers.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -187,7 +187,7 @@ std::string_view usual_name(std::string_view name) {
 
 }  // namespace
 
-Particles read_bi4(const std::string& name, std::string_view bytes) {
+Particles read_bi4(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
     const Bi4File file(name, bytes);
     const Bi4Array& place = *(file.find("Posd") != nullptr ? file.find("Posd") : file.find("Pos"));
     if (!place.type || place.type->components != 3 || is_integer(place.type->type))

@@ -1,7 +1,7 @@
 // HDF5: a step of H5Part (datasets x, y, z of one group, "Step#0") and what PySPH writes (a group of datasets for each
 // kind of particles, below "particles"). A file is untrusted only as far as HDF5's library is: see client/README.md.
-#include "formats/byte_cursor.hpp"
-#include "formats/particles.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/particles/particle_readers.hpp"
 
 #ifdef MENISCUS_HDF5
 #include <hdf5.h>
@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "formats/array_collector.hpp"
-#include "formats/read_budget.hpp"
+#include "formats/bytes/read_budget.hpp"
+#include "formats/containers/array_collector.hpp"
 
 namespace meniscus::formats {
 namespace {

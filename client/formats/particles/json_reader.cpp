@@ -2,8 +2,8 @@
 // other, so that no tree of the document is ever in memory.
 #include <nlohmann/json.hpp>
 
-#include "formats/byte_cursor.hpp"
-#include "formats/particles.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/particles/particle_readers.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -57,7 +57,7 @@ private:
 
 }  // namespace
 
-Particles read_particle_json(const std::string& name, std::string_view bytes) {
+Particles read_particle_json(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
     const ByteCursor at(name, bytes);
     Particles particles;
     Positions positions(at, particles);

@@ -2,11 +2,12 @@
 #include <array>
 #include <utility>
 
-#include "formats/byte_cursor.hpp"
-#include "formats/npy.hpp"
-#include "formats/npz.hpp"
-#include "formats/particles.hpp"
-#include "formats/pysph_npz.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/containers/npy.hpp"
+#include "formats/containers/npz.hpp"
+#include "formats/containers/point_numbers.hpp"
+#include "formats/containers/pysph_npz.hpp"
+#include "formats/particles/particle_readers.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -90,7 +91,7 @@ bool has_pickled_particles(NpzReader& file) {
 
 }  // namespace
 
-Particles read_npy(const std::string& name, std::string_view bytes) {
+Particles read_npy(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
     const ByteCursor at(name, bytes);
     Particles particles;
     fill_positions(particles, read_npy_array(at, bytes), at);

@@ -3,13 +3,14 @@
 #include <utility>
 #include <vector>
 
-#include "formats/array_collector.hpp"
-#include "formats/particles.hpp"
-#include "formats/ply.hpp"
+#include "formats/containers/array_collector.hpp"
+#include "formats/containers/ply.hpp"
+#include "formats/containers/point_numbers.hpp"
+#include "formats/particles/particle_readers.hpp"
 
 namespace meniscus::formats {
 
-Particles read_particle_ply(const std::string& name, std::string_view bytes) {
+Particles read_particle_ply(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
     PlyReader ply(name, bytes);
     Particles particles;
     ArrayCollector collector;

@@ -1,39 +1,18 @@
-#include "formats/particle_writer.hpp"
+#include "formats/particles/particle_writer.hpp"
 
 #include <bit>
 #include <numeric>
 #include <string>
 #include <vector>
 
-#include "formats/atomic_file.hpp"
-#include "formats/npz_writer.hpp"
-#include "formats/ply_properties.hpp"
-#include "formats/scalar.hpp"
-#include "formats/standard_streams.hpp"
-#include "formats/vtk_writer.hpp"
-#include "formats/vtp_writer.hpp"
-#include "meniscus/error.hpp"
-#include "meniscus/names.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/containers/named_values.hpp"
+#include "formats/containers/npz_writer.hpp"
+#include "formats/containers/ply_properties.hpp"
+#include "formats/vtk/vtp_writer.hpp"
 
 namespace meniscus::formats {
-
-void write_particles(const std::filesystem::path& path, const Particles& particles, ParticleFormat format) {
-    const std::vector<ParticleArray> arrays = views(particles.arrays);
-    ParticleFrame frame = particles.frame();
-    frame.arrays = arrays;
-    write_particles(path, frame, format);
-}
-
-void write_particles(const std::filesystem::path& path, const ParticleFrame& frame, ParticleFormat format) {
-    if (format == ParticleFormat::ply) return write_particle_ply(path, frame);
-    if (format == ParticleFormat::vtk) return write_vtk(path, frame);
-    if (format == ParticleFormat::vtp) return write_particle_vtp(path, frame);
-    if (format == ParticleFormat::npz) return write_particle_npz(path, frame);
-    std::vector<std::string_view> written;
-    for (const ParticleFormat known : written_particle_formats) written.push_back(name_of(known));
-    throw InvalidInput(output_name(path) + ": particles are written as " + listed(written) + ", not as " +
-                       std::string(name_of(format)));
-}
 
 void write_particle_ply(const std::filesystem::path& path, const ParticleFrame& frame) {
     const std::size_t count = frame.count();

@@ -1,12 +1,12 @@
-#include "formats/vtk_writer.hpp"
+#include "formats/particles/vtk_writer.hpp"
 
 #include <bit>
 #include <string>
 
-#include "formats/atomic_file.hpp"
-#include "formats/legacy_vtk_arrays.hpp"
-#include "formats/named_values.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/containers/named_values.hpp"
+#include "formats/vtk/legacy_vtk_arrays.hpp"
 
 namespace meniscus::formats {
 

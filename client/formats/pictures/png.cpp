@@ -1,11 +1,11 @@
-#include "formats/png.hpp"
+#include "formats/pictures/png.hpp"
 
 #include <png.h>
 
 #include <stdexcept>
 #include <string>
 
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 
 namespace meniscus::formats {
 

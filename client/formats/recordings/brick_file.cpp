@@ -1,4 +1,4 @@
-#include "formats/brick_file.hpp"
+#include "formats/recordings/brick_file.hpp"
 
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/util/delimited_message_util.h>
@@ -14,8 +14,8 @@
 #include "conversion/spray_conversion.hpp"
 #include "conversion/statistics_conversion.hpp"
 #include "files/brick_file_format.hpp"
-#include "formats/atomic_file.hpp"
-#include "formats/byte_cursor.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/byte_cursor.hpp"
 #include "meniscus/v1/brick_file.pb.h"
 #include "meniscus/v1/surface_service.pb.h"
 #include "receiving/frame_receiver.hpp"

@@ -1,4 +1,4 @@
-#include "formats/recorded_particles.hpp"
+#include "formats/recordings/recorded_particles.hpp"
 
 #include <algorithm>
 #include <cstring>

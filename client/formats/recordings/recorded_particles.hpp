@@ -2,7 +2,7 @@
 #pragma once
 
 #include "files/random_access_file.hpp"
-#include "formats/recording.hpp"
+#include "formats/recordings/recording.hpp"
 
 namespace meniscus::formats {
 

@@ -1,4 +1,4 @@
-#include "formats/recording.hpp"
+#include "formats/recordings/recording.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include "conversion/settings_conversion.hpp"
 #include "description/label.hpp"
-#include "formats/brick_file.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/recorded_particles.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/recordings/brick_file.hpp"
+#include "formats/recordings/recorded_particles.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/recording.pb.h"
 #include "receiving/session_description.hpp"

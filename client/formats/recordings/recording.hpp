@@ -10,7 +10,7 @@
 
 #include "files/random_access_file.hpp"
 #include "files/recording_scan.hpp"
-#include "formats/named_values.hpp"
+#include "formats/containers/named_values.hpp"
 #include "meniscus/client/client.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"

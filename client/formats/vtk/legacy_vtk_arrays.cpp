@@ -1,9 +1,9 @@
-#include "formats/legacy_vtk_arrays.hpp"
+#include "formats/vtk/legacy_vtk_arrays.hpp"
 
 #include <bit>
 #include <string_view>
 
-#include "formats/scalar.hpp"
+#include "formats/bytes/scalar.hpp"
 
 namespace meniscus::formats {
 namespace {

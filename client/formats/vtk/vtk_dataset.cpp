@@ -1,9 +1,8 @@
-#include "formats/vtk_dataset.hpp"
+#include "formats/vtk/vtk_dataset.hpp"
 
 #include <utility>
 
-#include "formats/mesh_file.hpp"
-#include "formats/particles.hpp"
+#include "formats/containers/point_numbers.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -65,33 +64,6 @@ void VtkPointArray::finish() {
 
 bool is_cell_levels(VtkUse use, std::string_view name, ScalarType type, std::size_t components) {
     return use == VtkUse::mesh && name == "level" && components == 1 && is_integer(type);
-}
-
-Particles to_particles(VtkDataset dataset, const ByteCursor& at) {
-    Particles particles;
-    particles.positions.reserve(3 * dataset.points.size());
-    for (std::size_t i = 0; i < dataset.points.size(); ++i)
-        for (const double x : dataset.points[i]) set_coordinate(particles, particles.positions.size(), x, at);
-    particles.levels = std::move(dataset.levels);
-    particles.faces = dataset.faces;
-    dataset.arrays.finish(particles.arrays, particles.left_out);
-    return particles;
-}
-
-TriangleMesh to_triangle_mesh(VtkDataset dataset) {
-    TriangleMesh mesh;
-    mesh.positions = std::move(dataset.points);
-    mesh.wide = dataset.wide;
-    mesh.normals = std::move(dataset.normals);
-    mesh.triangles = std::move(dataset.triangles);
-    if (!dataset.cell_levels.empty()) {
-        mesh.levels.reserve(mesh.triangles.size());
-        for (const std::size_t cell : dataset.triangle_cells)
-            mesh.levels.push_back(cell < dataset.cell_levels.size() ? dataset.cell_levels[cell] : std::uint8_t{0});
-    }
-    std::vector<std::string> left_out;
-    dataset.arrays.finish(mesh.attributes, left_out);
-    return mesh;
 }
 
 }  // namespace meniscus::formats

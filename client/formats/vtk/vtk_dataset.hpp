@@ -9,15 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/array_collector.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/read_limits.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_limits.hpp"
+#include "formats/containers/array_collector.hpp"
 #include "meniscus/mesh.hpp"
 
 namespace meniscus::formats {
-
-struct Particles;
-struct TriangleMesh;
 
 /// What is read: of particles no faces but their number, of a mesh no levels of points.
 enum class VtkUse { particles, mesh };
@@ -68,10 +65,6 @@ bool is_cell_levels(VtkUse use, std::string_view name, ScalarType type, std::siz
 inline std::uint8_t to_cell_level(double value) {
     return value >= 1.0 && value <= 3.0 ? static_cast<std::uint8_t>(value) : std::uint8_t{0};
 }
-
-/// Throws InvalidInput for a finite coordinate beyond float32.
-Particles to_particles(VtkDataset dataset, const ByteCursor& at);
-TriangleMesh to_triangle_mesh(VtkDataset dataset);
 
 /// The readers. name: the file, for messages. Throw InvalidInput in one line.
 VtkDataset read_legacy_vtk(const std::string& name, std::string_view bytes, VtkUse use);

@@ -8,11 +8,10 @@
 #include <optional>
 #include <utility>
 
-#include "formats/byte_cursor.hpp"
-#include "formats/face_index.hpp"
-#include "formats/particles.hpp"
-#include "formats/scalar.hpp"
-#include "formats/vtk_dataset.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/containers/face_index.hpp"
+#include "formats/vtk/vtk_dataset.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -380,10 +379,6 @@ private:
 
 VtkDataset read_legacy_vtk(const std::string& name, std::string_view bytes, VtkUse use) {
     return VtkReader(name, bytes, use).read();
-}
-
-Particles read_vtk(const std::string& name, std::string_view bytes) {
-    return to_particles(read_legacy_vtk(name, bytes, VtkUse::particles), ByteCursor(name, bytes));
 }
 
 }  // namespace meniscus::formats

@@ -11,13 +11,12 @@
 #include <type_traits>
 #include <utility>
 
-#include "formats/base64.hpp"
-#include "formats/face_index.hpp"
-#include "formats/inflate.hpp"
-#include "formats/particles.hpp"
-#include "formats/read_budget.hpp"
-#include "formats/scalar.hpp"
-#include "formats/vtk_dataset.hpp"
+#include "formats/bytes/base64.hpp"
+#include "formats/bytes/inflate.hpp"
+#include "formats/bytes/read_budget.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/containers/face_index.hpp"
+#include "formats/vtk/vtk_dataset.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -464,10 +463,6 @@ private:
 
 VtkDataset read_xml_vtk(const std::string& name, std::string_view bytes, const ReadLimits& limits, VtkUse use) {
     return XmlReader(name, bytes, limits, use).read();
-}
-
-Particles read_vtk_xml(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
-    return to_particles(read_xml_vtk(name, bytes, limits, VtkUse::particles), ByteCursor(name, bytes));
 }
 
 }  // namespace meniscus::formats

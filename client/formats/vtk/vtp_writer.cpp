@@ -1,4 +1,4 @@
-#include "formats/vtp_writer.hpp"
+#include "formats/vtk/vtp_writer.hpp"
 
 #include <zlib.h>
 
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/base64_writer.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/base64_writer.hpp"
+#include "formats/bytes/scalar.hpp"
 
 namespace meniscus::formats {
 namespace {

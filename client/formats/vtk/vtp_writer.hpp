@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 #include "meniscus/particle_frame.hpp"
 
 namespace meniscus::formats {
@@ -43,11 +43,5 @@ private:
     AtomicFile file_;
     VtpCompression compression_;
 };
-
-/// The numbers of an array as bytes, where they lie.
-template <class Number>
-std::string_view bytes_of(const Number* numbers, std::size_t count) {
-    return {reinterpret_cast<const char*>(numbers), count * sizeof(Number)};
-}
 
 }  // namespace meniscus::formats

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "bindings.hpp"
-#include "formats/npy.hpp"
+#include "formats/containers/npy.hpp"
 #include "meniscus/error.hpp"
 #include "process.hpp"
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "formats/brick_file.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/recording.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/recordings/brick_file.hpp"
+#include "formats/recordings/recording.hpp"
 #include "frame.hpp"
 #include "interpreter_lock.hpp"
 #include "meniscus/error.hpp"
