@@ -100,9 +100,9 @@ class ImportSequence(bpy.types.Operator, ImportHelper):
         if found and self.set_frame_range:
             context.scene.frame_end = max(context.scene.frame_start, sequence_objects.timing(settings).end())
         sequence_objects.update(obj, context.scene.frame_current, waits=bpy.app.background)
-        told = status.of(obj.name)
-        if told is not None and told.kind == "ERROR":
-            self.report({"ERROR"}, told.text)
+        shown = status.of(obj.name)
+        if shown is not None and shown.kind == "ERROR":
+            self.report({"ERROR"}, shown.text)
         return {"FINISHED"}
 
 
@@ -211,8 +211,8 @@ class InstallWheel(bpy.types.Operator, ImportHelper):
             library = package.load_anew(folder)
         except (wheel.WheelError, package.PackageMissing, OSError) as error:
             return cancelled(self, error)
-        told = "start Blender anew to use it" if was_there else f"it is meniscus {library.__version__}"
-        self.report({"INFO"}, f"the wheel is installed in {folder}: {told}")
+        advice = "start Blender anew to use it" if was_there else f"it is meniscus {library.__version__}"
+        self.report({"INFO"}, f"the wheel is installed in {folder}: {advice}")
         return {"FINISHED"}
 
 

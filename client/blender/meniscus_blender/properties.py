@@ -186,7 +186,7 @@ class MeniscusObject(bpy.types.PropertyGroup):
 class MeniscusSession(bpy.types.PropertyGroup):
     """One of the list to choose from; its name is what chooses it."""
 
-    told: StringProperty()
+    description: StringProperty()
 
 
 CLASSES = (MeniscusQuality, MeniscusSequence, MeniscusLive, MeniscusObject, MeniscusSession)

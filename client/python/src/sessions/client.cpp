@@ -57,9 +57,9 @@ auto call_client(const Connected& connected, const Call& call) {
     return call_server([&](const std::stop_token& stop) { return call(*client, stop); });
 }
 
-py::list to_list(const auto& told) {
+py::list to_list(const auto& records) {
     py::list out;
-    for (const auto& one : told) out.append(to_dict(one));
+    for (const auto& one : records) out.append(to_dict(one));
     return out;
 }
 
@@ -77,11 +77,11 @@ Held<HeldSession> open_session(const Connected& connected, const Options& option
 py::object snapshot(const Connected& connected, const py::object& session_id, const Options& options) {
     const std::string id = text_of(session_id, "session_id");
     auto reader = reader_of(options);
-    client::SnapshotOptions wishes = text_options::read_snapshot(reader);
+    client::SnapshotOptions request = text_options::read_snapshot(reader);
     reader.finish();
     auto frame = call_client(connected, [&](Client& client, const std::stop_token& stop) {
-        wishes.stop = stop;
-        return client.snapshot(id, wishes);
+        request.stop = stop;
+        return client.snapshot(id, request);
     });
     if (!frame) return py::none();
     return py::cast(handle_of(std::move(*frame)));
@@ -96,12 +96,12 @@ Held<RecordingSource> read_recording(const Connected& connected, const py::objec
     constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
     const std::string id = text_of(session_id, "session_id");
     const std::uint32_t which = recording_number(number);
-    client::ReadOptions wishes{.position = whole_number(position, "position", largest),
-                               .count = whole_number(count, "count", largest),
-                               .spray = spray};
+    client::ReadOptions request{.position = whole_number(position, "position", largest),
+                                .count = whole_number(count, "count", largest),
+                                .spray = spray};
     return call_client(connected, [&](Client& client, const std::stop_token& stop) {
-        wishes.stop = stop;
-        return Held<RecordingSource>(new RecordingSource(client.read_recording(id, which, wishes)));
+        request.stop = stop;
+        return Held<RecordingSource>(new RecordingSource(client.read_recording(id, which, request)));
     });
 }
 
@@ -141,8 +141,8 @@ void bind_client(py::module_& module) {
                 const py::object& on_reconnect) {
                  const std::shared_ptr<Client> client = connected.open();
                  return open_stream(options, on_reconnect,
-                                    [&, id = text_of(session_id, "session_id")](const auto& wishes) {
-                                        return client->stream(id, wishes);
+                                    [&, id = text_of(session_id, "session_id")](const auto& request) {
+                                        return client->stream(id, request);
                                     });
              })
         .def("watch",
@@ -150,8 +150,8 @@ void bind_client(py::module_& module) {
                 const py::object& on_reconnect) {
                  const std::shared_ptr<Client> client = connected.open();
                  return open_watcher(options, on_reconnect,
-                                     [&, id = text_of(session_id, "session_id")](const auto& wishes) {
-                                         return client->watch(id, wishes);
+                                     [&, id = text_of(session_id, "session_id")](const auto& request) {
+                                         return client->watch(id, request);
                                      });
              })
         .def("watch_particles",
@@ -159,8 +159,8 @@ void bind_client(py::module_& module) {
                 const py::object& on_reconnect) {
                  const std::shared_ptr<Client> client = connected.open();
                  return open_particle_watcher(options, on_reconnect,
-                                              [&, id = text_of(session_id, "session_id")](const auto& wishes) {
-                                                  return client->watch_particles(id, wishes);
+                                              [&, id = text_of(session_id, "session_id")](const auto& request) {
+                                                  return client->watch_particles(id, request);
                                               });
              })
         .def("snapshot", &snapshot)

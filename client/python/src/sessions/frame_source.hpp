@@ -44,7 +44,7 @@ public:
     /// The frame or None, and whether there are no more.
     pybind11::tuple next(std::optional<double> seconds) {
         require_own_process();
-        if (kept_) return told(std::move(*std::exchange(kept_, std::nullopt)));
+        if (kept_) return to_tuple(std::move(*std::exchange(kept_, std::nullopt)));
         Found found;
         wait_in_pieces(
             [&](std::chrono::milliseconds piece) {
@@ -59,7 +59,7 @@ public:
             kept_ = std::move(found);
             throw pybind11::error_already_set();
         }
-        return told(std::move(found));
+        return to_tuple(std::move(found));
     }
 
     /// From any thread. Does nothing in a forked process: what is there is its parent's.
@@ -74,7 +74,7 @@ protected:
 private:
     using Found = decltype(std::declval<Source&>().next(std::chrono::milliseconds()));
 
-    static pybind11::tuple told(Found found) {
+    static pybind11::tuple to_tuple(Found found) {
         pybind11::object frame = pybind11::none();
         if (found.frame) frame = pybind11::cast(handle_of(std::move(*found.frame)));
         return pybind11::make_tuple(frame, found.ended);

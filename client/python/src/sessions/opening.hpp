@@ -36,10 +36,10 @@ auto call_server(const Call& call) {
 template <class Open>
 Held<PushedStream> open_stream(const text_options::Options& options, const pybind11::object& on_reconnect,
                                const Open& open) {
-    client::StreamOptions wishes = stream_options(options, on_reconnect);
+    client::StreamOptions request = stream_options(options, on_reconnect);
     return call_server([&](const std::stop_token& stop) {
-        wishes.stop = stop;
-        return Held<PushedStream>(new PushedStream(open(wishes)));
+        request.stop = stop;
+        return Held<PushedStream>(new PushedStream(open(request)));
     });
 }
 
@@ -47,10 +47,10 @@ Held<PushedStream> open_stream(const text_options::Options& options, const pybin
 template <class Open>
 Held<WatchSource> open_watcher(const text_options::Options& options, const pybind11::object& on_reconnect,
                                const Open& open) {
-    client::WatchOptions wishes = watch_options(options, on_reconnect);
+    client::WatchOptions request = watch_options(options, on_reconnect);
     return call_server([&](const std::stop_token& stop) {
-        wishes.stop = stop;
-        return Held<WatchSource>(new WatchSource(open(wishes)));
+        request.stop = stop;
+        return Held<WatchSource>(new WatchSource(open(request)));
     });
 }
 
@@ -58,10 +58,10 @@ Held<WatchSource> open_watcher(const text_options::Options& options, const pybin
 template <class Open>
 Held<ParticleSource> open_particle_watcher(const text_options::Options& options, const pybind11::object& on_reconnect,
                                            const Open& open) {
-    client::ParticleWatchOptions wishes = particle_watch_options(options, on_reconnect);
+    client::ParticleWatchOptions request = particle_watch_options(options, on_reconnect);
     return call_server([&](const std::stop_token& stop) {
-        wishes.stop = stop;
-        return Held<ParticleSource>(new ParticleSource(open(wishes)));
+        request.stop = stop;
+        return Held<ParticleSource>(new ParticleSource(open(request)));
     });
 }
 

@@ -31,7 +31,7 @@ public:
         --running_;
         changed_.notify_all();
     }
-    /// No more of them. Returns whether none runs, after so long.
+    /// No more of them. Returns whether none runs, at the latest after the limit.
     bool finish(std::chrono::milliseconds limit) {
         std::unique_lock lock(mutex_);
         may_begin_ = false;

@@ -1,4 +1,4 @@
-// A Python function that is told of attempts to go on after a connection broke.
+// A Python function that is called at attempts to go on after a connection broke.
 #pragma once
 
 #include <pybind11/pybind11.h>

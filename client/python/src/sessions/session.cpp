@@ -23,8 +23,8 @@ auto call_session(HeldSession& held, const Call& call) {
 /// With options that have a token.
 template <class Call>
 auto opened(HeldSession& held, const Call& call) {
-    return [&held, &call](const auto& wishes) {
-        return held.in_turn(wishes.stop, [&](Session& session) { return call(session, wishes); });
+    return [&held, &call](const auto& request) {
+        return held.in_turn(request.stop, [&](Session& session) { return call(session, request); });
     };
 }
 
@@ -45,18 +45,18 @@ void bind_session(py::module_& module) {
              })
         .def("stream",
              [](HeldSession& held, const Options& options, const py::object& on_reconnect) {
-                 const auto open = [](Session& s, const client::StreamOptions& wishes) { return s.stream(wishes); };
+                 const auto open = [](Session& s, const client::StreamOptions& request) { return s.stream(request); };
                  return open_stream(options, on_reconnect, opened(held, open));
              })
         .def("watch",
              [](HeldSession& held, const Options& options, const py::object& on_reconnect) {
-                 const auto open = [](Session& s, const client::WatchOptions& wishes) { return s.watch(wishes); };
+                 const auto open = [](Session& s, const client::WatchOptions& request) { return s.watch(request); };
                  return open_watcher(options, on_reconnect, opened(held, open));
              })
         .def("watch_particles",
              [](HeldSession& held, const Options& options, const py::object& on_reconnect) {
-                 const auto open = [](Session& s, const client::ParticleWatchOptions& wishes) {
-                     return s.watch_particles(wishes);
+                 const auto open = [](Session& s, const client::ParticleWatchOptions& request) {
+                     return s.watch_particles(request);
                  };
                  return open_particle_watcher(options, on_reconnect, opened(held, open));
              })

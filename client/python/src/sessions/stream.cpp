@@ -58,12 +58,12 @@ std::optional<std::uint64_t> index_of(const py::object& given) {
 
 client::StreamOptions stream_options(const text_options::Options& options, const py::object& on_reconnect) {
     auto reader = reader_of(options);
-    client::StreamOptions wishes = text_options::read_stream(reader);
-    reader.read("spray", wishes.spray);
-    wishes.attributes = text_options::read_attribute_wishes(reader);
+    client::StreamOptions request = text_options::read_stream(reader);
+    reader.read("spray", request.spray);
+    request.attributes = text_options::read_attribute_wishes(reader);
     reader.finish();
-    wishes.on_reconnect = reconnect_handler(on_reconnect);
-    return wishes;
+    request.on_reconnect = reconnect_handler(on_reconnect);
+    return request;
 }
 
 std::uint64_t PushedStream::number_of(std::optional<std::uint64_t> given) const {

@@ -11,19 +11,19 @@ namespace meniscus::python {
 
 client::WatchOptions watch_options(const text_options::Options& options, const py::object& on_reconnect) {
     auto reader = reader_of(options);
-    client::WatchOptions wishes = text_options::read_watch(reader);
+    client::WatchOptions request = text_options::read_watch(reader);
     reader.finish();
-    wishes.on_reconnect = reconnect_handler(on_reconnect);
-    return wishes;
+    request.on_reconnect = reconnect_handler(on_reconnect);
+    return request;
 }
 
 client::ParticleWatchOptions particle_watch_options(const text_options::Options& options,
                                                     const py::object& on_reconnect) {
     auto reader = reader_of(options);
-    client::ParticleWatchOptions wishes = text_options::read_particle_watch(reader);
+    client::ParticleWatchOptions request = text_options::read_particle_watch(reader);
     reader.finish();
-    wishes.on_reconnect = reconnect_handler(on_reconnect);
-    return wishes;
+    request.on_reconnect = reconnect_handler(on_reconnect);
+    return request;
 }
 
 void bind_watcher(py::module_& module) {

@@ -53,7 +53,7 @@ py::tuple mesh_and_figures(const Work& work) {
 py::tuple reconstruct(const PythonReconstructor& self, const py::object& positions, const py::object& levels,
                       const py::sequence& arrays, bool is_last) {
     const auto content = self.content;
-    py::tuple told;
+    py::tuple result;
     content->run([&](OwnedFrame& frame) { frame.take(given_frame(positions, levels, arrays)); },
                  [is_last](Work& work) {
                      if (is_last)
@@ -61,34 +61,34 @@ py::tuple reconstruct(const PythonReconstructor& self, const py::object& positio
                      else
                          work.content.reconstruct(work.frame.frame(), *work.mesh);
                  },
-                 [&told](const Work& work) { told = mesh_and_figures(work); });
-    return told;
+                 [&result](const Work& work) { result = mesh_and_figures(work); });
+    return result;
 }
 
 py::tuple reconstruct_from_device(const PythonReconstructor& self, const py::dict& positions, const py::object& levels,
                                   const py::sequence& arrays) {
     const auto content = self.content;
     const DeviceArrays particles(positions, levels, arrays);
-    py::tuple told;
+    py::tuple result;
     content->run([](OwnedFrame&) {},
                  [&particles](Work& work) { work.content.reconstruct(particles.frame(), *work.mesh); },
-                 [&told](const Work& work) { told = mesh_and_figures(work); });
-    return told;
+                 [&result](const Work& work) { result = mesh_and_figures(work); });
+    return result;
 }
 
 /// make_mesh: on the GPU.
 py::tuple device_mesh_and_figures(const std::shared_ptr<SharedReconstructor>& content,
                                   const std::function<void(OwnedFrame&)>& prepare,
                                   const std::function<DeviceMesh(Work&)>& make_mesh) {
-    py::tuple told;
+    py::tuple result;
     DeviceMesh mesh;
     content->run(
         prepare, [&](Work& work) { mesh = make_mesh(work); },
         [&](const Work& work) {
-            told =
+            result =
                 py::make_tuple(DeviceMeshHandle{mesh, content, content->calls()}, to_dict(work.content.statistics()));
         });
-    return told;
+    return result;
 }
 
 py::tuple device_mesh(const PythonReconstructor& self, const py::object& positions, const py::object& levels,
@@ -111,10 +111,10 @@ py::tuple device_mesh_from_device(const PythonReconstructor& self, const py::dic
 MeshHandle coarser(const PythonReconstructor& self, const py::object& max_level) {
     const auto level = static_cast<int>(whole_number(max_level, "max_level", 255));
     const auto content = self.content;
-    MeshHandle told;
+    MeshHandle result;
     content->run([](OwnedFrame&) {}, [level](Work& work) { work.content.emit_capped(level, *work.mesh); },
-                 [&told](const Work& work) { told = handle_of_work(work); });
-    return told;
+                 [&result](const Work& work) { result = handle_of_work(work); });
+    return result;
 }
 
 void release_memory(const PythonReconstructor& self) {

@@ -24,11 +24,11 @@ SharedReconstructor::SharedReconstructor(const Settings& settings, BackendOption
       backend_(describe_backend(options.backend, options.device).name) {}
 
 void SharedReconstructor::run(const std::function<void(OwnedFrame&)>& prepare,
-                              const std::function<void(Work&)>& compute, const std::function<void(const Work&)>& tell) {
+                              const std::function<void(Work&)>& compute, const std::function<void(const Work&)>& use) {
     require_own_process();
     rest_at_end();
     try {
-        run_in_turn(prepare, compute, tell);
+        run_in_turn(prepare, compute, use);
     } catch (const Stopped&) {
         rest_at_end();
         throw;
@@ -37,7 +37,7 @@ void SharedReconstructor::run(const std::function<void(OwnedFrame&)>& prepare,
 
 void SharedReconstructor::run_in_turn(const std::function<void(OwnedFrame&)>& prepare,
                                       const std::function<void(Work&)>& compute,
-                                      const std::function<void(const Work&)>& tell) {
+                                      const std::function<void(const Work&)>& use) {
     using std::chrono::milliseconds;
     Turns::Turn turn(turns_);
     if (turn.is_nested())
@@ -51,7 +51,7 @@ void SharedReconstructor::run_in_turn(const std::function<void(OwnedFrame&)>& pr
     ++calls_;
     Work work{content_, frame_, MeshPool::take(meshes_)};
     wait_for([&] { compute(work); }, [this] { stop_->raise(); });
-    tell(work);
+    use(work);
 }
 
 void SharedReconstructor::release_memory() {

@@ -34,15 +34,15 @@ public:
         std::shared_ptr<Mesh> mesh;
     };
     /// In the caller's turn, with the interpreter's lock: `prepare`, before anything has changed; `compute`, without
-    /// the lock, such that Ctrl-C ends it; then `tell`. Each may throw.
+    /// the lock, such that Ctrl-C ends it; then `use`. Each may throw.
     void run(const std::function<void(OwnedFrame&)>& prepare, const std::function<void(Work&)>& compute,
-             const std::function<void(const Work&)>& tell);
+             const std::function<void(const Work&)>& use);
     /// Gives buffers back.
     void release_memory();
 
 private:
     void run_in_turn(const std::function<void(OwnedFrame&)>& prepare, const std::function<void(Work&)>& compute,
-                     const std::function<void(const Work&)>& tell);
+                     const std::function<void(const Work&)>& use);
 
     std::shared_ptr<StopFlag> stop_ = std::make_shared<StopFlag>();
     Reconstructor content_;

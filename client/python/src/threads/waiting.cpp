@@ -51,7 +51,7 @@ void wait_for(const std::function<void()>& work, const std::function<void()>& st
         without_lock([&] {
             while (!worker->wait(piece_between_signals)) continue;
         });
-        worker->error();  // the interrupt is told
+        worker->error();  // unused: the interrupt is what is thrown
         is_done = true;
     }
     idle_worker() = std::move(worker);

@@ -24,7 +24,7 @@ pybind11::array view(const pybind11::dtype& type, std::size_t rows, std::size_t 
 /// numpy's type of these numbers.
 pybind11::dtype dtype_of(ElementType type);
 
-/// The columns of an array with so many numbers for each row: one number makes an array of one dimension.
+/// The columns of an array with `components` numbers for each row: one number makes an array of one dimension.
 constexpr std::size_t columns_of(std::size_t components) {
     return components == 1 ? 0 : components;
 }

@@ -17,7 +17,7 @@ struct DeviceArray {
     std::string type;
     std::vector<std::size_t> shape;
     const void* data = nullptr;
-    std::optional<std::uintptr_t> stream;  ///< none: nothing has to be waited for, or it is not told
+    std::optional<std::uintptr_t> stream;  ///< none: nothing has to be waited for, or the stream is not given
 
     std::string form() const {
         std::string text = type + " of the shape (";

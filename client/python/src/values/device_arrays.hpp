@@ -1,4 +1,4 @@
-// Particles that lie on a GPU, as other packages tell of them (__cuda_array_interface__).
+// Particles that lie on a GPU, as other packages describe them (__cuda_array_interface__).
 #pragma once
 
 #include <pybind11/pybind11.h>
