@@ -60,7 +60,7 @@ std::optional<double> cell_edge(const CompareOptions& options) {
     return edge;
 }
 
-/// The two meshes are told on standard output, unless the figures go there.
+/// The two meshes are named on standard output, unless the figures go there.
 std::ostream& out(const CompareOptions& options) {
     return formats::is_standard_stream(options.json) ? std::cerr : std::cout;
 }

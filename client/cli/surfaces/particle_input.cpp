@@ -11,7 +11,7 @@
 namespace meniscus::cli {
 namespace {
 
-/// Particle radii: by so much a particle may be moved before the surface shows it.
+/// The distance, in particle radii, by which a particle may be moved before the surface shows it.
 constexpr double noticed_rounding = 0.01;
 
 }  // namespace

@@ -18,7 +18,7 @@ public:
     /// The next `size` bytes. Throws by `at`, naming `what`, if fewer are there or a character is none of base64's.
     /// Memory grows with what is found.
     std::string take(std::size_t size, const ByteCursor& at, std::string_view what);
-    /// At most so many bytes can still follow.
+    /// Upper limit of the bytes that can still follow.
     std::size_t most() const { return ready_.size() + text_.size() / 4 * 3 + 3; }
 
 private:

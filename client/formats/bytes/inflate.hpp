@@ -16,7 +16,7 @@ enum class Deflate {
     gzip,
 };
 
-/// A compressed byte gives at most so many (zlib.net, "zlib technical details": 1032, as a match of 258 takes two
+/// Most bytes that a compressed byte can give (zlib.net, "zlib technical details": 1032, as a match of 258 takes two
 /// bits).
 inline constexpr std::uint64_t most_deflation = 1032;
 

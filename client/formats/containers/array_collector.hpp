@@ -22,7 +22,7 @@ std::string array_name(std::string_view name);
 /// One array in the making.
 class ArrayBuilder {
 public:
-    /// name, type: as the file has them. count: of particles; the caller has checked that so many can be there.
+    /// name, type: as the file has them. count: of particles; the caller has checked that the file can hold them.
     ArrayBuilder(std::string_view name, ScalarType type, std::size_t components, std::size_t count);
 
     /// False: nothing comes of it, so that its values need not be read.

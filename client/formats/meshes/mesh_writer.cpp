@@ -59,7 +59,7 @@ struct MeshView {
     bool wide = false;
     std::span<const Normal> normals;  ///< empty, or one per vertex
     std::span<const Triangle> triangles;
-    bool levels = false;  ///< runs tell levels
+    bool levels = false;  ///< runs have levels
     std::vector<Run> runs;
     std::span<const Quad> quads;
     std::vector<Run> quad_runs;

@@ -35,7 +35,7 @@ public:
     }
 
     std::size_t position() const { return position_; }
-    /// Throws unless so many bytes follow. The view holds until the next call.
+    /// Throws unless `size` bytes follow. The view holds until the next call.
     std::string_view take(std::uint64_t size, std::string_view what) {
         if (inflater_ && inflated_.size() < position_ + size) {
             budget_.take(position_ + size - inflated_.size(), at_, what);

@@ -52,7 +52,7 @@ struct Bi4Array {
     std::string_view bytes;
 };
 
-/// What the file tells of a step.
+/// What the file says about a step.
 class Bi4File {
 public:
     Bi4File(const std::string& name, std::string_view bytes) : in_(name, bytes) {
@@ -98,7 +98,7 @@ private:
     void read_item(int depth) {
         if (depth == bi4_most_depth)
             in_.fail("has items within items more than " + std::to_string(bi4_most_depth) + " deep");
-        number();  // bytes of the item's description, which tells them itself
+        number();  // bytes of the item's description, which has this number itself
         expect_text("\nITEM\n");
         text();    // name
         number();  // whether the item is hidden

@@ -66,7 +66,7 @@ public:
     /// Bytes at the end that hold no whole frame: the server was killed, the disk was full, or it is being written.
     std::uint64_t cut_bytes() const noexcept { return cut_bytes_; }
 
-    /// Whether damage to its frames shows: recordings of before have no checksums.
+    /// Whether damage to its frames shows: recordings of older servers have no checksums.
     bool has_checksums() const noexcept { return has_checksums_; }
     /// Reads a frame's particles and mesh, and nothing into memory: whether they have their checksums.
     bool is_whole(const RecordedFrame& frame) const;

@@ -59,7 +59,7 @@ private:
     std::size_t component_ = 0;
 };
 
-/// Whether this array of the cells tells the levels of triangles, as our writers write them.
+/// Whether this array of the cells holds the levels of triangles, as our writers write them.
 bool is_cell_levels(VtkUse use, std::string_view name, ScalarType type, std::size_t components);
 /// A level of a cell: 1 to 3; other numbers are crack filling.
 inline std::uint8_t to_cell_level(double value) {

@@ -222,7 +222,7 @@ private:
         return unpacked(decoded, reader.most(), what, bytes, held);
     }
 
-    /// take(size): the next bytes, as a string or a view. most: so many can follow. bytes: those of the array.
+    /// take(size): the next bytes, as a string or a view. most: bytes that can follow. bytes: those of the array.
     /// Returns them; what is not in the file lies in `held`, and is paid for.
     template <class TakeBytes>
     std::string_view unpacked(const TakeBytes& take, std::size_t most, const std::string& what, std::uint64_t bytes,

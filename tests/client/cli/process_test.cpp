@@ -17,7 +17,7 @@
 namespace meniscus::test {
 namespace {
 
-TEST_F(Cli, TellsItsVersion) {
+TEST_F(Cli, PrintsItsVersion) {
     const ProcessResult result = run_meniscus({"--version"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.out.rfind("meniscus ", 0), 0U) << result.out;

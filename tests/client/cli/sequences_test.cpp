@@ -164,11 +164,11 @@ TEST_F(Sequences, GoOnAfterTheyWereKilledAndEndWithTheSameFiles) {
 TEST_F(Sequences, SkipFramesOnlyIfAllTheirFilesAreThere) {
     ASSERT_EQ(run_meniscus(sequence("m", {"-q"})).exit_code, 0);
     const std::string before = formats::read_file(mesh("m", 0));
-    formats::write_file(mesh("m", 0), "whole, as far as can be told");
+    formats::write_file(mesh("m", 0), "whole, as far as can be seen");
     ProcessResult result = run_meniscus(sequence("m", {"--skip-existing"}));
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "12 of 12 frames skipped: their files are there\n");
-    EXPECT_EQ(formats::read_file(mesh("m", 0)), "whole, as far as can be told");
+    EXPECT_EQ(formats::read_file(mesh("m", 0)), "whole, as far as can be seen");
     std::filesystem::remove(mesh("m", 0));
     result = run_meniscus(
         sequence("m", {"--skip-existing", "--spray", "points", "--spray-out", path("m/s_{}.ply"), "--end", "1"}));

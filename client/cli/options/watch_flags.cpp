@@ -1,4 +1,4 @@
-#include "cli/options/watch_wishes.hpp"
+#include "cli/options/watch_flags.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -23,10 +23,10 @@ std::string names_of(const std::vector<std::string>& attributes) {
     return names;
 }
 
-std::vector<AttributeWish> wishes_for(const std::vector<std::string>& names, int bits, const Settings& settings) {
+std::vector<AttributeWish> requests_for(const std::vector<std::string>& names, int bits, const Settings& settings) {
     if (names == std::vector<std::string>{std::string(every_attribute)}) return {{.name = {}, .bits = bits}};
     if (names == std::vector<std::string>{std::string(no_attribute)}) return {};
-    std::vector<AttributeWish> wishes;
+    std::vector<AttributeWish> requests;
     for (const std::string& name : names) {
         if (name == every_attribute || name == no_attribute)
             throw InvalidInput("--attribute " + name + " stands alone: leave the other names out");
@@ -34,14 +34,14 @@ std::vector<AttributeWish> wishes_for(const std::vector<std::string>& names, int
         if (!settings.all_attributes && std::ranges::find(settings.attributes, name) == settings.attributes.end())
             throw InvalidInput("--attribute " + name + ": the session's attributes are " +
                                names_of(settings.attributes));
-        wishes.push_back({.name = name, .bits = bits});
+        requests.push_back({.name = name, .bits = bits});
     }
-    return wishes;
+    return requests;
 }
 
 }  // namespace
 
-void WatchWishes::add_to(CLI::App& command) {
+void WatchFlags::add_to(CLI::App& command) {
     const OptionGroup group(command, "What is sent");
     add_normal_bits(command, options.normal_bits, "")->capture_default_str();
     command
@@ -75,11 +75,11 @@ void WatchWishes::add_to(CLI::App& command) {
         ->capture_default_str();
 }
 
-client::WatchOptions WatchWishes::build(const Settings& settings) const {
+client::WatchOptions WatchFlags::build(const Settings& settings) const {
     client::WatchOptions out = options;
     if (!region.empty()) out.region = Box{{region[0], region[1], region[2]}, {region[3], region[4], region[5]}};
     if (!viewpoint.empty()) out.viewpoint = {viewpoint[0], viewpoint[1], viewpoint[2]};
-    out.attributes = wishes_for(attributes, attribute_bits, settings);
+    out.attributes = requests_for(attributes, attribute_bits, settings);
     out.reconnect = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(reconnect));
     return out;
 }

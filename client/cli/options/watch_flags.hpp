@@ -1,4 +1,4 @@
-// The flags that become a watcher's wishes.
+// The flags that become a watcher's options.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ class App;
 
 namespace meniscus::cli {
 
-struct WatchWishes {
+struct WatchFlags {
     client::WatchOptions options;                ///< numbers are parsed into it; complete only after build()
     std::vector<double> region;                  ///< empty, or x0 y0 z0 x1 y1 z1
     std::vector<double> viewpoint;               ///< empty, or x y z
