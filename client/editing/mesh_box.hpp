@@ -1,7 +1,7 @@
 // The triangles of a part of space.
 #pragma once
 
-#include "formats/mesh_file.hpp"
+#include "formats/meshes/triangle_mesh.hpp"
 #include "meniscus/settings.hpp"
 
 namespace meniscus::editing {

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "formats/mesh_file.hpp"
-#include "formats/particles.hpp"
+#include "formats/meshes/triangle_mesh.hpp"
+#include "formats/particles/particles.hpp"
 
 namespace meniscus::editing {
 

@@ -1,7 +1,7 @@
 // The particles of a part of space.
 #pragma once
 
-#include "formats/particles.hpp"
+#include "formats/particles/particles.hpp"
 #include "meniscus/settings.hpp"
 
 namespace meniscus::editing {

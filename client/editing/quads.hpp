@@ -1,7 +1,7 @@
 // Pairs of triangles as quadrilaterals.
 #pragma once
 
-#include "formats/mesh_file.hpp"
+#include "formats/meshes/triangle_mesh.hpp"
 
 namespace meniscus::editing {
 

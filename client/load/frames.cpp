@@ -1,5 +1,6 @@
 #include "load/frames.hpp"
 
+#include "formats/particles/particle_file.hpp"
 #include "load/moving_water.hpp"
 
 namespace meniscus::load {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/particles.hpp"
+#include "formats/particles/particles.hpp"
 #include "meniscus/particle_frame.hpp"
 
 namespace meniscus::load {

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 #include "load/load.hpp"
 #include "load/options.hpp"
 #include "load/report.hpp"

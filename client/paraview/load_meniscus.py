@@ -13,7 +13,7 @@ from paraview.simple import LoadPlugin
 if not hasattr(inspect, "getargspec"):
     inspect.getargspec = inspect.getfullargspec
 
-# A script that ParaView's window runs is told no __file__.
+# A script that ParaView's window runs has no __file__.
 folders = [os.path.dirname(os.path.abspath(__file__))] if "__file__" in globals() else []
 folders += [*sys.path, os.path.join(sys.prefix, "share", "meniscus", "paraview")]
 plugins = [os.path.join(folder, "meniscus_paraview.py") for folder in folders]

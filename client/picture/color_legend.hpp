@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "formats/png.hpp"
+#include "formats/pictures/png.hpp"
 #include "picture/color_maps.hpp"
 #include "picture/value_range.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "formats/png.hpp"
+#include "formats/pictures/png.hpp"
 #include "picture/color_maps.hpp"
 
 namespace meniscus::cli {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "formats/mesh_file.hpp"
-#include "formats/png.hpp"
+#include "formats/meshes/triangle_mesh.hpp"
+#include "formats/pictures/png.hpp"
 #include "picture/camera.hpp"
 #include "picture/color_maps.hpp"
 #include "picture/value_range.hpp"

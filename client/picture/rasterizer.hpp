@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "formats/png.hpp"
+#include "formats/pictures/png.hpp"
 
 namespace meniscus::cli {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/mesh_file.hpp"
+#include "formats/meshes/triangle_mesh.hpp"
 #include "picture/color_maps.hpp"
 #include "picture/value_range.hpp"
 

@@ -17,7 +17,7 @@ struct LeveledParticles {
     /// behind. Empty: all are as they were.
     std::vector<std::uint32_t> sources{};
 
-    /// What these particles have of values that those before had, so many numbers each: those of level 1 the mean.
+    /// Transfers per-particle values, `components` numbers each, to the new particles: those of level 1 get the mean.
     std::vector<float> merged(const std::vector<float>& values, std::size_t components) const;
 };
 

@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::size_t reference_particles = 16000;
 constexpr double reference_radius = 0.025;
-/// A column of water is so much higher than wide.
+/// Height of a column of water over its width.
 constexpr double column_aspect = 1.5;
 
-/// `count` particles on a cubic lattice at rest distance, filled from the bottom: so many columns along x from
-/// `first_x` in direction `sign`, and along z.
+/// `count` particles on a cubic lattice at rest distance, filled from the bottom: `along_x` of them in a row
+/// along x, from `first_x` in direction `sign`, and `along_z` rows.
 void fill_column(Scene& scene, std::size_t count, float first_x, float sign, std::size_t along_x, std::size_t along_z) {
     const float r = scene.particle_radius;
     for (std::size_t i = 0; i < count; ++i) {

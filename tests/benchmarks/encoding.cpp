@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "benchmarks.hpp"
-#include "formats/particles.hpp"
+#include "formats/particles/particle_file.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"

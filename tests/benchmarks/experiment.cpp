@@ -7,7 +7,7 @@
 
 #include "backend_options.hpp"
 #include "benchmarks.hpp"
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 #include "line_plot.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"

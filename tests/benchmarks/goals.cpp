@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "benchmarks.hpp"
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 #include "meniscus/error.hpp"
 #include "warm_runs.hpp"
 #include "water.hpp"

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::benchmarks {

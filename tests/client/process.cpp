@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-#include "formats/byte_cursor.hpp"
+#include "formats/bytes/byte_cursor.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {

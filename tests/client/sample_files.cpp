@@ -10,14 +10,16 @@
 
 #include "formats/bgeo_sample.hpp"
 #include "formats/bi4_sample.hpp"
-#include "formats/brick_file.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/particle_writer.hpp"
-#include "formats/particles.hpp"
-#include "formats/pysph_npz.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/containers/pysph_npz.hpp"
+#include "formats/meshes/mesh_file.hpp"
+#include "formats/meshes/mesh_readers.hpp"
+#include "formats/meshes/mesh_writers.hpp"
+#include "formats/particles/particle_file.hpp"
+#include "formats/particles/particle_readers.hpp"
 #include "formats/pysph_sample.hpp"
-#include "formats/scalar.hpp"
+#include "formats/recordings/brick_file.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::test {
@@ -155,7 +157,7 @@ void add_written_files(std::vector<Sample>& out, const TemporaryDirectory& direc
     mesh.attributes = {{"velocity", ElementType::float32, 3, std::vector<std::byte>(48)}};
     for (const char* name : {"m.ply", "m.vtk", "m.vtp", "m.npz"})
         formats::write_mesh(directory / name, mesh, formats::mesh_format_of(name));
-    formats::write_mesh_vtp(directory / "z.vtp", mesh, formats::VtpCompression::zlib);
+    formats::write_mesh_vtp(directory / "z.vtp", mesh, {.compress = true});
 
     out.push_back({"xml ascii", vtu_ascii(), limited(formats::read_vtk_xml)});
     out.push_back({"xml inline", vtp_inline(), limited(formats::read_vtk_xml)});
@@ -196,7 +198,7 @@ void add_files_of_others(std::vector<Sample>& out) {
 std::vector<Sample> samples() {
     std::vector<Sample> out;
     const auto particles = [](auto reader) {
-        return [reader](const std::string& bytes) { (void)reader("sample", bytes); };
+        return [reader](const std::string& bytes) { (void)reader("sample", bytes, formats::ReadLimits{}); };
     };
     out.push_back({"vtk binary", vtk_binary(), particles(formats::read_vtk)});
     out.push_back({"vtk ascii", vtk_ascii(), particles(formats::read_vtk)});
@@ -231,7 +233,8 @@ std::vector<Sample> samples() {
         EncodedBrick{{1, -2, 3}, 4, 4, {std::byte{1}}, std::vector<std::byte>(30, std::byte{9})})};
     frame.statistics.triangles = 4;
     formats::write_bricks(directory / "frame.bricks", frame);
-    out.push_back({"bricks", formats::read_file(directory / "frame.bricks"), particles(formats::read_bricks)});
+    out.push_back({"bricks", formats::read_file(directory / "frame.bricks"),
+                   [](const std::string& bytes) { (void)formats::read_bricks("sample", bytes); }});
     return out;
 }
 

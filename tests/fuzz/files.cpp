@@ -1,8 +1,10 @@
-#include "formats/brick_file.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/particles.hpp"
-#include "formats/pysph_npz.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/containers/pysph_npz.hpp"
+#include "formats/meshes/mesh_file.hpp"
+#include "formats/meshes/mesh_readers.hpp"
+#include "formats/particles/particle_file.hpp"
+#include "formats/particles/particle_readers.hpp"
+#include "formats/recordings/brick_file.hpp"
 #include "sample_files.hpp"
 #include "support.hpp"
 
@@ -11,6 +13,8 @@ namespace meniscus::fuzz {
 namespace {
 
 const std::string name = "input";
+/// A thousand times the longest input.
+constexpr formats::ReadLimits limits{.most_bytes = std::uint64_t{64} << 20};
 
 /// The well-formed files of the formats' own tests.
 Seeds files_of(const std::string& format) {
@@ -28,11 +32,11 @@ void require_values(const std::vector<formats::NamedValues>& arrays, std::size_t
     }
 }
 
-/// read: a reader of (name, bytes).
+/// read: a reader of (name, bytes, limits).
 template <class Read>
 void read_particles(const Read& read, Bytes bytes) {
     may_refuse([&] {
-        const formats::Particles particles = read(name, bytes);
+        const formats::Particles particles = read(name, bytes, limits);
         require(particles.positions.size() % 3 == 0, "three coordinates per particle");
         require(particles.levels.empty() || particles.levels.size() == particles.positions.size() / 3,
                 "a level per particle or none");
@@ -43,7 +47,7 @@ void read_particles(const Read& read, Bytes bytes) {
 template <class Read>
 void read_mesh(const Read& read, Bytes bytes) {
     may_refuse([&] {
-        const formats::TriangleMesh mesh = read(name, bytes);
+        const formats::TriangleMesh mesh = read(name, bytes, limits);
         require(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size(), "a normal per vertex or none");
         for (const Triangle& triangle : mesh.triangles)
             for (const std::uint32_t vertex : triangle)
@@ -51,14 +55,6 @@ void read_mesh(const Read& read, Bytes bytes) {
         require(mesh.levels.empty() || mesh.levels.size() == mesh.triangles.size(), "a level per triangle or none");
         require_values(mesh.attributes, mesh.positions.size());
     });
-}
-
-/// A reader with limits as one without: 64 MiB, a thousand times the longest input.
-template <class Read>
-auto limited(const Read& read) {
-    return [&read](const std::string& file, Bytes bytes) {
-        return read(file, bytes, formats::ReadLimits{.most_bytes = std::uint64_t{64} << 20});
-    };
 }
 
 }  // namespace
@@ -99,7 +95,7 @@ Seeds mesh_obj_seeds() {
 }
 
 void vtk_xml(Bytes bytes) {
-    read_particles(limited(formats::read_vtk_xml), bytes);
+    read_particles(formats::read_vtk_xml, bytes);
 }
 Seeds vtk_xml_seeds() {
     return files_of("xml");
@@ -113,14 +109,14 @@ Seeds npy_seeds() {
 }
 
 void npz(Bytes bytes) {
-    read_particles(limited(formats::read_npz), bytes);
+    read_particles(formats::read_npz, bytes);
 }
 Seeds npz_seeds() {
     return files_of("npz");
 }
 
 void bgeo(Bytes bytes) {
-    read_particles(limited(formats::read_bgeo), bytes);
+    read_particles(formats::read_bgeo, bytes);
 }
 Seeds bgeo_seeds() {
     return files_of("bgeo");
@@ -159,14 +155,14 @@ Seeds mesh_vtk_seeds() {
 }
 
 void mesh_vtp(Bytes bytes) {
-    read_mesh(limited(formats::read_mesh_vtp), bytes);
+    read_mesh(formats::read_mesh_vtp, bytes);
 }
 Seeds mesh_vtp_seeds() {
     return files_of("mesh vtp");
 }
 
 void mesh_npz(Bytes bytes) {
-    read_mesh(limited(formats::read_mesh_npz), bytes);
+    read_mesh(formats::read_mesh_npz, bytes);
 }
 Seeds mesh_npz_seeds() {
     return files_of("mesh npz");

@@ -1,4 +1,4 @@
-#include "formats/recording.hpp"
+#include "formats/recordings/recording.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>

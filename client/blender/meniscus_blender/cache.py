@@ -23,8 +23,8 @@ def key_of(path, settings, version):
 
     settings: what json can write. Raises OSError for a file that is not there.
     """
-    told = os.stat(path)
-    parts = [LAYOUT, version, os.path.abspath(path), told.st_size, told.st_mtime_ns, settings]
+    stat = os.stat(path)
+    parts = [LAYOUT, version, os.path.abspath(path), stat.st_size, stat.st_mtime_ns, settings]
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
 
 
@@ -93,12 +93,12 @@ class SurfaceCache:
             return []
         for entry in entries:
             try:
-                told = entry.stat()
+                stat = entry.stat()
             except OSError:
                 continue  # another process has removed it
             if entry.name.endswith(_EXTENSION):
-                listed.append((told.st_mtime_ns, told.st_size, entry.path))
-            elif entry.name.endswith(".part") and told.st_mtime < _newest(entries) - _ABANDONED_SECONDS:
+                listed.append((stat.st_mtime_ns, stat.st_size, entry.path))
+            elif entry.name.endswith(".part") and stat.st_mtime < _newest(entries) - _ABANDONED_SECONDS:
                 self._remove(entry.path)
         return sorted(listed)
 
@@ -134,13 +134,13 @@ def _newest(entries):
 
 
 def _packed(surface):
-    told = {
+    fields = {
         "warnings": surface.warnings,
         "fitting_radius": surface.fitting_radius,
         "particles": surface.particles,
         "names": list(surface.attributes),  # which a name of an array could not hold for all file systems of a zip
     }
-    arrays = {"vertices": surface.vertices, "triangles": surface.triangles, "told": np.array(json.dumps(told))}
+    arrays = {"vertices": surface.vertices, "triangles": surface.triangles, "told": np.array(json.dumps(fields))}
     if surface.normals is not None:
         arrays["normals"] = surface.normals
     for place, values in enumerate(surface.attributes.values()):
@@ -149,13 +149,13 @@ def _packed(surface):
 
 
 def _unpacked(arrays):
-    told = json.loads(str(arrays["told"]))
+    fields = json.loads(str(arrays["told"]))
     return Surface(
         arrays["vertices"],
         arrays["triangles"],
         arrays["normals"] if "normals" in arrays else None,
-        {name: arrays[f"attribute_{place}"] for place, name in enumerate(told["names"])},
-        tuple(told["warnings"]),
-        told["fitting_radius"],
-        told["particles"],
+        {name: arrays[f"attribute_{place}"] for place, name in enumerate(fields["names"])},
+        tuple(fields["warnings"]),
+        fields["fitting_radius"],
+        fields["particles"],
     )

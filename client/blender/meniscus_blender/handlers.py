@@ -21,7 +21,7 @@ def update_scene(scene, quality="viewport", waits=False, frame=None):
 def _frame_changed(scene, *_):
     if scene.name in _rendering:
         # Cycles looks at moments before and after the frame, too. The surface has to stay: its vertices are others at
-        # other frames, and the attribute velocity tells where they move.
+        # other frames, and the attribute velocity says where they move.
         update_scene(scene, "render", waits=True, frame=_rendering[scene.name])
     else:
         update_scene(scene, waits=bpy.app.background)
@@ -61,7 +61,7 @@ def _tick():
     if _rendering:
         if bpy.app.is_job_running("RENDER"):
             return 0.25  # nothing may change under a render
-        _render_ended(bpy.context.scene)  # one that has failed, of which no handler is told
+        _render_ended(bpy.context.scene)  # one that has failed, which calls no handler
     try:
         return _show_what_is_new()
     except Exception:

@@ -13,7 +13,7 @@ class SessionChoice(ValueError):
 
 
 @dataclass(frozen=True)
-class Wish:
+class Target:
     """What is followed."""
 
     session: str = ""  #: id or name; "": the only one there
@@ -38,7 +38,7 @@ class LiveFrame:
 
 @dataclass(frozen=True)
 class Space:
-    """What a session tells of its coordinates."""
+    """What a session says about its coordinates."""
 
     up_axis: str  #: "x", "y", "z" or "unspecified"
     length_unit: str
@@ -69,9 +69,9 @@ class Follower:
     another attempt makes no sense, such as after a wrong token.
     """
 
-    def __init__(self, connect, wish, pause=2.0, final=lambda error: False):
+    def __init__(self, connect, target, pause=2.0, final=lambda error: False):
         self._connect = connect
-        self._wish = wish
+        self._target = target
         self._pause = pause
         self._final = final
         self._changed = threading.Condition()
@@ -81,7 +81,7 @@ class Follower:
         self._watcher = None
         self._stops = False
         self._serial = 0
-        self.space_taken = False  #: whether the object has been turned and scaled as the session tells
+        self.space_taken = False  #: whether the object has been turned and scaled as the session says
         self._thread = threading.Thread(target=self._run, name="meniscus-live", daemon=True)
         self._thread.start()
 
@@ -98,7 +98,7 @@ class Follower:
 
     @property
     def space(self):
-        """What the session tells of its coordinates, or None before there is one."""
+        """What the session says about its coordinates, or None before there is one."""
         with self._changed:
             return self._space
 
@@ -144,17 +144,17 @@ class Follower:
     def _follow(self):
         """One connection, from its beginning to the end of the session."""
         with self._connect() as client:
-            session = chosen(client.sessions(), self._wish.session)
+            session = chosen(client.sessions(), self._target.session)
             with self._changed:
                 self._space = Space(session.up_axis, session.length_unit)
             name = session.name or session.id
             self._tell(f"'{name}': no frame has come yet")
-            options = {"reconnect": 30.0, "on_reconnect": self._told_of_attempt, "attribute_bits": 12}
+            options = {"reconnect": 30.0, "on_reconnect": self._show_attempt, "attribute_bits": 12}
             watcher = client.watch(
                 session.id,
-                max_level=self._wish.max_level,
-                normal_bits=10 if self._wish.normals else 0,
-                attributes=self._wish.attributes if self._wish.attributes != ("all",) else "all",
+                max_level=self._target.max_level,
+                normal_bits=10 if self._target.normals else 0,
+                attributes=self._target.attributes if self._target.attributes != ("all",) else "all",
                 **options,
             )
             with watcher:
@@ -174,14 +174,14 @@ class Follower:
                 self._tell(f"'{name}' has ended; waiting for it to come again")
 
     def _keep(self, session_id, name, frame):
-        surface = surface_of(frame.mesh, frame.statistics, self._wish.normals)
+        surface = surface_of(frame.mesh, frame.statistics, self._target.normals)
         with self._changed:
             self._serial += 1
             key = f"{session_id} {frame.run_id} {frame.index} {id(self)} {self._serial}"
             self._newest = LiveFrame(key, surface, frame.index, frame.time)
         self._tell(f"'{name}': frame {frame.index}, {surface.text()}")
 
-    def _told_of_attempt(self, attempt, connected, reason, seconds_left):
+    def _show_attempt(self, attempt, connected, reason, seconds_left):
         if connected:
             self._tell("connected again")
         else:

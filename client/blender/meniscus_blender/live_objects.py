@@ -29,7 +29,7 @@ def connect(obj):
     settings = obj.meniscus.live
     library = package.meniscus()
     open_client = client_opener(settings)
-    wish = live.Wish(
+    target = live.Target(
         settings.session.strip(),
         settings.max_level,
         tuple(settings.attributes.replace(",", " ").split()),
@@ -42,8 +42,8 @@ def connect(obj):
         return isinstance(error, library.InvalidInput)
 
     settings.key = str(uuid.uuid4())
-    services.followers[settings.key] = live.Follower(open_client, wish, final=is_final)
-    status.tell(obj.name, "connecting")
+    services.followers[settings.key] = live.Follower(open_client, target, final=is_final)
+    status.show(obj.name, "connecting")
 
 
 def client_opener(settings):
@@ -67,7 +67,7 @@ def disconnect(obj):
     follower = services.followers.pop(obj.meniscus.live.key, None)
     if follower is not None:
         follower.stop(seconds=0.0)  # one that is connecting ends when it has
-        status.tell(obj.name, "disconnected")
+        status.show(obj.name, "disconnected")
 
 
 def update(obj, waits=False):
@@ -77,7 +77,7 @@ def update(obj, waits=False):
         return
     obstacle = mesh_data.obstacle(obj)
     if obstacle:
-        status.tell(obj.name, obstacle, "WARNING")
+        status.show(obj.name, obstacle, "WARNING")
         return
     frame = follower.wait(_FIRST_FRAME_SECONDS) if waits else follower.newest
     if frame is not None:
@@ -87,7 +87,7 @@ def update(obj, waits=False):
             _take_space(obj, follower)
             mesh_data.put(obj.data, key, frame.surface, scale)
     state = follower.state
-    status.tell(obj.name, state.text, "ERROR" if state.is_error else "INFO", aloud=waits)
+    status.show(obj.name, state.text, "ERROR" if state.is_error else "INFO", aloud=waits)
 
 
 def connect_again(obj):

@@ -10,7 +10,7 @@ from .worker import error_text
 
 def _not_connected(operator, obj, error):
     text = error_text(error)
-    status.tell(obj.name, text, "ERROR")
+    status.show(obj.name, text, "ERROR")
     return cancelled(operator, text)
 
 
@@ -77,7 +77,7 @@ class ListSessions(bpy.types.Operator):
         except (package.PackageMissing, OSError) as error:
             return _not_connected(self, obj, error)
         name = obj.name
-        status.tell(name, "asking for sessions")
+        status.show(name, "asking for sessions")
 
         def show():
             if not asked.done:
@@ -98,11 +98,11 @@ def _show_sessions(name, asked):
     listed.clear()
     for key, text in asked.entries():
         entry = listed.add()
-        entry.name, entry.told = key, text
+        entry.name, entry.description = key, text
     if asked.error:
-        status.tell(name, asked.error, "ERROR", aloud=bpy.app.background)
+        status.show(name, asked.error, "ERROR", aloud=bpy.app.background)
     else:
-        status.tell(name, "; ".join(entry.told for entry in listed) or "the server has no session")
+        status.show(name, "; ".join(entry.description for entry in listed) or "the server has no session")
 
 
 CLASSES = (AddLive, Connect, Disconnect, ListSessions)

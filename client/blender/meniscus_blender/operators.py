@@ -6,7 +6,8 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from . import package, properties, sequence, sequence_objects, services, space, status, wheel
+from . import package, sequence, sequence_objects, services, space, status, wheel
+from .quiet import quiet
 
 #: As meniscus.particle_extensions(), for a Blender that lacks the package.
 _EXTENSIONS = (".vtk", ".vtu", ".vtp", ".ply", ".npy", ".npz", ".bgeo", ".bgeo.gz", ".h5", ".hdf5", ".h5part")
@@ -87,7 +88,7 @@ class ImportSequence(bpy.types.Operator, ImportHelper):
         name = os.path.basename(pattern).split(".")[0].replace("{}", "").strip("_-. ") or "Particles"
         obj = new_object(context, name, "SEQUENCE")
         settings = obj.meniscus.sequence
-        with properties.quiet():
+        with quiet():
             if found:
                 sequence_objects.set_files(settings, found)
                 settings.start = context.scene.frame_start
@@ -99,9 +100,9 @@ class ImportSequence(bpy.types.Operator, ImportHelper):
         if found and self.set_frame_range:
             context.scene.frame_end = max(context.scene.frame_start, sequence_objects.timing(settings).end())
         sequence_objects.update(obj, context.scene.frame_current, waits=bpy.app.background)
-        told = status.of(obj.name)
-        if told is not None and told.kind == "ERROR":
-            self.report({"ERROR"}, told.text)
+        shown = status.of(obj.name)
+        if shown is not None and shown.kind == "ERROR":
+            self.report({"ERROR"}, shown.text)
         return {"FINISHED"}
 
 
@@ -210,8 +211,8 @@ class InstallWheel(bpy.types.Operator, ImportHelper):
             library = package.load_anew(folder)
         except (wheel.WheelError, package.PackageMissing, OSError) as error:
             return cancelled(self, error)
-        told = "start Blender anew to use it" if was_there else f"it is meniscus {library.__version__}"
-        self.report({"INFO"}, f"the wheel is installed in {folder}: {told}")
+        advice = "start Blender anew to use it" if was_there else f"it is meniscus {library.__version__}"
+        self.report({"INFO"}, f"the wheel is installed in {folder}: {advice}")
         return {"FINISHED"}
 
 

@@ -18,7 +18,7 @@ def meniscus():
     """The package. Raises PackageMissing."""
     try:
         return importlib.import_module("meniscus")
-    except Exception as error:  # of a wheel for another Python, the loader tells in errors of many kinds
+    except Exception as error:  # of a wheel for another Python, the loader raises errors of many kinds
         raise PackageMissing(_missing_text(error)) from error
 
 

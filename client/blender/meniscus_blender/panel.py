@@ -50,14 +50,14 @@ class MENISCUS_PT_main(_Panel, bpy.types.Panel):
 
 
 def _draw_status(layout, obj):
-    told = status.of(obj.name)
+    shown = status.of(obj.name)
     if services.worker is not None and services.worker.is_making(obj.name):
         layout.label(text="reconstructing", icon="SORTTIME")
-    if told is not None:
-        draw_text(layout, told.text, _ICONS[told.kind])
-        if told.fitting_radius > 0:
-            text = f"Use {told.fitting_radius:.3g}"
-            layout.operator("meniscus.use_fitting_radius", text=text).radius = told.fitting_radius
+    if shown is not None:
+        draw_text(layout, shown.text, _ICONS[shown.kind])
+        if shown.fitting_radius > 0:
+            text = f"Use {shown.fitting_radius:.3g}"
+            layout.operator("meniscus.use_fitting_radius", text=text).radius = shown.fitting_radius
 
 
 class MENISCUS_PT_sequence(_ObjectPanel, bpy.types.Panel):

@@ -1,23 +1,10 @@
 """Settings of an object, which are saved with the file."""
 
-from contextlib import contextmanager
-
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-_quiet = False
-
-
-@contextmanager
-def quiet():
-    """Settings that change within it show nothing: what is then to be shown is the caller's affair."""
-    global _quiet
-    before, _quiet = _quiet, True
-    try:
-        yield
-    finally:
-        _quiet = before
-
+from . import live_objects, sequence_objects
+from .quiet import is_quiet
 
 _SMOOTHNESS = [
     ("5", "Little", "Smoothness 5: the sharpest, and the fastest"),
@@ -28,18 +15,14 @@ _SMOOTHNESS = [
 
 def _changed(self, context):
     """Shows what the settings now ask for; without windows, that is left to the next frame."""
-    from . import sequence_objects
-
     obj = self.id_data
-    if isinstance(obj, bpy.types.Object) and not bpy.app.background and not _quiet:
+    if isinstance(obj, bpy.types.Object) and not bpy.app.background and not is_quiet():
         sequence_objects.update(obj, context.scene.frame_current)
 
 
 def _normals_changed(self, context):
-    from . import live_objects
-
     _changed(self, context)
-    if not bpy.app.background and not _quiet:
+    if not bpy.app.background and not is_quiet():
         live_objects.connect_again(self.id_data)
 
 
@@ -203,7 +186,7 @@ class MeniscusObject(bpy.types.PropertyGroup):
 class MeniscusSession(bpy.types.PropertyGroup):
     """One of the list to choose from; its name is what chooses it."""
 
-    told: StringProperty()
+    description: StringProperty()
 
 
 CLASSES = (MeniscusQuality, MeniscusSequence, MeniscusLive, MeniscusObject, MeniscusSession)

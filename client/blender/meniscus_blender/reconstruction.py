@@ -63,9 +63,9 @@ class Reconstruction:
 
     def _located(self, request, library):
         path = sequence.path_of(request.pattern, request.number)
-        told = [request.particle_radius, sorted(request.settings), sorted(request.attributes), request.normals]
+        ingredients = [request.particle_radius, sorted(request.settings), sorted(request.attributes), request.normals]
         try:
-            return path, cache.key_of(path, told, library.__version__)
+            return path, cache.key_of(path, ingredients, library.__version__)
         except OSError as error:
             raise sequence.SequenceError(f"{path}: {error.strerror}") from None
 

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import bpy
 
-from . import mesh_data, properties, services, status
+from . import mesh_data, services, status
+from .quiet import quiet
 from .reconstruction import Request
 from .sequence import Timing, span
 from .worker import error_text
@@ -69,7 +70,7 @@ def update(obj, frame, quality="viewport", waits=False):
     request = request_of(obj, frame, quality)
     if request is None:
         mesh_data.clear(obj.data)
-        status.tell(obj.name, "no file for this frame")
+        status.show(obj.name, "no file for this frame")
     elif waits:
         try:
             made = services.reconstruction.make(request)
@@ -107,7 +108,7 @@ def fill(obj, scene, quality):
 
 def set_files(settings, numbers):
     """Sets the range of a pattern's files."""
-    with properties.quiet():
+    with quiet():
         settings.first, settings.last, settings.stride = span(numbers)
 
 
@@ -116,23 +117,23 @@ def _show(obj, made, aloud=False):
     key = f"{made.key} {scale:g}"
     if mesh_data.held(obj.data) != key:
         mesh_data.put(obj.data, key, made.surface, scale)
-    told = made.surface.warnings or (
+    warnings = made.surface.warnings or (
         (services.reconstruction.cache_error,) if services.reconstruction.cache_error else ()
     )
-    if told:
-        status.tell(obj.name, told[0], "WARNING", made.surface.fitting_radius, aloud)
+    if warnings:
+        status.show(obj.name, warnings[0], "WARNING", made.surface.fitting_radius, aloud)
     else:
-        status.tell(obj.name, made.surface.text())
+        status.show(obj.name, made.surface.text())
 
 
 def _fail(obj, text, aloud=False):
     """An old surface at a new frame would be a lie: the mesh is emptied."""
     mesh_data.clear(obj.data)
-    status.tell(obj.name, text, "ERROR", aloud=aloud)
+    status.show(obj.name, text, "ERROR", aloud=aloud)
 
 
 def _can_change(obj):
     obstacle = mesh_data.obstacle(obj)
     if obstacle:
-        status.tell(obj.name, obstacle, "WARNING")
+        status.show(obj.name, obstacle, "WARNING")
     return not obstacle

@@ -19,7 +19,7 @@ def of(name):
     return _by_object.get(name)
 
 
-def tell(name, text, kind="INFO", fitting_radius=0.0, aloud=False):
+def show(name, text, kind="INFO", fitting_radius=0.0, aloud=False):
     """aloud: an error or a warning is also written to stderr, for a Blender without windows."""
     status = Status(text, kind, fitting_radius)
     if aloud and kind != "INFO" and _by_object.get(name) != status:

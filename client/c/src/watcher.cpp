@@ -17,10 +17,10 @@ meniscus_result meniscus_watcher_open(meniscus_client* client, const char* sessi
     return guarded([&] {
         required(watcher, "watcher") = nullptr;
         auto reader = reader_of(options);
-        const auto wishes = meniscus::text_options::read_watch(reader);
+        const auto request = meniscus::text_options::read_watch(reader);
         reader.finish();
-        *watcher =
-            new meniscus_watcher{required(client, "client").content.watch(&required(session_id, "session_id"), wishes)};
+        *watcher = new meniscus_watcher{
+            required(client, "client").content.watch(&required(session_id, "session_id"), request)};
         return MENISCUS_OK;
     });
 }

@@ -14,7 +14,8 @@
 #include "cli/options/verbosity.hpp"
 #include "cli/surfaces/mesh_check.hpp"
 #include "cli/surfaces/mesh_output.hpp"
-#include "formats/standard_streams.hpp"
+#include "formats/bytes/standard_streams.hpp"
+#include "formats/meshes/mesh_file.hpp"
 
 namespace meniscus::cli {
 namespace {

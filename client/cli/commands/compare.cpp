@@ -14,9 +14,9 @@
 #include "cli/options/read_limits_option.hpp"
 #include "cli/sequence/distinct_files.hpp"
 #include "cli/surfaces/mesh_output.hpp"
-#include "formats/atomic_file.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/standard_streams.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/standard_streams.hpp"
+#include "formats/meshes/mesh_file.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/settings.hpp"
 
@@ -60,7 +60,7 @@ std::optional<double> cell_edge(const CompareOptions& options) {
     return edge;
 }
 
-/// The two meshes are told on standard output, unless the figures go there.
+/// The two meshes are named on standard output, unless the figures go there.
 std::ostream& out(const CompareOptions& options) {
     return formats::is_standard_stream(options.json) ? std::cerr : std::cout;
 }

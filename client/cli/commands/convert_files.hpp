@@ -6,8 +6,8 @@
 
 #include "cli/options/verbosity.hpp"
 #include "cli/sequence/frame_selection.hpp"
-#include "formats/particles.hpp"
-#include "formats/read_limits.hpp"
+#include "formats/bytes/read_limits.hpp"
+#include "formats/particles/particle_formats.hpp"
 
 namespace meniscus::cli {
 

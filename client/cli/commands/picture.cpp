@@ -11,6 +11,7 @@
 #include "cli/options/read_limits_option.hpp"
 #include "cli/sequence/distinct_files.hpp"
 #include "cli/surfaces/mesh_output.hpp"
+#include "formats/meshes/mesh_file.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {

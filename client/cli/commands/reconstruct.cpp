@@ -23,7 +23,7 @@
 #include "cli/surfaces/array_forms.hpp"
 #include "cli/surfaces/particle_input.hpp"
 #include "cli/surfaces/surfaces.hpp"
-#include "formats/standard_streams.hpp"
+#include "formats/bytes/standard_streams.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
 
@@ -96,7 +96,7 @@ public:
         index_ = index;
         const std::string name = formats::input_name(whole_.plan_.frames[index].in);
         try {
-            // Files do not tell their simulation time.
+            // Files do not hold their simulation time.
             for (unsigned run = 0; run < whole_.options_.repeat; ++run) surfaces_->submit(input->frame(), 0.0);
             finished_.warnings = input->warnings();
             wait_for_turn();
@@ -134,7 +134,7 @@ unsigned Reconstruction::jobs() const {
     if (describe_backend(backend.backend, backend.device).backend == Backend::cuda) return 1;
     JobsInput input{.frames = plan_.frames.size(), .threads = threads_of(backend)};
     for (const FrameFiles& frame : plan_.frames) {
-        std::error_code error;  // of a file that is not there, which is told when it is read
+        std::error_code error;  // of a file that is not there, which is an error when it is read
         const std::uint64_t bytes = std::filesystem::file_size(frame.in, error);
         if (!error) input.file_bytes = std::max(input.file_bytes, bytes);
     }
@@ -198,9 +198,9 @@ void reconstruct(const ReconstructOptions& options) {
     if (!options.files.spray_out.empty()) check_spray(settings);
     const Plan plan = make_plan(options.files);
     if (!options.files.out.empty()) options.report.edits.require(plan.format);
-    ReportOptions wishes = options.report;
-    wishes.bar = options.repeat == 1;
-    ReconstructReport report(options.files, plan, wishes);
+    ReportOptions report_options = options.report;
+    report_options.bar = options.repeat == 1;
+    ReconstructReport report(options.files, plan, report_options);
     Reconstruction reconstruction(options, plan, settings, report);
     if (!plan.frames.empty()) options.is_local() ? reconstruction.run_here() : reconstruction.run_on_server();
     report.finish();

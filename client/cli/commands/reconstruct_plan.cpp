@@ -7,8 +7,8 @@
 #include "cli/options/read_limits_option.hpp"
 #include "cli/sequence/distinct_files.hpp"
 #include "cli/sequence/file_pattern.hpp"
-#include "formats/extension.hpp"
-#include "formats/standard_streams.hpp"
+#include "formats/bytes/extension.hpp"
+#include "formats/bytes/standard_streams.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {

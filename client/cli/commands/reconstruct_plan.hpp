@@ -9,7 +9,7 @@
 
 #include "cli/sequence/frame_selection.hpp"
 #include "cli/surfaces/mesh_output.hpp"
-#include "formats/particles.hpp"
+#include "formats/particles/particle_formats.hpp"
 
 namespace meniscus::cli {
 

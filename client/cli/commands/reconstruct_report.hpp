@@ -15,7 +15,7 @@
 
 namespace meniscus::cli {
 
-/// What is wished for beside the files.
+/// What is asked for beside the files.
 struct ReportOptions {
     Verbosity verbosity;
     bool strict = false;
@@ -29,7 +29,7 @@ struct FinishedFrame {
     std::size_t index = 0;  ///< among the plan's frames
     std::vector<Statistics> runs;
     std::vector<FileWarning> warnings;
-    std::optional<MeshOutput> mesh;  ///< none: only figures are wished for
+    std::optional<MeshOutput> mesh;  ///< none: only figures are asked for
     std::vector<Point> spray;
     std::string mesh_sha256;            ///< empty: not asked for
     nlohmann::ordered_json attributes;  ///< ranges

@@ -14,13 +14,13 @@
 #include "cli/options/option_group.hpp"
 #include "cli/options/server_flags.hpp"
 #include "cli/options/verbosity.hpp"
-#include "cli/options/watch_wishes.hpp"
+#include "cli/options/watch_flags.hpp"
 #include "cli/print/listener.hpp"
 #include "cli/print/warnings.hpp"
 #include "cli/surfaces/mesh_output.hpp"
 #include "cli/surfaces/session_lookup.hpp"
-#include "formats/atomic_file.hpp"
-#include "formats/point_writer.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/meshes/point_writer.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {
@@ -35,7 +35,7 @@ struct WatchOptions {
     std::uint64_t frames = 0;  ///< 0: until the session ends
     double timeout = 0.0;      ///< seconds without a frame after which to end; 0: none
     bool strict = false;
-    WatchWishes wishes;
+    WatchFlags flags;
     Verbosity verbosity;
 };
 
@@ -60,8 +60,8 @@ void watch(const WatchOptions& options) {
         throw InvalidInput("no session '" + options.session + "' at '" + options.server.address + "': " + e.what());
     }
     formats::make_directory(options.directory);
-    client::WatchOptions wishes = options.wishes.build(session.settings);
-    wishes.spray = !options.spray_directory.empty() || options.format == MeshFormat::bricks;
+    client::WatchOptions request = options.flags.build(session.settings);
+    request.spray = !options.spray_directory.empty() || options.format == MeshFormat::bricks;
     if (!options.spray_directory.empty()) {
         check_spray(session.settings);
         formats::make_directory(options.spray_directory);
@@ -71,7 +71,7 @@ void watch(const WatchOptions& options) {
                                "', in which a frame's mesh and its spray have one name: name two");
     }
     Warnings warnings(options.strict);
-    client::Watcher watcher = client.watch(id, wishes);
+    client::Watcher watcher = client.watch(id, request);
     for (std::uint64_t received = 0; options.frames == 0 || received < options.frames; ++received) {
         const auto frame = next_frame(watcher, options);
         if (!frame) break;
@@ -114,7 +114,7 @@ void add_watch(CLI::App& app) {
             ->check(CLI::Range(0.0, 1e6))
             ->capture_default_str();
     }
-    options->wishes.add_to(command);
+    options->flags.add_to(command);
     options->server.add_to(command, "The server that has the session")->required();
     {
         const OptionGroup group(command, other_heading);

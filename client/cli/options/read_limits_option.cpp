@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cli/options/option_group.hpp"
-#include "formats/read_limits.hpp"
+#include "formats/bytes/read_limits.hpp"
 
 namespace meniscus::cli {
 

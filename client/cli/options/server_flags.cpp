@@ -5,7 +5,7 @@
 
 #include "cli/options/not_empty.hpp"
 #include "cli/options/option_group.hpp"
-#include "formats/byte_cursor.hpp"
+#include "formats/bytes/byte_cursor.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {

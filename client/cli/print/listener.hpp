@@ -1,4 +1,4 @@
-// Who reads standard error, where people are told what a command does.
+// The reader of standard error, on which a command says what it does.
 #pragma once
 
 namespace meniscus::cli {

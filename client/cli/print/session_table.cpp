@@ -51,7 +51,7 @@ std::string attributes_of(const Settings& settings) {
 Line line_of(const SessionRow& row, std::chrono::system_clock::time_point now) {
     const client::SessionInfo& session = row.session;
     const std::string& name = session.description.name;
-    const bool has_age = session.created_at != std::chrono::system_clock::time_point();  // an older server tells none
+    const bool has_age = session.created_at != std::chrono::system_clock::time_point();  // an older server sends none
     Line line{session.id,
               name.empty() ? "-" : escaped(name),
               session.owner.empty() ? "-" : session.owner,

@@ -33,9 +33,9 @@ struct FileWarning {
     std::string text;
 };
 
-/// The file is a mesh of so many faces; its corners were taken for particles.
+/// The file is a mesh of `faces` faces; its corners were taken for particles.
 FileWarning faces_as_particles(std::size_t faces, std::size_t particles);
-/// float32 has moved a particle by so much, world units. middle: an origin that keeps them.
+/// float32 has moved a particle by `moved`, world units. middle: an origin that keeps them.
 FileWarning positions_rounded(double moved, double limit, const std::array<double, 3>& middle);
 
 class Warnings {

@@ -3,7 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "formats/standard_streams.hpp"
+#include "formats/bytes/standard_streams.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {

@@ -13,7 +13,7 @@
 namespace meniscus::cli {
 namespace {
 
-/// CLI11's own takes -1 for 2^64 - 1, or tells the range in floating point, to its 309 digits.
+/// CLI11's own takes -1 for 2^64 - 1, or names the range in floating point, to its 309 digits.
 CLI::Validator whole_number_from(std::uint64_t least) {
     return {[least](const std::string& text) -> std::string {
                 std::uint64_t number = 0;

@@ -13,9 +13,9 @@ constexpr std::uint64_t bytes_per_file_byte = 200;
 
 }  // namespace
 
-unsigned jobs_of(const JobsInput& input, std::optional<unsigned> wish) {
-    std::uint64_t jobs = wish.value_or(std::min(default_jobs, input.threads));
-    if (!wish && input.file_bytes > 0)
+unsigned jobs_of(const JobsInput& input, std::optional<unsigned> given) {
+    std::uint64_t jobs = given.value_or(std::min(default_jobs, input.threads));
+    if (!given && input.file_bytes > 0)
         jobs = std::min(jobs, input.memory_bytes / 2 / bytes_per_file_byte / input.file_bytes);
     return static_cast<unsigned>(std::clamp<std::uint64_t>(jobs, 1, std::max<std::uint64_t>(input.frames, 1)));
 }

@@ -14,8 +14,8 @@ struct JobsInput {
     std::uint64_t memory_bytes = 0;  ///< of the machine
 };
 
-/// Without a wish: as many as there are threads, at most 8, and no more than fit into half of the memory. At least 1,
-/// and never more than there are frames.
-unsigned jobs_of(const JobsInput& input, std::optional<unsigned> wish);
+/// given: the number that was asked for. Without it: as many as there are threads, at most 8, and no more than fit into
+/// half of the memory. At least 1, and never more than there are frames.
+unsigned jobs_of(const JobsInput& input, std::optional<unsigned> given);
 
 }  // namespace meniscus::cli

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/recording.hpp"
+#include "formats/recordings/recording.hpp"
 
 namespace CLI {
 class App;

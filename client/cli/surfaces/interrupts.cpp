@@ -17,13 +17,13 @@ namespace {
 constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
 constexpr std::chrono::milliseconds patience{600};
 
-std::atomic<int> told{-1};  ///< where the handler writes which signal has come
+std::atomic<int> signal_pipe{-1};  ///< where the handler writes which signal has come
 
-void tell(int signal) {
+void write_signal(int signal) {
     const int error = errno;
     const auto number = static_cast<unsigned char>(signal);
     // The pipe is empty but for the first signals of each kind.
-    [[maybe_unused]] const ssize_t written = ::write(told, &number, 1);
+    [[maybe_unused]] const ssize_t written = ::write(signal_pipe, &number, 1);
     errno = error;
 }
 
@@ -42,10 +42,10 @@ void call(const std::function<void()>& function) {
 
 Interrupts::Interrupts(std::function<void()> before_end) : before_end_(std::move(before_end)) {
     if (::pipe2(pipe_.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe2");
-    told = pipe_[1];
+    signal_pipe = pipe_[1];
     thread_ = std::thread([this] { wait_for_signal(); });
     struct sigaction action {};
-    action.sa_handler = tell;
+    action.sa_handler = write_signal;
     action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
     for (std::size_t i = 0; i < signals.size(); ++i) {
         ::sigaction(signals[i], nullptr, &before_[i]);
@@ -55,9 +55,9 @@ Interrupts::Interrupts(std::function<void()> before_end) : before_end_(std::move
 
 Interrupts::~Interrupts() {
     for (std::size_t i = 0; i < signals.size(); ++i) ::sigaction(signals[i], &before_[i], nullptr);
-    tell(0);
+    write_signal(0);
     thread_.join();
-    told = -1;
+    signal_pipe = -1;
     for (const int end : pipe_) ::close(end);
 }
 

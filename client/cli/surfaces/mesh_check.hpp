@@ -5,7 +5,7 @@
 #include <string>
 
 #include "compare/closedness.hpp"
-#include "formats/mesh_file.hpp"
+#include "formats/meshes/triangle_mesh.hpp"
 
 namespace meniscus::cli {
 

@@ -13,10 +13,6 @@ namespace {
 using formats::is_compressible;
 using formats::MeshFormat;
 
-bool holds_quads(MeshFormat format) {
-    return format == MeshFormat::obj || format == MeshFormat::vtk || format == MeshFormat::vtp;
-}
-
 }  // namespace
 
 void MeshEdits::add_to(CLI::App& command) {
@@ -30,7 +26,7 @@ void MeshEdits::add_to(CLI::App& command) {
 
 void MeshEdits::require(MeshFormat format) const {
     const std::string name(name_of(format));
-    if (quads && !holds_quads(format))
+    if (quads && !row_of(format).traits.quads)
         throw InvalidInput("--quads needs a format with quadrilaterals, obj, vtk or vtp, not " + name);
     if (compress && !is_compressible(format))
         throw InvalidInput("--compress needs a format that can be compressed, glb or vtp, not " + name);

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "editing/origin.hpp"
-#include "formats/mesh_format.hpp"
+#include "formats/meshes/mesh_formats.hpp"
 #include "meniscus/settings.hpp"
 
 namespace CLI {

@@ -8,9 +8,9 @@
 #include "cli/surfaces/mesh_check.hpp"
 #include "editing/mesh_box.hpp"
 #include "editing/quads.hpp"
-#include "formats/brick_file.hpp"
-#include "formats/extension.hpp"
-#include "formats/standard_streams.hpp"
+#include "formats/bytes/extension.hpp"
+#include "formats/bytes/standard_streams.hpp"
+#include "formats/recordings/brick_file.hpp"
 #include "meniscus/canonical_order.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
@@ -66,7 +66,7 @@ MeshOutput::MeshOutput(Surface& surface, MeshFormat format, const MeshEdits& edi
 
 void MeshOutput::write(const std::filesystem::path& path, std::optional<double> time) const {
     if (bricks_) return formats::write_bricks(path, *bricks_);
-    content_->write(path, time, compress_);
+    content_->write(path, {.compress = compress_, .time = time});
 }
 
 formats::TriangleMesh MeshOutput::form() const {

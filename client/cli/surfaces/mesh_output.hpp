@@ -10,9 +10,9 @@
 #include "cli/surfaces/mesh_edits.hpp"
 #include "cli/surfaces/surfaces.hpp"
 #include "compare/closedness.hpp"
-#include "formats/mesh_content.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/mesh_format.hpp"
+#include "formats/meshes/mesh_content.hpp"
+#include "formats/meshes/mesh_formats.hpp"
+#include "formats/meshes/triangle_mesh.hpp"
 
 namespace meniscus::cli {
 
@@ -31,7 +31,7 @@ void check_named(const std::filesystem::path& file, bool named, const std::strin
 void check_points_path(const std::filesystem::path& path);
 /// Throws InvalidInput unless these settings bring points for a file of spray: to be called before long work.
 void check_spray(const Settings& settings);
-/// A surface as it is written: in its canonical order, so that a file tells nothing of the way of its mesh.
+/// A surface as it is written: in its canonical order, so that a file shows nothing of the way of its mesh.
 class MeshOutput {
 public:
     /// Does all that takes time but the writing. Takes the surface's mesh. check: the mesh is looked at.

@@ -3,14 +3,15 @@
 #include <algorithm>
 
 #include "editing/particle_box.hpp"
-#include "formats/standard_streams.hpp"
+#include "formats/bytes/standard_streams.hpp"
+#include "formats/particles/particle_file.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::cli {
 namespace {
 
-/// Particle radii: by so much a particle may be moved before the surface shows it.
+/// The distance, in particle radii, by which a particle may be moved before the surface shows it.
 constexpr double noticed_rounding = 0.01;
 
 }  // namespace

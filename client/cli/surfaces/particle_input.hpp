@@ -9,7 +9,8 @@
 #include "cli/print/warnings.hpp"
 #include "cli/surfaces/quantized_positions.hpp"
 #include "editing/origin.hpp"
-#include "formats/particles.hpp"
+#include "formats/particles/particle_formats.hpp"
+#include "formats/particles/particles.hpp"
 #include "meniscus/settings.hpp"
 
 namespace meniscus::cli {

@@ -12,7 +12,7 @@
 #include "cli/options/policy_options.hpp"
 #include "cli/surfaces/local_surfaces.hpp"
 #include "cli/surfaces/server_surfaces.hpp"
-#include "formats/brick_file.hpp"
+#include "formats/recordings/brick_file.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {

@@ -54,7 +54,7 @@ std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const Co
     return grpc::CreateCustomChannel(address, credentials(options), arguments);
 }
 
-/// Throws InvalidInput for an address that is none, or that cannot be told from one with a port.
+/// Throws InvalidInput for an address that is none, or that looks like one with a port.
 std::string checked_address(const std::string& address) {
     if (address.empty()) throw InvalidInput("the server's address is empty: give HOST, HOST:PORT or unix:PATH");
     if (address::is_bare_ipv6(address))

@@ -182,7 +182,7 @@ void FrameReceiver::complete_mesh(const v1::FrameStatistics& message) {
         throw ServerError(name + " ended after " + std::to_string(frame.bricks.size()) + " bricks of " +
                           std::to_string(frame.brick_count) +
                           (frame.missing_parts != 0 ? ", in the middle of one" : ""));
-    // Who has not asked for spray gets none.
+    // Spray comes only where it was asked for.
     if (!frame.header.spray.empty() && frame.header.spray.size() != frame.spray_count)
         throw ServerError(name + " ended after " + std::to_string(frame.header.spray.size()) +
                           " points of spray; announced were " + std::to_string(frame.spray_count));

@@ -23,7 +23,7 @@ std::string ended_by(const grpc::ClientContext& context) {
     return value_in(context.GetServerTrailingMetadata(), "x-server-instance");
 }
 
-bool may_go_on(const grpc::Status& status, const grpc::ClientContext& context) {
+bool can_reconnect_after(const grpc::Status& status, const grpc::ClientContext& context) {
     switch (status.error_code()) {
         case grpc::StatusCode::UNAVAILABLE:
         case grpc::StatusCode::CANCELLED:          // by a proxy, or a server that did not wait any longer

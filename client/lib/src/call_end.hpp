@@ -15,8 +15,9 @@ std::string accepted_by(const grpc::ClientContext& context);
 /// version.
 std::string ended_by(const grpc::ClientContext& context);
 
-/// Whether the call broke, or was ended by a server that goes down or has seen the session move: another one may go on.
-bool may_go_on(const grpc::Status& status, const grpc::ClientContext& context);
+/// Whether the call broke, or was ended by a server that goes down or has seen the session move: another call may go
+/// on.
+bool can_reconnect_after(const grpc::Status& status, const grpc::ClientContext& context);
 
 /// Whether the server has ended a stream because nothing came over it for too long.
 bool ended_for_idleness(const grpc::ClientContext& context);

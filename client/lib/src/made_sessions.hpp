@@ -11,7 +11,8 @@
 
 namespace meniscus::client {
 
-/// Of one id, told apart by when they were created: where one has ended, somebody else may have created the next one.
+/// Of one id, distinguished by the time of their creation: where one has ended, another client may have created the
+/// next one.
 /// Thread-safe: a Session and its streams create them.
 class MadeSessions {
 public:

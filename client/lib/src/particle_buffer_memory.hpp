@@ -15,8 +15,8 @@ namespace meniscus::client {
 
 class ParticleBufferMemory {
 public:
-    /// Room for so many particles and levels, and for these arrays; what it holds is undefined. Throws LimitExceeded
-    /// for more particles than can be numbered, InvalidInput for arrays without components.
+    /// Room for this number of particles and levels, and for these arrays; what it holds is undefined. Throws
+    /// LimitExceeded for more particles than can be numbered, InvalidInput for arrays without components.
     static ParticleBuffer pooled(BytePool& pool, std::size_t particles, std::size_t levels,
                                  std::span<const ArrayForm> arrays = {});
     static std::vector<ParticleArray> arrays_of(const ParticleBuffer& buffer) {

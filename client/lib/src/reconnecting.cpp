@@ -4,7 +4,7 @@
 
 namespace meniscus::client {
 
-void tell_of_reconnecting(const ReconnectHandler& handler, const ReconnectEvent& event) noexcept {
+void report_reconnecting(const ReconnectHandler& handler, const ReconnectEvent& event) noexcept {
     if (!handler) return;
     try {
         handler(event);

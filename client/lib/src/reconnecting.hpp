@@ -1,4 +1,4 @@
-// Telling a caller of attempts to go on.
+// Reports to a caller about attempts to go on.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 namespace meniscus::client {
 
 /// Calls the handler, if there is one; what it throws is lost.
-void tell_of_reconnecting(const ReconnectHandler& handler, const ReconnectEvent& event) noexcept;
+void report_reconnecting(const ReconnectHandler& handler, const ReconnectEvent& event) noexcept;
 
 /// At least 0.
 std::chrono::milliseconds time_left(std::chrono::steady_clock::time_point until);

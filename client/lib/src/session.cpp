@@ -41,7 +41,7 @@ Session::Impl::~Impl() {
     try {
         delete_own(*connection_, id_, *made_, {.timeout = farewell_time});
     } catch (...) {
-        // Nobody is left to be told. The server ends an ephemeral session by itself.
+        // Nobody is left to see the error. The server ends an ephemeral session by itself.
     }
 }
 

@@ -21,7 +21,7 @@ namespace {
 /// says so.
 constexpr std::chrono::seconds part_time{30};
 
-/// Cancels a call in which nothing comes for so long: gRPC's blocking reads know no such limit, and a deadline would
+/// Cancels a call in which nothing comes for the limit: gRPC's blocking reads know no such limit, and a deadline would
 /// end large meshes on slow ways.
 class SilenceLimit {
 public:
@@ -40,7 +40,7 @@ public:
     SilenceLimit(const SilenceLimit&) = delete;
     SilenceLimit& operator=(const SilenceLimit&) = delete;
 
-    /// Something has come: so much time for what is next.
+    /// Something has come: the limit counts anew.
     void begin(std::chrono::milliseconds limit) {
         {
             const std::lock_guard lock(mutex_);

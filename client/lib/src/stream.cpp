@@ -17,7 +17,7 @@ namespace meniscus::client {
 
 namespace {
 
-/// Of who leaves a stream. A canceled call ends within milliseconds.
+/// The time that a caller which leaves a stream waits for its threads. A canceled call ends within milliseconds.
 constexpr std::chrono::milliseconds patience_with_threads{300};
 
 std::uint64_t random_run_id() {
@@ -147,7 +147,7 @@ void Stream::Impl::leave() noexcept {
     on_stop_.reset();
     cancel();
     std::unique_lock lock(mutex_);
-    stopped_.wait(lock, [&] { return !telling_; });
+    stopped_.wait(lock, [&] { return !reporting_; });
     const bool stopped = stopped_.wait_for(lock, patience_with_threads, [&] { return running_ == 0; });
     lock.unlock();
     for (std::thread& thread : threads_)
@@ -309,7 +309,7 @@ grpc::Status Stream::Impl::read_answers(UploadCall& call) {
     FrameReceiver receiver(options_.receive_meshes);
     try {
         std::string instance = call.accepted_by();
-        if (!instance.empty() && std::exchange(connecting_, false)) tell(true, *broken_at_ + options_.reconnect);
+        if (!instance.empty() && std::exchange(connecting_, false)) report(true, *broken_at_ + options_.reconnect);
         {
             const std::lock_guard lock(mutex_);
             // Answers will not come if none are owed.

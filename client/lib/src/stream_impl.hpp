@@ -35,7 +35,7 @@ namespace meniscus::client {
 /// the session belongs.
 class Stream::Impl {
 public:
-    /// made: is told of each session that this creates again; may be none.
+    /// made: gets each session that this creates again; may be none.
     /// named: by the session's settings, where they are known.
     static std::shared_ptr<Impl> open(std::shared_ptr<Connection> connection, const std::string& session_id,
                                       const StreamOptions& options, std::shared_ptr<MadeSessions> made = nullptr,
@@ -107,8 +107,8 @@ private:
     std::shared_ptr<UploadCall> reopen(grpc::Status status);
     grpc::Status create_session(grpc::ClientContext& context, Clock::time_point give_up_at) const;
     void end(std::exception_ptr error);
-    /// Of an attempt, unless the stream was left.
-    void tell(bool connected, Clock::time_point give_up_at);
+    /// Calls on_reconnect about an attempt, unless the stream was left.
+    void report(bool connected, Clock::time_point give_up_at);
 
     // The thread that looks.
     void check_route();
@@ -159,7 +159,7 @@ private:
     std::exception_ptr error_;
     std::condition_variable over_;     ///< left_ or ended_
     int running_ = 0;                  ///< threads
-    bool telling_ = false;             ///< on_reconnect is being called
+    bool reporting_ = false;           ///< on_reconnect is being called
     std::condition_variable stopped_;  ///< a thread, or on_reconnect
 
     std::vector<std::thread> threads_;

@@ -13,7 +13,7 @@ namespace meniscus::client {
 bool Stream::Impl::is_worth_another_call(const grpc::Status& status, const UploadCall& call) const {
     // The call came to another server than the one that had just created the session.
     const bool astray = status.error_code() == grpc::StatusCode::NOT_FOUND && ended_by(call.context()) != created_by_;
-    if (!astray && !may_go_on(status, call.context())) return false;
+    if (!astray && !can_reconnect_after(status, call.context())) return false;
     const std::lock_guard lock(mutex_);
     return resumes() && !left_;
 }
@@ -51,7 +51,7 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
         creating_ = creating;
         lock.unlock();
         ++attempts_;
-        tell(false, deadline);
+        report(false, deadline);
         grpc::Status created = create_session(*creating, deadline);
         std::shared_ptr<UploadCall> call;
         if (created.ok()) {
@@ -77,7 +77,7 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
         }
         // A server that is full, of another's sessions perhaps, may have room later.
         const bool full = created.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED;
-        if (!full && !may_go_on(created, *creating)) require_ok(created, connection_->address);
+        if (!full && !can_reconnect_after(created, *creating)) require_ok(created, connection_->address);
         // A wait that was in vain says less than what was before.
         if (created.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED) continue;
         status = std::move(created);
@@ -94,17 +94,17 @@ grpc::Status Stream::Impl::create_session(grpc::ClientContext& context, Clock::t
     return status;
 }
 
-void Stream::Impl::tell(bool connected, Clock::time_point give_up_at) {
+void Stream::Impl::report(bool connected, Clock::time_point give_up_at) {
     {
         const std::lock_guard lock(mutex_);
         if (left_) return;
-        telling_ = true;
+        reporting_ = true;
     }
-    tell_of_reconnecting(
+    report_reconnecting(
         options_.on_reconnect,
         {.attempt = attempts_, .connected = connected, .reason = broken_reason_, .left = time_left(give_up_at)});
     const std::lock_guard lock(mutex_);
-    telling_ = false;
+    reporting_ = false;
     stopped_.notify_all();
 }
 

@@ -10,7 +10,7 @@ namespace meniscus::client {
 
 namespace {
 
-/// A server that the session is to leave, and that answers nothing for so long, is given up. Long enough for a large
+/// A server that the session is to leave, and that answers nothing for this time, is given up. Long enough for a large
 /// frame on a busy server: watchers there would not hear of the move.
 constexpr std::chrono::seconds leaving_time{60};
 

@@ -23,7 +23,7 @@ constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
 /// gRPC's generated code has no stub that sends bytes as they are, and its generic stub is asynchronous: this is what
 /// its stubs consist of, from a namespace whose names another version of gRPC may change (here: 1.51). The compiler
-/// would tell, and the tests of streams.
+/// would notice, and so would the tests of streams.
 std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, v1::StreamResponse>> start(Connection& connection,
                                                                                       grpc::ClientContext& context) {
     const grpc::internal::RpcMethod method("/meniscus.v1.SurfaceService/Stream",

@@ -18,7 +18,7 @@ class UploadCall {
 public:
     UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id, const v1::StreamOpen& open);
 
-    /// False once the call has ended: read() and then finish() tell why. Copies no particles: gRPC refers to the
+    /// False once the call has ended: read() and then finish() say why. Copies no particles: gRPC refers to the
     /// frame's bytes, and keeps them, until they are on the wire.
     bool send(const PushedFrame& frame);
     void no_more_frames();
@@ -31,7 +31,7 @@ public:
     /// False once there is nothing more to read.
     bool read(v1::StreamResponse& response);
     grpc::Status finish();
-    /// For what is told of its end.
+    /// For the metadata of its end.
     const grpc::ClientContext& context() const { return context_; }
 
     /// From any thread.

@@ -128,7 +128,7 @@ private:
         if (!call_->context.GetServerInitialMetadata().contains("x-session-id"))
             return;  // refused; a proxy may add its own
         had_session_ = true;
-        if (broken_since_ && attempts_ > 0) tell(true);
+        if (broken_since_ && attempts_ > 0) report(true);
         broken_since_.reset();
         attempts_ = 0;
         const std::lock_guard lock(mutex_);
@@ -191,7 +191,7 @@ private:
             lock.unlock();
             ++attempts_;
             broken_reason_ = status.error_message();
-            tell(false);
+            report(false);
             wait_for_connection(*finding, give_up_at);
             v1::Session session;
             grpc::Status found = get_session(*connection_, *finding, session_id_, session);
@@ -206,7 +206,8 @@ private:
 
     /// A server that was restarted, or follows one that has gone, has no session yet: the simulator creates it again.
     bool may_come_back(const grpc::Status& status, const grpc::ClientContext& context) const {
-        return may_go_on(status, context) || (status.error_code() == grpc::StatusCode::NOT_FOUND && had_session_);
+        return can_reconnect_after(status, context) ||
+               (status.error_code() == grpc::StatusCode::NOT_FOUND && had_session_);
     }
 
     /// Of the thread that looks. A session whose simulator lost its connection while the servers behind a proxy changed
@@ -233,11 +234,11 @@ private:
         return there && !other.empty() && other != instance && (session.uploading() || session.has_last_frame_index());
     }
 
-    void tell(bool connected) const {
-        tell_of_reconnecting(persistence_.on_reconnect, {.attempt = attempts_,
-                                                         .connected = connected,
-                                                         .reason = broken_reason_,
-                                                         .left = time_left(*broken_since_ + persistence_.patience)});
+    void report(bool connected) const {
+        report_reconnecting(persistence_.on_reconnect, {.attempt = attempts_,
+                                                        .connected = connected,
+                                                        .reason = broken_reason_,
+                                                        .left = time_left(*broken_since_ + persistence_.patience)});
     }
 
     const std::shared_ptr<Connection> connection_;

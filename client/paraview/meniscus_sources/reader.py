@@ -70,5 +70,5 @@ class MeniscusSurfaces(Source):
                 raise Refusal(f"{len(self._paths)} recordings are named: open one at a time")
             self._recording = meniscus.RecordingFile(self._paths[0])
             return rising(self._recording.times, self._recording.indices)
-        told = [(frame.time, frame.index) for frame in map(meniscus.read_bricks, self._paths)]
-        return rising([time for time, _ in told], [index for _, index in told])
+        times_and_indices = [(frame.time, frame.index) for frame in map(meniscus.read_bricks, self._paths)]
+        return rising([time for time, _ in times_and_indices], [index for _, index in times_and_indices])

@@ -67,7 +67,7 @@ class MeniscusSession(ServerSource):
         try:
             news = self._take_ready()
         except meniscus_package().Error:
-            self._stop_watching()  # the update that follows begins anew, and tells if that fails
+            self._stop_watching()  # the update that follows begins anew, and shows an error if that fails
             news = True
         if news:
             self.Modified()

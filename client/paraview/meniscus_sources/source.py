@@ -21,7 +21,7 @@ class Source(VTKPythonAlgorithmBase):
         self._times = []
 
     def times(self):
-        """Of the timeline, rising; empty: there is none. To be told before data are asked for."""
+        """Of the timeline, rising; empty: there is none. Known before data are asked for."""
         raise NotImplementedError
 
     def frame_at(self, time):
@@ -73,7 +73,7 @@ class Source(VTKPythonAlgorithmBase):
             return 0
 
     def _set(self, name, value):
-        """A property of the user's; what was done with the value before is forgotten. ParaView tells "" as None."""
+        """A property of the user's; what was done with the value before is forgotten. ParaView passes "" as None."""
         value = "" if value is None else value
         if getattr(self, name) != value:
             setattr(self, name, value)

@@ -29,7 +29,7 @@ def frame(positions: Any, levels: Any = None, attributes: Optional[Mapping[str, 
 
 
 def is_on_gpu(value: Any) -> bool:
-    """Whether the object lies in the memory of a GPU, as CuPy, Warp, Numba and PyTorch tell."""
+    """Whether the object lies in the memory of a GPU, as CuPy, Warp, Numba and PyTorch say."""
     return not isinstance(value, np.ndarray) and hasattr(value, "__cuda_array_interface__")
 
 

@@ -10,7 +10,7 @@ from . import _meniscus
 from .background import in_background
 from .frame import Frame, ParticleFrame
 from .information import RecordingInfo, ServerInfo, SessionInfo
-from .options import Wishes, names_text, option_texts, wishes_text
+from .options import AttributeRequest, attribute_text, names_text, option_texts
 from .session import Session, open_particle_watcher, open_stream, open_watcher, session_info
 from .stream import Stream
 from .watcher import ParticleWatcher, RecordingReader, Watcher
@@ -82,7 +82,7 @@ class Client:
 
     def sessions(self) -> list[SessionInfo]:
         """Those of the server that this client may see."""
-        return [session_info(told) for told in self._raw.sessions()]
+        return [session_info(fields) for fields in self._raw.sessions()]
 
     def session_info(self, session_id: str) -> SessionInfo:
         """Raises ServerError (not_found) if there is none."""
@@ -105,7 +105,7 @@ class Client:
                         "every-nth": the first of every ``nth`` is reconstructed
         reconnect       0: seconds for which the server may be out of reach; nothing is lost meanwhile
         route_check     2: seconds between looks for the session's server behind a proxy, with ``reconnect``
-        on_reconnect    told of each attempt (attempt, connected, reason, seconds left), until close()
+        on_reconnect    called at each attempt (attempt, connected, reason, seconds left), until close()
         """
         return open_stream(partial(self._raw.stream, session_id), **options)
 
@@ -141,17 +141,17 @@ class Client:
             async for frame in watcher:
                 yield frame
 
-    def snapshot(self, session_id: str, *, attributes: Wishes = "all", **options: Any) -> Optional[Frame]:
+    def snapshot(self, session_id: str, *, attributes: AttributeRequest = "all", **options: Any) -> Optional[Frame]:
         """The session's newest mesh; None if no frame has come yet. Keywords: ``max_level``, ``normal_bits``,
         ``position_bits``, ``attributes`` and ``attribute_bits``, as those of watch()."""
         texts = option_texts(options)
-        texts["attribute"] = wishes_text(attributes)
+        texts["attribute"] = attribute_text(attributes)
         raw = self._raw.snapshot(session_id, texts)
         return None if raw is None else Frame(raw)
 
     def recordings(self) -> list[RecordingInfo]:
         """What the server has recorded, the newest first. Raises ServerError (unimplemented) if it records nothing."""
-        return [RecordingInfo(**told) for told in self._raw.recordings()]
+        return [RecordingInfo(**fields) for fields in self._raw.recordings()]
 
     def read_recording(
         self, session_id: str, number: int, *, position: int = 0, count: int = 0, spray: bool = False

@@ -18,7 +18,7 @@ class Particles:
 
     positions: NDArray[np.float32]  #: (N, 3), as the file has them
     levels: Optional[NDArray[np.uint8]]  #: (N,)
-    attributes: Mapping[str, NDArray[Any]]  #: by name: whatever else the file tells of each particle
+    attributes: Mapping[str, NDArray[Any]]  #: by name: the other values that the file has of each particle
     left_out: tuple[str, ...]  #: a line for each array of the file that has no place here, with the reason
 
     def __len__(self) -> int:

@@ -55,7 +55,7 @@ class Frame:
 
     @cached_property
     def statistics(self) -> Statistics:
-        """The server's figures of the frame as it was reconstructed, whatever a watcher wishes to have of it."""
+        """The server's figures of the frame as it was reconstructed, whatever a watcher asks for."""
         return Statistics.of(self._raw.statistics())
 
     @cached_property

@@ -1,4 +1,4 @@
-"""What a server tells of itself, of its sessions and of its recordings."""
+"""What a server says about itself, its sessions and its recordings."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class SessionInfo:
     """A session, and what it is doing."""
 
     id: str
-    owner: str  #: who made it; "" where nobody is asked
+    owner: str  #: its maker; "" where names are not asked for
     settings: Mapping[str, Any]  #: with the defaults in force
     name: str
     up_axis: str  #: "x", "y", "z" or "unspecified"

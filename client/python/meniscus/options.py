@@ -8,7 +8,7 @@ from typing import Any, Mapping, Sequence, Union
 from .errors import InvalidInput
 
 #: Of a session's attributes those that meshes have: "all", their names, or names with bits (0: exact).
-Wishes = Union[str, Sequence[str], Mapping[str, int]]
+AttributeRequest = Union[str, Sequence[str], Mapping[str, int]]
 
 
 def option_texts(keywords: Mapping[str, Any]) -> dict[str, str]:
@@ -29,11 +29,11 @@ def names_text(names: Union[str, Sequence[str]]) -> str:
         raise InvalidInput(f"attributes is {names!r}, must be 'all', a name, or names") from None
 
 
-def wishes_text(wishes: Wishes) -> str:
+def attribute_text(request: AttributeRequest) -> str:
     """Attributes as a receiver asks for them: "velocity:12 age"."""
-    if isinstance(wishes, Mapping):
-        return " ".join(f"{_name(name)}:{_text('attribute_bits', bits)}" for name, bits in wishes.items())
-    return names_text(wishes)
+    if isinstance(request, Mapping):
+        return " ".join(f"{_name(name)}:{_text('attribute_bits', bits)}" for name, bits in request.items())
+    return names_text(request)
 
 
 def _name(name: Any) -> str:

@@ -25,15 +25,15 @@ class RawSource(Protocol):
 
 
 class Handler:
-    """What C++ has in place of a function that is told of something. The function often refers to the frames that
+    """What C++ has in place of a function that gets reports. The function often refers to the frames that
     refer to it, a circle that Python's garbage collector cannot see through C++: cancel() cuts it here."""
 
     def __init__(self, function: Callable[..., None]) -> None:
         self.function: Optional[Callable[..., None]] = function
 
-    def __call__(self, *told: Any) -> None:
+    def __call__(self, *report: Any) -> None:
         if (function := self.function) is not None:
-            function(*told)
+            function(*report)
 
     def __repr__(self) -> str:
         return repr(self.function)
@@ -45,7 +45,7 @@ class Frames(Generic[F]):
     Several threads may use one; those that wait for frames take turns. Ctrl-C ends a wait and nothing else.
     """
 
-    #: An asynchronous wait is cut into pieces of so many seconds: one that nobody waits for any more ends soon.
+    #: An asynchronous wait is cut into pieces of this many seconds: one that nobody waits for any more ends soon.
     _piece = 0.25
 
     def __init__(self, raw: RawSource, make: Callable[[Any], F]) -> None:

@@ -7,13 +7,13 @@ from typing import Any, Callable, Optional
 from . import _meniscus
 from .errors import ForkedError, InvalidInput, ServerError
 from .information import SessionInfo
-from .options import Wishes, option_texts, wishes_text
+from .options import AttributeRequest, attribute_text, option_texts
 from .receiving import Handler
 from .statistics import Statistics
 from .stream import Stream
 from .watcher import ParticleWatcher, Watcher
 
-#: Told of each attempt to go on after a connection broke: its number, whether it has succeeded (otherwise it begins
+#: Called at each attempt to go on after a connection broke: its number, whether it has succeeded (otherwise it begins
 #: now), why, and seconds until it is given up. Called in a thread of the library's, which waits for it.
 ReconnectHandler = Callable[[int, bool, str, float], None]
 
@@ -77,21 +77,21 @@ class Session:
         return f"<meniscus.Session {self.id}>"
 
 
-def session_info(told: dict[str, Any]) -> SessionInfo:
-    last = told.pop("last_frame")
-    return SessionInfo(**told, last_frame=None if last is None else Statistics.of(last))
+def session_info(fields: dict[str, Any]) -> SessionInfo:
+    last = fields.pop("last_frame")
+    return SessionInfo(**fields, last_frame=None if last is None else Statistics.of(last))
 
 
 def open_stream(
     open_raw: Callable[[dict[str, str], Optional[ReconnectHandler]], _meniscus.Stream],
     *,
     meshes: bool = True,
-    attributes: Wishes = "all",
+    attributes: AttributeRequest = "all",
     on_reconnect: Optional[ReconnectHandler] = None,
     **options: Any,
 ) -> Stream:
     texts = option_texts({"meshes": meshes, **options})
-    texts["attribute"] = wishes_text(attributes)
+    texts["attribute"] = attribute_text(attributes)
     handler = _handler(on_reconnect)
     stream = Stream(open_raw(texts, handler), meshes)
     stream._handler = handler
@@ -101,12 +101,12 @@ def open_stream(
 def open_watcher(
     open_raw: Callable[[dict[str, str], Optional[ReconnectHandler]], _meniscus.Watcher],
     *,
-    attributes: Wishes = "all",
+    attributes: AttributeRequest = "all",
     on_reconnect: Optional[ReconnectHandler] = None,
     **options: Any,
 ) -> Watcher:
     texts = option_texts(options)
-    texts["attribute"] = wishes_text(attributes)
+    texts["attribute"] = attribute_text(attributes)
     handler = _handler(on_reconnect)
     watcher = Watcher(open_raw(texts, handler))
     watcher._handler = handler

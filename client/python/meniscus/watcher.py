@@ -1,4 +1,4 @@
-"""Those who look at somebody else's session."""
+"""Views of a session that another program feeds."""
 
 from __future__ import annotations
 

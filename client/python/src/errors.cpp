@@ -5,8 +5,8 @@
 #include "bindings.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
-#include "process.hpp"
 #include "text_out.hpp"
+#include "threads/process.hpp"
 
 namespace py = pybind11;
 

@@ -2,8 +2,8 @@
 #include <string>
 
 #include "bindings.hpp"
-#include "ending.hpp"
 #include "meniscus/reconstructor.hpp"
+#include "threads/ending.hpp"
 
 namespace {
 

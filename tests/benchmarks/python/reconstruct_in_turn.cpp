@@ -6,7 +6,7 @@
 #include <iostream>
 #include <string>
 
-#include "formats/particles.hpp"
+#include "formats/particles/particle_file.hpp"
 #include "meniscus/mesh_hash.hpp"
 #include "meniscus/reconstructor.hpp"
 

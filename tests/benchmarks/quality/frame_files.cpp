@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cstdlib>
 
-#include "formats/particles.hpp"
+#include "formats/particles/particle_file.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::benchmarks::quality {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 #include "picture/picture.hpp"
 #include "quality/triangle.hpp"
 

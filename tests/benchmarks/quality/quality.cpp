@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "benchmarks.hpp"
-#include "formats/atomic_file.hpp"
-#include "formats/vtk_writer.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/particles/vtk_writer.hpp"
 #include "meniscus/error.hpp"
 #include "quality/cases.hpp"
 #include "quality/levels.hpp"

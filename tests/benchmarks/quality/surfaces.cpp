@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "backend_options.hpp"
+#include "formats/meshes/mesh_file.hpp"
 
 namespace meniscus::benchmarks::quality {
 namespace {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "compare/surface.hpp"
-#include "formats/mesh_file.hpp"
 #include "meniscus/reconstructor.hpp"
 #include "quality/shapes.hpp"
 

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from meniscus_blender.live import Follower, SessionChoice, Space, Wish, chosen
+from meniscus_blender.live import Follower, SessionChoice, Space, Target, chosen
 from meniscus_blender.session_list import SessionList
 
 PATIENCE = 20.0
@@ -82,8 +82,8 @@ def wait_state(follower, part, is_error):
 def follow():
     followers = []
 
-    def begin(server, wish=Wish(), **more):
-        followers.append(Follower(server.connect, wish, **{"pause": 0.01, **more}))
+    def begin(server, target=Target(), **more):
+        followers.append(Follower(server.connect, target, **{"pause": 0.01, **more}))
         return followers[-1]
 
     yield begin
@@ -94,7 +94,7 @@ def follow():
 
 def test_the_newest_frame_is_there_with_its_attributes(follow):
     server = Server(session("dam"))
-    follower = follow(server, Wish("dam"))
+    follower = follow(server, Target("dam"))
     server.frames.put(frame(7))
     got = follower.wait(PATIENCE)
     assert got.index == 7 and got.time == 3.5
@@ -115,9 +115,9 @@ def test_frames_of_one_number_differ(follow):
     assert follower.newest.key != first.key
 
 
-def test_the_wish_reaches_the_server(follow):
+def test_the_target_reaches_the_server(follow):
     server = Server(session("dam", "uuid"))
-    follow(server, Wish("dam", 2, ("velocity", "age"), True))
+    follow(server, Target("dam", 2, ("velocity", "age"), True))
     id, options = server.watched.get(timeout=PATIENCE)
     assert id == "uuid" and options["max_level"] == 2 and options["attributes"] == ("velocity", "age")
     assert options["normal_bits"] > 0
@@ -125,7 +125,7 @@ def test_the_wish_reaches_the_server(follow):
 
 def test_a_session_that_comes_later_is_followed(follow):
     server = Server()
-    follower = follow(server, Wish("dam"))
+    follower = follow(server, Target("dam"))
     wait_state(follower, "there is no session 'dam' yet", True)
     server.frames.put(frame(1))
     server.listed.append(session("dam"))
@@ -134,7 +134,7 @@ def test_a_session_that_comes_later_is_followed(follow):
 
 def test_a_session_that_has_ended_is_followed_when_it_comes_again(follow):
     server = Server(session("dam"))
-    follower = follow(server, Wish("dam"))
+    follower = follow(server, Target("dam"))
     server.watched.get(timeout=PATIENCE)
     server.frames.put(None)
     server.watched.get(timeout=PATIENCE)

@@ -53,7 +53,7 @@ def test_a_blender_without_the_package_names_the_wheel(modules):
         assert part in str(raised.value)
 
 
-def test_a_package_for_another_python_is_told(modules):
+def test_a_package_for_another_python_is_reported(modules):
     put(modules, __init__="from ._meniscus import __version__")
     (modules / "meniscus" / "_meniscus.cpython-37m-x86_64-linux-gnu.so").touch()
     with pytest.raises(package.PackageMissing, match="for another Python: _meniscus.cpython-37m-x86_64-linux-gnu.so"):

@@ -10,7 +10,7 @@ PATIENCE = 20.0
 
 
 class Kitchen:
-    """Makes a request when it is let, and tells when it has begun."""
+    """Makes a request when it is let, and shows that it has begun."""
 
     def __init__(self):
         self.begun = threading.Semaphore(0)
@@ -51,7 +51,7 @@ def test_a_surface_comes_by_the_name_of_its_object(kitchen, worker):
     assert worker.take() == [] and not worker.is_busy
 
 
-def test_only_the_newest_wish_of_an_object_is_made(kitchen, worker):
+def test_only_the_newest_request_of_an_object_is_made(kitchen, worker):
     worker.ask("water", "frame 1")
     assert kitchen.begun.acquire(timeout=PATIENCE)
     for number in range(2, 50):

@@ -99,7 +99,7 @@ TEST_F(CServer, GivesTheMeshesOfTheProcessInOrder) {
     EXPECT_EQ(dropped, 0U);
 }
 
-TEST_F(CServer, TellsNothingYetFromEnded) {
+TEST_F(CServer, DistinguishesNothingYetFromEnded) {
     const CSession session = open();
     const CWatcher watcher = watch(session);
     CFrame frame;
@@ -144,10 +144,11 @@ TEST_F(CServer, AnAttemptToPushTakesAFrameWholeOrNotAtAll) {
 
 TEST_F(CServer, GivesVerticesWhatParticlesCarry) {
     const CSession session = open({{"attribute", "age"}, {"attribute-bits", "0"}});
-    const COptions wishes = options_of({{"attribute", "all"}});
+    const COptions watch_options = options_of({{"attribute", "all"}});
     CWatcher watcher;
-    ASSERT_EQ(meniscus_watcher_open(client_.get(), meniscus_session_id(session.get()), wishes.get(), watcher.out()),
-              MENISCUS_OK)
+    ASSERT_EQ(
+        meniscus_watcher_open(client_.get(), meniscus_session_id(session.get()), watch_options.get(), watcher.out()),
+        MENISCUS_OK)
         << meniscus_error_message();
     const Particles particles = splash(1, 5);
     const std::vector<float> ages(particles.count(), 0.7F);

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "formats/atomic_file.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/scalar.hpp"
 #include "process.hpp"
 #include "sample_files.hpp"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cli_fixture.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/particles.hpp"
+#include "formats/meshes/mesh_file.hpp"
+#include "formats/particles/particle_file.hpp"
 
 namespace meniscus::test {
 namespace {

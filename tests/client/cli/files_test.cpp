@@ -12,8 +12,7 @@
 #include <vector>
 
 #include "cli_fixture.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/vtk_writer.hpp"
+#include "formats/particles/vtk_writer.hpp"
 #include "meniscus/statistics.hpp"
 
 namespace meniscus::test {

@@ -8,7 +8,7 @@
 
 #include "cli/surfaces/array_forms.hpp"
 #include "cli/surfaces/particle_input.hpp"
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::cli {

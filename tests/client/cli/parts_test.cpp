@@ -7,7 +7,7 @@
 #include "cli/print/statistics_json.hpp"
 #include "cli/sequence/file_pattern.hpp"
 #include "cli/surfaces/quantized_positions.hpp"
-#include "formats/atomic_file.hpp"
+#include "formats/bytes/atomic_file.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::cli {

@@ -58,7 +58,7 @@ TEST(Rasterizer, SmoothsEdgesBySeveralSamples) {
     EXPECT_NEAR(pixel(rasterizer.image(), 0, 0)[0], 188, 2);  // half of the light, in sRGB
 }
 
-TEST(Rasterizer, TellsTheDistanceToTheNearestEdge) {
+TEST(Rasterizer, GivesTheDistanceToTheNearestEdge) {
     Rasterizer rasterizer(20, 20, 2);
     float largest = 0.0F;
     rasterizer.draw({{{0.0F, 0.0F, 1.0F}, {20.0F, 0.0F, 1.0F}, {0.0F, 20.0F, 1.0F}}}, [&](const Fragment& fragment) {

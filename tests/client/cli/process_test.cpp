@@ -6,18 +6,18 @@
 #include <nlohmann/json.hpp>
 
 #include "cli_fixture.hpp"
-#include "formats/atomic_file.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/particles.hpp"
-#include "formats/scalar.hpp"
-#include "formats/vtk_writer.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/meshes/mesh_file.hpp"
+#include "formats/particles/particle_file.hpp"
+#include "formats/particles/vtk_writer.hpp"
 #include "meniscus/statistics.hpp"
 
 namespace meniscus::test {
 namespace {
 
-TEST_F(Cli, TellsItsVersion) {
+TEST_F(Cli, PrintsItsVersion) {
     const ProcessResult result = run_meniscus({"--version"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.out.rfind("meniscus ", 0), 0U) << result.out;

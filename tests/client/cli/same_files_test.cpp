@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "daemon/server.hpp"
-#include "formats/atomic_file.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/scalar.hpp"
 #include "meniscus/client/client.hpp"
 #include "process.hpp"
 #include "sample_files.hpp"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "cli_fixture.hpp"
-#include "formats/mesh_file.hpp"
+#include "formats/meshes/mesh_file.hpp"
 #include "terminal_program.hpp"
 
 namespace meniscus::test {
@@ -164,11 +164,11 @@ TEST_F(Sequences, GoOnAfterTheyWereKilledAndEndWithTheSameFiles) {
 TEST_F(Sequences, SkipFramesOnlyIfAllTheirFilesAreThere) {
     ASSERT_EQ(run_meniscus(sequence("m", {"-q"})).exit_code, 0);
     const std::string before = formats::read_file(mesh("m", 0));
-    formats::write_file(mesh("m", 0), "whole, as far as can be told");
+    formats::write_file(mesh("m", 0), "whole, as far as can be seen");
     ProcessResult result = run_meniscus(sequence("m", {"--skip-existing"}));
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "12 of 12 frames skipped: their files are there\n");
-    EXPECT_EQ(formats::read_file(mesh("m", 0)), "whole, as far as can be told");
+    EXPECT_EQ(formats::read_file(mesh("m", 0)), "whole, as far as can be seen");
     std::filesystem::remove(mesh("m", 0));
     result = run_meniscus(
         sequence("m", {"--skip-existing", "--spray", "points", "--spray-out", path("m/s_{}.ply"), "--end", "1"}));
@@ -259,7 +259,7 @@ TEST_F(Sequences, AreOnAUsdStageWithTheFramesThatWereThere) {
                                        "--usd-stage", path("u.usda"),   "-q", "--end",           "2"};
     ASSERT_EQ(run_meniscus(arguments).exit_code, 0);
     const std::string stage = formats::read_file(path("u.usda"));
-    EXPECT_NE(stage.find("[@@@./u_00.usda@@@, @@@./u_01.usda@@@, @@@./u_02.usda@@@]"), std::string::npos) << stage;
+    EXPECT_NE(stage.find("[@./u_00.usda@, @./u_01.usda@, @./u_02.usda@]"), std::string::npos) << stage;
     EXPECT_NE(stage.find("normal3f[] normals"), std::string::npos) << stage;
     EXPECT_NE(formats::read_file(path("u_01.usda")).find("points.timeSamples = {\n        1: ["), std::string::npos);
     std::filesystem::remove(path("u_01.usda"));

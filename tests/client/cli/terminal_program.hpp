@@ -27,17 +27,17 @@ public:
             if (!std::string_view(*entry).starts_with("TERM=")) environment.emplace_back(*entry);
         const std::vector<char*> argv = pointers(command);
         const std::vector<char*> variables = pointers(environment);
-        std::array<int, 2> told{};
+        std::array<int, 2> report{};
         std::array<int, 2> held{};
-        if (::pipe2(told.data(), O_CLOEXEC) != 0 || ::pipe2(held.data(), O_CLOEXEC) != 0) std::abort();
+        if (::pipe2(report.data(), O_CLOEXEC) != 0 || ::pipe2(held.data(), O_CLOEXEC) != 0) std::abort();
         const winsize size{.ws_row = rows, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
         first_ = ::forkpty(&terminal_, nullptr, nullptr, &size);
-        if (first_ == 0) start(argv, variables, told[1], held);
-        ::close(told[1]);
+        if (first_ == 0) start(argv, variables, report[1], held);
+        ::close(report[1]);
         ::close(held[0]);
         held_ = held[1];
-        if (::read(told[0], &program_, sizeof program_) != sizeof program_) std::abort();
-        ::close(told[0]);
+        if (::read(report[0], &program_, sizeof program_) != sizeof program_) std::abort();
+        ::close(report[0]);
     }
     ~TerminalProgram() {
         if (first_ > 0) {
@@ -84,7 +84,7 @@ private:
         return out;
     }
     /// In the terminal's first process, which may call nothing but what a forked one may.
-    [[noreturn]] static void start(const std::vector<char*>& argv, const std::vector<char*>& variables, int told,
+    [[noreturn]] static void start(const std::vector<char*>& argv, const std::vector<char*>& variables, int report,
                                    const std::array<int, 2>& held) {
         const pid_t program = ::fork();
         if (program == 0) {
@@ -94,7 +94,7 @@ private:
         ::signal(SIGINT, SIG_IGN);  // Ctrl-C is for the program
         for (int i = 0; i < 3; ++i) ::close(i);
         ::close(held[1]);
-        if (::write(told, &program, sizeof program) != sizeof program) ::_exit(127);
+        if (::write(report, &program, sizeof program) != sizeof program) ::_exit(127);
         int status = 0;
         ::waitpid(program, &status, 0);
         char none = 0;

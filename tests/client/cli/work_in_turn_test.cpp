@@ -75,7 +75,7 @@ TEST(Jobs, AreAsManyAsThereAreThreadsFramesAndMemoryFor) {
     EXPECT_EQ(jobs_of({.frames = 0, .threads = 4, .file_bytes = 0, .memory_bytes = 0}, std::nullopt), 1U);
 }
 
-TEST(ProgressLine, TellsFramesAndSecondsWithinTheTerminal) {
+TEST(ProgressLine, ShowsFramesAndSecondsWithinTheTerminal) {
     EXPECT_EQ(progress_line(0, 60, 3.0, 80), "0 of 60 frames  [                              ]");
     EXPECT_EQ(progress_line(20, 60, 10.0, 80), "20 of 60 frames  [==========                    ]  20 s left");
     EXPECT_EQ(progress_line(60, 60, 30.0, 80), "60 of 60 frames  [==============================]  0 s left");

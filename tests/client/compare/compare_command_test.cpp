@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "compare_shapes.hpp"
-#include "formats/atomic_file.hpp"
-#include "formats/byte_cursor.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/byte_cursor.hpp"
 #include "process.hpp"
 #include "sample_files.hpp"
 

@@ -13,7 +13,7 @@
 #include "editing/origin.hpp"
 #include "editing/particle_box.hpp"
 #include "editing/quads.hpp"
-#include "formats/byte_cursor.hpp"
+#include "formats/bytes/byte_cursor.hpp"
 
 namespace meniscus::editing {
 namespace {

@@ -3,9 +3,10 @@
 
 #include <cstring>
 
-#include "formats/atomic_file.hpp"
-#include "formats/particle_writer.hpp"
-#include "formats/particles.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/containers/array_collector.hpp"
+#include "formats/particles/particle_file.hpp"
+#include "formats/particles/particle_readers.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {

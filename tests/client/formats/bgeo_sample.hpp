@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "formats/scalar.hpp"
+#include "formats/bytes/scalar.hpp"
 
 namespace meniscus::test {
 

@@ -7,7 +7,8 @@
 #include <filesystem>
 
 #include "bgeo_sample.hpp"
-#include "formats/particles.hpp"
+#include "formats/particles/particle_file.hpp"
+#include "formats/particles/particle_readers.hpp"
 #include "meniscus/mesh.hpp"
 #include "sample_files.hpp"
 

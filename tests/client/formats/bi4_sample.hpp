@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/scalar.hpp"
+#include "formats/bytes/scalar.hpp"
 
 namespace meniscus::test {
 

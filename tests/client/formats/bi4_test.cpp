@@ -4,7 +4,8 @@
 #include <cstring>
 
 #include "bi4_sample.hpp"
-#include "formats/particles.hpp"
+#include "formats/particles/particle_readers.hpp"
+#include "formats/particles/particles.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {

@@ -6,9 +6,10 @@
 #include <exception>
 #include <string_view>
 
-#include "formats/mesh_file.hpp"
-#include "formats/particle_writer.hpp"
-#include "formats/pvd_writer.hpp"
+#include "formats/meshes/mesh_file.hpp"
+#include "formats/meshes/mesh_writers.hpp"
+#include "formats/meshes/pvd_writer.hpp"
+#include "formats/particles/particle_file.hpp"
 
 int main(int argc, char** argv) {
     using namespace meniscus::formats;
@@ -18,7 +19,7 @@ int main(int argc, char** argv) {
         if (what == "particles")
             write_particles(argv[3], read_particles(argv[2]), particle_format_of(argv[3]));
         else if (what == "compressed")
-            write_mesh_vtp(argv[3], read_mesh(argv[2]), VtpCompression::zlib);
+            write_mesh_vtp(argv[3], read_mesh(argv[2]), {.compress = true});
         else if (what == "pvd")
             write_pvd(argv[3], std::array{PvdEntry{0.0, argv[2]}, PvdEntry{0.5, argv[2]}});
         else

@@ -86,7 +86,7 @@ class Exchange(unittest.TestCase):
         return meshio.Mesh(positions, cells, point_data=dict(arrays))
 
     def expect_particles(self, source):
-        """That our reader has everything, told by numpy of the .npz that we write of it."""
+        """That our reader has everything: numpy reads the .npz that we write of it."""
         with np.load(self.convert("particles", source, "back.npz")) as back:
             np.testing.assert_array_equal(back["positions"], positions.astype(np.float32))
             for name, values in arrays.items():
@@ -206,7 +206,7 @@ class Exchange(unittest.TestCase):
             self.refusal("a.h5")
 
     def test_an_npz_bomb_stops_at_what_it_announces(self):
-        # 30 MB of zeros in 30 kB, of which the zip directory tells 200 bytes.
+        # 30 MB of zeros in 30 kB, of which the zip directory announces 200 bytes.
         np.savez_compressed(self.path / "a.npz", positions=np.zeros((2_500_000, 3), np.float32))
         data = bytearray((self.path / "a.npz").read_bytes())
         size = data.rindex(b"PK\1\2") + 24

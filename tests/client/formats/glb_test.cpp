@@ -8,9 +8,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "formats/glb_writer.hpp"
-#include "formats/scalar.hpp"
-#include "formats/usda_writer.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/meshes/glb_writer.hpp"
+#include "formats/meshes/usda_writer.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {
@@ -167,7 +167,7 @@ TEST(UsdaWriter, AStageOfClipsNamesEveryFrameWithItsTime) {
     std::vector<formats::UsdaClip> clips;
     for (const int frame : {20, 21}) {
         clips.push_back({static_cast<double>(frame), directory / ("mesh_" + std::to_string(frame) + ".usda")});
-        formats::write_usda(clips.back().file, attributed_tetrahedron(), clips.back().time);
+        formats::write_usda(clips.back().file, attributed_tetrahedron(), {.time = clips.back().time});
     }
     const std::string frame = text_of(clips[1].file);
     EXPECT_NE(frame.find("point3f[] points.timeSamples = {\n        21: [(0, 0, 0)"), std::string::npos) << frame;

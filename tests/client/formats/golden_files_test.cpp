@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 
-#include "formats/brick_file.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/recording.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/meshes/mesh_file.hpp"
+#include "formats/recordings/brick_file.hpp"
+#include "formats/recordings/recording.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh_hash.hpp"
 #include "meniscus/reconstructor.hpp"

@@ -6,10 +6,12 @@
 #include <set>
 #include <span>
 
-#include "formats/brick_file.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/mesh_file.hpp"
-#include "formats/pvd_writer.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/meshes/mesh_file.hpp"
+#include "formats/meshes/mesh_readers.hpp"
+#include "formats/meshes/mesh_writers.hpp"
+#include "formats/meshes/pvd_writer.hpp"
+#include "formats/recordings/brick_file.hpp"
 #include "meniscus/canonical_order.hpp"
 #include "sample_files.hpp"
 
@@ -110,7 +112,7 @@ TEST(MeshWriters, AttributesAreReadBack) {
         formats::write_mesh(path, mesh, format);
         expect_equal(formats::read_mesh(path), mesh);
     }
-    formats::write_mesh_vtp(directory / "z.vtp", mesh, formats::VtpCompression::zlib);
+    formats::write_mesh_vtp(directory / "z.vtp", mesh, {.compress = true});
     expect_equal(formats::read_mesh(directory / "z.vtp"), mesh);
 }
 

@@ -3,11 +3,12 @@
 
 #include <cstring>
 
-#include "formats/byte_cursor.hpp"
-#include "formats/npy.hpp"
-#include "formats/npz_writer.hpp"
-#include "formats/particles.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/containers/npy.hpp"
+#include "formats/containers/npz_writer.hpp"
+#include "formats/particles/particle_readers.hpp"
+#include "formats/particles/particles.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {

@@ -2,9 +2,10 @@
 
 #include <bit>
 
-#include "formats/particles.hpp"
-#include "formats/point_writer.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/meshes/point_writer.hpp"
+#include "formats/particles/particle_file.hpp"
+#include "formats/particles/particle_readers.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include "formats/png.hpp"
+#include "formats/pictures/png.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/byte_cursor.hpp"
-#include "formats/npz_writer.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/containers/npz_writer.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {

@@ -3,10 +3,11 @@
 
 #include <random>
 
-#include "formats/npz_writer.hpp"
-#include "formats/particles.hpp"
-#include "formats/pickle.hpp"
-#include "formats/pysph_npz.hpp"
+#include "formats/containers/npz_writer.hpp"
+#include "formats/containers/pickle.hpp"
+#include "formats/containers/pysph_npz.hpp"
+#include "formats/particles/particle_readers.hpp"
+#include "formats/particles/particles.hpp"
 #include "pysph_sample.hpp"
 #include "sample_files.hpp"
 

@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "formats/particles.hpp"
-#include "formats/vtk_writer.hpp"
+#include "formats/particles/particle_file.hpp"
+#include "formats/particles/particle_readers.hpp"
+#include "formats/particles/vtk_writer.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {

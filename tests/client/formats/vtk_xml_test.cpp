@@ -5,8 +5,9 @@
 #include <bit>
 #include <cstring>
 
-#include "formats/particles.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/particles/particle_file.hpp"
+#include "formats/particles/particle_readers.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {

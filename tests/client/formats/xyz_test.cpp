@@ -9,10 +9,11 @@
 #include <future>
 #include <iterator>
 
-#include "formats/atomic_file.hpp"
-#include "formats/byte_cursor.hpp"
-#include "formats/particles.hpp"
-#include "formats/scalar.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/scalar.hpp"
+#include "formats/particles/particle_file.hpp"
+#include "formats/particles/particle_readers.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::test {

@@ -135,11 +135,11 @@ def test_a_receiver_chooses_attributes_and_their_bits(session, positions):
     age = np.linspace(0, 1, len(positions), dtype=np.float32)
     given = {"age": age, "speed": age * 2, "id": np.arange(len(positions))}
     wanted = [{"attributes": {"age": 2, "id": 0}}, {"attributes": ["speed"]}, {"attributes": []}, {"attributes": "age"}]
-    for wishes in wanted:
-        with session.stream(**wishes) as stream:
+    for options in wanted:
+        with session.stream(**options) as stream:
             stream.push(positions, attributes=given)
             frame = stream.next(60)
-        names = wishes["attributes"]
+        names = options["attributes"]
         assert set(frame.mesh.attributes) == set([names] if isinstance(names, str) else names)
         assert set(frame.attributes) == {"age", "speed", "id"}
         if isinstance(names, dict):

@@ -65,10 +65,10 @@ def test_a_client_goes_on_with_a_server_that_came_back(own_server):
 
 def test_with_reconnect_nothing_is_lost(own_server, positions):
     server = own_server()
-    told, broken = [], threading.Event()
+    reports, broken = [], threading.Event()
 
     def on_reconnect(attempt, connected, reason, seconds_left):
-        told.append((attempt, connected, reason, seconds_left))
+        reports.append((attempt, connected, reason, seconds_left))
         broken.set()
 
     count = 30
@@ -88,21 +88,21 @@ def test_with_reconnect_nothing_is_lost(own_server, positions):
             assert [frame.index for frame in taken] == list(range(count + 1))
             assert len({frame.mesh.sha256() for frame in taken}) == 1
         assert session.info().frames > 0
-    assert any(connected for _, connected, _, _ in told)
-    attempt, connected, reason, seconds_left = told[0]
+    assert any(connected for _, connected, _, _ in reports)
+    attempt, connected, reason, seconds_left = reports[0]
     assert attempt == 1 and connected is False and reason and 0 < seconds_left <= 60
 
 
 def test_a_watcher_with_reconnect_follows(own_server, positions):
     server = own_server()
-    told = threading.Event()
+    reports = threading.Event()
     with meniscus.Client(server.address) as client, client.session(particle_radius=particle_radius) as session:
-        with session.watch(reconnect=60, on_reconnect=lambda *_: told.set()) as watcher:
+        with session.watch(reconnect=60, on_reconnect=lambda *_: reports.set()) as watcher:
             with session.watch_particles(reconnect=60) as particles, session.stream(reconnect=60) as stream:
                 stream.push(positions)
                 assert stream.next(60).index == watcher.next(60).index == particles.next(60).index == 0
                 server.kill()
-                assert told.wait(60)
+                assert reports.wait(60)
                 server.start()
                 stream.push(positions)
                 assert stream.next(60).index == 1
@@ -113,16 +113,16 @@ def test_a_watcher_with_reconnect_follows(own_server, positions):
 
 def test_the_time_for_which_it_is_tried_is_kept(own_server, positions):
     server = own_server()
-    told = []
+    reports = []
     with meniscus.Client(server.address, timeout=5) as client:
         session = client.session(particle_radius=particle_radius)
-        stream = session.stream(reconnect=1, on_reconnect=lambda *one: told.append(one))
+        stream = session.stream(reconnect=1, on_reconnect=lambda *one: reports.append(one))
         stream.push(positions)
         assert stream.next(60).index == 0
         server.kill()
         with refused("unavailable"):
             stream.next(60)
-        assert told and all(seconds <= 1 for _, _, _, seconds in told)
+        assert reports and all(seconds <= 1 for _, _, _, seconds in reports)
         stream.close()
 
 
@@ -164,9 +164,9 @@ def test_a_handler_may_end_its_stream(own_server, positions):
 def test_a_handler_that_refers_to_what_it_is_of_does_not_keep_it(kind, session):
     class Simulator:
         def __init__(self):
-            self.source = getattr(session, kind)(reconnect=5, on_reconnect=self.told)
+            self.source = getattr(session, kind)(reconnect=5, on_reconnect=self.report)
 
-        def told(self, *_):
+        def report(self, *_):
             pass
 
     simulator = Simulator()
@@ -189,9 +189,9 @@ def test_a_server_that_stops_answering_is_a_deadline(own_server):
 
 
 def test_nobody_there_is_unavailable(socket_folder):
-    with refused("unavailable") as told:
+    with refused("unavailable") as refusal:
         meniscus.Client(f"unix:{socket_folder}/nobody")
-    assert f"{socket_folder}/nobody" in str(told.value)
+    assert f"{socket_folder}/nobody" in str(refusal.value)
 
 
 def test_a_server_that_is_still_starting_is_waited_for(own_server, socket_folder):

@@ -26,8 +26,8 @@ def file(positions, carried, tmp_path):
 
 
 def test_extensions_are_told():
-    told = set(meniscus.particle_extensions())
-    assert told <= set(READ) and told >= set(READ) - {".h5", ".hdf5", ".h5part"}
+    extensions = set(meniscus.particle_extensions())
+    assert extensions <= set(READ) and extensions >= set(READ) - {".h5", ".hdf5", ".h5part"}
 
 
 def test_a_file_has_positions_levels_and_attributes(file, positions, carried):

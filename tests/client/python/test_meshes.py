@@ -1,4 +1,4 @@
-"""Meshes as Python objects: who owns the memory, and files."""
+"""Meshes as Python objects: the owner of their memory, and files."""
 
 import gc
 import os

@@ -259,13 +259,13 @@ def test_the_reconstructor_goes_on_after_its_memory_was_released(positions, mesh
 
 
 def test_a_radius_that_does_not_fit_is_a_warning_where_it_was_called(positions):
-    with pytest.warns(meniscus.SurfaceWarning, match="particle radius") as told:
+    with pytest.warns(meniscus.SurfaceWarning, match="particle radius") as shown:
         mesh = meniscus.reconstruct(positions, particle_radius / 8)
-    assert told[0].filename == __file__
+    assert shown[0].filename == __file__
     (warning,) = mesh.statistics.warnings
     assert warning.code == "radius_too_small" and warning.value == particle_radius / 8
     assert warning.limit == pytest.approx(particle_radius, rel=0.3) and "particle radius" in warning.text
     reconstructor = meniscus.Reconstructor(particle_radius / 8)
-    with pytest.warns(meniscus.SurfaceWarning, match="particle radius") as told:
+    with pytest.warns(meniscus.SurfaceWarning, match="particle radius") as shown:
         reconstructor.reconstruct(positions)
-    assert told[0].filename == __file__
+    assert shown[0].filename == __file__

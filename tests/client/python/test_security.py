@@ -1,4 +1,4 @@
-"""Connections with TLS and tokens, and how their refusals are told."""
+"""Connections with TLS and tokens, and how their refusals are reported."""
 
 import meniscus
 import pytest

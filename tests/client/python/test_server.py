@@ -17,20 +17,20 @@ def refused(code, status=None):
     class Check:
         def __enter__(self):
             self.raises = pytest.raises(meniscus.ServerError)
-            self.told = self.raises.__enter__()
-            return self.told
+            self.caught = self.raises.__enter__()
+            return self.caught
 
         def __exit__(self, *raised):
             done = self.raises.__exit__(*raised)
-            assert self.told.value.code == code, self.told.value
-            assert status is None or self.told.value.status == status
+            assert self.caught.value.code == code, self.caught.value
+            assert status is None or self.caught.value.status == status
             return done
 
     return Check()
 
 
 def wait_for_the_end(source):
-    """Of a session, of which a watcher is told by an error or by the end of its frames."""
+    """Of a session, which a watcher notices by an error or by the end of its frames."""
     try:
         while source.next(60) is not None:
             pass
@@ -39,7 +39,7 @@ def wait_for_the_end(source):
         assert error.code in ("not_found", "canceled", "aborted", "unavailable"), error
 
 
-def test_the_server_tells_of_itself(server, client):
+def test_the_server_describes_itself(server, client):
     info = client.info()
     assert info.version == meniscus.__version__ and info.backend in ("cpu", "cuda") and info.threads >= 1
     assert info.limits["max_sessions"] == 200 and info.limits["max_particles_per_frame"] == 100_000_000
@@ -49,7 +49,7 @@ def test_the_server_tells_of_itself(server, client):
 def test_a_session_goes_with_its_block(client):
     with client.session(particle_radius=particle_radius, name="dam") as session:
         assert session.is_owned and str(uuid.UUID(session.id)) == session.id
-        assert session.id in {told.id for told in client.sessions()}
+        assert session.id in {info.id for info in client.sessions()}
         assert session.id in repr(session)
     assert not session.is_owned
     with refused("not_found", "NOT_FOUND"):
@@ -84,7 +84,7 @@ def test_a_session_is_described(client, positions):
         info = session.info()
         assert (info.frames, info.last_frame_index) == (1, 7)
         assert info.last_frame.particles == len(positions)
-        assert [told.name for told in client.sessions() if told.id == session.id] == [info.name]
+        assert [listed.name for listed in client.sessions() if listed.id == session.id] == [info.name]
 
 
 def test_a_session_can_be_joined_and_left(client, server):

@@ -1,4 +1,4 @@
-"""Those who look at somebody else's session: meshes, particles, snapshots and recordings."""
+"""Views of a session that another program feeds: meshes, particles, snapshots and recordings."""
 
 import threading
 from datetime import timezone
@@ -51,7 +51,7 @@ def test_a_coarser_level_is_closed_and_smaller(shown, mesh):
     assert len(coarse.triangles) < len(mesh.triangles) and is_closed(coarse.triangles)
 
 
-def test_a_watcher_has_its_own_wishes(shown, mesh):
+def test_a_watcher_has_its_own_options(shown, mesh):
     with shown.watch(normal_bits=0, attributes=[], position_bits=2) as watcher:
         frame = watcher.next(60)
         assert frame.mesh.normals is None and frame.mesh.attributes == {} and set(frame.attributes) == {"age", "id"}
@@ -136,7 +136,7 @@ def test_a_recording_has_the_frames_of_its_session(session, client, positions):
     assert [frame.time for frame in frames] == [0, 0.5, 1, 1.5]
     with client.read_recording(session.id, 1, position=1, count=2) as reader:
         assert [frame.index for frame in reader] == [1, 2]
-    (info,) = [told for told in client.recordings() if told.session_id == session.id]
+    (info,) = [listed for listed in client.recordings() if listed.session_id == session.id]
     assert (info.number, info.frames, info.first_frame_index, info.last_frame_index) == (1, count, 0, count - 1)
     assert info.bytes > 0 and not info.damaged and info.started_at.tzinfo == timezone.utc
     client.delete_recording(session.id, 1)

@@ -73,9 +73,9 @@ def place(server, mesh, positions, tmp_path_factory):
 
 @named(SETTINGS_ALONE)
 def test_a_session_is_not_opened_with_wrong_settings(line, place):
-    before = {told.id for told in place.client.sessions()}
+    before = {listed.id for listed in place.client.sessions()}
     check(line, place.client.session)
-    assert {told.id for told in place.client.sessions()} == before
+    assert {listed.id for listed in place.client.sessions()} == before
 
 
 @named(CALLS)

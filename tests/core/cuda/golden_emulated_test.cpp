@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "formats/particles.hpp"
+#include "formats/particles/particle_file.hpp"
 #include "meniscus/meniscus.hpp"
 #include "pipeline/backend.hpp"
 #include "support/golden_rows.hpp"

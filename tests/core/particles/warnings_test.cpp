@@ -8,7 +8,7 @@
 #include <functional>
 #include <random>
 
-#include "formats/particles.hpp"
+#include "formats/particles/particle_file.hpp"
 #include "meniscus/meniscus.hpp"
 #include "particles/spacing.hpp"
 #include "support/mesh_check.hpp"

@@ -7,7 +7,7 @@
 #include "../attacks.hpp"
 #include "../recorded_session.hpp"
 #include "../target.hpp"
-#include "formats/recording.hpp"
+#include "formats/recordings/recording.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh_hash.hpp"
 

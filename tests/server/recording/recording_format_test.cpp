@@ -12,7 +12,7 @@
 #include "conversion/particle_arrays.hpp"
 #include "files/recording_checksums.hpp"
 #include "files/recording_format.hpp"
-#include "formats/recording.hpp"
+#include "formats/recordings/recording.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/recording.pb.h"
 #include "meniscus/v1/surface_service.pb.h"

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "formats/recording.hpp"
+#include "formats/recordings/recording.hpp"
 #include "meniscus/client/client.hpp"
 #include "process.hpp"
 #include "sample_files.hpp"

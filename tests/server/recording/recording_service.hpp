@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "formats/recording.hpp"
+#include "formats/recordings/recording.hpp"
 #include "meniscus/error.hpp"
 #include "observation/metrics.hpp"
 #include "recording/recording_entries.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "attribute_frames.hpp"
-#include "formats/recording.hpp"
+#include "formats/recordings/recording.hpp"
 #include "meniscus/error.hpp"
 #include "running_server.hpp"
 #include "sample_files.hpp"

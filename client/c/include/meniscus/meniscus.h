@@ -1,7 +1,7 @@
 /* Surfaces of particles for C, and for every language that calls C: in process, and through a meniscusd.
  *
  * What stays: within one SONAME, functions keep their parameters, results their numbers, and options their names;
- * structs grow at their end alone, which struct_size tells. New functions, results and options may come. Handles are
+ * structs grow at their end alone, which struct_size shows. New functions, results and options may come. Handles are
  * opaque.
  *
  * Every function that can fail returns a meniscus_result; below 0 it is an error, and meniscus_error_message() says in

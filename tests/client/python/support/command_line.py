@@ -22,5 +22,5 @@ def reconstructed(particles, mesh, radius, *flags):
     figures = f"{mesh}.json"
     meniscus("reconstruct", particles, "-o", mesh, "-r", radius, "--stats", figures, *flags)
     with open(figures) as file:
-        told = json.load(file)
-    return told["frames"][0] if "frames" in told else told
+        content = json.load(file)
+    return content["frames"][0] if "frames" in content else content

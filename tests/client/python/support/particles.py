@@ -20,6 +20,6 @@ def ball_volume(radius=0.5):
 
 
 def crowd(count):
-    """Random particles, so many that a frame of them takes long enough to be interrupted."""
+    """Random particles, enough that a frame of them can be interrupted."""
     side = 2 * particle_radius * count ** (1 / 3)
     return np.random.default_rng(7).random((count, 3), dtype=np.float32) * np.float32(side)

@@ -171,7 +171,7 @@ def _of(method, given, *before):
 
 
 def _stream(given):
-    """A session has one stream at a time. What the server refuses, the first wait tells."""
+    """A session has one stream at a time. What the server refuses, the first wait raises."""
 
     def call(place):
         with place.client.session(particle_radius=0.05) as session:
@@ -246,5 +246,5 @@ CALLS = [
     wrong("push: index huge", lambda p: p.stream.push([[0, 0, 0]], index=1 << 80), (Bad, TypeError), "."),
     wrong("push: index a fraction", lambda p: p.stream.push([[0, 0, 0]], index=1.5), Bad, "."),
     wrong("push: index a text", lambda p: p.stream.push([[0, 0, 0]], index="1"), Bad, "."),
-    wrong("push: index of before", lambda p: p.stream.push([[0, 0, 0]], index=0), Bad, "0"),
+    wrong("push: an earlier index", lambda p: p.stream.push([[0, 0, 0]], index=0), Bad, "0"),
 ]

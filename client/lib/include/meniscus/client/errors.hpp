@@ -1,5 +1,5 @@
-// What the client library throws: ServerError, and the errors of the reconstruction library. A program tells them apart
-// by their codes.
+// What the client library throws: ServerError, and the errors of the reconstruction library. A program
+// distinguishes them by their codes.
 #pragma once
 
 #include <exception>

@@ -31,7 +31,7 @@ struct ReceivedParticles {
     ParticleFrame view() const;
 };
 
-/// What a watcher of particles wishes.
+/// What a watcher of particles asks for.
 struct ParticleWatchOptions {
     /// Of a frame with more particles, only every k-th is sent, by the smallest k that suffices; 0: all.
     std::uint64_t max_particles = 0;

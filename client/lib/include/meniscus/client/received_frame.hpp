@@ -55,7 +55,7 @@ struct ReceivedFrame {
     /// those of that frame which are there no longer. x y z in bricks.
     std::vector<std::array<std::int32_t, 3>> changed;
     std::vector<std::array<std::int32_t, 3>> vanished;
-    FrameStatistics statistics;         ///< of the frame as reconstructed, whatever a watcher wishes to have of it
+    FrameStatistics statistics;         ///< of the frame as reconstructed, whatever a watcher asks for
     std::vector<DroppedFrame> dropped;  ///< from a Stream: between the frame received before and this one, in order
 
     /// Decodes and welds the bricks; has the spray and the attributes that were asked for, too. Throws InvalidInput if

@@ -1,4 +1,4 @@
-// What a stream or a watcher tells while its connection is broken.
+// What a stream or a watcher reports while its connection is broken.
 #pragma once
 
 #include <chrono>

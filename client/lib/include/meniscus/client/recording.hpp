@@ -18,7 +18,7 @@ namespace meniscus::client {
 struct RecordingInfo {
     std::string session_id;
     std::uint32_t number = 0;  ///< of the session's recordings, from 1
-    std::string owner;         ///< who made the session; empty where nobody was asked
+    std::string owner;         ///< the maker of the session; empty where names were not asked for
     SessionDescription description;
     std::chrono::system_clock::time_point started_at;
     std::uint64_t frames = 0;  ///< those with a mesh, here and below

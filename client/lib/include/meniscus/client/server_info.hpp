@@ -40,7 +40,7 @@ struct ServerInfo {
     std::uint32_t max_connections = 0;           ///< to the gRPC port
     std::uint32_t max_connections_per_peer = 0;  ///< from one address that is no trusted proxy's
     std::uint32_t max_recording_readers = 0;
-    std::uint32_t max_formats_per_session = 0;  ///< of meshes, and numbers of particles, that its watchers wish for
+    std::uint32_t max_formats_per_session = 0;  ///< of meshes, and numbers of particles, that its watchers ask for
     std::uint64_t max_message_bytes = 0;
     std::vector<std::uint32_t> codecs;  ///< numbers of those that the server encodes with; codec.hpp names them
 

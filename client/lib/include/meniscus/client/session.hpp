@@ -58,7 +58,7 @@ public:
     /// destructor cannot; a session that is not there any more is no error.
     void end(const std::stop_token& stop = {});
     /// What ends the session as end() does, from any thread, also while this object goes and after it: for a process
-    /// that is told to end. Does nothing for a session that is not owned now.
+    /// that is asked to end. Does nothing for a session that is not owned now.
     std::function<void()> ending() const;
     /// The session stays when this goes; an ephemeral one still ends soon after its stream.
     void leave() noexcept;

@@ -36,7 +36,7 @@ constexpr std::string_view name_of(UpAxis axis) {
     return {};
 }
 
-/// What people call a session, and how viewers show it. A session is told from others by its id alone.
+/// What people call a session, and how viewers show it. Its id alone distinguishes it from others.
 struct SessionDescription {
     std::string name = {};  ///< UTF-8, 1 to 64 characters without control and direction characters; empty: none
     UpAxis up_axis = UpAxis::unspecified;
@@ -61,7 +61,7 @@ struct SessionOptions {
 
 struct SessionInfo {
     std::string id;
-    std::string owner;  ///< who made it; empty where nobody is asked
+    std::string owner;  ///< its maker; empty where names are not asked for
     Settings settings;  ///< as in_force() has them
     SessionDescription description;
     bool ephemeral = false;
@@ -69,7 +69,7 @@ struct SessionInfo {
     bool uploading = false;
     unsigned watchers = 0;
     SessionWait waits_for = SessionWait::nothing;
-    std::string waits_for_session;  ///< that has the device; told to admins alone
+    std::string waits_for_session;  ///< that has the device; only admins see it
     std::uint64_t frames = 0;
     std::uint64_t frames_dropped = 0;  ///< by the policies of its streams
     std::uint64_t frames_skipped = 0;  ///< replaced before a watcher had taken them, over all watchers

@@ -45,7 +45,7 @@ struct StreamOptions {
     bool receive_meshes = true;
     int normal_bits = 8;  ///< 2 to 16, 0 for none
     bool spray = false;   ///< whether the particles left out of the surface come beside the meshes
-    /// Of the session's attributes, those that the meshes carry, as in WatchOptions. None: their ranges alone are told.
+    /// Of the session's attributes, those that the meshes carry, as in WatchOptions. None: their ranges alone come.
     std::vector<AttributeWish> attributes{};
     /// Received frames that wait for next() at most; push() waits beyond that many frames in flight or waiting.
     /// 0: no limit, for a caller that pushes everything first; frames then wait encoded, in memory.
@@ -62,7 +62,7 @@ struct StreamOptions {
     /// to the server that the stream is on. If not, because a server came or came back, the stream moves there between
     /// two frames, and watchers with `reconnect` follow it. Only with `reconnect`; 0: never.
     std::chrono::milliseconds route_check{2000};
-    /// Told of each attempt to go on after the connection broke, in a thread of the stream's own, which waits for it.
+    /// Called at each attempt to go on after the connection broke, in a thread of the stream's own, which waits for it.
     /// So does the stream's destructor: it is not called once the stream has gone.
     ReconnectHandler on_reconnect{};
     /// When a stop is requested: as cancel(); while the stream is opened: ServerError (canceled), or a stream that has

@@ -17,7 +17,7 @@
 
 namespace meniscus::client {
 
-/// What a watcher wishes to be sent. Watchers with equal max_level, position_bits, normal_bits and attributes cost the
+/// What a watcher is sent. Watchers with equal max_level, position_bits, normal_bits and attributes cost the
 /// server one encode.
 struct WatchOptions {
     int normal_bits = 8;                 ///< 2 to 16, 0 for none
@@ -37,8 +37,8 @@ struct WatchOptions {
     std::chrono::milliseconds reconnect{0};
     /// As in StreamOptions: how often to look whether the session goes on with another server. Only with `reconnect`.
     std::chrono::milliseconds route_check{2000};
-    /// Told of each attempt to go on after the connection broke, in the thread that is in next(); once next(timeout) or
-    /// try_next() was called: in a thread of the library's, which waits for it.
+    /// Called at each attempt to go on after the connection broke, in the thread that is in next(); once next(timeout)
+    /// or try_next() was called: in a thread of the library's, which waits for it.
     ReconnectHandler on_reconnect{};
     std::stop_token stop{};  ///< when a stop is requested: as cancel()
 
@@ -65,7 +65,7 @@ struct WatchOptions {
     }
 };
 
-/// How a session's newest mesh is wished for; as in WatchOptions.
+/// The form of a session's newest mesh; as in WatchOptions.
 struct SnapshotOptions {
     int normal_bits = 8;
     std::optional<int> position_bits{};
@@ -93,7 +93,7 @@ public:
     Watcher& operator=(Watcher&&) noexcept;
     ~Watcher();
 
-    /// Waits for the next frame; none when the session has ended. Throws InvalidInput for a wish out of range,
+    /// Waits for the next frame; none when the session has ended. Throws InvalidInput for an option out of range,
     /// LimitExceeded or ServerError, also when the server goes down.
     std::optional<ReceivedFrame> next();
     /// Likewise, no longer than the timeout. After a frame, the next one is received ahead.

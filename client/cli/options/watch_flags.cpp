@@ -1,0 +1,87 @@
+#include "cli/options/watch_flags.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <string_view>
+
+#include "cli/options/attribute_bits.hpp"
+#include "cli/options/normal_bits.hpp"
+#include "cli/options/option_group.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus::cli {
+namespace {
+
+constexpr std::string_view every_attribute = "all";
+constexpr std::string_view no_attribute = "none";
+
+std::string names_of(const std::vector<std::string>& attributes) {
+    if (attributes.empty()) return "none";
+    std::string names;
+    for (const std::string& name : attributes) names += (names.empty() ? "" : ", ") + name;
+    return names;
+}
+
+std::vector<AttributeWish> requests_for(const std::vector<std::string>& names, int bits, const Settings& settings) {
+    if (names == std::vector<std::string>{std::string(every_attribute)}) return {{.name = {}, .bits = bits}};
+    if (names == std::vector<std::string>{std::string(no_attribute)}) return {};
+    std::vector<AttributeWish> requests;
+    for (const std::string& name : names) {
+        if (name == every_attribute || name == no_attribute)
+            throw InvalidInput("--attribute " + name + " stands alone: leave the other names out");
+        // Of one with all attributes, the names come with its first frame.
+        if (!settings.all_attributes && std::ranges::find(settings.attributes, name) == settings.attributes.end())
+            throw InvalidInput("--attribute " + name + ": the session's attributes are " +
+                               names_of(settings.attributes));
+        requests.push_back({.name = name, .bits = bits});
+    }
+    return requests;
+}
+
+}  // namespace
+
+void WatchFlags::add_to(CLI::App& command) {
+    const OptionGroup group(command, "What is sent");
+    add_normal_bits(command, options.normal_bits, "")->capture_default_str();
+    command
+        .add_option("--attribute", attributes,
+                    "Attribute of the session that the meshes carry, once for each; all, or none of them")
+        ->type_name("NAME")
+        ->allow_extra_args(false)
+        ->capture_default_str();
+    add_attribute_bits(command, attribute_bits);
+    command
+        .add_option(
+            "--position-bits", options.position_bits,
+            "Vertices lie on multiples of the cell size / 2^BITS, 2 or more; fewer bits take fewer bytes. Default: as "
+            "reconstructed")
+        ->check(CLI::Range(2, 8));
+    command.add_option("--max-level", options.max_level, "Finest level of grid, 1 to 3: a coarser surface, as closed")
+        ->check(CLI::Range(1, 3))
+        ->capture_default_str();
+    command.add_option("--region", region, "X0 Y0 Z0 X1 Y1 Z1: only bricks that touch this box, world units")
+        ->expected(6);
+    command
+        .add_option("--bytes-per-second", options.bytes_per_second,
+                    "Bandwidth in the mean, such as 2MB: frames are skipped to keep it; 0: no limit")
+        ->transform(CLI::AsSizeValue(false))
+        ->capture_default_str();
+    command.add_option("--viewpoint", viewpoint, "X Y Z: the nearest bricks are sent first, world units")->expected(3);
+    command
+        .add_option("--reconnect", reconnect,
+                    "Seconds for which a broken connection or a restarting server is tried again; 0: no retries")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+}
+
+client::WatchOptions WatchFlags::build(const Settings& settings) const {
+    client::WatchOptions out = options;
+    if (!region.empty()) out.region = Box{{region[0], region[1], region[2]}, {region[3], region[4], region[5]}};
+    if (!viewpoint.empty()) out.viewpoint = {viewpoint[0], viewpoint[1], viewpoint[2]};
+    out.attributes = requests_for(attributes, attribute_bits, settings);
+    out.reconnect = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(reconnect));
+    return out;
+}
+
+}  // namespace meniscus::cli

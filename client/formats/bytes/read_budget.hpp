@@ -1,0 +1,36 @@
+// Memory that the contents of a file may still take.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_limits.hpp"
+
+namespace meniscus::formats {
+
+class ReadBudget {
+public:
+    /// file_bytes: what the file takes itself. Throws by `at` if that is too much already.
+    ReadBudget(const ReadLimits& limits, std::uint64_t file_bytes, const ByteCursor& at)
+        : most_(limits.most_bytes), left_(limits.most_bytes) {
+        take(file_bytes, at, "the file");
+    }
+
+    std::uint64_t left() const { return left_; }
+    /// To be called before the memory is allocated. what: that which needs it. Throws by `at` if too little is left.
+    void take(std::uint64_t bytes, const ByteCursor& at, std::string_view what) {
+        if (bytes > left_)
+            at.fail(std::string(what) + " takes " + std::to_string(bytes) + " bytes, " + std::to_string(left_) +
+                    " are left of the " + std::to_string(most_) + " that a file may take with all that it holds");
+        left_ -= bytes;
+    }
+    void give_back(std::uint64_t bytes) { left_ += bytes; }
+
+private:
+    std::uint64_t most_;
+    std::uint64_t left_;
+};
+
+}  // namespace meniscus::formats

@@ -1,0 +1,28 @@
+#include "formats/meshes/triangle_mesh.hpp"
+
+#include <algorithm>
+
+namespace meniscus::formats {
+
+bool needs_double(const Mesh& mesh) {
+    constexpr std::int32_t limit = 1 << 23;
+    return std::any_of(mesh.vertices.begin(), mesh.vertices.end(), [](const LatticePosition& p) {
+        return std::any_of(p.begin(), p.end(), [](std::int32_t x) { return x <= -limit || x >= limit; });
+    });
+}
+
+TriangleMesh to_triangles(const Mesh& mesh) {
+    TriangleMesh out;
+    out.positions.reserve(mesh.vertices.size());
+    for (const LatticePosition& p : mesh.vertices) out.positions.push_back(mesh.world(p));
+    out.normals.assign(mesh.normals.begin(), mesh.normals.end());
+    out.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    out.levels.resize(mesh.triangles.size());
+    for (std::size_t i = 0; i < out.levels.size(); ++i) out.levels[i] = level_byte(mesh.level_of(i));
+    for (const MeshAttribute& a : mesh.attributes)
+        out.attributes.push_back({a.name, a.type, a.components, {a.data.begin(), a.data.end()}});
+    out.wide = needs_double(mesh);
+    return out;
+}
+
+}  // namespace meniscus::formats

@@ -1,0 +1,222 @@
+#include "formats/recordings/brick_file.hpp"
+
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/util/delimited_message_util.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "conversion/attribute_conversion.hpp"
+#include "conversion/codec_conversion.hpp"
+#include "conversion/spray_conversion.hpp"
+#include "conversion/statistics_conversion.hpp"
+#include "files/brick_file_format.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "meniscus/v1/brick_file.pb.h"
+#include "meniscus/v1/surface_service.pb.h"
+#include "receiving/frame_receiver.hpp"
+
+namespace meniscus::formats {
+namespace {
+
+constexpr std::size_t part_bytes = std::size_t{1} << 20;
+
+std::string to_string(const std::vector<std::byte>& bytes, std::size_t first, std::size_t size) {
+    std::string out(size, '\0');
+    if (size > 0) std::memcpy(out.data(), bytes.data() + first, size);
+    return out;
+}
+
+v1::StreamResponse begin_message(const client::ReceivedFrame& frame) {
+    v1::StreamResponse message;
+    v1::MeshBegin& begin = *message.mutable_mesh_begin();
+    begin.set_frame_index(frame.index);
+    begin.set_simulation_time(frame.simulation_time);
+    begin.set_cell_size(frame.cell_size);
+    begin.set_offset_bits(frame.offset_bits);
+    begin.set_brick_cells(brick_cells);
+    begin.set_brick_count(static_cast<std::uint32_t>(frame.bricks.size()));
+    begin.set_run_id(frame.run_id);
+    begin.set_spray_count(frame.spray.size());
+    for (const client::FrameAttribute& attribute : frame.attributes) {
+        const auto coded = std::ranges::find(frame.coded_attributes, attribute.name, &CodedAttribute::name);
+        conversion::announce({attribute.name, attribute.type, attribute.components, {}},
+                             attribute.range ? &*attribute.range : nullptr,
+                             coded == frame.coded_attributes.end() ? nullptr : &*coded, begin);
+    }
+    std::uint64_t triangles = 0;
+    for (const auto& brick : frame.bricks) triangles += brick->triangles;
+    begin.set_triangle_count(triangles);
+    return message;
+}
+
+v1::StreamResponse part_message(const EncodedBrick& brick, std::size_t part, std::size_t parts) {
+    v1::StreamResponse message;
+    v1::MeshBrick& out = *message.mutable_mesh_brick();
+    out.set_x(brick.coordinate[0]);
+    out.set_y(brick.coordinate[1]);
+    out.set_z(brick.coordinate[2]);
+    out.set_vertex_count(brick.vertices);
+    out.set_triangle_count(brick.triangles);
+    if (part == 0) out.set_cell_levels(to_string(brick.cell_levels, 0, brick.cell_levels.size()));
+    const std::size_t first = part * part_bytes;
+    out.set_codec(conversion::to_wire(brick.codec));
+    out.set_data(to_string(brick.data, first, std::min(part_bytes, brick.data.size() - first)));
+    out.set_part_index(static_cast<std::uint32_t>(part));
+    out.set_part_count(static_cast<std::uint32_t>(parts));
+    return message;
+}
+
+v1::StreamResponse statistics_message(const client::ReceivedFrame& frame) {
+    v1::StreamResponse message;
+    v1::FrameStatistics& out = *message.mutable_frame_statistics();
+    conversion::to_wire(frame.statistics, out);
+    out.set_frame_index(frame.index);
+    out.set_simulation_time(frame.simulation_time);
+    out.set_encode_seconds(frame.statistics.encode_seconds);
+    out.set_latency_seconds(frame.statistics.latency_seconds);
+    out.set_encoded_bytes(frame.statistics.encoded_bytes);
+    return message;
+}
+
+/// Messages, each after its length.
+class Messages {
+public:
+    /// Borrows both.
+    Messages(const ByteCursor& in, std::string_view bytes)
+        : in_(in), stream_(bytes.data(), static_cast<int>(bytes.size())) {
+        constexpr std::size_t limit = std::numeric_limits<int>::max();  // of protobuf's streams
+        if (bytes.size() > limit)
+            in.fail(std::to_string(bytes.size()) + " bytes; at most " + std::to_string(limit) + " are read");
+    }
+
+    void skip(std::size_t bytes) { stream_.Skip(static_cast<int>(bytes)); }
+    /// Returns the byte at which the message begins, as text.
+    std::string next(google::protobuf::MessageLite& message) {
+        std::string place = std::to_string(stream_.ByteCount());
+        bool ended = false;
+        if (!google::protobuf::util::ParseDelimitedFromZeroCopyStream(&message, &stream_, &ended))
+            in_.fail(ended ? "truncated: it ends at byte " + place + ", within a frame"
+                           : "truncated or not a file of bricks: no message at byte " + place);
+        return place;
+    }
+
+private:
+    const ByteCursor& in_;
+    google::protobuf::io::ArrayInputStream stream_;
+};
+
+client::ReceivedFrame read_frame(const ByteCursor& in, Messages& messages) {
+    // Statistics are of the whole surface; a watcher may have asked for less, so they need not be of this mesh.
+    client::FrameReceiver receiver(true, true);
+    while (true) {
+        v1::StreamResponse message;
+        const std::string place = messages.next(message);
+        try {
+            if (auto frame = receiver.take(message)) return std::move(*frame);
+        } catch (const client::ServerError& e) {
+            in.fail("at byte " + place + ": " + e.what());
+        }
+    }
+}
+
+[[noreturn]] void refuse_version(const ByteCursor& in, std::uint32_t version) {
+    in.fail("a file of bricks of format version " + std::to_string(version) + "; this program reads version " +
+            std::to_string(files::brick_file_version) + ": read it with the Meniscus that wrote it");
+}
+
+/// Of a file without the magic. Version 1 had none: it began with the message that begins a mesh.
+[[noreturn]] void refuse_beginning(const ByteCursor& in, std::string_view bytes) {
+    if (files::brick_file_magic.starts_with(bytes)) in.fail("truncated: it ends within its first bytes");
+    google::protobuf::io::ArrayInputStream stream(bytes.data(), static_cast<int>(bytes.size()));
+    v1::StreamResponse message;
+    bool ended = false;
+    if (google::protobuf::util::ParseDelimitedFromZeroCopyStream(&message, &stream, &ended) && message.has_mesh_begin())
+        refuse_version(in, 1);
+    in.fail("not a file of bricks");
+}
+
+std::vector<client::FrameAttribute> attributes_of(const Mesh& mesh) {
+    const std::vector<AttributeRange> ranges = attribute_ranges(mesh);
+    std::vector<client::FrameAttribute> attributes;
+    for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
+        const MeshAttribute& attribute = mesh.attributes[a];
+        attributes.push_back({attribute.name, attribute.type, attribute.components, {}});
+        if (!ranges.empty()) attributes.back().range = ranges[a];
+    }
+    return attributes;
+}
+
+}  // namespace
+
+void write_bricks(const std::filesystem::path& path, const client::ReceivedFrame& frame) {
+    AtomicFile file(path);
+    const auto write = [&](const google::protobuf::MessageLite& message) {
+        std::string bytes;
+        {
+            google::protobuf::io::StringOutputStream stream(&bytes);
+            google::protobuf::util::SerializeDelimitedToZeroCopyStream(message, &stream);
+        }
+        file.write(bytes);
+    };
+    file.write(files::brick_file_magic);
+    v1::BrickFileBegin begin;
+    begin.set_version(files::brick_file_version);
+    write(begin);
+    write(begin_message(frame));
+    for (const auto& brick : frame.bricks) {
+        const std::size_t parts = std::max<std::size_t>(1, (brick->data.size() + part_bytes - 1) / part_bytes);
+        for (std::size_t part = 0; part < parts; ++part) write(part_message(*brick, part, parts));
+    }
+    for (v1::SprayPoints& points : conversion::to_wire(frame.spray)) {
+        v1::StreamResponse message;
+        *message.mutable_spray_points() = std::move(points);
+        write(message);
+    }
+    write(statistics_message(frame));
+    file.commit();
+}
+
+client::ReceivedFrame read_bricks(const std::string& name, std::string_view bytes) {
+    const ByteCursor in(name, bytes);
+    Messages messages(in, bytes);
+    if (!bytes.starts_with(files::brick_file_magic)) refuse_beginning(in, bytes);
+    messages.skip(files::brick_file_magic.size());
+    v1::BrickFileBegin begin;
+    messages.next(begin);
+    if (begin.version() != files::brick_file_version) refuse_version(in, begin.version());
+    return read_frame(in, messages);
+}
+
+client::ReceivedFrame read_brick_messages(const std::string& name, std::string_view bytes) {
+    const ByteCursor in(name, bytes);
+    Messages messages(in, bytes);
+    return read_frame(in, messages);
+}
+
+client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistics, std::uint64_t index,
+                                   double simulation_time, const CodingOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    client::ReceivedFrame frame;
+    frame.index = index;
+    frame.simulation_time = simulation_time;
+    frame.cell_size = mesh.cell_size;
+    frame.offset_bits = mesh.offset_bits;
+    frame.spray.assign(mesh.spray.begin(), mesh.spray.end());
+    frame.attributes = attributes_of(mesh);
+    frame.coded_attributes = options.attributes;
+    static_cast<Statistics&>(frame.statistics) = statistics;
+    for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
+        const auto brick = std::make_shared<const EncodedBrick>(encode_brick(mesh, i, options));
+        frame.statistics.encoded_bytes += brick->data.size() + brick->cell_levels.size();
+        frame.bricks.push_back(brick);
+    }
+    frame.statistics.encode_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return frame;
+}
+
+}  // namespace meniscus::formats

@@ -1,0 +1,110 @@
+#include "formats/vtk/vtp_writer.hpp"
+
+#include <zlib.h>
+
+#include <bit>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "formats/bytes/base64_writer.hpp"
+#include "formats/bytes/scalar.hpp"
+
+namespace meniscus::formats {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the files are little-endian");
+
+/// Bytes that are compressed at once: readers take one block into memory after the other.
+constexpr std::size_t block_bytes = std::size_t{1} << 20;
+
+std::string_view vtk_type_of(ElementType type) {
+    switch (type) {
+        case ElementType::float32:
+            return "Float32";
+        case ElementType::uint8:
+            return "UInt8";
+        case ElementType::int32:
+            return "Int32";
+        case ElementType::uint32:
+            return "UInt32";
+    }
+    return {};
+}
+
+std::string compressed(std::string_view bytes) {
+    uLongf size = ::compressBound(static_cast<uLong>(bytes.size()));
+    std::string out(size, '\0');
+    if (::compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                    static_cast<uLong>(bytes.size()), Z_BEST_SPEED) != Z_OK)
+        throw std::runtime_error("zlib does not compress " + std::to_string(bytes.size()) + " bytes");
+    out.resize(size);
+    return out;
+}
+
+/// A header of the number of blocks, their size, that of the last one if it is smaller and their compressed sizes; then
+/// the blocks, as a stream of their own.
+void write_blocks(AtomicFile& file, std::string_view bytes) {
+    std::vector<std::string> blocks;
+    for (std::size_t at = 0; at < bytes.size(); at += block_bytes)
+        blocks.push_back(compressed(bytes.substr(at, block_bytes)));
+    std::string header;
+    store(header, std::uint64_t{blocks.size()});
+    store(header, std::uint64_t{block_bytes});
+    store(header, std::uint64_t{bytes.size() % block_bytes});
+    for (const std::string& block : blocks) store(header, std::uint64_t{block.size()});
+    Base64Writer out(file);
+    out.write(header);
+    out.finish();
+    for (const std::string& block : blocks) out.write(block);
+    out.finish();
+}
+
+/// A header of the number of bytes, and they.
+void write_plain(AtomicFile& file, std::string_view bytes) {
+    std::string header;
+    store(header, std::uint64_t{bytes.size()});
+    Base64Writer out(file);
+    out.write(header);
+    out.write(bytes);
+    out.finish();
+}
+
+}  // namespace
+
+VtpWriter::VtpWriter(const std::filesystem::path& path, std::size_t points, VtpCells cells, VtpCompression compression)
+    : file_(path), compression_(compression) {
+    file_.write(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+        "header_type=\"UInt64\"");
+    if (compression_ == VtpCompression::zlib) file_.write(" compressor=\"vtkZLibDataCompressor\"");
+    file_.write(">\n  <PolyData>\n    <Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfVerts=\"" +
+                std::to_string(cells.verts) + "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+                std::to_string(cells.polys) + "\">\n");
+}
+
+void VtpWriter::begin(std::string_view element, std::string_view attributes) {
+    file_.write(std::string("      <").append(element).append(attributes).append(">\n"));
+}
+
+void VtpWriter::end(std::string_view element) {
+    file_.write(std::string("      </").append(element).append(">\n"));
+}
+
+void VtpWriter::add(std::string_view name, std::string_view type, std::size_t components, std::string_view bytes) {
+    file_.write(std::string("        <DataArray type=\"").append(type).append("\" Name=\"").append(name) +
+                "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"binary\">\n");
+    compression_ == VtpCompression::zlib ? write_blocks(file_, bytes) : write_plain(file_, bytes);
+    file_.write("\n        </DataArray>\n");
+}
+
+void VtpWriter::add(const ParticleArray& array) {
+    add(array.name, vtk_type_of(array.type), array.components, bytes_of(array.data.data(), array.data.size()));
+}
+
+void VtpWriter::commit() {
+    file_.write("    </Piece>\n  </PolyData>\n</VTKFile>\n");
+    file_.commit();
+}
+
+}  // namespace meniscus::formats

@@ -1,0 +1,23 @@
+// Meshes as Python sees them.
+#pragma once
+
+#include <memory>
+#include <variant>
+
+#include "meniscus/client/received_frame.hpp"
+#include "meniscus/mesh.hpp"
+#include "meniscus/statistics.hpp"
+
+namespace meniscus::python {
+
+/// The class _meniscus.Mesh. The arrays that view its memory keep it alive. Python may destroy it in any thread: what
+/// has threads has OwnProcessDelete (process.hpp).
+struct MeshHandle {
+    std::shared_ptr<const Mesh> mesh;
+    /// For an empty mesh, whose arrays cannot show whether it has normals.
+    bool has_normals = true;
+    /// Where the mesh is from: reconstructed here, or received, as it travelled. For a file of bricks.
+    std::variant<Statistics, std::shared_ptr<const client::ReceivedFrame>> origin;
+};
+
+}  // namespace meniscus::python

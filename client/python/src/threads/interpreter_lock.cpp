@@ -1,0 +1,46 @@
+#include "threads/interpreter_lock.hpp"
+
+#include <cxxabi.h>
+#include <unistd.h>
+
+#include <exception>
+
+namespace meniscus::python {
+namespace {
+
+/// Python ends threads that ask for the lock of an interpreter that is being finalized by pthread_exit(), whose
+/// unwinding would destroy Python objects without the lock, and abort in noexcept functions.
+template <class Take>
+auto taken(const Take& take) {
+    try {
+        return take();
+    } catch (const abi::__forced_unwind&) {
+        for (;;) pause();
+    }
+}
+
+}  // namespace
+
+void ReleasedLock::take_back() {
+    taken([this] { PyEval_RestoreThread(state_); });
+}
+
+void without_lock(const std::function<void()>& work) {
+    std::exception_ptr error;
+    ReleasedLock released;
+    try {
+        work();
+    } catch (...) {
+        error = std::current_exception();
+    }
+    released.take_back();
+    if (error) std::rethrow_exception(error);
+}
+
+void with_lock(const std::function<void()>& work) {
+    const PyGILState_STATE state = taken([] { return PyGILState_Ensure(); });
+    work();
+    PyGILState_Release(state);
+}
+
+}  // namespace meniscus::python
