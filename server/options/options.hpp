@@ -20,14 +20,8 @@ struct CommandLine {
     template <class Self, class Visit>
     static void rows(Self& self, const Visit& visit) {
         ServerOptions::rows(self.server, visit);
-        visit(
-            "log_level", self.log_level,
-            {.subject = "--log-level", .argument = "NAME", .manual = "`debug`, `info`, `warning`, `error` or `off`."});
-        visit("log_format", self.log_format,
-              {.help = "text, or json: one object a line",
-               .subject = "--log-format",
-               .argument = "NAME",
-               .manual = "`text`, or `json`: one object a line."});
+        visit("log_level", self.log_level, {.subject = "--log-level"});
+        visit("log_format", self.log_format, {.help = "text, or json: one object a line", .subject = "--log-format"});
     }
 };
 

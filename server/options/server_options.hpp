@@ -39,84 +39,39 @@ struct ServerOptions {
     template <class Self, class Visit>
     static void rows(Self& self, const Visit& visit) {
         visit("listen", self.listen,
-              {.help = "HOST:PORT (port 0: a free one, which is logged) or unix:PATH (for this user alone)",
-               .argument = "HOST:PORT | unix:PATH",
-               .manual = "Address to serve at. Port 0 is a free port, which is logged. An address that other machines "
-                         "reach needs TLS or `--insecure`. Let strangers come through a proxy: the gRPC library of "
-                         "Debian 12 does not withstand rapid resets (CVE-2023-44487) and headers without an end. A "
-                         "Unix socket is for the user that runs the server."});
+              {.help = "HOST:PORT (port 0: a free one, which is logged) or unix:PATH (for this user alone)"});
         TlsFiles::rows(self.tls, visit);
         visit("tokens", self.tokens,
               {.help = "Lines ROLE NAME TOKEN, the role being uploader, watcher or admin: calls need one of these "
-                       "tokens",
-               .argument = "FILE",
-               .manual = "Calls need a token. Lines `ROLE NAME TOKEN`; an `uploader` has the sessions of its name, a "
-                         "`watcher` sees all sessions, an `admin` may do everything. Only the file's user and group "
-                         "may be able to read it. Shares of that name may follow on the line, in place of those of the "
-                         "flags: `sessions=4 watchers=8 frames-per-second=60 bytes-in-flight=2G`."});
-        visit("insecure", self.insecure,
-              {.help = "Let other machines connect without TLS, also to --http",
-               .manual = "Let other machines connect without TLS, also to `--http`."});
+                       "tokens"});
+        visit("insecure", self.insecure, {.help = "Let other machines connect without TLS, also to --http"});
         visit("http", self.http,
               {.help = "HOST:PORT (port 0: a free one, which is logged) of the viewer, /metrics, /healthz and "
                        "/readyz; off: none. Default: where --listen is TCP on loopback, its port 9464, or a free one "
-                       "where that is taken; otherwise off",
-               .argument = "HOST:PORT",
-               .manual = "Also serve the viewer, metrics for Prometheus (`/metrics`), and the probes `/healthz` and "
-                         "`/readyz` here. `off` is none. By default, where `--listen` is TCP on loopback, its port "
-                         "9464, or a free one where that is taken, which is logged; otherwise off."});
+                       "where that is taken; otherwise off"});
         visit("probes", self.probes,
               {.help = "HOST:PORT of /metrics, /healthz and /readyz alone, always without TLS, also for other "
-                       "machines: they tell numbers only",
-               .argument = "HOST:PORT",
-               .manual = "Also serve metrics and probes, and nothing else, here. This port never has TLS, and other "
-                         "machines may ask it: it gives away numbers only. Off by default."});
+                       "machines: they tell numbers only"});
         visit("trusted_proxies", self.trusted_proxies,
               {.help = "Addresses and networks, as 192.0.2.7,10.0.0.0/8, of proxies through which others come: limits "
-                       "for each peer address do not hold for them, nor for loopback and Unix sockets",
-               .argument = "LIST",
-               .manual = "Addresses and networks, such as `192.0.2.7,10.0.0.0/8`, of proxies through which others "
-                         "come. Limits for each peer address do not hold for them, nor for loopback and Unix sockets. "
-                         "The log names the clients that they pass on in `X-Forwarded-For`."});
+                       "for each peer address do not hold for them, nor for loopback and Unix sockets"});
         visit("web_origin", self.web_origins,
-              {.help = "Page, as https://example.org, that may call over the HTTP port; those of this machine may",
-               .argument = "ORIGIN",
-               .manual = "A page of another machine, such as `https://example.org`, that may call over the HTTP port. "
-                         "May be repeated."});
+              {.help = "Page, as https://example.org, that may call over the HTTP port; those of this machine may"});
         visit("web_frame_ancestors", self.web_frame_ancestors,
-              {.help = "Pages, as https://example.org,https://example.org:8443, that may show the viewer in a frame",
-               .argument = "ORIGINS",
-               .manual = "Pages, such as `https://example.org,https://example.org:8443`, that may show the viewer in a "
-                         "frame of theirs. Each origin is named exactly; there are no patterns. May be repeated. By "
-                         "default no page may."});
-        visit("reflection", self.reflection,
-              {.help = "Let clients ask for the contract, as grpcurl does",
-               .manual = "Offer gRPC server reflection. Not together with `--tokens`."});
-        visit("channelz", self.channelz,
-              {.help = "Let clients ask for connections and their traffic",
-               .manual = "Offer gRPC channelz. Not together with `--tokens`."});
-        visit("backend", self.backend.backend,
-              {.subject = "backend",
-               .argument = "NAME",
-               .manual = "`cuda`, `cpu`, or `auto`, which takes the CPU where no GPU can be used, and logs why."});
+              {.help = "Pages, as https://example.org,https://example.org:8443, that may show the viewer in a frame"});
+        visit("reflection", self.reflection, {.help = "Let clients ask for the contract, as grpcurl does"});
+        visit("channelz", self.channelz, {.help = "Let clients ask for connections and their traffic"});
+        visit("backend", self.backend.backend, {.subject = "backend"});
         visit("devices", self.devices,
               {.help = "GPUs to use, as 0,1: each session on the one with the most free memory. Default: all that can "
-                       "be used",
-               .argument = "LIST",
-               .manual = "GPUs to use, such as `0,1`. A new session goes to the one with the most free memory. By "
-                         "default all GPUs that can be used."});
+                       "be used"});
         visit("threads", self.backend.threads,
-              {.help = "Worker threads; 0: one per processor",
-               .range = {.most = max_threads},
-               .argument = "N",
-               .manual = "Worker threads; 0 is one per processor."});
+              {.help = "Worker threads; 0: one per processor", .range = {.most = max_threads}});
         Limits::rows(self.limits, visit);
         visit("shutdown_grace", self.shutdown_grace,
               {.help = "Seconds that clients get after SIGTERM to take the frames they are owed",
                .unit = "s",
-               .range = {.most = 3600.0},
-               .argument = "SECONDS",
-               .manual = "Time that clients have after `SIGTERM` to take the frames in flight."});
+               .range = {.most = 3600.0}});
         RecordingOptions::rows(self.recording, visit);
     }
 };

@@ -33,37 +33,21 @@ struct RecordingOptions {
     static void rows(Self& self, const Visit& visit) {
         visit("record", self.directory,
               {.help = "Folder to keep every session's particles and meshes in; see meniscus recordings, replay, "
-                       "convert",
-               .argument = "DIR",
-               .manual = "Folder to keep every session's particles and meshes in. meniscus(1) lists, replays and "
-                         "converts them."});
+                       "convert"});
         visit("record_limit", self.limit,
               {.help = "Bytes of all recordings in that folder, as 100G; 0: no limit. Nothing is deleted: recording "
                        "stops",
-               .unit = "bytes",
-               .argument = "BYTES",
-               .manual = "Bytes of all recordings in that folder. Nothing is deleted at the limit: recording stops, "
-                         "with a line in the log."});
+               .unit = "bytes"});
         visit("record_attribute_bits", self.attribute_bits,
               {.help = "Bits per component of the float32 attributes in recorded meshes, 1 to 16; 0: exact",
-               .range = {.most = max_attribute_bits},
-               .argument = "BITS",
-               .manual = "Bits per component of the float32 attributes in recorded meshes, 1 to 16; 0: exact. "
-                         "Recorded particles always carry the values as they came."});
+               .range = {.most = max_attribute_bits}});
         visit("record_min_frames", self.retention.min_frames,
-              {.help = "A recording with fewer frames is deleted when it is closed; 0: none is",
-               .argument = "N",
-               .manual = "A recording with fewer frames is deleted when it is closed, or when the server starts if an "
-                         "earlier one has left it. 0 deletes none."});
+              {.help = "A recording with fewer frames is deleted when it is closed; 0: none is"});
         visit("record_max_age", self.retention.max_age,
               {.help = "Seconds after which a recording to which nothing more was written is deleted, as 2592000 for "
                        "30 days; 0: none is",
                .unit = "s",
-               .range = {.most = 1e9},
-               .argument = "SECONDS",
-               .manual = "A recording to which nothing was written for so long is deleted, such as 2592000 for 30 "
-                         "days, unless it is being written or read. The folder is looked through at the start and once "
-                         "a minute; each deletion is a line in the log. 0 deletes none."});
+               .range = {.most = 1e9}});
     }
 };
 

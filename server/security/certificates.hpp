@@ -19,15 +19,9 @@ struct TlsFiles {
     /// Calls visit(name, value, facts) for each file.
     template <class Self, class Visit>
     static void rows(Self& self, const Visit& visit) {
-        visit("tls_cert", self.certificate,
-              {.help = "Certificate chain for TLS, PEM",
-               .argument = "FILE",
-               .manual = "Certificate chain for TLS, PEM."});
-        visit("tls_key", self.key, {.help = "Its key, PEM", .argument = "FILE", .manual = "Its key, PEM."});
-        visit("tls_client_ca", self.client_ca,
-              {.help = "Mutual TLS: clients need a certificate of one of these, PEM",
-               .argument = "FILE",
-               .manual = "Mutual TLS: clients need a certificate that one of these certificates has signed, PEM."});
+        visit("tls_cert", self.certificate, {.help = "Certificate chain for TLS, PEM"});
+        visit("tls_key", self.key, {.help = "Its key, PEM"});
+        visit("tls_client_ca", self.client_ca, {.help = "Mutual TLS: clients need a certificate of one of these, PEM"});
     }
 };
 
