@@ -93,6 +93,21 @@ class Documents(unittest.TestCase):
                     self.assertTrue(cited.is_file(), f"{name(source)} cites {page}, which is not there")
                     self.assertIn(anchor, anchors_of(cited), f"{name(source)} cites {page}#{anchor}: no such heading")
 
+    def test_every_recipe_names_the_files_of_one_that_exists(self):
+        """The example of a section "A ..., such as `example`" is in every file that its numbered list links."""
+        page = REPOSITORY / ".github/CONTRIBUTING.md"
+        sections = re.findall(r"^## (An? [\w ]+)\n\n[^`]*?such\s+as\s+`(\w+)`(.*?)(?=^## )", page.read_text(), re.M | re.S)
+        self.assertEqual(
+            {"A setting", "A statistic", "A limit", "A file format", "An attribute type"}, {title for title, *_ in sections}
+        )
+        for title, example, text in sections:
+            items = re.findall(r"^\d\. .*(?:\n   .*)*", text, re.MULTILINE)
+            files = [link.partition("#")[0] for item in items for link in re.findall(r"\]\(([^()\s]+)\)", item)]
+            self.assertGreater(len(files), 2, title)
+            for file in files:
+                found = (page.parent / file).resolve().read_text().lower().replace("-", "_")
+                self.assertIn(example, found, f"{title}: {file} has no {example}")
+
     def test_the_front_page_is_short(self):
         self.assertLessEqual(len((REPOSITORY / "README.md").read_text().splitlines()), 150)
 
