@@ -9,6 +9,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examples.hpp"
+#include "cli/options/seconds_option.hpp"
 #include "cli/options/server_flags.hpp"
 #include "cli/print/session_table.hpp"
 #include "cli/print/terminal.hpp"
@@ -18,12 +19,8 @@ namespace {
 
 struct TopOptions {
     ServerFlags server;
-    double seconds = 1.0;
+    std::chrono::milliseconds interval = std::chrono::seconds(1);
     bool once = false;
-
-    std::chrono::milliseconds interval() const {
-        return std::chrono::round<std::chrono::milliseconds>(std::chrono::duration<double>(seconds));
-    }
 };
 
 /// Looks twice, since frames per second take two looks.
@@ -31,7 +28,7 @@ void print_once(const TopOptions& options) {
     client::Client client = options.server.connect();
     FrameRates rates;
     rates.update(client.sessions(), std::chrono::steady_clock::now());
-    std::this_thread::sleep_for(options.interval());
+    std::this_thread::sleep_for(options.interval);
     std::cout << session_table(rates.update(client.sessions(), std::chrono::steady_clock::now()));
 }
 
@@ -50,7 +47,7 @@ void watch_sessions(const TopOptions& options) {
         } catch (const client::ServerError& error) {  // it may come back
             terminal.draw(title(options, 0) + error.what() + "\n");
         }
-    } while (!terminal.wait_for_end(options.interval()));
+    } while (!terminal.wait_for_end(options.interval));
 }
 
 }  // namespace
@@ -60,9 +57,9 @@ void add_top(CLI::App& app) {
     CLI::App& command =
         *app.add_subcommand("top", "Watch a server's sessions: frames per second, latency, sizes, drops");
     options->server.add_to(command, "Whose")->required();
-    command.add_option("--interval", options->seconds, "Seconds from one look to the next")
+    add_seconds(command, "--interval", options->interval, "Seconds from one look to the next")
         ->check(CLI::Range(0.1, 3600.0))
-        ->capture_default_str();
+        ->default_str("1");
     command.add_flag("--once", options->once, "Print one table, as is done when the output is no terminal");
     add_examples(command, {"meniscus top --server localhost", "meniscus top --server localhost --once"});
     command.callback([options] {

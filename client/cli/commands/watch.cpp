@@ -12,6 +12,7 @@
 #include "cli/commands/examples.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/option_group.hpp"
+#include "cli/options/seconds_option.hpp"
 #include "cli/options/server_flags.hpp"
 #include "cli/options/verbosity.hpp"
 #include "cli/options/watch_flags.hpp"
@@ -32,8 +33,8 @@ struct WatchOptions {
     std::string directory;
     std::string spray_directory;
     MeshFormat format = MeshFormat::ply;
-    std::uint64_t frames = 0;  ///< 0: until the session ends
-    double timeout = 0.0;      ///< seconds without a frame after which to end; 0: none
+    std::uint64_t frames = 0;              ///< 0: until the session ends
+    std::chrono::milliseconds timeout{0};  ///< without a frame, after which to end; 0: none
     bool strict = false;
     WatchFlags flags;
     Verbosity verbosity;
@@ -41,12 +42,12 @@ struct WatchOptions {
 
 /// None when the session has ended.
 std::optional<client::ReceivedFrame> next_frame(client::Watcher& watcher, const WatchOptions& options) {
-    if (options.timeout == 0.0) return watcher.next();
-    client::Next<client::ReceivedFrame> next = watcher.next(
-        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(options.timeout)));
+    if (options.timeout.count() == 0) return watcher.next();
+    client::Next<client::ReceivedFrame> next = watcher.next(options.timeout);
     if (next || next.ended) return std::move(next.frame);
     std::ostringstream what;
-    what << "no frame of session " << options.session << " has come for " << options.timeout << " s (--timeout)";
+    what << "no frame of session " << options.session << " has come for "
+         << std::chrono::duration<double>(options.timeout).count() << " s (--timeout)";
     throw client::ServerError(what.str(), client::ErrorCode::deadline_exceeded);
 }
 
@@ -108,11 +109,10 @@ void add_watch(CLI::App& app) {
         command
             .add_option("--frames", options->frames, "Number of frames after which to end; 0: when the session ends")
             ->capture_default_str();
-        command
-            .add_option("--timeout", options->timeout,
-                        "Seconds without a frame after which to end, with exit code 1; 0: never")
+        add_seconds(command, "--timeout", options->timeout,
+                    "Seconds without a frame after which to end, with exit code 1; 0: never")
             ->check(CLI::Range(0.0, 1e6))
-            ->capture_default_str();
+            ->default_str("0");
     }
     options->flags.add_to(command);
     options->server.add_to(command, "The server that has the session")->required();

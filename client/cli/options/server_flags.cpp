@@ -5,6 +5,7 @@
 
 #include "cli/options/not_empty.hpp"
 #include "cli/options/option_group.hpp"
+#include "cli/options/seconds_option.hpp"
 #include "formats/bytes/byte_cursor.hpp"
 #include "meniscus/error.hpp"
 
@@ -50,7 +51,7 @@ CLI::Option* ServerFlags::add_to(CLI::App& command, const std::string& descripti
     add_file("--token-file", token_file, "File with the token to call with (default: the variable MENISCUS_TOKEN)");
     command.add_flag("--insecure", options.insecure, "Let the token travel to another machine without TLS")
         ->needs(server);
-    command.add_option("--wait", wait_seconds, "Seconds to wait for a server that is still starting")
+    add_seconds(command, "--wait", options.wait, "Seconds to wait for a server that is still starting")
         ->check(CLI::Range(0.0, 86400.0))
         ->needs(server);
     return server;
@@ -63,8 +64,6 @@ client::ConnectionOptions ServerFlags::connection() const {
         connection.ca_file = from_environment("MENISCUS_SERVER_CA");
         connection.server_name = from_environment("MENISCUS_SERVER_NAME");
     }
-    connection.wait =
-        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(wait_seconds));
     return connection;
 }
 

@@ -17,7 +17,6 @@ struct ServerFlags {
     std::string address;  ///< "HOST", "HOST:PORT" or "unix:PATH"; empty for none
     client::ConnectionOptions options;
     std::string token_file;
-    double wait_seconds = 0.0;
 
     /// Returns --server, so that the command can say which flags exclude or require it.
     CLI::Option* add_to(CLI::App& command, const std::string& description);

@@ -2,12 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <string_view>
 
 #include "cli/options/attribute_bits.hpp"
 #include "cli/options/normal_bits.hpp"
 #include "cli/options/option_group.hpp"
+#include "cli/options/seconds_option.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {
@@ -68,11 +68,10 @@ void WatchFlags::add_to(CLI::App& command) {
         ->transform(CLI::AsSizeValue(false))
         ->capture_default_str();
     command.add_option("--viewpoint", viewpoint, "X Y Z: the nearest bricks are sent first, world units")->expected(3);
-    command
-        .add_option("--reconnect", reconnect,
-                    "Seconds for which a broken connection or a restarting server is tried again; 0: no retries")
+    add_seconds(command, "--reconnect", options.reconnect,
+                "Seconds for which a broken connection or a restarting server is tried again; 0: no retries")
         ->check(CLI::Range(0.0, 1e6))
-        ->capture_default_str();
+        ->default_str("0");
 }
 
 client::WatchOptions WatchFlags::build(const Settings& settings) const {
@@ -80,7 +79,6 @@ client::WatchOptions WatchFlags::build(const Settings& settings) const {
     if (!region.empty()) out.region = Box{{region[0], region[1], region[2]}, {region[3], region[4], region[5]}};
     if (!viewpoint.empty()) out.viewpoint = {viewpoint[0], viewpoint[1], viewpoint[2]};
     out.attributes = requests_for(attributes, attribute_bits, settings);
-    out.reconnect = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(reconnect));
     return out;
 }
 

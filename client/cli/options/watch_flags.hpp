@@ -17,7 +17,6 @@ struct WatchFlags {
     client::WatchOptions options;                ///< numbers are parsed into it; complete only after build()
     std::vector<double> region;                  ///< empty, or x0 y0 z0 x1 y1 z1
     std::vector<double> viewpoint;               ///< empty, or x y z
-    double reconnect = 0.0;                      ///< seconds
     std::vector<std::string> attributes{"all"};  ///< names, or "all", or "none"
     int attribute_bits = default_attribute_bits;
 

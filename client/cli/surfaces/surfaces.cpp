@@ -10,6 +10,7 @@
 #include "cli/options/normal_bits.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/policy_options.hpp"
+#include "cli/options/seconds_option.hpp"
 #include "cli/surfaces/local_surfaces.hpp"
 #include "cli/surfaces/server_surfaces.hpp"
 #include "formats/recordings/brick_file.hpp"
@@ -63,14 +64,8 @@ namespace {
 void add_stream_options(CLI::App& command, client::StreamOptions& stream, CLI::Option& server) {
     add_policy_options(command, stream)->needs(&server);
     stream.reconnect = std::chrono::seconds(30);
-    command
-        .add_option_function<double>(
-            "--reconnect",
-            [&stream](double seconds) {
-                stream.reconnect =
-                    std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(seconds));
-            },
-            "With --server: seconds for which a server that is out of reach is tried again; 0: no retries")
+    add_seconds(command, "--reconnect", stream.reconnect,
+                "With --server: seconds for which a server that is out of reach is tried again; 0: no retries")
         ->check(CLI::Range(0.0, 1e6))
         ->default_str("30")
         ->needs(&server);
