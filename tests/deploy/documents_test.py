@@ -96,9 +96,12 @@ class Documents(unittest.TestCase):
     def test_every_recipe_names_the_files_of_one_that_exists(self):
         """The example of a section "A ..., such as `example`" is in every file that its numbered list links."""
         page = REPOSITORY / ".github/CONTRIBUTING.md"
-        sections = re.findall(r"^## (An? [\w ]+)\n\n[^`]*?such\s+as\s+`(\w+)`(.*?)(?=^## )", page.read_text(), re.M | re.S)
+        sections = re.findall(
+            r"^## (An? [\w ]+)\n\n[^`]*?such\s+as\s+`(\w+)`(.*?)(?=^## )", page.read_text(), re.M | re.S
+        )
         self.assertEqual(
-            {"A setting", "A statistic", "A limit", "A file format", "An attribute type"}, {title for title, *_ in sections}
+            {"A setting", "A statistic", "A limit", "A file format", "An attribute type"},
+            {title for title, *_ in sections},
         )
         for title, example, text in sections:
             items = re.findall(r"^\d\. .*(?:\n   .*)*", text, re.MULTILINE)
@@ -107,6 +110,38 @@ class Documents(unittest.TestCase):
             for file in files:
                 found = (page.parent / file).resolve().read_text().lower().replace("-", "_")
                 self.assertIn(example, found, f"{title}: {file} has no {example}")
+
+    def test_what_is_written_by_hand_knows_the_rows(self):
+        """The struct of the C interface and Blender's panel, which choose, against what is written from the rows."""
+
+        def rows(page, pattern):
+            place = re.search(
+                r" rows: (?:settings|statistics)\b.*?\n(.*?) end of rows", (REPOSITORY / page).read_text(), re.S
+            )
+            return set(re.findall(pattern, place.group(1), re.MULTILINE))
+
+        header = (REPOSITORY / "client/c/include/meniscus/meniscus.h").read_text()
+        struct = re.search(r"typedef struct meniscus_statistics \{(.*?)\}", header, re.DOTALL).group(1)
+        members = set(re.findall(r"^ +\w+ (\w+)(?:\[\d\])?;", struct, re.MULTILINE))
+        statistics = rows("client/python/meniscus/statistics.py", r"^ +(\w+): ")
+        self.assertEqual(
+            statistics - members,
+            {
+                "allocations",
+                "backend",
+                "base_cells_by_level",
+                "device_peak_bytes",
+                "download_seconds",
+                "threads",
+                "warnings",
+            },
+        )
+        panel = (REPOSITORY / "client/blender/meniscus_blender/sequence_objects.py").read_text()
+        keywords = re.search(r"keywords = \{(.*?)return keywords", panel, re.DOTALL).group(1)
+        settings = rows("client/README.md", r"^\| `--([\w-]+)`")
+        shown = set(re.findall(r'"(\w+)"(?:\] =|:)', keywords)) - {"preset"}
+        self.assertGreater(len(shown), 3)
+        self.assertLessEqual(shown, {name.replace("-", "_") for name in settings})
 
     def test_the_front_page_is_short(self):
         self.assertLessEqual(len((REPOSITORY / "README.md").read_text().splitlines()), 150)
