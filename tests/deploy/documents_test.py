@@ -139,7 +139,7 @@ class Documents(unittest.TestCase):
         panel = (REPOSITORY / "client/blender/meniscus_blender/sequence_objects.py").read_text()
         keywords = re.search(r"keywords = \{(.*?)return keywords", panel, re.DOTALL).group(1)
         settings = rows("client/README.md", r"^\| `--([\w-]+)`")
-        shown = set(re.findall(r'"(\w+)"(?:\] =|:)', keywords)) - {"preset"}
+        shown = set(re.findall(r'"(\w+)"(?:\] =|: )', keywords)) - {"preset"}
         self.assertGreater(len(shown), 3)
         self.assertLessEqual(shown, {name.replace("-", "_") for name in settings})
 

@@ -13,8 +13,8 @@ from .statistics import Statistics
 from .stream import Stream
 from .watcher import ParticleWatcher, Watcher
 
-#: Called at each attempt to go on after a connection broke: its number, whether it has succeeded (otherwise it begins
-#: now), why, and seconds until it is given up. Called in a thread of the library's, which waits for it.
+#: Called at each attempt to go on after a connection broke, in a thread of the library's, which waits for it: the
+#: attempt's number, whether it has succeeded (otherwise it begins now), why, and seconds until it is given up.
 ReconnectHandler = Callable[[int, bool, str, float], None]
 
 
