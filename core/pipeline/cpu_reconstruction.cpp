@@ -1,11 +1,11 @@
 // The CPU backend: state, particles and field that live from frame to frame.
 #include "field/kernels.hpp"
-#include "lattice/volume.hpp"
 #include "neighbors/cpu/particle_field.hpp"
 #include "pipeline/backend.hpp"
 #include "pipeline/cpu_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/stage_clock.hpp"
+#include "steps/fill_cracks/volume.hpp"
 
 namespace meniscus::cpu {
 namespace {

@@ -3,9 +3,9 @@
 #include <memory>
 #include <optional>
 
-#include "lattice/volume.hpp"
 #include "pipeline/backend.hpp"
 #include "pipeline/cuda_frame_run.hpp"
+#include "steps/fill_cracks/volume.hpp"
 
 namespace meniscus::cuda {
 namespace {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "metrics/gauge_family.hpp"
-#include "process/seconds.hpp"
 
 namespace meniscus::server {
 
@@ -22,7 +21,7 @@ prometheus::MetricFamily build_info(const BackendDescription& backend) {
 }
 
 double number_of(std::chrono::milliseconds limit) {
-    return seconds_of(limit);
+    return std::chrono::duration<double>(limit).count();
 }
 
 template <class Number>

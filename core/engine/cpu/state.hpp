@@ -47,7 +47,7 @@ struct State : BlockState<Array> {
     AttributeNumbers attributes;  ///< numbers of the frame, set before its particles are registered
     std::uint64_t vertices_without_particles = 0;
     std::uint64_t field_evaluations = 0;
-    std::uint64_t sixfold_volume = 0;  ///< six times the volume of the mesh, see lattice/volume.hpp
+    std::uint64_t sixfold_volume = 0;  ///< six times the volume of the mesh, see steps/fill_cracks/volume.hpp
 
     /// Gives back the memory of samples and of all that led to them, once vertices are placed: the frame's surface
     /// cannot be emitted again.

@@ -82,8 +82,8 @@ struct Counts {
     std::uint32_t boxed_blocks;      ///< number of thread blocks whose particles the boxes hold
     Counter needed[resource_count];  ///< elements that the frame needs of each resource
     Counter field_evaluations;
-    Counter triangles[triangle_level_count];             ///< number of triangles of each level
-    Counter sixfold_volume;                              ///< six times the volume of the mesh, see lattice/volume.hpp
+    Counter triangles[triangle_level_count];  ///< number of triangles of each level
+    Counter sixfold_volume;                   ///< six times the volume of the mesh, see steps/fill_cracks/volume.hpp
     std::uint32_t first_triangle[triangle_level_count];  ///< index of each level's first triangle
     std::uint32_t band_cells[3];                         ///< number of cells of the band of each level
     Counter crowd;            ///< sum over the particles of those in their cell, see is_crowded()

@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cstring>
 
-#include "lattice/volume.hpp"
 #include "steps/cpu_steps.hpp"
+#include "steps/fill_cracks/volume.hpp"
 
 #if defined(__AVX2__)
 #include <immintrin.h>

@@ -1,7 +1,7 @@
 // The volume of the finished mesh on the GPU.
 #include "engine/cuda/warp.hpp"
-#include "lattice/volume.hpp"
 #include "steps/cuda_steps.hpp"
+#include "steps/fill_cracks/volume.hpp"
 
 namespace meniscus::cuda {
 namespace {

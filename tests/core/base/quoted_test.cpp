@@ -33,12 +33,12 @@ std::string encoded(char32_t c) {
     return {byte(0xF0 | (c >> 18)), next(12), next(6), next(0)};
 }
 
-struct Case {
+struct QuotedCase {
     std::string text;
     std::string shown;
 };
 
-const Case cases[]{
+const QuotedCase quoted_cases[]{
     // As it is.
     {"", ""},
     {"velocity", "velocity"},
@@ -81,7 +81,7 @@ const Case cases[]{
 };
 
 TEST(TextOfStrangers, IsShownAsOneHarmlessLine) {
-    for (const Case& each : cases) {
+    for (const QuotedCase& each : quoted_cases) {
         EXPECT_EQ(escaped(each.text), each.shown);
         EXPECT_EQ(quoted(each.text), "'" + each.shown + "'");
         EXPECT_EQ(quoted(each.text, '"'), '"' + each.shown + '"');

@@ -5,10 +5,10 @@
 #include <cstring>
 
 #include "engine/cuda/array_memory.hpp"
-#include "lattice/volume.hpp"
 #include "pipeline/cuda_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/stage_clock.hpp"
+#include "steps/fill_cracks/volume.hpp"
 #include "support/mesh_check.hpp"
 #include "support/noise.hpp"
 // The steps are templates over the field.

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "lattice/volume.hpp"
 #include "meniscus/meniscus.hpp"
+#include "steps/fill_cracks/volume.hpp"
 #include "support/mesh_check.hpp"
 #include "support/noise.hpp"
 #include "support/particles.hpp"
