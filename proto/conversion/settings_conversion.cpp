@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "described/message_rows.hpp"
+#include "rows/message_rows.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::conversion {

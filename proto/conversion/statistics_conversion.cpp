@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "described/message_rows.hpp"
+#include "rows/message_rows.hpp"
 #include "meniscus/quoted.hpp"
 
 namespace meniscus::conversion {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "conversion/statistics_conversion.hpp"
-#include "described/message_rows.hpp"
+#include "rows/message_rows.hpp"
 #include "meniscus/client/client.hpp"
 
 namespace meniscus::client {

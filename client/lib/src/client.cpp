@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "connection/connection.hpp"
-#include "described/message_rows.hpp"
+#include "rows/message_rows.hpp"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "particle_watcher_impl.hpp"
 #include "receiving/session_description.hpp"

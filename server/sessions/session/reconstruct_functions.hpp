@@ -5,10 +5,12 @@
 #include <memory>
 #include <utility>
 
+#include "meniscus/backend_options.hpp"
 #include "meniscus/frame_upload.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
 #include "meniscus/stop_flag.hpp"
 
@@ -39,5 +41,8 @@ struct ReconstructFunctions {
     /// Gives the buffers back until the next frame. May be none.
     std::function<void()> release_memory{};
 };
+
+/// The functions of a Reconstructor of these settings: where the server meets core.
+ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOptions& backend);
 
 }  // namespace meniscus::server

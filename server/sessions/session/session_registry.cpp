@@ -50,29 +50,6 @@ std::shared_ptr<PagePinning> pinning_that_logs_refusals(int device) {
 
 }  // namespace
 
-ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOptions& backend) {
-    const auto stop = std::make_shared<StopFlag>();
-    BackendOptions stoppable = backend;
-    stoppable.stop = stop;
-    const auto reconstructor = std::make_shared<Reconstructor>(settings, stoppable);
-    ReconstructFunctions functions{
-        .reconstruct =
-            [reconstructor](const ParticleFrame& frame, Mesh& mesh) {
-                MeshDownload download = reconstructor->reconstruct_for_download(frame, mesh);
-                return Reconstructed(reconstructor->statistics(), std::move(download));
-            },
-        .emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); },
-        .stop = stop,
-        .release_memory = [reconstructor] { reconstructor->release_memory(); }};
-    if (backend.backend != Backend::cpu)
-        functions.send_ahead = [weak = std::weak_ptr(reconstructor)](const ParticleFrame& frame) {
-            // A call may keep a session for longer than it keeps its buffers.
-            const auto alive = weak.lock();
-            return alive ? alive->send_ahead(frame) : FrameUpload();
-        };
-    return functions;
-}
-
 SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
                                  std::vector<int> devices, std::shared_ptr<Metrics> metrics, Observe observe,
                                  MakeReconstruct make)
@@ -112,7 +89,7 @@ SessionRegistry::Created SessionRegistry::create(const std::string& id, const Se
     if (draining_) throw shutting_down();
     remove_ended();
     if (const auto found = sessions_.find(id); found != sessions_.end()) {
-        // First: whose settings differ is nobody else's business.
+        // Rights come before settings: a refusal must not say whether another caller's settings differ.
         if (creator.may_see && !creator.may_see(found->second->owner()))
             throw Refusal(Refusal::Kind::permission_denied,
                           fmt::format("session {} is not one of {}'s: choose another id", id, creator.name));

@@ -32,9 +32,6 @@ using Observe =
 /// Makes the functions that a new session reconstructs with.
 using MakeReconstruct = std::function<ReconstructFunctions(const Settings& settings, const BackendOptions& backend)>;
 
-/// Those of a Reconstructor.
-ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOptions& backend);
-
 /// Whether the sessions of this owner exist for a caller.
 using MaySee = std::function<bool(const std::string& owner)>;
 

@@ -1,4 +1,4 @@
-#include "described/message_rows.hpp"
+#include "rows/message_rows.hpp"
 
 #include <google/protobuf/descriptor.h>
 
