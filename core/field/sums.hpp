@@ -1,4 +1,4 @@
-// The field and its gradient at one point or at eight: sums over neighbor particles in their order. Kernel:
+// The field and its gradient at one point, or at a register of points: sums over neighbors in their order. Kernel:
 // CubicSpline or Poly6.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace meniscus {
 
-/// Adds to the values at G points (F = float) or G times eight (F = Lanes).
+/// Adds to the values at G points (F = float), or at G registers of points (F = Lanes).
 template <class Kernel, int G, class F>
 MENISCUS_HD inline void sum_values(const NeighborView& near, const F (&x)[G], const F (&y)[G], const F (&z)[G],
                                    F (&sum)[G]) {

@@ -34,7 +34,7 @@ public:
     /// Gives a mesh the attributes that are known, without values.
     void shape(Mesh& mesh, const std::shared_ptr<MemoryAccount>& account) const;
 
-    /// Tells the names and forms of those of a mesh on a device.
+    /// Writes the names and forms of the attributes of a mesh on a device.
     void describe(std::vector<DeviceMeshAttribute>& attributes) const;
 
 private:

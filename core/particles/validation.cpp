@@ -42,7 +42,7 @@ void require_range(std::string_view subject, Number number, const Range& range) 
     refuse(limits + (range.advice.empty() ? "" : ": " + std::string(range.advice)));
 }
 
-/// As their rows have them.
+/// Refuses a number outside of the range in its row.
 void require_ranges(const Settings& settings) {
     for_each_row<Settings>([&]<class Row>(const Row& row) {
         using Number = Held<typename Row::Type>;

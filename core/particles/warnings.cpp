@@ -105,7 +105,7 @@ double spline(double q) {
 double least_value_at_rest(Field field, double support) {
     double middle = 0.0;
     double place = 0.0;
-    // Of the lattice that has a particle at the origin: as far as the support reaches.
+    // Sums over a cubic lattice of particles, at one of them and in the middle of eight, as far as the support reaches.
     for (int x = -3; x <= 3; ++x)
         for (int y = -3; y <= 3; ++y)
             for (int z = -3; z <= 3; ++z) {
@@ -132,7 +132,7 @@ std::optional<double> smallest_joining_support(Field field, double iso) {
 std::optional<Warning> too_small_support(const Settings& settings) {
     if (settings.field == Field::smooth || support(settings) >= 4.0) return std::nullopt;
     const std::optional<double> smallest = smallest_joining_support(settings.field, settings.iso);
-    constexpr double rounding = 1.0 - 1e-9;  // of those who take the limit in world units back to radii
+    constexpr double rounding = 1.0 - 1e-9;  // for a user who converts the limit from world units back to radii
     if (!smallest || support(settings) >= rounding * *smallest) return std::nullopt;
     const double value = support(settings) * settings.particle_radius;
     const double limit = *smallest * settings.particle_radius;

@@ -24,7 +24,7 @@ struct Range {
     std::string_view advice{};
 };
 
-/// What is told about a member beside its name and type.
+/// The facts about a member beside its name and type.
 struct Facts {
     std::string_view help{};      ///< one sentence, as in --help: without `when`, and without the full stop
     std::string_view unit{};      ///< "s", "bytes", "radii"
@@ -38,7 +38,7 @@ struct Facts {
     std::string_view group{};     ///< heading of the flag in --help
     std::span<const std::string_view> entries{};  ///< names of an array's elements
     bool by_hand = false;                         ///< whether flags and texts show it by hand, as they do lists
-    std::string_view gauge{};     ///< of a limit: its name in the server's metrics
+    std::string_view gauge{};                     ///< of a limit: its name in the server's metrics
 };
 
 namespace detail {
@@ -165,7 +165,7 @@ inline std::string words_of(std::string_view name) {
 inline std::string option_name_of(std::string_view name) {
     return detail::with(name, '_', '-');
 }
-/// Of a row: "count-threshold".
+/// The name of a row's flag: "count-threshold".
 template <class Row>
 std::string option_name(const Row& row) {
     return option_name_of(row.facts.option.empty() ? row.name : row.facts.option);

@@ -45,7 +45,7 @@ private:
     /// Arrays of `from` have room for whole lanes beyond the last particle.
     template <bool has_ranks>
     void append_near(const NeighborView& from, const std::array<float, 3>& shift, const UnitBoxLanes& box);
-    /// is_near(i, squared distances from the box): the set of eight particles from the i-th that are near.
+    /// is_near(i, squared distances from the box): which of a register of particles, from the i-th on, are near.
     template <bool has_own_supports, bool has_ranks, class IsNear>
     void append(const NeighborView& from, const std::array<float, 3>& shift, const UnitBoxLanes& box,
                 const IsNear& is_near);

@@ -1,4 +1,4 @@
-// The field of a frame's particles: sums over the particles near a block, eight points at a time.
+// The field of a frame's particles: sums over the particles near a block, a register of points at a time.
 #pragma once
 
 #include "field/cubic_spline.hpp"

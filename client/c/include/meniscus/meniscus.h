@@ -181,11 +181,10 @@ typedef struct meniscus_statistics {
 /* Reconstructs the surfaces of frames, one after the other, and keeps its buffers between them. */
 typedef struct meniscus_reconstructor meniscus_reconstructor;
 
-/* options: the settings, particle-radius (required), preset, cell-size, iso, field, smoothness, spray,
- * smoothing-length, mode, criterion, tolerance, count-threshold, edge-points, bisection-steps, normals (true or false),
- * domain and attribute (names of the particles' arrays with spaces between them, or all), as client/README.md has them;
- * and backend (auto, cpu or cuda), threads (0: one for each processor),
- * memory-limit (bytes, 0: none), device (which GPU), device-memory-limit. */
+/* options: the settings, by the names of their flags in client/README.md without the dashes before them, as cell-size:
+ * particle-radius is required, normals is true or false, attribute has names with spaces between them, or all. And
+ * backend (auto, cpu or cuda), threads (0: one for each processor), memory-limit (bytes, 0: none), device (which GPU),
+ * device-memory-limit. */
 MENISCUS_API meniscus_result meniscus_reconstructor_create(const meniscus_options* options,
                                                            meniscus_reconstructor** reconstructor);
 MENISCUS_API void meniscus_reconstructor_destroy(meniscus_reconstructor* reconstructor);
