@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -20,6 +21,11 @@
 namespace meniscus {
 namespace {
 
+template <std::integral Number>
+std::string text(Number value) {
+    return std::to_string(value);
+}
+
 std::string text(double value) {
     std::ostringstream out;
     out.precision(9);
@@ -29,21 +35,25 @@ std::string text(double value) {
 
 /// subject: such as "cell size is".
 template <class Number>
-void require_range(std::string_view subject, Number number, const Range& range) {
+void require_positive(std::string_view subject, Number number) {
+    if (std::is_floating_point_v<Number> && !(std::isfinite(static_cast<double>(number)) && number > 0))
+        throw InvalidInput(std::string(subject) + " " + text(number) + ", must be finite and greater than 0");
+}
+
+template <class Number>
+void require_within(std::string_view subject, Number number, const Range& range) {
     const auto value = static_cast<double>(number);
-    const auto refuse = [&](const std::string& limits) {
-        throw InvalidInput(std::string(subject) + " " + text(value) + ", must be " + limits);
-    };
-    if (std::is_floating_point_v<Number> && !(std::isfinite(value) && value > 0.0)) refuse("finite and greater than 0");
     if (value >= range.least && value <= range.most) return;
     std::string limits = text(range.least) + " to " + text(range.most);
     if (std::isinf(range.most)) limits = "at least " + text(range.least);
     if (range.least == 0.0) limits = "at most " + text(range.most);
-    refuse(limits + (range.advice.empty() ? "" : ": " + std::string(range.advice)));
+    throw InvalidInput(std::string(subject) + " " + text(number) + ", must be " + limits +
+                       (range.advice.empty() ? "" : ": " + std::string(range.advice)));
 }
 
-/// Refuses a number outside of the range in its row.
-void require_ranges(const Settings& settings) {
+/// Calls visit(subject, number, range) for each number that the settings have, as its row has them.
+template <class Visit>
+void for_each_number(const Settings& settings, const Visit& visit) {
     for_each_row<Settings>([&]<class Row>(const Row& row) {
         using Number = Held<typename Row::Type>;
         if constexpr (std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>) {
@@ -51,9 +61,20 @@ void require_ranges(const Settings& settings) {
             if (value == nullptr) return;
             const std::optional<Number> number = *value;
             const std::string subject(row.facts.subject.empty() ? words_of(row.name) + " is" : row.facts.subject);
-            if (number) require_range(subject, *number, row.facts.range);
+            if (number) visit(subject, *number, row.facts.range);
         }
     });
+}
+
+/// Refuses a number outside of the range in its row.
+void require_ranges(const Settings& settings) {
+    for_each_number(settings,
+                    [](const auto& subject, auto number, const Range&) { require_positive(subject, number); });
+    constexpr const char* world = "cell size in world units is";
+    require_positive(world, world_cell_size(settings));
+    for_each_number(
+        settings, [](const auto& subject, auto number, const Range& range) { require_within(subject, number, range); });
+    require_within(world, world_cell_size(settings), {1e-60, 1e60, "take another unit of length"});
 }
 
 void require_box(const char* name, const Box& box, bool may_be_flat) {
@@ -101,7 +122,6 @@ void require_support(const Settings& s, unsigned coarsest_level) {
 void validate(const Settings& s) {
     require_field_settings(s);
     require_ranges(s);
-    require_range("cell size in world units is", world_cell_size(s), {1e-60, 1e60, "take another unit of length"});
     // In float32 the iso value must remain above zero, or the outside would be inside.
     if (static_cast<float>(s.iso) == 0.0F)
         throw InvalidInput("iso value is " + text(s.iso) + ", must be greater than 0 as a float32, too");

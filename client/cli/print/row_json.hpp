@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <type_traits>
 
 #include "meniscus/described.hpp"
@@ -27,7 +28,7 @@ nlohmann::ordered_json value_json(const Value& value, const Facts& facts) {
         auto out = nlohmann::ordered_json::array();
         for (const auto& element : value) out.push_back(value_json(element, facts));
         return out;
-    } else if constexpr (requires { value[0] + 1.0; }) {
+    } else if constexpr (requires { std::tuple_size<Value>::value; }) {
         nlohmann::ordered_json out;
         for (std::size_t i = 0; i < value.size(); ++i) out[std::string(facts.entries[i])] = value[i];
         return out;
