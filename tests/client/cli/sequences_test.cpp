@@ -259,7 +259,7 @@ TEST_F(Sequences, AreOnAUsdStageWithTheFramesThatWereThere) {
                                        "--usd-stage", path("u.usda"),   "-q", "--end",           "2"};
     ASSERT_EQ(run_meniscus(arguments).exit_code, 0);
     const std::string stage = formats::read_file(path("u.usda"));
-    EXPECT_NE(stage.find("[@./u_00.usda@, @./u_01.usda@, @./u_02.usda@]"), std::string::npos) << stage;
+    EXPECT_NE(stage.find("[@@@./u_00.usda@@@, @@@./u_01.usda@@@, @@@./u_02.usda@@@]"), std::string::npos) << stage;
     EXPECT_NE(stage.find("normal3f[] normals"), std::string::npos) << stage;
     EXPECT_NE(formats::read_file(path("u_01.usda")).find("points.timeSamples = {\n        1: ["), std::string::npos);
     std::filesystem::remove(path("u_01.usda"));
