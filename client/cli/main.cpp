@@ -6,7 +6,7 @@
 #include "cli/commands/command_line.hpp"
 
 int main(int argc, char** argv) {
-    // What goes wrong is one line, which gRPC's own messages would stand before.
+    // An error is one line, and gRPC's own messages would stand before it.
     setenv("GRPC_VERBOSITY", "NONE", 0);
     // Every frame takes megabytes and gives them back. Those that are kept need not be cleared for the next one.
     mallopt(M_MMAP_THRESHOLD, 32 << 20);

@@ -15,7 +15,7 @@ namespace meniscus::load {
 
 namespace {
 
-/// For all threads to have begun before the first frame is due.
+/// The time for all threads to begin before the first frame is due.
 constexpr auto head_start = std::chrono::milliseconds(200);
 
 /// A session with its clients, each on a connection of its own.

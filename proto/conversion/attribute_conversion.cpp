@@ -16,7 +16,7 @@ namespace {
 
 enum class EmptyName { refused, allowed };
 
-/// Of `noun`s, in messages. Throws for a list that is too long, and for a name that none has or that comes twice.
+/// Throws for a list that is too long, and for a name that cannot be one or that comes twice. noun: for messages.
 template <class Named>
 void require_names(const google::protobuf::RepeatedPtrField<Named>& list, const std::string& noun,
                    EmptyName empty = EmptyName::refused) {
@@ -55,7 +55,7 @@ void require_range(const Ends& low, const Ends& high, std::size_t components, co
                                ", must be finite and ascending");
 }
 
-/// What is announced of an attribute; coded or not.
+/// The attribute that a message announces, checked; coded or not.
 CodedAttribute checked(const v1::MeshAttribute& wire) {
     const std::string what = "attribute " + quoted(wire.name());
     CodedAttribute attribute;

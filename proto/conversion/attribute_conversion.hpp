@@ -37,7 +37,7 @@ void announce(const MeshAttribute& form, const AttributeRange* range, const Code
 void to_wire(const Mesh& mesh, std::span<const AttributeRange> ranges, std::span<const CodedAttribute> coded,
              v1::MeshBegin& message);
 
-/// Those that the bricks carry. Throws InvalidInput unless all that is announced is what to_wire() makes of some mesh.
+/// The attributes that the bricks carry. Throws InvalidInput unless all that the message announces can be of a mesh.
 std::vector<CodedAttribute> coded_attributes(const v1::MeshBegin& message);
 
 }  // namespace meniscus::conversion

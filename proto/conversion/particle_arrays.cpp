@@ -34,7 +34,7 @@ constexpr std::array elements{
 };
 static_assert(elements.size() == v1::ElementType_ARRAYSIZE - 1, "every element type of the contract has a row");
 
-/// What one particle has of an array.
+/// The form of one particle's values in an array.
 struct Form {
     v1::ElementType type;
     std::uint32_t components;

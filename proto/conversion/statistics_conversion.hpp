@@ -11,9 +11,9 @@ namespace meniscus::conversion {
 /// Sets what core measures; the server's own figures (index, times of encoding, bytes) are left alone.
 void to_wire(const Statistics& statistics, v1::FrameStatistics& wire);
 
-/// Of one frame, of those that come: what follows is left out.
+/// The most warnings of one frame that are taken over; further ones are left out.
 inline constexpr std::size_t max_warnings = 16;
-/// Of a warning's text.
+/// The most characters of a warning's text.
 inline constexpr std::size_t max_warning_characters = 500;
 /// Warnings are bounded, and their texts printable lines, whatever the other side sends.
 Statistics from_wire(const v1::FrameStatistics& wire);

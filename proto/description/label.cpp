@@ -17,7 +17,7 @@ struct Range {
     char32_t last;
 };
 
-/// What leaves no ink, of what a label may have.
+/// The characters that a label may have and that leave no ink.
 constexpr std::array<Range, 9> blank{{
     {0x0020, 0x0020},
     {0x00A0, 0x00A0},

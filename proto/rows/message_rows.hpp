@@ -51,7 +51,7 @@ public:
     void get(const Message& message, std::string& value) const;
     void get(const Message& message, std::vector<std::string>& values) const;
 
-    /// Of an enum: the number of the enumerator with that name, none if it has none.
+    /// The number of the enumerator with that name, of a field that is an enum; none if there is no such enumerator.
     std::optional<int> number_of(std::string_view name) const;
     void set_number(Message& message, int number) const;
     int number(const Message& message) const;

@@ -11,8 +11,8 @@ std::size_t raise_descriptor_limit();
 /// The limit of descriptors of this process.
 std::size_t descriptor_limit();
 
-/// What connections of each port may take at a time. All of them together, and what the server itself needs, are fewer
-/// than the descriptors, so that a full port leaves the others what they need.
+/// The most connections of each port at a time. All of them together, with the server's own descriptors, are fewer than
+/// the process's descriptors, so that a full port leaves room for the others.
 struct ConnectionShares {
     std::size_t grpc = 0;
     std::size_t http = 0;

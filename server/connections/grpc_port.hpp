@@ -20,7 +20,7 @@ namespace meniscus::server {
 
 class GrpcPort {
 public:
-    /// What has come so far.
+    /// The connections that there are, and those that were refused so far.
     struct Counts {
         std::size_t connections = 0;  ///< that there are now
         std::uint64_t refused_of_all = 0;
@@ -33,7 +33,7 @@ public:
     GrpcPort(const GrpcPort&) = delete;
     GrpcPort& operator=(const GrpcPort&) = delete;
 
-    /// In the form that clients use, with the port that was chosen.
+    /// The address in the form that clients use, with the port that was chosen.
     const std::string& address() const noexcept { return sockets_.address(); }
     const std::vector<int>& sockets() const noexcept { return sockets_.descriptors(); }
     OwnConnections& own_connections() noexcept { return own_; }

@@ -19,7 +19,7 @@ struct HostPort {
     std::uint16_t port = 0;
 };
 
-/// Of "HOST:PORT" or "[IPv6]:PORT". Throws InvalidInput, which names the flag, for anything else.
+/// The parts of "HOST:PORT" or "[IPv6]:PORT". Throws InvalidInput, which names the flag, for anything else.
 HostPort parse_host_port(std::string_view flag, const std::string& address);
 
 /// The path of "unix:PATH" or "unix:///PATH"; empty for another address. Throws InvalidInput for one that is empty or

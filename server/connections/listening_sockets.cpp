@@ -145,7 +145,7 @@ void ListeningSockets::listen_on_path(const std::string& path) {
     address.sun_family = AF_UNIX;
     path.copy(address.sun_path, path.size());
     const auto& generic = reinterpret_cast<const sockaddr&>(address);
-    // What a server left behind that was killed is taken over; what one listens on is not.
+    // A socket that a killed server has left behind is taken over; one that a server listens on is not.
     const Socket probe(AF_UNIX);
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0 && S_ISSOCK(status.st_mode)) {

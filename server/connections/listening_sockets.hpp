@@ -6,7 +6,7 @@
 
 namespace meniscus::server {
 
-/// One for each address of a host's name; a Unix socket's file goes with it.
+/// One socket for each address of a host's name; a Unix socket's file goes with it.
 class ListeningSockets {
 public:
     /// address: "HOST:PORT", "[IPv6]:PORT" or "unix:PATH". Port 0 chooses one; 0.0.0.0 and [::] are every address of
@@ -18,7 +18,7 @@ public:
     ListeningSockets& operator=(const ListeningSockets&) = delete;
 
     const std::vector<int>& descriptors() const noexcept { return sockets_; }
-    /// In the form that clients use, with the port that was chosen.
+    /// The address in the form that clients use, with the port that was chosen.
     const std::string& address() const noexcept { return address_; }
 
 private:

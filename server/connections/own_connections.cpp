@@ -8,7 +8,7 @@ namespace meniscus::server {
 
 namespace {
 
-/// The same for both ends of a connection, also where an IPv4 client meets a socket of IPv6.
+/// A key of an address: equal at both ends of a connection, also where an IPv4 client meets a socket of IPv6.
 std::string key_of(const sockaddr& address, socklen_t size) {
     if (address.sa_family == AF_UNIX) return {reinterpret_cast<const char*>(&address), size};
     const in_port_t port = address.sa_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port

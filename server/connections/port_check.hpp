@@ -37,7 +37,7 @@ public:
 
     /// False once three checks in a row have failed. A check for which there is no descriptor does not count.
     bool answers() const noexcept { return answers_; }
-    /// From then on answers() does not change.
+    /// Stops the checks: from then on answers() does not change.
     void stop();
 
 private:

@@ -50,7 +50,7 @@ int wait_for_stop(const sigset_t& signals, meniscus::server::Server& server) {
     }
 }
 
-/// What --check-config does.
+/// Does the work of --check-config.
 int check(const meniscus::server::ServerOptions& options) {
     const std::vector<std::string> problems = meniscus::server::problems_of(options);
     for (const std::string& problem : problems) std::fprintf(stderr, "meniscusd: %s\n", problem.c_str());

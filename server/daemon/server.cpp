@@ -69,7 +69,7 @@ BackendDescription describe(const ServerOptions& options) {
     }
     for (const int device : options.devices) describe_backend(Backend::cuda, device);
     std::vector<cuda::Device> usable = cuda::devices(options.devices);
-    // Of several, each is started when a session goes there.
+    // With several devices, each is started when a session goes there.
     if (usable.size() == 1 && !cuda::answers(usable.front().index)) usable.clear();
     return describe_backend(choice, usable.empty() ? 0 : usable.front().index);
 }
@@ -103,7 +103,7 @@ void require_closed_to_others(const ServerOptions& options) {
                                        options.reflection ? "--reflection" : "--channelz"));
 }
 
-/// What clients cannot do to gRPC itself. (That of keep_alive() is for both ends.)
+/// Bounds the memory and the time that a connection can take in gRPC itself. (keep_alive() is for both ends.)
 void bound_connections(grpc::ServerBuilder& builder) {
     // A few bytes would become gigabytes, before the call's token is known.
     builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_DEFLATE, false);
@@ -318,7 +318,7 @@ void Server::Impl::shutdown() {
     probes_.reset();
 }
 
-/// Of an address that nobody has asked for.
+/// Serves HTTP at the default address, which nobody has asked for: if it is taken, at another port, or not at all.
 void Server::Impl::serve_http_if_possible(const AllowedOrigins& origins) {
     if (options_.http.empty()) return;
     const std::string free_port = options_.http.substr(0, options_.http.rfind(':')) + ":0";

@@ -20,7 +20,7 @@ public:
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
-    /// In the form that clients use, with the port that was chosen.
+    /// The address in the form that clients use, with the port that was chosen.
     const std::string& address() const noexcept;
     /// The address of the HTTP port; empty if there is none.
     std::string http_address() const;

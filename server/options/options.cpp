@@ -25,7 +25,7 @@ std::size_t default_memory_limit() {
     return available_memory() / 2;
 }
 
-/// Those of a server for which nobody has set any.
+/// The limits of a server for which nobody has set any.
 Limits default_limits() {
     return {.particles_per_frame = 100'000'000,
             .bytes_per_session = default_memory_limit(),
@@ -37,7 +37,7 @@ Limits default_limits() {
             .orphan_time = std::chrono::minutes(2)};
 }
 
-/// For an address that may be none.
+/// The value for no address, of an option that allows it.
 constexpr const char* off = "off";
 
 /// So that a file with an empty value, and what --print-config makes of it, mean the same.
@@ -65,7 +65,7 @@ EarlyExit refuse(const std::vector<std::string>& problems) {
     return exit;
 }
 
-/// What is asked for beside the settings.
+/// The requests on the command line beside the settings.
 struct Requests {
     std::string config;
     bool print_config = false;
@@ -83,7 +83,7 @@ void add_requests(CLI::App& app, Requests& requests, CommandLine& command_line) 
         ->configurable(false);
 }
 
-/// From the command line, then from the environment, then from a file.
+/// Reads the settings from the command line, then from the environment, then from a file.
 std::optional<EarlyExit> read_settings(int argc, const char* const* argv, CLI::App& app, const std::string& config) {
     try {
         app.parse(argc, argv);

@@ -25,7 +25,7 @@ struct CommandLine {
     }
 };
 
-/// What main() prints and returns where the server does not start.
+/// The text that main() prints, and its exit code, where the server does not start.
 struct EarlyExit {
     std::string text;
     int code = 0;

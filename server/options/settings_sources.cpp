@@ -52,7 +52,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// Of the options that may be set elsewhere than on the command line.
+/// Whether an option may be set elsewhere than on the command line.
 bool is_setting(const CLI::Option* option) {
     return option->get_configurable();
 }

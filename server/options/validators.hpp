@@ -1,15 +1,15 @@
-// What CLI11's own checks of numbers let through.
+// Checks of numbers that CLI11's own checks let through.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace meniscus::server {
 
-/// Of a number that may have a unit, before the unit is looked at: CLI11 takes "-5" for a large number, and one that is
-/// too large for the largest.
+/// Checks a number that may have a unit, before the unit is looked at. CLI11 takes "-5" for a large number, and a
+/// number that is too large for the largest.
 CLI::Validator whole_number();
 
-/// Of a number from 0 on; CLI11's own range takes "nan".
+/// Checks that a number is from 0 to this one. CLI11's own range takes "nan".
 CLI::Validator up_to(double most);
 
 /// The server counts milliseconds. Less than one would be 0, which is no limit.

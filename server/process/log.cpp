@@ -13,7 +13,7 @@ namespace meniscus::server {
 
 namespace {
 
-/// Of the line that this thread is logging: spdlog hands a message to the formatter in the thread that logs it.
+/// The subject of the line that this thread is logging: spdlog hands a message to the formatter in the same thread.
 thread_local const LogSubject* current_subject = nullptr;
 
 std::string_view view(spdlog::string_view_t text) {

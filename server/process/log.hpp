@@ -45,7 +45,7 @@ constexpr std::string_view name_of(LogLevel level) {
 void use_log_format(LogFormat format);
 void use_log_level(LogLevel level);
 
-/// What a line is about.
+/// The subject of a line.
 struct LogSubject {
     std::string_view session = {};
     std::optional<std::uint64_t> frame = {};

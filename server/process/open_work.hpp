@@ -1,4 +1,4 @@
-// What the process works on now, in words: for the line that says what an end left unfinished.
+// The present work of the process, in words: for the line about work that an end left unfinished.
 #pragma once
 
 #include <list>
@@ -43,7 +43,7 @@ private:
     std::list<std::string> entries_;  ///< the oldest first
 };
 
-/// Of this process.
+/// The open work of this process.
 OpenWork& open_work();
 
 }  // namespace meniscus::server

@@ -1,4 +1,4 @@
-// What the server was asked for is right, but not to be had now.
+// The error for a correct request that cannot be met now.
 #pragma once
 
 #include <stdexcept>

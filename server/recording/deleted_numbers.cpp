@@ -20,15 +20,15 @@ namespace {
 constexpr std::size_t id_size = 36;  // of a UUID: there are no recordings of others
 constexpr std::size_t line_size = id_size + 12;
 
-/// Of one length, so that it is written over in place.
+/// A session's line. All have the same length, so that it is written over in place.
 std::string line_of(const std::string& session_id, std::uint32_t number) {
     return fmt::format("{} {:010}\n", session_id, number);
 }
 
-/// Of the files, of which one server at a time has a folder, and writes to it by several threads.
+/// The mutex of the files: one server at a time has a folder, and several of its threads write there.
 std::mutex mutex;
 
-/// By the beginning of the id, so that each file stays short.
+/// The file of a session, by the beginning of its id, so that each file stays short.
 std::filesystem::path file_of(const std::filesystem::path& directory, const std::string& session_id) {
     return directory / ".deleted" / session_id.substr(0, 2);
 }

@@ -19,7 +19,7 @@ namespace meniscus::server {
 
 namespace {
 
-/// What the server that holds the lock has written.
+/// The lock's holder, for messages, by the process id that it has written.
 std::string owner_in(int descriptor) {
     std::array<char, 64> text{};
     const ssize_t size = ::pread(descriptor, text.data(), text.size(), 0);

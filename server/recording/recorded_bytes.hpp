@@ -16,8 +16,8 @@ public:
 
     std::uint64_t sum();
     void add(std::uint64_t bytes) { sum_ = sum() + bytes; }
-    /// The same, but finds what others have deleted. Sums in a tenth of the time at most, however often it is asked:
-    /// so this may be the sum of a while ago, where there are many files.
+    /// The sum, without the files that others have deleted. Summing takes a tenth of the time at most, however often it
+    /// is asked: where there are many files, this may be the sum of a while ago.
     std::uint64_t newest_sum();
 
 private:

@@ -19,7 +19,7 @@ namespace meniscus::server {
 
 namespace {
 
-/// Of a file NNNNNN.recording.
+/// The number of a file NNNNNN.recording; none for another one.
 std::optional<std::uint32_t> number_of(const std::filesystem::path& path) {
     const std::string stem = path.stem().string();
     std::uint32_t number = 0;
@@ -117,7 +117,7 @@ void RecordingCatalog::tidy(const RecordingRetention& retention, std::filesystem
         if (retention.min_frames == 0 && !is_old()) return;
         const Entry* entry = look_at(name, file);
         if (entry == nullptr) return;
-        // Of a damaged one nobody knows how many frames it had.
+        // Nobody knows the number of frames that a damaged one had.
         const RecordingIndex& index = entry->index;
         const auto is_short = [&] { return !index.damaged() && index.meshes().size() < retention.min_frames; };
         if ((!is_short() && !is_old()) || !is_at_rest(name)) return;

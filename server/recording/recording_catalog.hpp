@@ -26,7 +26,7 @@ public:
     struct Entry {
         std::filesystem::path path;
         RecordingIndex index;
-        /// As open() gave it to those that read it now.
+        /// The files that open() gave to those that read them now.
         std::vector<std::weak_ptr<const files::RandomAccessFile>> readers{};
 
         bool is_being_read() const;
@@ -35,7 +35,7 @@ public:
     /// Looks for all that can be read now. A file without a recording's beginning is none, nor is one in another
     /// session's folder. go_on: asked before each file; what it throws ends this.
     void scan(const std::function<void()>& go_on);
-    /// By the last scan(), and what was opened since.
+    /// The recordings that the last scan() found, or that were opened since.
     const Entries& known() const noexcept { return entries_; }
 
     struct Opened {

@@ -24,7 +24,7 @@ public:
     void update(const files::RandomAccessFile& file);
 
     const v1::RecordingBegin& begin() const noexcept { return begin_; }
-    /// By rising frame index.
+    /// The meshes by rising frame index.
     const std::vector<MeshPlace>& meshes() const noexcept { return meshes_; }
     std::uint64_t bytes() const noexcept { return bytes_; }
     bool being_written() const noexcept { return being_written_; }

@@ -1,4 +1,4 @@
-// What is recorded, where, and how much.
+// The options of recording: where, how much, and for how long.
 #pragma once
 
 #include <chrono>
@@ -24,7 +24,7 @@ struct RecordingOptions {
     std::uint64_t limit = 0;          ///< bytes of all recordings in it, earlier ones included; 0: no limit
     /// Frames that wait for the disk, bytes over all sessions. Further ones are left out of their recordings.
     std::size_t waiting_limit = std::size_t{256} << 20;
-    /// Of float32 attributes in the meshes, per component; 0: exact.
+    /// The bits of float32 attributes in the meshes, per component; 0: exact.
     int attribute_bits = default_attribute_bits;
     RecordingRetention retention{};
 

@@ -1,5 +1,5 @@
-// What the calls that read recordings share: one thread that waits for the disk, so that no thread of gRPC does, and no
-// session.
+// The common part of the calls that read recordings: one thread that waits for the disk, so that no thread of gRPC
+// does, and no session.
 #pragma once
 
 #include <atomic>
@@ -27,7 +27,7 @@ public:
 
     std::chrono::milliseconds patience() const noexcept { return patience_; }
 
-    /// Held by a reader for as long as it reads.
+    /// The place of a reader, held for as long as it reads.
     using Place = std::shared_ptr<void>;
     /// Throws LimitReached, or Refusal once the server goes down.
     Place admit();
@@ -37,8 +37,8 @@ public:
     /// a time, and so take turns.
     void post(std::function<void(RecordingCatalog&)> job);
 
-    /// The same, for a job that looks into the whole folder. It begins once as much time has passed as the one before
-    /// took, so that at least half of the thread's time is the readers'.
+    /// Runs a job that looks into the whole folder. It begins once as much time has passed as the one before took, so
+    /// that at least half of the thread's time is the readers'.
     void post_scan(std::function<void(RecordingCatalog&)> job);
 
     /// Readers end at their next message; what waits is run at once.

@@ -27,10 +27,10 @@ void make_directory(const RecordingOptions& options) {
                                        std::generic_category().message(errno)));
 }
 
-/// What waits costs this beside its bytes: the memory of its objects, and the time for a file that it may begin.
+/// The cost of an entry beside its bytes: the memory of its objects, and the time for a file that it may begin.
 constexpr std::size_t entry_bytes = std::size_t{16} << 10;
 
-/// Whose room in the queue it takes.
+/// The name whose room in the queue the session's frames take.
 const std::string& name_of(const RecordedSession& session) {
     return session.owner.empty() ? session.id : session.owner;
 }

@@ -42,7 +42,7 @@ struct RecordedSession {
 struct RecordedRun {
     std::shared_ptr<RecordedSession> session;
     std::int64_t started_at = 0;  ///< microseconds since 1970-01-01 UTC
-    // Of the writing thread.
+    // The following belong to the writing thread.
     std::optional<RecordingFile> file = {};
     std::uint64_t meshes = 0;
     std::uint64_t bytes = 0;

@@ -38,7 +38,7 @@ public:
         give_back(name, bytes);
     }
 
-    /// After reserve() of as many bytes for the name.
+    /// Puts a value in, after reserve() of the same bytes for the name.
     void put(T value, std::string name, std::size_t bytes) {
         {
             const std::lock_guard lock(mutex_);
@@ -61,7 +61,7 @@ public:
         return value;
     }
 
-    /// What waits can still be taken.
+    /// Takes no more values; those that wait can still be taken.
     void close() {
         {
             const std::lock_guard lock(mutex_);

@@ -24,13 +24,13 @@ public:
     Access(const TlsFiles& tls, const std::string& tokens, const std::vector<std::string>& trusted_proxies = {});
 
     const Authorizer& authorizer() const noexcept { return authorizer_; }
-    /// For the gRPC port.
+    /// The credentials of the gRPC port.
     std::shared_ptr<grpc::ServerCredentials> credentials() const;
-    /// For the HTTP port; none without TLS.
+    /// The TLS of the HTTP port; none without TLS.
     std::shared_ptr<const TlsContext> http_tls() const { return http_tls_; }
 
-    /// Of the files in use, from any thread: when the first certificate in each expires, seconds since 1970-01-01 UTC;
-    /// infinite where there is none.
+    /// The times when the first certificate in each file expires, seconds since 1970-01-01 UTC; infinite where there is
+    /// none. From any thread.
     struct Expiry {
         double server;
         double client_ca;

@@ -38,7 +38,7 @@ struct Certificates {
 /// certificate or one that asks for a pass phrase.
 Certificates load_certificates(const TlsFiles& files);
 
-/// Of PEM certificates that have been loaded: when the first of them expires, seconds since 1970-01-01 UTC.
+/// The time when the first of these PEM certificates, which have been loaded, expires: seconds since 1970-01-01 UTC.
 std::int64_t first_expiry(const std::string& pem);
 
 /// "serial 0A1B, valid until Nov 21 08:00:00 2027 GMT", of certificates that have been loaded.

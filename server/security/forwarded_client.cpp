@@ -8,7 +8,7 @@ namespace meniscus::server {
 
 namespace {
 
-/// Of an entry such as "192.0.2.7", "192.0.2.7:50000", "2001:db8::1" or "[2001:db8::1]:50000".
+/// The address in an entry such as "192.0.2.7", "192.0.2.7:50000", "2001:db8::1" or "[2001:db8::1]:50000".
 std::optional<PeerAddress> address_in(std::string_view entry) {
     constexpr std::string_view spaces = " \t";
     entry.remove_prefix(std::min(entry.size(), entry.find_first_not_of(spaces)));

@@ -10,7 +10,7 @@ namespace meniscus::server {
 
 namespace {
 
-/// Of an IPv4 address as IPv6.
+/// The first bytes of an IPv4 address as IPv6.
 constexpr std::array<unsigned char, 12> mapped{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};
 constexpr std::size_t network_bytes = 8;
 

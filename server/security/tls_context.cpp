@@ -20,13 +20,13 @@ std::shared_ptr<ssl::context> make_context(const Certificates& certificates) {
     try {
         auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
         context->set_options(ssl::context::no_tlsv1 | ssl::context::no_tlsv1_1 | SSL_OP_NO_RENEGOTIATION);
-        // Of TLS 1.2 only what the gRPC port takes, too: forward secrecy, and encryption that authenticates. TLS 1.3
-        // has nothing else.
+        // The suites of TLS 1.2 are those that the gRPC port takes: forward secrecy, and encryption that authenticates.
+        // TLS 1.3 has nothing else.
         if (SSL_CTX_set_cipher_list(context->native_handle(), "ECDHE+AESGCM:ECDHE+CHACHA20") != 1)
             throw InvalidInput("this OpenSSL has no suite of ECDHE with AES-GCM or ChaCha20");
         context->use_certificate_chain(boost::asio::buffer(certificates.chain));
         context->use_private_key(boost::asio::buffer(certificates.key), ssl::context::pem);
-        // Whoever resumes a session shows no certificate again: its owner must be this server's client.
+        // A client that resumes a session shows no certificate again: the session must be of this server.
         constexpr std::string_view name = "meniscusd";
         SSL_CTX_set_session_id_context(context->native_handle(), reinterpret_cast<const unsigned char*>(name.data()),
                                        name.size());

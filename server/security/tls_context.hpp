@@ -15,7 +15,7 @@ public:
 
     /// For connections from now on. Throws InvalidInput, and changes nothing, for certificates that OpenSSL refuses.
     void replace(const Certificates& certificates);
-    /// For one connection.
+    /// The context for one connection.
     std::shared_ptr<boost::asio::ssl::context> current() const;
     /// Whether calls need a client's certificate; pages and probes do not.
     bool mutual() const noexcept { return mutual_; }

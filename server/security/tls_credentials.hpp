@@ -20,7 +20,7 @@ public:
     /// These certificates decide, for good, whether clients need one.
     explicit TlsCredentials(Certificates certificates);
 
-    /// For connections from now on.
+    /// Replaces the certificates for connections from now on.
     void replace(Certificates certificates);
 
     /// Not used: tokens are checked by the authorizer, with and without TLS.

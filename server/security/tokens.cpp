@@ -19,13 +19,13 @@ namespace meniscus::server {
 
 namespace {
 
-/// Of a token: 128 bits as hexadecimal digits have twice as many.
+/// The fewest characters of a token: 128 bits as hexadecimal digits have twice as many.
 constexpr std::size_t shortest_token = 16;
 
 constexpr const char* line_format =
     "a line must be: ROLE NAME TOKEN, then any of sessions=N watchers=N frames-per-second=N bytes-in-flight=BYTES";
 
-/// Of "12", and with a unit of "4M"; none for anything else.
+/// The number of a text such as "12", and with a unit "4M"; none for anything else.
 std::optional<std::uint64_t> number_of(std::string_view text, bool with_unit) {
     std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -40,7 +40,7 @@ std::optional<std::uint64_t> number_of(std::string_view text, bool with_unit) {
     return number << shift;
 }
 
-/// Of ASCII; the bytes of other characters are none.
+/// Whether a byte is a control character of ASCII; the bytes of other characters are none.
 bool is_control(char byte) {
     const auto code = static_cast<unsigned char>(byte);
     return code < 0x20 || code == 0x7f;
@@ -98,7 +98,7 @@ Tokens Tokens::load(const std::string& path) {
             if (!given.insert(key).second)
                 throw InvalidInput(fmt::format("{}:{}: {} is given twice", path, number, key));
         }
-        // What stands there may be a token.
+        // The message does not quote the word: it may be a token.
         const auto role = find_by_name<Role>(role_name);
         if (!role) throw InvalidInput(fmt::format("{}:{}: the role must be {}", path, number, listed(names<Role>)));
         if (token.size() < shortest_token)

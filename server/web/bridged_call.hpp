@@ -47,7 +47,7 @@ public:
     /// The end follows, as canceled.
     void cancel();
 
-    // Of the reactor; on threads of gRPC.
+    // The functions of the reactor, on threads of gRPC.
     void OnReadInitialMetadataDone(bool ok) override;
     void OnReadDone(bool ok) override;
     void OnDone(const grpc::Status& status) override;

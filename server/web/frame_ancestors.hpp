@@ -13,8 +13,8 @@ public:
     explicit FrameAncestors(const std::vector<std::string>& origins);
     FrameAncestors() = default;
 
-    /// Of a Content-Security-Policy: browsers show the page in no other frames. (They take a host's https for its
-    /// http.)
+    /// The directive of a Content-Security-Policy: browsers show the page in no other frames. (They take a host's https
+    /// for its http.)
     const std::string& directive() const noexcept { return directive_; }
 
 private:

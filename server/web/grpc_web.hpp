@@ -18,7 +18,7 @@ struct GrpcWeb {
     AllowedOrigins origins;
     bool needs_certificate = false;          ///< a client's, by TLS
     std::shared_ptr<SharedMemory> memory{};  ///< that meshes are made in; none: is not counted
-    /// Of a call that ends here, before its handler, by the request's target: so that metrics count it.
+    /// Called for a call that ends here, before its handler, with the request's target: so that metrics count it.
     std::function<void(std::string_view target, grpc::StatusCode)> refused{};
 
     /// target: as in the request line.

@@ -158,8 +158,8 @@ void GrpcWebExchange::finished() {
 void GrpcWebExchange::watch_for_departure() {
     watching_ = true;
     stream_.tcp().expires_never();
-    // Whoever sends more, to a stream that is the connection's last answer, is cut off as well: it could not be watched
-    // any more.
+    // A client that sends more, to a stream that is the connection's last answer, is cut off as well: its departure
+    // could not be noticed any more.
     stream_.async_read_some(boost::asio::buffer(unexpected_),
                             [self = shared_from_this()](boost::beast::error_code, std::size_t) {
                                 self->watching_ = false;

@@ -18,7 +18,7 @@ namespace {
 constexpr unsigned char compressed_flag = 0x01;
 constexpr unsigned char trailers_flag = 0x80;
 
-/// As gRPC wants messages of a status: printable ASCII, the rest and the percent sign as %XX.
+/// The text as gRPC wants messages of a status: printable ASCII, the rest and the percent sign as %XX.
 std::string percent_encoded(const std::string& text) {
     std::string encoded;
     for (const char c : text) {

@@ -31,7 +31,7 @@ namespace http = boost::beast::http;
 
 namespace {
 
-/// What a client may still be sending while it is answered for the last time.
+/// The most bytes and time of a client that still sends while it is answered for the last time.
 constexpr std::size_t linger_bytes = std::size_t{1} << 20;
 constexpr auto linger_time = std::chrono::seconds(2);
 
@@ -40,7 +40,7 @@ constexpr std::string_view not_tls =
     "close\r\n\r\n"
     "This port speaks TLS: the address is https://...\n";
 
-/// To a browser that asks whether a page may make a call.
+/// The answer to a browser that asks whether a page may make a call.
 Page preflight_page(std::string_view origin, std::string_view methods) {
     Page page{.status = 204, .headers = cross_origin_headers(origin)};
     page.headers.emplace_back("Access-Control-Allow-Methods", methods);

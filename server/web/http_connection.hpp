@@ -37,7 +37,7 @@ public:
         std::function<void(HttpConnection&)> gone;
         std::function<bool()> may_stream;
     };
-    /// What is served. All of it outlives the connection.
+    /// The content that is served. All of it outlives the connection.
     struct Content {
         const Router& router;
         const GrpcWeb& grpc_web;
@@ -88,9 +88,9 @@ private:
     void refuse(unsigned status, std::string sentence);
     /// Refuses a gRPC-Web call in the same way, with a status of gRPC.
     void refuse_call(const grpc::Status& status);
-    /// Of the request that is answered now.
+    /// The header of the request that is answered now.
     const RequestHeader& request_header() const;
-    /// Of a call that no handler sees.
+    /// Counts a call that no handler sees.
     void count_refusal(grpc::StatusCode code) const;
     /// The other end, as gRPC writes those of its connections.
     std::string peer();

@@ -1,4 +1,4 @@
-// What an HTTP client cannot exceed.
+// The limits of HTTP clients.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@ namespace meniscus::server {
 struct HttpLimits {
     /// Beyond it, a new connection takes the place of the one that has been silent longest and carries no stream.
     std::size_t connections = 512;
-    /// Of one address, beyond which its own make room in the same way; 0: no such limit.
+    /// Connections of one address. Beyond it, its own make room in the same way; 0: no such limit.
     std::size_t connections_per_peer = 0;
     std::size_t streams = 384;          ///< fewer than connections, so that there is always room for probes
     std::uint32_t header_bytes = 8192;  ///< of the request line, and of all fields

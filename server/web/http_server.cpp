@@ -20,7 +20,7 @@ namespace {
 
 using boost::asio::ip::tcp;
 
-/// After an accept that failed, for want of descriptors most likely.
+/// The pause after an accept that failed, most likely for want of descriptors.
 constexpr auto accept_pause = std::chrono::milliseconds(100);
 constexpr int unsent_bytes = 256 << 10;
 /// Seconds until a silent client is asked whether it is there, between two such questions, and how many may fail: as on
@@ -33,8 +33,8 @@ void set_options(int socket) {
     const auto set = [socket](int level, int name, int value) {
         ::setsockopt(socket, level, name, &value, sizeof value);
     };
-    // What waits in the kernel for a slow viewer is old by the time it is shown: little of it, and newer frames take
-    // its place.
+    // Bytes that wait in the kernel for a slow viewer are old by the time they are shown: with few, newer frames take
+    // their place.
     set(IPPROTO_TCP, TCP_NOTSENT_LOWAT, unsent_bytes);
     // A viewer that vanished without a goodbye is noticed, though its session may be still.
     set(SOL_SOCKET, SO_KEEPALIVE, 1);
@@ -43,7 +43,7 @@ void set_options(int socket) {
     set(IPPROTO_TCP, TCP_KEEPCNT, questions);
 }
 
-/// Of "HOST:PORT" or "[IPv6]:PORT".
+/// The endpoint of "HOST:PORT" or "[IPv6]:PORT".
 tcp::endpoint resolve(boost::asio::io_context& context, const std::string& listen) {
     const HostPort address = parse_host_port("--http", listen);
     boost::system::error_code error;

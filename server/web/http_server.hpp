@@ -34,7 +34,7 @@ public:
     HttpServer(const HttpServer&) = delete;
     HttpServer& operator=(const HttpServer&) = delete;
 
-    /// In the form that clients use, with the port that was chosen.
+    /// The address in the form that clients use, with the port that was chosen.
     const std::string& address() const noexcept { return address_; }
     /// Takes no new connections, and returns when clients have taken the answers under way, or at the deadline. Call it
     /// once.

@@ -25,9 +25,9 @@ public:
     HttpStream& operator=(const HttpStream&) = delete;
 
     executor_type get_executor() noexcept { return tcp_.get_executor(); }
-    /// For time limits and to cut the connection.
+    /// The TCP stream, for time limits and to cut the connection.
     boost::beast::tcp_stream& tcp() noexcept { return tcp_; }
-    /// Before anything is read, if there is TLS.
+    /// Whether there is TLS: then async_handshake() comes before anything is read.
     bool has_tls() const noexcept { return tls_.has_value(); }
     bool has_client_certificate() { return tls_ && SSL_get0_peer_certificate(tls_->native_handle()) != nullptr; }
 

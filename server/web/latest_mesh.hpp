@@ -58,7 +58,7 @@ private:
     void end_snapshot(const grpc::Status& status);
     void take_description(const grpc::ByteBuffer& message);
     void end_description(const grpc::Status& status);
-    /// On the worker's thread.
+    /// The page with the mesh decoded, made on the worker's thread.
     Page decoded() const;
     void answer(Page page);
 

@@ -27,7 +27,7 @@ namespace {
 constexpr std::uint64_t triangle_bytes = 12;
 constexpr std::uint64_t position_and_normal_bytes = 24;
 
-/// Of one vertex.
+/// The bytes of one vertex's attributes.
 std::uint64_t attribute_bytes(const v1::MeshBegin& mesh) {
     std::uint64_t bytes = 0;
     for (const v1::MeshAttribute& attribute : mesh.attributes())

@@ -1,4 +1,4 @@
-// What GET /sessions/ID/latest.glb asks for.
+// The requests of GET /sessions/ID/latest.glb.
 #pragma once
 
 #include <string>

@@ -23,7 +23,7 @@ std::string_view authority_of(std::string_view origin) {
     return {};
 }
 
-/// Without the port, in lower case; an IPv6 address without its brackets.
+/// The host without the port, in lower case; an IPv6 address without its brackets.
 std::string host_of(std::string_view authority) {
     if (authority.starts_with('[')) return std::string(authority.substr(1, authority.find(']') - 1));
     std::string host(authority.substr(0, authority.rfind(':')));

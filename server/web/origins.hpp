@@ -31,7 +31,7 @@ private:
 /// more. A host that is not of ASCII is written as browsers send it (xn--...).
 void require_origin(std::string_view flag, std::string_view origin);
 
-/// What lets a page of that origin, which is admitted, read an answer; nothing for an empty one.
+/// The headers that let a page of that origin, which is admitted, read an answer; none for an empty one.
 std::vector<std::pair<std::string, std::string>> cross_origin_headers(std::string_view origin);
 
 }  // namespace meniscus::server

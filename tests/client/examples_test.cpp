@@ -17,7 +17,7 @@ namespace {
 using server::test::on_free_port;
 using server::test::Process;
 
-/// What an example prints; it must end well.
+/// The output of an example, which must end well.
 std::string output_of(const std::string& program, const std::vector<std::string>& arguments = {}) {
     const ProcessResult result = run_process(program, arguments);
     EXPECT_EQ(result.exit_code, 0) << program << ": " << result.err;

@@ -40,13 +40,13 @@ std::vector<Sample> samples();
 
 /// Legacy VTK 4.1, binary: two points, ids, a level array between two others.
 std::string vtk_binary();
-/// The same, ASCII 5.1, with OFFSETS, CONNECTIVITY and METADATA.
+/// The same content as legacy VTK 5.1, ASCII, with OFFSETS, CONNECTIVITY and METADATA.
 std::string vtk_ascii();
 
 /// A closed tetrahedron at the given lattice origin, its four triangles of level 1, 2, 3 and crack.
 Mesh tetrahedron(std::int32_t origin = 0);
 
-/// What `call` throws as InvalidInput; empty if it does not throw.
+/// The message of the InvalidInput that `call` throws; empty if it does not throw.
 std::string refusal(const std::function<void()>& call);
 
 }  // namespace meniscus::test

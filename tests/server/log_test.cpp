@@ -13,7 +13,7 @@
 namespace meniscus::server {
 namespace {
 
-/// What is logged meanwhile by `call`.
+/// The lines that `call` logs.
 template <class Call>
 std::string logged(LogFormat format, const Call& call) {
     std::ostringstream out;

@@ -1,4 +1,4 @@
-// What an operator does with the program: checks its settings, reads its log, replaces its secrets.
+// The work of an operator with the program: checking its settings, reading its log, replacing its secrets.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

@@ -40,7 +40,7 @@ ServerOptions parse(const std::vector<std::string>& flags) {
     return command_line.server;
 }
 
-/// What is printed instead.
+/// The message that is printed instead.
 std::string refusal(const std::vector<std::string>& flags) {
     CommandLine command_line;
     const auto exit = parse_into(command_line, flags);

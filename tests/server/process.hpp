@@ -87,7 +87,7 @@ public:
         signal(SIGSTOP);
         ::waitpid(pid_, nullptr, WUNTRACED);
     }
-    /// Of the process, which ends.
+    /// Waits for the process to end, and returns its exit code.
     int exit_code() {
         int status = 0;
         ::waitpid(std::exchange(pid_, -1), &status, 0);

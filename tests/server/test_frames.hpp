@@ -62,7 +62,7 @@ inline Particles spray(std::size_t side) {
     return particles;
 }
 
-/// The same particles as three uint16 each.
+/// The particles quantized, as three uint16 each.
 inline Particles quantized(const Particles& particles) {
     Particles result;
     result.box = {.min = {-1.0, -1.0, -1.0}, .max = {9.0, 9.0, 9.0}};
@@ -71,7 +71,7 @@ inline Particles quantized(const Particles& particles) {
     return result;
 }
 
-/// What the server must return for this frame.
+/// The SHA-256 of the mesh that the server must return for this frame.
 inline std::string local_sha256(const Particles& particles) {
     Reconstructor reconstructor(settings(), {.threads = 1});
     Mesh mesh;

@@ -14,7 +14,7 @@ class SessionChoice(ValueError):
 
 @dataclass(frozen=True)
 class Target:
-    """What is followed."""
+    """The session to follow, and the form of its meshes."""
 
     session: str = ""  #: id or name; "": the only one there
     max_level: int = 3
@@ -38,7 +38,7 @@ class LiveFrame:
 
 @dataclass(frozen=True)
 class Space:
-    """What a session says about its coordinates."""
+    """A session's axes and unit of length."""
 
     up_axis: str  #: "x", "y", "z" or "unspecified"
     length_unit: str
@@ -98,7 +98,7 @@ class Follower:
 
     @property
     def space(self):
-        """What the session says about its coordinates, or None before there is one."""
+        """The session's axes and unit of length, or None before there is one."""
         with self._changed:
             return self._space
 

@@ -97,7 +97,7 @@ def connect_again(obj):
 
 
 def update_all():
-    """Of every scene. Followers whose objects are gone end. Gives whether there are any."""
+    """Updates the live objects of every scene. Ends followers whose objects are gone. Gives whether there are any."""
     if not services.followers:
         return False
     found = set()
@@ -111,7 +111,7 @@ def update_all():
 
 
 def _take_space(obj, follower):
-    """Once for each connection: what the user then changes stays."""
+    """Takes the session's axes and unit over, once for each connection: the user's later changes stay."""
     if not obj.meniscus.live.takes_space or follower.space is None or follower.space_taken:
         return
     follower.space_taken = True

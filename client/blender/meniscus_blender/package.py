@@ -38,12 +38,12 @@ _looked, _missing = float("-inf"), ""
 
 
 def python_tag():
-    """Of this Blender's Python in names of wheels, such as "cp311"."""
+    """The tag of this Blender's Python in names of wheels, such as "cp311"."""
     return f"cp{sys.version_info[0]}{sys.version_info[1]}"
 
 
 def platform_tag():
-    """Of this machine in names of wheels, such as "linux_x86_64"."""
+    """The tag of this machine in names of wheels, such as "linux_x86_64"."""
     return sysconfig.get_platform().replace("-", "_").replace(".", "_")
 
 
@@ -68,7 +68,7 @@ def _missing_text(error):
 
 
 def _unfit_library():
-    """Of an installed package, for which interpreters its library is, if for none like this; otherwise ""."""
+    """Why the library of an installed package does not fit this interpreter; "" if it fits or there is none."""
     found = importlib.util.find_spec("meniscus")
     folders = (found.submodule_search_locations if found else None) or []
     names = [name for folder in folders for name in os.listdir(folder) if name.startswith("_meniscus.")]

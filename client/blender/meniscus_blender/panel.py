@@ -17,7 +17,7 @@ class _Panel:
 
 
 class _ObjectPanel(_Panel):
-    """Of an active object of one kind, with properties in two columns."""
+    """A panel of an active object of one kind, with properties in two columns."""
 
     @classmethod
     def poll(cls, context):

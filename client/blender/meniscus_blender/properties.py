@@ -27,7 +27,7 @@ def _normals_changed(self, context):
 
 
 class MeniscusQuality(bpy.types.PropertyGroup):
-    """What differs between the viewport and renders."""
+    """The properties that differ between the viewport and renders."""
 
     cell_size: FloatProperty(
         name="Cell Size",

@@ -50,7 +50,7 @@ class Reconstruction:
         return Made(key, surface)
 
     def prepare(self, request):
-        """As make(), but the surface is only put into the cache."""
+        """Makes a surface as make() does, but only puts it into the cache."""
         library = package.meniscus()
         path, key = self._located(request, library)
         if key not in self.cache:

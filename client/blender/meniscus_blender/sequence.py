@@ -59,7 +59,7 @@ def files(pattern):
         for entry in os.scandir(folder):
             digits = entry.name[len(before) : len(entry.name) - len(after)]
             if digits.isascii() and digits.isdigit() and entry.name == before + digits + after:
-                # Of 7 and 007, the longer one is left out, in whatever order the folder lists them.
+                # If a folder has 7 and 007, the longer one is left out, in whatever order they are listed.
                 known = found.get(int(digits))
                 if known is None or len(entry.path) < len(known):
                     found[int(digits)] = entry.path

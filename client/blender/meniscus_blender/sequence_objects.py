@@ -27,7 +27,7 @@ def timing(settings):
 
 
 def request_of(obj, frame, quality):
-    """What the object shows at a frame; quality: "viewport" or "render". None: nothing."""
+    """The request for the object's surface at a frame; None: it shows none. quality: "viewport" or "render"."""
     settings = obj.meniscus.sequence
     if "{}" in settings.pattern:
         number = timing(settings).number(frame)

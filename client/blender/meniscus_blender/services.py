@@ -1,4 +1,4 @@
-"""What runs beside Blender while the add-on is registered: the worker, and the followers of live sessions."""
+"""The threads beside Blender while the add-on is registered: the worker, and the followers of live sessions."""
 
 from .cache import SurfaceCache
 from .reconstruction import Reconstruction

@@ -1,4 +1,4 @@
-"""What the panel says of each object: what it shows, or what is wrong. It is not saved with the file."""
+"""The panel's text about each object: the surface that it shows, or an error. It is not saved with the file."""
 
 import sys
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ _by_object = {}
 
 
 def of(name):
-    """Of the object of that name, or None."""
+    """The status of the object of that name, or None."""
     return _by_object.get(name)
 
 

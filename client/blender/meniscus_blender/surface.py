@@ -19,12 +19,12 @@ class Surface:
     particles: int = 0
 
     def text(self):
-        """For people: counts."""
+        """The counts, for people."""
         return f"{len(self.triangles):,} triangles of {self.particles:,} particles"
 
 
 def surface_of(mesh, statistics, normals=False):
-    """Of a meniscus.Mesh. Lattice coordinates become float32 by one rounding."""
+    """The surface of a meniscus.Mesh. Lattice coordinates become float32 by one rounding."""
     radii = [warning.limit for warning in statistics.warnings if warning.code.startswith("radius_too_")]
     return Surface(
         np.ascontiguousarray(mesh.vertices, np.float32),

@@ -8,7 +8,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Result:
-    """What became of a request."""
+    """The surface that was made for a request, or the error."""
 
     name: str  #: of the object that has asked
     request: Any
@@ -160,5 +160,5 @@ class Worker:
 
 
 def error_text(error):
-    """One line. An error without a text, such as MemoryError, is named."""
+    """The error in one line. One without a text, such as MemoryError, is named."""
     return " ".join(str(error).split()) or type(error).__name__

@@ -56,7 +56,7 @@ struct Given {
     std::size_t count;
 };
 
-/// Of elements that are arrays of numbers themselves.
+/// The numbers of elements that are arrays of numbers themselves.
 template <class Number, class Elements>
 Given<Number> numbers_of(const Elements& elements) {
     return {elements.empty() ? nullptr : elements.front().data(), elements.size()};

@@ -15,7 +15,7 @@ struct meniscus_mesh {
     std::vector<std::uint8_t> triangle_levels;
     std::vector<meniscus_array> attributes;
 
-    /// Before `content` is filled anew: their memory stays.
+    /// Empties the arrays before `content` is filled anew: their memory stays.
     void forget_arrays() noexcept {
         vertices.clear();
         vertices_float.clear();

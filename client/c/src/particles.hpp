@@ -21,13 +21,13 @@ struct GivenParticles {
 /// Throws InvalidInput; what the particles are is for their receiver to check.
 GivenParticles read_particles(const meniscus_particles* particles);
 
-/// What a frame borrows that does not lie with the caller as it must; keeps its memory.
+/// The values that a frame borrows from here, since the caller has them in another form. Keeps its memory.
 struct FrameBuffers {
     std::vector<float> positions;  ///< where they must be converted
     std::vector<ParticleArray> arrays;
 };
 
-/// As a frame, which borrows from the caller, and from the buffers.
+/// The particles as a frame, which borrows from the caller and from the buffers.
 ParticleFrame read_frame(const meniscus_particles* particles, FrameBuffers& buffers);
 
 }  // namespace meniscus::c

@@ -1,4 +1,4 @@
-// What a C function returns of what a C++ one throws.
+// The results that C functions return in place of C++ exceptions.
 #pragma once
 
 #include <exception>

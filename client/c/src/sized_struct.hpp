@@ -13,7 +13,7 @@
 
 namespace meniscus::c {
 
-/// Of the first version; a struct that grows gets a specialization with the size that it had.
+/// The size of a struct in the first version; a struct that grows gets a specialization with the size that it had.
 template <class Struct>
 inline constexpr std::size_t least_size = sizeof(Struct);
 template <>
@@ -21,7 +21,7 @@ inline constexpr std::size_t least_size<meniscus_particles> = offsetof(meniscus_
 template <>
 inline constexpr std::size_t least_size<meniscus_statistics> = offsetof(meniscus_statistics,
                                                                         vertices_without_particles);
-/// More than any version has: it was not set.
+/// The largest size of any version's struct: a larger one was not set.
 inline constexpr std::size_t most_size = 4096;
 
 template <class Struct>

@@ -6,7 +6,7 @@
 
 namespace meniscus::c {
 
-/// Without those of a server.
+/// The figures for C, without those of a server.
 meniscus_statistics to_c(const Statistics& statistics);
 
 }  // namespace meniscus::c

@@ -45,7 +45,7 @@ int report(std::string message, ExitCode code) {
     return code;
 }
 
-/// What is printed is buffered, so that a full disk shows late.
+/// Flushes the output, which is buffered: a full disk shows late.
 int end_of_printing() {
     errno = 0;
     std::cout.flush();
@@ -60,7 +60,7 @@ int end_of_printing() {
 }  // namespace
 
 int run(int argc, const char* const* argv) {
-    // What is wrong is said once, in a line of this program: protobuf has one of its own for bytes that do not parse.
+    // An error is one line of this program: protobuf would add one of its own for bytes that do not parse.
     google::protobuf::SetLogHandler(nullptr);
     CLI::App app("Adaptive surfaces of simulated fluid particles", "meniscus");
     app.set_version_flag("--version", std::string("meniscus ") + std::string(version()));

@@ -51,7 +51,7 @@ void write_particles(const std::filesystem::path& path, const formats::RecordedP
     formats::write_particles(path, frame, format);
 }
 
-/// What is wrong with a mesh shows when it is decoded, where nothing is known of the file.
+/// Decodes the mesh, and adds the file's name to an error: the decoder does not know it.
 void require_mesh(const Surface& surface, const std::filesystem::path& recording) {
     try {
         surface.mesh();
@@ -61,7 +61,7 @@ void require_mesh(const Surface& surface, const std::filesystem::path& recording
     }
 }
 
-/// Before any work.
+/// Checks the output files before any work.
 void check_outputs(const ConvertOptions& options, const formats::Recording& recording,
                    const std::vector<formats::RecordedFrame>& frames) {
     if (formats::is_standard_stream(options.directory) && frames.size() > 1)

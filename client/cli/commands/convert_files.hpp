@@ -15,7 +15,7 @@ enum class FileContent { particles, mesh };
 
 struct FileConversion {
     std::string in;                           ///< a file, "-", or a sequence with {}
-    std::string out;                          ///< as many
+    std::string out;                          ///< one file or a sequence, as `in`
     std::optional<std::string> input_format;  ///< name of a format of either; none: the extension's
     std::optional<std::string> format;        ///< of `out`, likewise
     std::optional<FileContent> content;       ///< none: what the file has, see content_of()
@@ -24,8 +24,8 @@ struct FileConversion {
     Verbosity verbosity;
 };
 
-/// What a file of this format has; none where that depends on the file: one with faces is a mesh. Throws InvalidInput
-/// for a name that is neither.
+/// The content of files of this format; none where it depends on the file: one with faces is a mesh. Throws
+/// InvalidInput for a name of no format.
 std::optional<FileContent> content_of(const std::string& format_name);
 
 /// The format of a file of particles. Throws InvalidInput, naming those that are written, for any other.

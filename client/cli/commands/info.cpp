@@ -16,7 +16,7 @@
 namespace meniscus::cli {
 namespace {
 
-/// Those of a server and of this process alike.
+/// Prints the version and the backend of a server or of this process.
 void print_backend(const std::string& version, const std::string& name, const std::string& reason,
                    const std::string& device) {
     std::cout << "version                " << version << '\n'

@@ -42,7 +42,7 @@ void check_files(const ReconstructFiles& files, Plan& plan) {
         if (!files.input_format) formats::particle_format_of(frame.in);
         distinct.add_input(frame.in);
     }
-    // Those of the sequence that are not among the frames are somebody's input, too.
+    // Files of the sequence that are not among the frames are somebody's input, too.
     if (plan.sequence)
         for (const auto& [number, path] : FilePattern(files.in).match_existing()) distinct.add_input(path);
     for (const FrameFiles& frame : plan.all) {

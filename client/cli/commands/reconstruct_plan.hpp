@@ -41,7 +41,7 @@ struct FrameFiles {
     std::filesystem::path spray_out;
 };
 
-/// What there is to do.
+/// The frames to reconstruct, and their files.
 struct Plan {
     bool sequence = false;
     MeshFormat format = MeshFormat::ply;

@@ -1,4 +1,4 @@
-// What `meniscus reconstruct` writes and says, frame by frame.
+// The files and lines that `meniscus reconstruct` writes, frame by frame.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@
 
 namespace meniscus::cli {
 
-/// What is asked for beside the files.
+/// The options of the report beside the files.
 struct ReportOptions {
     Verbosity verbosity;
     bool strict = false;
@@ -39,7 +39,7 @@ class ReconstructReport {
 public:
     ReconstructReport(const ReconstructFiles& files, const Plan& plan, const ReportOptions& options);
 
-    /// What takes time but is seen by nobody: in any thread. `warnings` stays empty.
+    /// Does the part of the work that takes time but shows nothing, in any thread. `warnings` stays empty.
     FinishedFrame prepare(Surface& surface, std::size_t index, std::vector<Statistics> runs) const;
     /// Writes the frame's files and says what there is to say: in order, one at a time.
     void deliver(FinishedFrame frame);

@@ -20,7 +20,7 @@
 namespace meniscus::cli {
 namespace {
 
-/// For a line of text: with a space before it; empty where there is none.
+/// The name with a space before it, for a line of text; empty where there is none.
 std::string after_space(const std::string& name) {
     return name.empty() ? "" : " " + quoted(name, '"');
 }
@@ -142,7 +142,7 @@ RecordingName named(const std::string& text) {
     return name;
 }
 
-/// Those before one that the server refuses are gone.
+/// Deletes recordings one by one. If the server refuses one, those before it are gone.
 void delete_of_server(const RecordingsOptions& options) {
     std::vector<RecordingName> names;
     for (const std::string& text : options.deleted) names.push_back(named(text));

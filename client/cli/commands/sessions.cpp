@@ -50,7 +50,7 @@ nlohmann::ordered_json session_json(const client::SessionInfo& session) {
     return out;
 }
 
-/// All that can be; one that cannot does not keep the others.
+/// Deletes all sessions that can be deleted; one that cannot does not keep the others.
 void delete_sessions(const SessionsOptions& options) {
     client::Client client = options.server.connect();
     std::string failures;

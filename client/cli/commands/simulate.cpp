@@ -48,7 +48,7 @@ struct SimulateOptions {
     Verbosity verbosity;
 };
 
-/// What its particles carry.
+/// The values that its particles carry.
 constexpr std::string_view velocity_name = "velocity";  ///< x y z, m/s
 constexpr std::string_view age_name = "age";            ///< seconds since the particle came in
 

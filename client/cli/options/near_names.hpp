@@ -1,4 +1,4 @@
-// What was probably meant by a name that does not exist.
+// The name that was probably meant by one that does not exist.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ std::string near_name(std::string_view name, const std::vector<std::string>& nam
 /// ", did you mean NAME?" for a name that is near; else "; " and where the names are listed.
 std::string suggestion(const std::string& near, const std::string& list);
 
-/// What is wrong with the arguments, in one line. An option or a command that does not exist comes first, since what
-/// else is wrong may follow from it.
+/// The error in the arguments, in one line. An option or a command that does not exist comes first, since other errors
+/// may follow from it.
 std::string refusal(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace meniscus::cli

@@ -20,7 +20,7 @@
 
 namespace meniscus::cli {
 
-/// What was given, to be put over whatever a record has already.
+/// The values that were given by flags, to be put over those that a record has already.
 template <class Record>
 class RowFlags {
 public:
@@ -115,7 +115,7 @@ private:
             return *row.find(defaults);
     }
 
-    /// As CLI11 shows the defaults of other numbers.
+    /// The number as CLI11 shows the defaults of other numbers.
     template <class Number>
     static std::string text_of(const Number& number) {
         std::ostringstream out;

@@ -16,7 +16,7 @@ namespace meniscus::cli {
 /// A preset, and the flags that were given over it.
 class SettingsOptions {
 public:
-    /// All flags but --particle-radius and --attribute.
+    /// Adds all flags but --particle-radius and --attribute.
     void add_to(CLI::App& command);
     void add_attribute_to(CLI::App& command);
     /// Throws InvalidInput for values out of range, for what belongs to another field, and for a parameter of a

@@ -30,7 +30,7 @@ std::vector<AttributeWish> requests_for(const std::vector<std::string>& names, i
     for (const std::string& name : names) {
         if (name == every_attribute || name == no_attribute)
             throw InvalidInput("--attribute " + name + " stands alone: leave the other names out");
-        // Of one with all attributes, the names come with its first frame.
+        // If a session has all attributes, their names come with its first frame.
         if (!settings.all_attributes && std::ranges::find(settings.attributes, name) == settings.attributes.end())
             throw InvalidInput("--attribute " + name + ": the session's attributes are " +
                                names_of(settings.attributes));

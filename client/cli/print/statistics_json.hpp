@@ -17,10 +17,10 @@ nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::s
 /// An entry of a frame's "warnings", as those of its statistics are.
 nlohmann::ordered_json to_json(const FileWarning& warning);
 
-/// For tests and tables: that warm run.
+/// The warm run with the median time, for tests and tables.
 const Statistics& median_run(const std::vector<Statistics>& runs);
 
-/// Of the mesh's attributes, by name: type, components, and the range of each component over the vertices.
+/// The mesh's attributes by name: type, components, and the range of each component over the vertices.
 nlohmann::ordered_json attributes_json(const Mesh& mesh);
 
 }  // namespace meniscus::cli

@@ -10,7 +10,7 @@ namespace meniscus::cli {
 /// "11492 particles, 54321 triangles, 0.03 s"
 std::string summary(const Statistics& statistics);
 
-/// What -v adds: a line of vertices and memory, and one of what each step took.
+/// The lines that -v adds: one of vertices and memory, and one of the time of each step.
 std::string stages_text(const Statistics& statistics);
 
 }  // namespace meniscus::cli

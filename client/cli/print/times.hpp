@@ -6,9 +6,9 @@
 
 namespace meniscus::cli {
 
-/// As in "2026-01-31T23:59:59Z".
+/// The time in UTC, such as "2026-01-31T23:59:59Z".
 std::string utc(std::chrono::system_clock::time_point time);
-/// In its largest unit, cut: "59 s", "12 min", "3 h", "40 d". Below 0: "0 s".
+/// The time in its largest unit, cut: "59 s", "12 min", "3 h", "40 d". Below 0: "0 s".
 std::string short_time(std::chrono::system_clock::duration time);
 
 }  // namespace meniscus::cli

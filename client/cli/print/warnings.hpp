@@ -25,7 +25,7 @@ public:
 /// The flag --strict.
 void add_strict_option(CLI::App& command, bool& strict);
 
-/// What is found in a particle file before there is a frame.
+/// A warning about a particle file, from before there is a frame.
 struct FileWarning {
     std::string_view code;
     double value = 0.0;

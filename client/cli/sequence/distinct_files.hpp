@@ -1,4 +1,4 @@
-// What a command reads is not destroyed by what it writes.
+// A check that no command writes over a file that it reads.
 #pragma once
 
 #include <sys/types.h>
@@ -20,7 +20,7 @@ public:
     void add_output(const std::filesystem::path& path);
 
 private:
-    /// What a file is, whatever its names.
+    /// The identity of a file, whatever its names.
     struct Identity {
         dev_t device;
         ino_t number;

@@ -14,7 +14,7 @@ public:
     explicit FilePattern(const std::string& text);
 
     bool has_number() const { return has_number_; }
-    /// As it was given.
+    /// The pattern as it was given.
     const std::string& text() const { return text_; }
     /// The path of that frame; the same for all frames if has_number() is false.
     std::filesystem::path at(std::uint64_t number) const;

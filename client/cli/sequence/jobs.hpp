@@ -6,7 +6,7 @@
 
 namespace meniscus::cli {
 
-/// What there is to work with.
+/// The work to be done, and the machine that does it.
 struct JobsInput {
     std::size_t frames = 0;
     unsigned threads = 1;            ///< of this process, at least 1

@@ -7,7 +7,7 @@
 
 namespace meniscus::cli {
 
-/// What a worker does with an item. It calls `wait_for_turn` before the first thing that anybody else sees: that
+/// The work of a worker on an item. It calls `wait_for_turn` before the first thing that anybody else sees: that
 /// returns once the items before are done, and does not return if one of them has failed.
 using Work = std::function<void(std::size_t item, const std::function<void()>& wait_for_turn)>;
 

@@ -13,7 +13,7 @@ LocalSurfaces::LocalSurfaces(const Settings& settings, const BackendOptions& opt
       attributes_{{.name = {}, .bits = attribute_bits}},
       only_one_(only_one),
       handler_(std::move(handler)) {
-    // What is given back, the system gets, where main() keeps it for the frames to come.
+    // Memory that is given back goes to the system: main() would keep it for further frames.
     constexpr int smallest_array = 1 << 20;
     if (only_one) mallopt(M_MMAP_THRESHOLD, smallest_array);
 }

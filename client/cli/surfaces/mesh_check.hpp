@@ -15,7 +15,7 @@ public:
     const char* what() const noexcept override { return "a mesh has defects"; }
 };
 
-/// Those of its triangles, before any became quadrilaterals.
+/// The defects of the mesh's triangles, before any became quadrilaterals.
 compare::Defects defects_of(const formats::TriangleMesh& mesh);
 
 class MeshCheck {

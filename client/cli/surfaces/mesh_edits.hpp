@@ -1,4 +1,4 @@
-// What becomes of a mesh before it is written, and while it is.
+// The changes to a mesh before it is written, and while it is.
 #pragma once
 
 #include <optional>

@@ -27,7 +27,7 @@ MeshFormat check_mesh_path(const std::filesystem::path& path, std::optional<Mesh
 /// it. formats: those that there are.
 void check_named(const std::filesystem::path& file, bool named, const std::string& option,
                  std::span<const std::string_view> formats);
-/// The same of a file of points, which is PLY.
+/// Checks the path of a file of points, which is PLY.
 void check_points_path(const std::filesystem::path& path);
 /// Throws InvalidInput unless these settings bring points for a file of spray: to be called before long work.
 void check_spray(const Settings& settings);
@@ -38,7 +38,7 @@ public:
     MeshOutput(Surface& surface, MeshFormat format, const MeshEdits& edits = {}, bool check = false);
     /// time: the time code of a USD file of a sequence.
     void write(const std::filesystem::path& path, std::optional<double> time = std::nullopt) const;
-    /// What the mesh has beside positions and triangles, without values: for the stage of a sequence of USD files.
+    /// The mesh's form, normals and attributes without values: for the stage of a sequence of USD files.
     formats::TriangleMesh form() const;
     /// None if it was not to be looked at.
     const std::optional<compare::Defects>& defects() const { return defects_; }

@@ -25,7 +25,7 @@ class QuantizedPositions {
 public:
     /// frame: finite float positions.
     explicit QuantizedPositions(const ParticleFrame& frame);
-    /// The same particles, quantized; borrows this object, and the levels and arrays of the original.
+    /// The frame with quantized positions; borrows this object, and the levels and arrays of the original.
     ParticleFrame frame() const;
 
 private:

@@ -34,7 +34,7 @@ public:
     const client::FrameStatistics& statistics() const { return statistics_; }
     /// Throws InvalidInput if the received bricks are not a mesh.
     const Mesh& mesh() const;
-    /// The same, to be changed, so that none is copied: there is no mesh() afterwards.
+    /// The mesh, to be changed, so that none is copied: there is no mesh() afterwards.
     Mesh take_mesh();
     /// Places of the particles left out of the surface.
     std::span<const Point> spray() const;

@@ -35,7 +35,7 @@ std::filesystem::path behind_links(const std::filesystem::path& path) {
     return error ? path : place;
 }
 
-/// Of all files that are being written at once, in this process and in others.
+/// A suffix that no other file has meanwhile, in this process or in others.
 std::string unique_suffix() {
     static std::atomic<unsigned> files = 0;
     return ".partial-" + std::to_string(::getpid()) + "-" + std::to_string(files++);

@@ -20,7 +20,7 @@ enum class Deflate {
 /// bits).
 inline constexpr std::uint64_t most_deflation = 1032;
 
-/// What compressed bytes hold, from its beginning on, as far as it is asked for.
+/// Decompresses bytes from their beginning on, as far as is asked for.
 class Inflater {
 public:
     /// at, what: for messages. compressed: borrowed.

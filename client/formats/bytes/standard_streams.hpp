@@ -12,7 +12,7 @@ inline bool is_standard_stream(const std::filesystem::path& path) {
     return path == "-";
 }
 
-/// What messages call it.
+/// The name of an input in messages.
 inline std::string input_name(const std::filesystem::path& path) {
     return is_standard_stream(path) ? "standard input" : path.string();
 }

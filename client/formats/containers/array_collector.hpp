@@ -43,7 +43,7 @@ private:
     bool above_int32_ = false;  ///< an integer is above the largest int32
 };
 
-/// What a file has, gathered in its order.
+/// The arrays of a file, gathered in its order.
 class ArrayCollector {
 public:
     void add(ArrayBuilder array);

@@ -25,7 +25,7 @@ struct NamedValues {
     ParticleArray view() const { return {name, data, type, components}; }
 };
 
-/// As a ParticleFrame has them; borrowed.
+/// The arrays as a ParticleFrame has them; borrowed.
 inline std::vector<ParticleArray> views(const std::vector<NamedValues>& arrays) {
     std::vector<ParticleArray> out;
     out.reserve(arrays.size());

@@ -37,7 +37,7 @@ struct NpyArray {
 /// "(3, 4)"
 std::string shape_text(const std::vector<std::size_t>& shape);
 
-/// As numpy names the type of an array, little-endian: "<f4".
+/// The name that numpy has for the type of an array, little-endian: "<f4".
 std::string_view npy_name_of(ElementType type);
 
 /// The type and the byte order, or why its values cannot be read. name: as numpy names the type, "<f4".

@@ -26,7 +26,7 @@ public:
 
     const ByteCursor& at() const { return at_; }
     ReadBudget& budget() { return budget_; }
-    /// Without ".npy", in the order of the file.
+    /// The arrays' names without ".npy", in the order of the file.
     const std::vector<std::string>& names() const { return names_; }
     bool has(std::string_view name) const;
 

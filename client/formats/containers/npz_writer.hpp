@@ -20,7 +20,7 @@ public:
     /// descr: numpy's name of the type, "<f4". bytes: in C order, little-endian.
     void add(const std::string& name, std::string_view descr, const std::vector<std::size_t>& shape,
              std::string_view bytes);
-    /// With a row for each point.
+    /// Adds an array with a row for each point.
     void add(const ParticleArray& array);
     void commit() { zip_.commit(); }
 

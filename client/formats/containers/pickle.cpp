@@ -7,7 +7,7 @@
 namespace meniscus::formats {
 namespace {
 
-/// What a program's settings and the names of its arrays take is far less. The arrays themselves are one value each.
+/// The most values of a pickle. A program's settings and the names of its arrays are far fewer, and each array is one.
 constexpr std::size_t most_values = 1'000'000;
 
 }  // namespace

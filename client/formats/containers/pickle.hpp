@@ -44,7 +44,7 @@ public:
 
     Id root() const { return root_; }
     const Value& operator[](Id id) const { return values_[id]; }
-    /// Of a mapping, by a key of text; null without one.
+    /// The value of a mapping by a key of text; null without one.
     const Value* find(const Value& mapping, std::string_view key) const;
     /// The i-th item; null without one.
     const Value* item(const Value& value, std::size_t i) const {
@@ -56,7 +56,7 @@ private:
     void step(unsigned char operation);
     void push(Value value);
     Id pop();
-    /// Those since the last mark.
+    /// The values since the last mark.
     std::vector<Id> pop_to_mark();
     void gather(std::size_t count);
     void get(std::uint64_t place);

@@ -1,5 +1,5 @@
-// What PySPH writes as .npz: a pickled dictionary of its kinds of particles, each with a dictionary of numpy arrays.
-// For users of PySPH: its files are read as they are, without a script that converts them.
+// PySPH's files .npz: a pickled dictionary of its kinds of particles, each with a dictionary of numpy arrays. For users
+// of PySPH: its files are read as they are, without a script that converts them.
 #pragma once
 
 #include <string_view>

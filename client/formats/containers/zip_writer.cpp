@@ -13,7 +13,7 @@ constexpr std::uint16_t in_utf8 = 0x800;
 constexpr std::uint16_t wide_field = 1;
 constexpr std::uint32_t not_here = 0xFFFFFFFF;
 
-/// What the header of a member and its entry in the directory share.
+/// Stores the fields that a member's header and its entry in the directory share.
 void store_common(std::string& out, std::uint32_t crc, const std::string& name, std::uint16_t extra_bytes) {
     for (const std::uint16_t number : {version, in_utf8, std::uint16_t{0}, no_date, first_date}) store(out, number);
     for (const std::uint32_t number : {crc, not_here, not_here}) store(out, number);

@@ -1,4 +1,4 @@
-// What a file of a mesh holds.
+// The content of a file of a mesh.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,11 @@ class MeshContent {
 public:
     /// ordered: in its canonical order. Does all that takes time but the writing.
     MeshContent(Mesh ordered, MeshFormat format);
-    /// To be changed: what is written from then on.
+    /// The triangles, to be changed: they are written from then on.
     TriangleMesh& triangles();
     /// Throws as write_mesh() does.
     void write(const std::filesystem::path& path, const MeshWriting& writing = {}) const;
-    /// What the mesh has beside positions and triangles, without values: for the stage of a sequence of USD files.
+    /// The mesh's form, normals and attributes without values: for the stage of a sequence of USD files.
     TriangleMesh form() const;
 
 private:

@@ -36,12 +36,12 @@ struct MeshFormatRow {
     TriangleMesh (*read)(const std::string& name, std::string_view bytes, const ReadLimits& limits);
     /// Null: triangles alone are not written so.
     void (*write)(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing);
-    /// Of a mesh as it was reconstructed, to the same bytes. Null: as triangles.
+    /// Writes a mesh as it was reconstructed, to the same bytes. Null: it is written as triangles.
     void (*write_reconstructed)(const std::filesystem::path& path, const Mesh& mesh) = nullptr;
     MeshFormatTraits traits = {};
 };
 
-/// In the order of the enumerators, in which formats are listed.
+/// The formats in the order of the enumerators, in which they are listed.
 inline constexpr std::array mesh_formats{
     MeshFormatRow{MeshFormat::ply, "ply", ".ply", read_mesh_ply, write_ply, write_ply},
     MeshFormatRow{MeshFormat::obj, "obj", ".obj", read_obj, write_obj, write_obj, {.quads = true}},

@@ -43,7 +43,7 @@ struct Run {
     std::uint8_t level = 0;
 };
 
-/// Those of `count` faces. levels: empty, or one per face.
+/// The runs of `count` faces of one level. levels: empty, or one per face.
 std::vector<Run> runs_of(const std::vector<std::uint8_t>& levels, std::size_t count) {
     std::vector<Run> runs;
     if (levels.empty() && count > 0) runs.push_back({0, count, 0});

@@ -131,7 +131,7 @@ private:
         out_ += time_ ? "],\n    }\n" : "]";
         if (!time_)
             out_ += interpolation.empty() ? "\n" : " (\n        interpolation = \"" + interpolation + "\"\n    )\n";
-        // What belongs to an attribute is said where it is declared, not with its samples.
+        // An attribute's interpolation stands where it is declared, not with its samples.
         if (time_ && !interpolation.empty())
             out_ += "    " + type + " " + name + " (\n        interpolation = \"" + interpolation + "\"\n    )\n";
     }

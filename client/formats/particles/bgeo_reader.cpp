@@ -142,7 +142,7 @@ Particles read_bgeo(const std::string& name, std::string_view bytes, const ReadL
     Bytes in(at, bytes, budget);
     const Header header = read_header(in, at);
     const std::uint64_t row_bytes = number_bytes * header.row_numbers;
-    // What is kept of the rows.
+    // The memory for the rows' numbers.
     budget.take(row_bytes * header.points, at, "what the points announce");
     const std::string_view rows = in.take(row_bytes * header.points, "the points");
 

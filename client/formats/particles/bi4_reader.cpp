@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view bi4_title = "#FileJBD ";
 constexpr std::size_t bi4_header_bytes = 64;
-/// Of the header: 0 little-endian, 1 big-endian; 10 more with sizes of 64 bits.
+/// The place of the header's byte of order: 0 little-endian, 1 big-endian; 10 more with sizes of 64 bits.
 constexpr std::size_t bi4_order_byte = 60;
 constexpr int bi4_wide_sizes = 10;
 /// Files have two: the case and its step.
@@ -52,7 +52,7 @@ struct Bi4Array {
     std::string_view bytes;
 };
 
-/// What the file says about a step.
+/// The file's description of a step.
 class Bi4File {
 public:
     Bi4File(const std::string& name, std::string_view bytes) : in_(name, bytes) {

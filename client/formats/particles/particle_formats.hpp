@@ -19,7 +19,7 @@
 
 namespace meniscus::formats {
 
-/// In the order in which names of formats are listed.
+/// The formats in the order in which their names are listed.
 enum class ParticleFormat { vtk, ply, xyz, vtu, vtp, bgeo, npy, npz, hdf5, json, bi4 };
 
 struct ParticleFormatRow {
@@ -30,7 +30,7 @@ struct ParticleFormatRow {
     void (*write)(const std::filesystem::path& path, const ParticleFrame& frame);  ///< null: it is read only
 };
 
-/// In the order in which extensions are listed.
+/// The formats in the order in which their extensions are listed.
 inline constexpr std::array particle_formats{
     ParticleFormatRow{ParticleFormat::vtk, "vtk", {".vtk"}, read_vtk, write_vtk},
     ParticleFormatRow{ParticleFormat::vtu, "vtu", {".vtu"}, read_vtk_xml, nullptr},

@@ -25,16 +25,16 @@ struct Particles {
 
     /// Faces that the file has beside its points: it is a mesh, whose corners are taken as particles. 0 of particles.
     std::size_t faces = 0;
-    /// What rounding took from `positions`: the file's coordinates are the sums, to 48 bits. Empty if it took nothing.
+    /// The remainders of rounding `positions`: the file's coordinates are the sums, to 48 bits. Empty if all are 0.
     std::vector<float> remainders{};
 
     std::size_t count() const { return positions.size() / 3; }
-    /// As the file has it. index: into `positions`.
+    /// The coordinate as the file has it. index: into `positions`.
     double coordinate(std::size_t index) const {
         const auto rounded = static_cast<double>(positions[index]);
         return remainders.empty() ? rounded : rounded + static_cast<double>(remainders[index]);
     }
-    /// Without arrays: their views have to lie somewhere, see views().
+    /// The particles without arrays: the arrays' views have to lie somewhere, see views().
     ParticleFrame frame() const {
         ParticleFrame view;
         view.positions = positions;

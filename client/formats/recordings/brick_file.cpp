@@ -129,7 +129,7 @@ client::ReceivedFrame read_frame(const ByteCursor& in, Messages& messages) {
             std::to_string(files::brick_file_version) + ": read it with the Meniscus that wrote it");
 }
 
-/// Of a file without the magic. Version 1 had none: it began with the message that begins a mesh.
+/// Refuses a file without the magic. Version 1 had none: it began with the message that begins a mesh.
 [[noreturn]] void refuse_beginning(const ByteCursor& in, std::string_view bytes) {
     if (files::brick_file_magic.starts_with(bytes)) in.fail("truncated: it ends within its first bytes");
     google::protobuf::io::ArrayInputStream stream(bytes.data(), static_cast<int>(bytes.size()));

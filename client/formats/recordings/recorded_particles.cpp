@@ -88,7 +88,7 @@ private:
         }
     }
 
-    /// From the chunks, whose cuts may fall anywhere.
+    /// Fills `out` from the chunks, whose cuts may fall anywhere.
     void fill(std::span<std::byte> out) {
         while (!out.empty()) {
             if (chunk_.empty()) {

@@ -55,12 +55,12 @@ public:
     const std::filesystem::path& path() const noexcept { return file_.path(); }
     const std::string& session_id() const noexcept { return session_id_; }
     const Settings& settings() const noexcept { return settings_; }
-    /// What people called the session; empty where the file has a name or a unit that no session has.
+    /// The session's name, axis and unit; empty where the file has a name or a unit that no session has.
     const client::SessionDescription& description() const noexcept { return description_; }
     std::chrono::system_clock::time_point started_at() const noexcept { return started_at_; }
-    /// By rising index.
+    /// The frames by rising index.
     const std::vector<RecordedFrame>& frames() const noexcept { return frames_; }
-    /// Those with an index from `first` to `last`. Throws InvalidInput if there is none.
+    /// The frames with an index from `first` to `last`. Throws InvalidInput if there is none.
     std::vector<RecordedFrame> frames(std::uint64_t first, std::uint64_t last) const;
     std::uint64_t bytes() const noexcept { return file_.size(); }
     /// Bytes at the end that hold no whole frame: the server was killed, the disk was full, or it is being written.
@@ -73,7 +73,7 @@ public:
     /// Reads one of this recording's frames. Throws InvalidInput if its messages do not have their checksum, are not a
     /// frame, or another one.
     RecordedParticles particles(const RecordedFrame& frame) const;
-    /// The same for its mesh, which it has.
+    /// Reads the mesh of a frame that has one, and throws as particles() does.
     client::ReceivedFrame mesh(const RecordedFrame& frame) const;
 
 private:

@@ -1,4 +1,4 @@
-// What a file of VTK holds, legacy or XML, on its way to particles or to a mesh.
+// The content of a file of VTK, legacy or XML, on its way to particles or to a mesh.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace meniscus::formats {
 
-/// What is read: of particles no faces but their number, of a mesh no levels of points.
+/// The use of a file. For particles, faces are only counted; for a mesh, levels of points are not read.
 enum class VtkUse { particles, mesh };
 
 struct VtkDataset {

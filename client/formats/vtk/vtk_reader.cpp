@@ -171,7 +171,7 @@ private:
         return first == 0 ? 0 : first - 1;  // an offset each, and the end
     }
 
-    /// Before version 5: of each cell the number of its corners, then these.
+    /// Reads the cells of a file before version 5: for each the number of its corners, then these.
     void listed_cells(std::size_t count, std::size_t numbers) {
         constexpr ScalarType type = ScalarType::int32;
         if (use_ == VtkUse::particles) return skip(numbers, type);
@@ -200,7 +200,7 @@ private:
         return static_cast<std::size_t>(end);
     }
 
-    /// Of the cells that wait. kind: called once for each; none: it is no face.
+    /// Appends the faces of the cells that wait. kind: called once for each; none: it is no face.
     template <class Kind>
     void append_faces(const Kind& kind) {
         std::vector<std::uint32_t> face;

@@ -21,7 +21,7 @@
 namespace meniscus::formats {
 namespace {
 
-/// Of '<' and '=' before the appended data: pugixml needs some 64 bytes for each.
+/// The most '<' and '=' before the appended data: pugixml needs some 64 bytes for each.
 constexpr std::size_t most_marks = 1'000'000;
 
 std::optional<ScalarType> xml_type_by_name(std::string_view name) {
@@ -310,7 +310,7 @@ private:
         read(
             array, what, form->type, 3 * p.points,
             [&] {
-                // As float64, and as the float32 of particles.
+                // The points are kept as float64, and as the float32 of particles.
                 budget_.take((sizeof(out_.points[0]) + 3 * sizeof(float)) * p.points, at_, what);
                 out_.points.resize(out_.points.size() + p.points);
             },
@@ -344,7 +344,7 @@ private:
         return out;
     }
 
-    /// Those that are faces become triangles. types: empty, then all are `kind`.
+    /// Appends the cells that are faces as triangles. types: empty, then all are `kind`.
     void faces(const Piece& p, const pugi::xml_node& parent, std::size_t count, std::size_t first_cell,
                const std::vector<double>& types, VtkCell kind) {
         const std::vector<double> ends = cell_numbers(p, parent, "offsets", count);

@@ -46,8 +46,7 @@ std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const Co
     // does not inherit that wait from an old one.
     arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
     arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 500);
-    // What gRPC calls a minimum is the time that one attempt may take: several ways to a server that is far away, and
-    // back.
+    // gRPC's minimum is the time that one attempt may take: several ways to a server that is far away, and back.
     arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
     arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
     if (!options.server_name.empty()) arguments.SetSslTargetNameOverride(options.server_name);
@@ -65,7 +64,7 @@ std::string checked_address(const std::string& address) {
     return address::with_port(address);
 }
 
-/// As the channel's WaitForStateChange, which nothing can end: in pieces, where somebody may want to.
+/// Waits as WaitForStateChange does, which nothing can end: in pieces, where a stop is possible.
 bool wait_for_change(grpc::Channel& channel, grpc_connectivity_state from,
                      std::chrono::system_clock::time_point deadline, const std::stop_token& stop) {
     constexpr std::chrono::milliseconds piece{50};

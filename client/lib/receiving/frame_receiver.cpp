@@ -21,7 +21,7 @@ void append(std::vector<std::byte>& bytes, const std::string& more) {
     if (!more.empty()) std::memcpy(bytes.data() + size, more.data(), more.size());
 }
 
-/// Of a message that has x, y and z.
+/// The name of a place: of a message that has x, y and z.
 template <class Message>
 std::string place_name(const Message& place) {
     std::string name = "(";
@@ -39,7 +39,7 @@ std::string frame_name(std::uint64_t index) {
     return "frame " + std::to_string(index);
 }
 
-/// What coded_attributes() of the same message accepts.
+/// The attribute of a message that coded_attributes() accepts.
 FrameAttribute announced(const v1::MeshAttribute& wire) {
     FrameAttribute attribute{
         .name = wire.name(), .type = conversion::from_wire(wire.type()), .components = wire.components()};

@@ -51,7 +51,7 @@ private:
     using Place = std::array<std::int32_t, 3>;
     using Bricks = std::map<Place, std::shared_ptr<const EncodedBrick>>;
 
-    /// What begin announces and add collects, until end.
+    /// The frame that begin announces and add collects, until end.
     struct Frame {
         ReceivedFrame header;
         bool has_base = false;

@@ -1,4 +1,4 @@
-// What people call a session, to and from the wire and files.
+// The description of a session, to and from the wire and files.
 #pragma once
 
 #include "meniscus/client/session_info.hpp"

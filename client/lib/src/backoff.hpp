@@ -18,7 +18,7 @@ public:
         wait_ = std::min(2 * wait_, longest);
         return wait;
     }
-    /// After a success.
+    /// Begins again with the shortest wait, after a success.
     void reset() { wait_ = shortest; }
 
 private:

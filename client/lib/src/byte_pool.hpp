@@ -16,7 +16,7 @@ using Bytes = Array<std::byte>;
 /// Thread-safe: gRPC lets go of a buffer in a thread of its own.
 class BytePool : public std::enable_shared_from_this<BytePool> {
 public:
-    /// Of this size; what it holds is undefined.
+    /// Takes memory of this size, whose content is undefined.
     std::shared_ptr<Bytes> take(std::size_t size) {
         std::unique_ptr<Bytes> bytes;
         {

@@ -1,4 +1,4 @@
-// What a call's end says: which server ended it, and whether another call is worth while.
+// The end of a call: which server ended it, and whether another call is worth while.
 #pragma once
 
 #include <grpcpp/client_context.h>

@@ -8,7 +8,7 @@
 
 namespace meniscus::client {
 
-/// What a failed call throws: InvalidInput, LimitExceeded or ServerError. The status is not OK.
+/// The exception for a failed call: InvalidInput, LimitExceeded or ServerError. The status is not OK.
 std::exception_ptr to_exception(const grpc::Status& status, const std::string& address);
 
 /// Throws it, unless the status is OK.

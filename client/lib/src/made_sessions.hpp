@@ -11,9 +11,8 @@
 
 namespace meniscus::client {
 
-/// Of one id, distinguished by the time of their creation: where one has ended, another client may have created the
-/// next one.
-/// Thread-safe: a Session and its streams create them.
+/// The sessions of one id that this process has made, known by the time of their creation: where one has ended, another
+/// client may have created the next one. Thread-safe: a Session and its streams create them.
 class MadeSessions {
 public:
     void note(const v1::CreateSessionResponse& response) {

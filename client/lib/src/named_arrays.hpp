@@ -23,8 +23,8 @@ public:
 
     bool are_known() const { return names_.has_value(); }
 
-    /// Those of a frame's arrays that are sent. Throws InvalidInput, with the array's name, for one that is missing,
-    /// comes twice, or can be no attribute; lengths are not looked at. A frame without particles may lack them.
+    /// The arrays of a frame that are sent. Throws InvalidInput, with the array's name, for one that is missing, comes
+    /// twice, or can be no attribute; lengths are not looked at. A frame without particles may lack them.
     std::vector<ParticleArray> of(std::span<const ParticleArray> arrays, std::size_t particles) const;
 
 private:

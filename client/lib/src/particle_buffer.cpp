@@ -11,9 +11,9 @@ namespace meniscus::client {
 
 namespace {
 
-/// Of a frame.
+/// The most particles of a frame.
 constexpr std::size_t most_particles = 0xFFFFFFFE;
-/// Of an array, far more than any has: their product with the particles' number fits.
+/// The most components of an array, far more than any has: their product with the particles' number fits.
 constexpr std::size_t most_components = 1024;
 
 struct Vectors {

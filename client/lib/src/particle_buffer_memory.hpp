@@ -26,7 +26,7 @@ public:
         return views;
     }
     static bool has_arrays(const ParticleBuffer& buffer) { return !buffer.arrays_.empty(); }
-    /// Of the further array at this place.
+    /// The bytes of the further array at this place.
     static std::span<std::byte> bytes_of(const ParticleBuffer& buffer, std::size_t place) {
         return buffer.arrays_[place].bytes;
     }

@@ -16,7 +16,7 @@ namespace meniscus::client {
 
 namespace {
 
-/// Without its bytes. arrays: those beside positions and levels.
+/// A frame without its bytes. arrays: those beside positions and levels.
 PushedFrame begin_frame(const ParticleFrame& frame, std::span<const ParticleArray> arrays, std::uint64_t index,
                         double simulation_time) {
     if (!std::isfinite(simulation_time))

@@ -10,7 +10,7 @@ namespace meniscus::client {
 /// Calls the handler, if there is one; what it throws is lost.
 void report_reconnecting(const ReconnectHandler& handler, const ReconnectEvent& event) noexcept;
 
-/// At least 0.
+/// The time that is left until then, at least 0.
 std::chrono::milliseconds time_left(std::chrono::steady_clock::time_point until);
 
 }  // namespace meniscus::client

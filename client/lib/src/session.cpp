@@ -14,7 +14,7 @@ namespace meniscus::client {
 
 namespace {
 
-/// Of each of two calls, so that a Session goes within a second, though nothing answers.
+/// The time for each of two calls, so that a Session goes within a second, though nothing answers.
 constexpr std::chrono::milliseconds farewell_time{400};
 
 /// Ends it, unless it has ended, and somebody else has created another one of this id. limits: of each call.

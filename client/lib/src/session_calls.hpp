@@ -11,7 +11,7 @@
 
 namespace meniscus::client {
 
-/// As Client's; they throw what the call failed with.
+/// The calls of Client about a session. They throw the error that the call failed with.
 v1::CreateSessionResponse create_session(const Connection& connection, const std::string& id, const Settings& settings,
                                          const SessionOptions& options, const CallLimits& limits);
 SessionInfo session_info(const Connection& connection, const std::string& id, const CallLimits& limits);

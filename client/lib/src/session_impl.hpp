@@ -23,9 +23,9 @@ public:
     const std::string& id() const noexcept { return id_; }
     bool is_owned() const noexcept { return owned_; }
     const Settings& settings() const noexcept { return settings_; }
-    /// For streams, which create it again where a server has lost it.
+    /// The sessions that were made, for streams, which create one again where a server has lost it.
     const std::shared_ptr<MadeSessions>& made() const noexcept { return made_; }
-    /// If it is owned, and has ended meanwhile.
+    /// Creates the session again, if it is owned and has ended meanwhile.
     void create_again(const std::stop_token& stop);
     void end(const std::stop_token& stop);
     std::function<void()> ending() const;

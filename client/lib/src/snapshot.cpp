@@ -50,7 +50,7 @@ public:
         }
         changed_.notify_all();
     }
-    /// What the call ended with.
+    /// The status of the call that has ended, or the one for a call that is not answered.
     grpc::Status of(grpc::Status status) {
         const std::lock_guard lock(mutex_);
         return was_exceeded_ ? not_answered(limit_) : std::move(status);

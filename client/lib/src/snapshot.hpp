@@ -10,7 +10,7 @@
 
 namespace meniscus::client {
 
-/// As Client::snapshot().
+/// Does the work of Client::snapshot().
 std::optional<ReceivedFrame> take_snapshot(const Connection& connection, const std::string& session_id,
                                            const SnapshotOptions& options);
 

@@ -74,7 +74,7 @@ StreamOptions with_bounded_waits(StreamOptions options) {
     return options;
 }
 
-/// What creates it again, with its name and kind.
+/// The request that creates the session again, with its name and kind.
 v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContext& context,
                                       const std::string& session_id) {
     context.set_deadline(deadline_after<std::chrono::system_clock>(connection.timeout));
@@ -278,7 +278,7 @@ void Stream::Impl::send() {
             frame->memory.reset();
         }
         lock.lock();
-        // What became of it is for the receiving thread to find out.
+        // The receiving thread finds out why the call broke.
         if (!sent && call_ == call) call_.reset();
     }
 }

@@ -122,11 +122,11 @@ private:
     v1::StreamOpen open_;
     v1::CreateSessionRequest session_;  ///< for a server that has lost it
 
-    // Of the thread that pushes.
+    // The following belong to the thread that pushes.
     NamedArrays named_;
     bool looked_for_names_ = false;
 
-    // Of the receiving thread.
+    // The following belong to the receiving thread.
     Backoff backoff_;
     std::optional<Clock::time_point>
         broken_at_;              ///< none: answers have come since, or a call was accepted when none were owed

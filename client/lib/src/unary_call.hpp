@@ -15,10 +15,10 @@
 
 namespace meniscus::client {
 
-/// Of a call that the server has not answered in time.
+/// The status of a call that the server has not answered in time.
 grpc::Status not_answered(std::chrono::milliseconds timeout);
 
-/// What ends a call that is not answered.
+/// The limits of a call that is not answered.
 struct CallLimits {
     std::chrono::milliseconds timeout;
     std::stop_token stop = {};

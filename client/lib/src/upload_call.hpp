@@ -31,10 +31,10 @@ public:
     /// False once there is nothing more to read.
     bool read(v1::StreamResponse& response);
     grpc::Status finish();
-    /// For the metadata of its end.
+    /// The call's context, for the metadata of its end.
     const grpc::ClientContext& context() const { return context_; }
 
-    /// From any thread.
+    /// Cancels the call, from any thread.
     void cancel();
 
 private:

@@ -29,7 +29,7 @@
 
 namespace meniscus::client {
 
-/// What its caller wants of a call beside its request.
+/// The caller's wishes for a call beside its request.
 struct WatchPersistence {
     std::chrono::milliseconds patience{0};     ///< for how long a call that broke is made again
     std::chrono::milliseconds route_check{0};  ///< how often to look, then, whether another server has the session by
@@ -93,7 +93,7 @@ public:
         return std::nullopt;
     }
 
-    /// From any thread, as is_canceled(): a next() that waits then returns none.
+    /// Cancels the calls, from any thread, as is_canceled(): a next() that waits then returns none.
     void cancel() {
         const std::lock_guard lock(mutex_);
         canceled_ = true;
@@ -165,7 +165,7 @@ private:
         return std::nullopt;
     }
 
-    /// Of an earlier call: a run's frames go on where they stopped.
+    /// Whether an earlier call has returned the frame: a run's frames go on where they stopped.
     bool was_shown(const Frame& frame) const {
         return frame.run_id != 0 && shown_index_ && frame.run_id == shown_run_ && frame.index <= *shown_index_;
     }
@@ -210,8 +210,8 @@ private:
                (status.error_code() == grpc::StatusCode::NOT_FOUND && had_session_);
     }
 
-    /// Of the thread that looks. A session whose simulator lost its connection while the servers behind a proxy changed
-    /// goes on with another server, and the one that this call is on does not hear of it.
+    /// The work of the thread that looks. A session whose simulator lost its connection while the servers behind a
+    /// proxy changed goes on with another server, and the one that this call is on does not hear of it.
     void check_route() {
         std::unique_lock lock(mutex_);
         while (!canceled_now_.wait_for(lock, persistence_.route_check, [&] { return canceled_; })) {

@@ -95,7 +95,7 @@ def _attribute(name: str, value: Any) -> Array:
 
 
 def _within(array: Array, wanted: Any, what: str) -> Array:
-    """As the type wanted. Raises InvalidInput for a number that it does not hold."""
+    """The array in the type wanted. Raises InvalidInput for a number that the type does not hold."""
     limits = np.iinfo(wanted)
     if array.size > 0 and (int(array.max()) > limits.max or int(array.min()) < limits.min):
         raise InvalidInput(

@@ -46,7 +46,7 @@ class Worker:
 
 
 async def in_background(function: Callable[[], T]) -> T:
-    """What a call that waits returns. It is made to its end, also where the task that waits for it is cancelled."""
+    """The result of a call that waits. It is made to its end, also where the task that waits for it is cancelled."""
     return await asyncio.wrap_future(Worker("meniscus").call(function))
 
 

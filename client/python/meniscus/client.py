@@ -81,7 +81,7 @@ class Client:
         return Session(self._raw.open_session(texts))
 
     def sessions(self) -> list[SessionInfo]:
-        """Those of the server that this client may see."""
+        """The server's sessions that this client may see."""
         return [session_info(fields) for fields in self._raw.sessions()]
 
     def session_info(self, session_id: str) -> SessionInfo:
@@ -89,7 +89,7 @@ class Client:
         return session_info(self._raw.session_info(session_id))
 
     def delete_session(self, session_id: str) -> None:
-        """Ends a session, whoever made it."""
+        """Ends a session, also one that another client made."""
         self._raw.delete_session(session_id)
 
     def stream(self, session_id: str, **options: Any) -> Stream:
@@ -136,7 +136,7 @@ class Client:
                 yield frame
 
     async def awatch_particles(self, session_id: str, **options: Any) -> AsyncIterator[ParticleFrame]:
-        """As watch_particles(), for asyncio."""
+        """Watches as watch_particles() does, for asyncio."""
         with await in_background(partial(self.watch_particles, session_id, **options)) as watcher:
             async for frame in watcher:
                 yield frame
@@ -150,7 +150,7 @@ class Client:
         return None if raw is None else Frame(raw)
 
     def recordings(self) -> list[RecordingInfo]:
-        """What the server has recorded, the newest first. Raises ServerError (unimplemented) if it records nothing."""
+        """The server's recordings, the newest first. Raises ServerError (unimplemented) if it records nothing."""
         return [RecordingInfo(**fields) for fields in self._raw.recordings()]
 
     def read_recording(

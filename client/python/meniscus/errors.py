@@ -1,4 +1,4 @@
-"""What goes wrong: errors that this package raises by itself, and the category of its warnings."""
+"""The errors that this package raises by itself, and the category of its warnings."""
 
 
 class Error(Exception):

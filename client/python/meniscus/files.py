@@ -36,10 +36,10 @@ def read_particles(path: Union[str, os.PathLike[str]], *, max_bytes: int = 8 << 
 
 
 def particle_extensions() -> tuple[str, ...]:
-    """Of the files that read_particles() reads, with their dots."""
+    """The extensions of the files that read_particles() reads, with their dots."""
     return tuple(_meniscus.particle_extensions())
 
 
 def mesh_extensions() -> tuple[str, ...]:
-    """Of the files that Mesh.save() writes, with their dots."""
+    """The extensions of the files that Mesh.save() writes, with their dots."""
     return tuple(_meniscus.mesh_extensions())

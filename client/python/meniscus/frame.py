@@ -1,4 +1,4 @@
-"""What comes from a server: frames of meshes, and of particles."""
+"""The frames that come from a server: of meshes, and of particles."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .statistics import Statistics
 
 @dataclass(frozen=True)
 class AttributeForm:
-    """What the vertices of a frame's surface have, whether it was asked for or not."""
+    """An attribute of the vertices of a frame's surface, whether it was asked for or not."""
 
     type: str  #: "float32", "uint8", "int32" or "uint32"
     components: int

@@ -1,4 +1,4 @@
-"""What a server says about itself, its sessions and its recordings."""
+"""The descriptions of a server, of its sessions and of its recordings."""
 
 from __future__ import annotations
 

@@ -67,7 +67,7 @@ def _sendable(name: str, text: str) -> str:
 
 
 def _flat(values: Any) -> list[Any]:
-    """Of (min, max) as of six numbers."""
+    """The numbers of values one by one: (min, max) of a box gives six."""
     flat: list[Any] = []
     for value in values:
         flat.extend(value) if hasattr(value, "__len__") and not isinstance(value, str) else flat.append(value)

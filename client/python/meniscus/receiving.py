@@ -1,4 +1,4 @@
-"""What streams, watchers and readers of recordings have in common: frames that come one after the other."""
+"""The common part of streams, watchers and readers of recordings: frames that come one after the other."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class RawSource(Protocol):
 
 
 class Handler:
-    """What C++ has in place of a function that gets reports. The function often refers to the frames that
+    """The object that C++ has in place of a function that gets reports. The function often refers to the frames that
     refer to it, a circle that Python's garbage collector cannot see through C++: cancel() cuts it here."""
 
     def __init__(self, function: Callable[..., None]) -> None:
@@ -106,7 +106,7 @@ class Frames(Generic[F]):
             self._handler.function = None
 
     def close(self) -> None:
-        """The same; the end of a ``with`` block calls it."""
+        """Ends it as cancel() does; the end of a ``with`` block calls it."""
         self.cancel()
         self._worker.stop()
 
@@ -127,7 +127,7 @@ class Frames(Generic[F]):
             raise
 
     def _first(self) -> Optional[F]:
-        """Of what was received and not taken."""
+        """The first frame that was received and not taken; None without one. Raises the error that came instead."""
         try:
             return self._received.popleft()
         except IndexError:
@@ -137,7 +137,7 @@ class Frames(Generic[F]):
             return None
 
     def _receive_ahead(self) -> None:
-        """Whoever asks first has what comes of it: the task that waits may be cancelled meanwhile."""
+        """Keeps the next frame or error for the next caller: the task that waits may be cancelled meanwhile."""
         try:
             frame = self.next(self._piece)
         except Exception as error:

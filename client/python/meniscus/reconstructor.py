@@ -84,7 +84,7 @@ class Reconstructor:
     def reconstruct_on_device(
         self, positions: Any, *, levels: Any = None, attributes: Optional[Mapping[str, Any]] = None
     ) -> DeviceMesh:
-        """As reconstruct(), but the mesh stays on the GPU. Raises InvalidInput on the backend "cpu"."""
+        """Reconstructs a frame, but the mesh stays on the GPU. Raises InvalidInput on the backend "cpu"."""
         if arrays.is_on_gpu(positions):
             raw, figures = self._raw.device_mesh_from_device(*arrays.device_frame(positions, levels, attributes))
         else:
@@ -127,7 +127,7 @@ def reconstruct(
 
 
 def _told(figures: Mapping[str, Any], callers: int) -> Statistics:
-    """callers: functions from this one up to the one of the user's, at whose line the warnings are told."""
+    """Warns at the user's line. callers: the number of functions from this one up to the user's."""
     statistics = Statistics.of(figures)
     for warning in statistics.warnings:
         warnings.warn(warning.text, SurfaceWarning, stacklevel=callers + 1)

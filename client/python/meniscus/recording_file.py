@@ -35,7 +35,7 @@ class RecordingFile:
 
     @property
     def name(self) -> str:
-        """Of the session; "" where it had none."""
+        """The session's name; "" where it had none."""
         return self._raw.name
 
     @property

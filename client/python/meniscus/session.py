@@ -38,7 +38,7 @@ class Session:
         return self._raw.is_owned
 
     def info(self) -> SessionInfo:
-        """What the session is doing. Raises ServerError (not_found) of one that has ended."""
+        """The session's description and state. Raises ServerError (not_found) if it has ended."""
         return session_info(self._raw.info())
 
     def stream(self, **options: Any) -> Stream:
@@ -46,11 +46,11 @@ class Session:
         return open_stream(self._raw.stream, **options)
 
     def watch(self, **options: Any) -> Watcher:
-        """As Client.watch()."""
+        """Watches the session as Client.watch() does."""
         return open_watcher(self._raw.watch, **options)
 
     def watch_particles(self, **options: Any) -> ParticleWatcher:
-        """As Client.watch_particles()."""
+        """Watches the session's particles as Client.watch_particles() does."""
         return open_particle_watcher(self._raw.watch_particles, **options)
 
     def leave(self) -> None:

@@ -8,7 +8,7 @@ from typing import Any, Mapping
 
 @dataclass(frozen=True)
 class FrameWarning:
-    """What a frame's owner surely did not mean. The frame was reconstructed as asked."""
+    """A probable mistake in a frame or its settings. The frame was reconstructed as asked."""
 
     code: str  #: such as "radius_too_small"
     value: float  #: what was found
@@ -43,7 +43,7 @@ class Statistics:
     warnings: tuple[FrameWarning, ...]  #: what looks like a mistake
     # end of rows
 
-    # Of a frame from a server:
+    # The figures of a frame from a server:
     # rows: frame statistics
     encode_seconds: float = 0.0  #: time of the encoding, s
     latency_seconds: float = 0.0  #: time from the frame's last byte to the end of its encoding, s
@@ -52,7 +52,7 @@ class Statistics:
 
     @classmethod
     def of(cls, figures: Mapping[str, Any]) -> Statistics:
-        """Of what the C++ side tells."""
+        """The statistics of the figures that come from C++."""
         told: dict[str, Any] = dict(figures)
         told["warnings"] = tuple(FrameWarning(**warning) for warning in told["warnings"])
         return cls(**told)

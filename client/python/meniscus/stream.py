@@ -54,7 +54,7 @@ class Stream(Frames[Frame]):
         time: float = 0.0,
         index: Optional[int] = None,
     ) -> bool:
-        """As push() where that would not wait; otherwise False, and nothing was taken, neither the frame nor its
+        """Pushes where push() would not wait; otherwise False, and nothing was taken, neither the frame nor its
         index."""
         return self._raw.try_push(*arrays.frame(positions, levels, attributes), index, time)
 

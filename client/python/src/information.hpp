@@ -1,4 +1,4 @@
-// What a server tells, as the keywords of the classes in meniscus/information.py.
+// The descriptions that a server sends, as the keywords of the classes in meniscus/information.py.
 #pragma once
 
 #include <pybind11/pybind11.h>

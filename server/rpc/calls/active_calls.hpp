@@ -40,7 +40,7 @@ public:
         return none_.wait_until(lock, deadline, [&] { return count_ == 0; });
     }
 
-    /// The same, and returns false also if no call makes progress within `patience`.
+    /// Waits as wait_until_none() does, and returns false also if no call makes progress within `patience`.
     bool wait_while_they_progress(std::chrono::system_clock::time_point deadline, std::chrono::milliseconds patience) {
         for (;;) {
             const std::uint64_t before = progress_;

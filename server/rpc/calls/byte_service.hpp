@@ -1,8 +1,8 @@
 // A gRPC service whose calls begin with their metadata alone, and carry bytes.
 //
-// Where gRPC knows that a call has one request, it receives that whole before it announces the call, however large it
-// is and whoever sends it. Here every call is a stream both ways to gRPC, which is the same on the wire: its reactor
-// asks for the caller, then for the request.
+// Where gRPC knows that a call has one request, it receives that whole before it announces the call, of any size and
+// from any sender. Here every call is a stream both ways to gRPC, which is the same on the wire: its reactor asks for
+// the caller, then for the request.
 #pragma once
 
 #include <grpcpp/impl/service_type.h>

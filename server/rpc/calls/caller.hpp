@@ -18,7 +18,7 @@ Caller admit(const Authorizer& authorizer, const grpc::ServerContextBase& contex
 /// call came through the HTTP port. Behind a trusted proxy "192.0.2.7 through " comes first: its client.
 std::string peer_of(const Authorizer& authorizer, const grpc::ServerContextBase& context);
 
-/// What callers share of which this one has its part; none if it has no limits of its own.
+/// The caller's account; none if it has no limits of its own.
 std::shared_ptr<NameAccount> account_of(const Caller& caller, SessionRegistry& registry);
 
 /// The session, if it exists for the caller. Throws Refusal, not_found, otherwise.

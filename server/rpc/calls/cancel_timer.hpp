@@ -12,13 +12,13 @@
 
 namespace meniscus::server {
 
-/// For the first message of a call. It carries what its client knew when it called.
+/// The time for the first message of a call. It carries only what its client knew when it called.
 inline constexpr std::chrono::seconds first_message_patience{10};
-/// For a client to take what is under way to it once nothing else follows.
+/// The time for a client to take the messages under way to it, once no others follow.
 inline constexpr std::chrono::seconds last_message_patience{5};
 
-/// Of a reactor. One thread at a time, but for what gRPC calls. An alarm of gRPC, which needs no thread and no lock
-/// that thousands of calls share; see Timer for the rest of the server.
+/// The timer of a reactor. One thread at a time, but for the calls of gRPC. It uses an alarm of gRPC, which needs no
+/// thread and no lock that thousands of calls share; see Timer for the rest of the server.
 class CancelTimer {
 public:
     explicit CancelTimer(grpc::CallbackServerContext& context) : call_(std::make_shared<Call>(context)) {}

@@ -11,7 +11,7 @@ namespace meniscus::server {
 /// is logged.
 grpc::Status to_status(const std::exception_ptr& error);
 
-/// Of a call that was canceled: nobody reads it, but it is counted.
+/// The status of a call that was canceled: nobody reads it, but it is counted.
 grpc::Status client_gone();
 
 }  // namespace meniscus::server

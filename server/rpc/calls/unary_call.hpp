@@ -26,7 +26,7 @@ public:
 
     const grpc::CallbackServerContext& context() const { return context_; }
     const Caller& caller() const { return caller_; }
-    /// As peer_of().
+    /// The other end, as peer_of() names it.
     std::string peer() const { return peer_of(authorizer_, context_); }
     /// Throws InvalidInput for bytes that are not such a message.
     template <class Request>

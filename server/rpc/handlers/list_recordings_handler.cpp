@@ -15,7 +15,7 @@ namespace {
 /// Some 500 kB, and 2 MB with the longest names: below what clients take as one message.
 constexpr std::size_t most = 4096;
 
-/// Empty where it is none: the file may have been written by another program.
+/// The recording's description; empty if it is not valid: another program may have written the file.
 v1::SessionDescription description_of(const v1::RecordingBegin& begin) {
     try {
         return checked_description(begin.description());

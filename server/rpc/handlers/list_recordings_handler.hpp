@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// Those that the caller may see, the newest first, 4096 at most.
+/// The recordings that the caller may see, the newest first, 4096 at most.
 v1::ListRecordingsResponse list_recordings(const RecordingCatalog::Entries& recordings, const Caller& caller);
 
 }  // namespace meniscus::server

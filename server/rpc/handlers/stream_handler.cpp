@@ -32,8 +32,8 @@ namespace {
 
 /// Two sides run side by side. The reading side is one thread at a time: a read is under way, or a free input slot is
 /// waited for, or the session before that, or reading has ended. It owns the input slot while it works on a message;
-/// otherwise whoever holds the lock does, so that a call that ends gives its slot back however dead its connection is.
-/// The writing side sends what the upload's output holds and finishes the call after its end. It also finishes after a
+/// otherwise the lock's holder does, so that a call that ends gives its slot back however dead its connection is. The
+/// writing side sends what the upload's output holds and finishes the call after its end. It also finishes after a
 /// cancellation, as soon as no write is under way, so that no call outlives its client.
 class StreamReactor final : public ByteReactor, public std::enable_shared_from_this<StreamReactor> {
 public:
@@ -205,7 +205,7 @@ private:
         if (unused != nullptr) session_->return_input(*unused);
     }
 
-    /// From another thread, which may be faster than the one that asked.
+    /// Called by another thread, which may be faster than the one that asked.
     void booked() {
         const std::lock_guard lock(mutex_);
         if (!std::exchange(waits_for_room_, false)) {
@@ -314,7 +314,7 @@ private:
         return in_frame || !draining_;
     }
 
-    /// What was received before is answered, then the call ends with the error.
+    /// Ends reading: the frames that were received before are answered, then the call ends with the error.
     void end_reading(std::exception_ptr error) {
         InputFrame* unused = nullptr;
         {
@@ -434,7 +434,7 @@ private:
     Caller caller_;
     std::string session_id_;
 
-    // Of the reading side.
+    // The following belong to the reading side.
     grpc::ByteBuffer incoming_;
     v1::StreamRequest request_;
     FrameAssembler assembler_;  ///< of the session, once there is one

@@ -126,7 +126,7 @@ private:
         end(to_status(error));
     }
 
-    /// Before it is open.
+    /// Ends the call before the watch is open.
     void end(const grpc::Status& status) {
         const std::lock_guard lock(mutex_);
         finish(status);

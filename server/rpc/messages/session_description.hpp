@@ -1,4 +1,4 @@
-// What people call a session, from the wire.
+// The description of a session, from the wire.
 #pragma once
 
 #include "meniscus/v1/session_service.pb.h"

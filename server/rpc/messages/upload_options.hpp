@@ -1,4 +1,4 @@
-// What a stream asks for as it opens.
+// The options with which a stream opens.
 #pragma once
 
 #include "meniscus/v1/surface_service.pb.h"

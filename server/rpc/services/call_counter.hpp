@@ -11,7 +11,7 @@
 
 namespace meniscus::server {
 
-/// As dashboards of gRPC know it, such as "NotFound".
+/// The name of a code in dashboards of gRPC, such as "NotFound".
 std::string_view metric_name_of(grpc::StatusCode code);
 
 /// Sees every call of every service, whether the server or the client ends it.

@@ -48,7 +48,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    /// Of one name.
+    /// The turns that wait under one name.
     struct Line {
         std::string name;
         std::deque<std::uint64_t> waiting{};  ///< the numbers of the turns that were asked for, the next one first
@@ -61,7 +61,7 @@ private:
     std::mutex mutex_;
     std::condition_variable_any changed_;
     std::uint64_t asked_ = 0;
-    /// Of the names that wait, the next one first. The one that has the present turn is last, and may be empty.
+    /// The lines of waiting names, the next one first. That with the present turn is last, and may be empty.
     std::list<Line> lines_;
     std::optional<Clock::time_point> began_;  ///< the present turn; none: there is none
     std::string holder_;                      ///< of the present turn

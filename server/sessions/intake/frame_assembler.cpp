@@ -36,7 +36,7 @@ Box quantization_box(const v1::FrameBegin& message) {
     return box;
 }
 
-/// Of a FrameChunk.
+/// The bytes of a FrameChunk, taken piece by piece.
 class ChunkSource {
 public:
     explicit ChunkSource(const v1::FrameChunk& chunk) : left_(std::as_bytes(std::span(chunk.data()))) {}

@@ -15,7 +15,7 @@ namespace {
 
 using conversion::FurtherArray;
 
-/// For a frame that lacks one that its session needs.
+/// The names of the arrays, for the refusal of a frame that lacks one.
 std::string names_of(const std::vector<FurtherArray>& arrays) {
     if (arrays.empty()) return "none beside positions and levels";
     std::string names;

@@ -39,7 +39,7 @@ public:
     void put(Received received);
     /// Notes in place of the upload's frames that wait, each as replaced. Returns the frames.
     std::vector<InputFrame*> replace(const Upload& upload);
-    /// What was sent ahead of the upload's frames that wait, to be withdrawn: they stay, and may be taken meanwhile.
+    /// The waiting frames' copies that were sent ahead, to be withdrawn. The frames stay, and may be taken meanwhile.
     std::vector<FrameUpload> sent_ahead(const Upload& upload);
     /// Forgets the frames and the dropped ones of the upload. Returns the frames.
     std::vector<InputFrame*> withdraw(const Upload& upload);

@@ -50,7 +50,7 @@ struct InputFrame {
     void pin() noexcept { pinned_.hold(std::span(bytes.data(), bytes.capacity())); }
     /// Sends the frame, which is complete, ahead of its reconstruction. send: see ReconstructFunctions::send_ahead.
     void send_ahead(const std::function<FrameUpload(const ParticleFrame& frame)>& send) { sent_ = send(view()); }
-    /// Another handle of that, for whoever withdraws it.
+    /// Another handle of the frame that was sent ahead, to withdraw it by.
     FrameUpload sent() const { return sent_.another(); }
     /// Its bytes are no longer in flight. Its memory stays for the next frame, if there is room for it.
     void land() noexcept {
@@ -92,7 +92,7 @@ struct InputFrame {
     void keep_arrays(std::vector<KeptArray> arrays);
     /// The particles, in place.
     ParticleFrame view() const;
-    /// Of positions and levels, which come first.
+    /// The bytes of positions and levels, which come first.
     std::size_t particle_bytes() const;
 
     std::uint64_t index = 0;
@@ -103,7 +103,7 @@ struct InputFrame {
     Box quantization_box;
     Array<std::byte> bytes;  ///< all positions, then all levels, then the arrays
     std::chrono::steady_clock::time_point received_at;
-    /// Of the run, once the session has shown these particles; none again from allocate() on.
+    /// The run's number, once the session has shown these particles; none again from allocate() on.
     std::optional<std::uint64_t> shown_in_run;
 
 private:

@@ -30,7 +30,7 @@ public:
         begin_ = memory.data();
         pinning_->pin(begin_, memory.size());
     }
-    /// Before the memory is freed or goes elsewhere.
+    /// Unpins the memory, before it is freed or goes elsewhere.
     void drop() noexcept {
         if (void* const begin = std::exchange(begin_, nullptr)) pinning_->unpin(begin);
     }

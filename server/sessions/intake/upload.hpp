@@ -19,7 +19,7 @@
 
 namespace meniscus::server {
 
-/// What happens to frames that come faster than they are reconstructed.
+/// The treatment of frames that come faster than they are reconstructed.
 enum class UploadPolicy {
     every_frame,  ///< the simulator is slowed down
     latest,       ///< the newest one replaces those that wait

@@ -50,7 +50,7 @@ public:
     std::size_t share() const noexcept { return share_; }
     /// Frames that wait for bytes.
     std::size_t waiting() const;
-    /// Whether frames of other sessions do.
+    /// Whether frames of other sessions wait for bytes.
     bool others_wait(const SessionInFlight& session) const;
 
 private:
@@ -63,7 +63,7 @@ private:
     /// Whether all frames that have begun can arrive whole, if this one has `more` bytes.
     bool is_safe(const FrameInFlight& frame, std::size_t more) const;
     void forget(FrameInFlight& frame);
-    /// Those whose bytes are booked by now, in the order of their frames.
+    /// Books for waiting frames. Returns the calls for those whose bytes are booked by now, in their order.
     Calls grant_waiting();
 
     const std::size_t limit_;
@@ -105,7 +105,7 @@ private:
     const std::shared_ptr<BytesInFlight> all_;
     const std::shared_ptr<SessionInFlight> session_;
 
-    // Of BytesInFlight, with its lock held.
+    // The following belong to BytesInFlight, with its lock held.
     bool begun_ = false;
     bool admitted_ = false;
     bool oversized_ = false;

@@ -1,4 +1,4 @@
-// What the server refuses to exceed. 0 means no limit.
+// The limits that the server refuses to exceed. 0 means no limit.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace meniscus::server {
 
 /// The most bytes of one chunk of particle data, and of one part of a brick.
 inline constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
-/// Of one message: a full chunk, and what is around it; and what gRPC can count.
+/// The range of Limits::message_bytes: from a full chunk and its envelope to the most that gRPC can count.
 inline constexpr std::size_t min_message_bytes = chunk_bytes + 1024;
 inline constexpr std::size_t max_message_bytes = std::numeric_limits<int>::max();
 
@@ -26,10 +26,10 @@ constexpr std::uint32_t all_but_an_eighth(std::uint32_t limit) {
 
 struct Limits {
     std::uint32_t sessions = 16;
-    /// Of one token's name, or without tokens of one peer address.
+    /// The limits of one token's name, or without tokens of one peer address.
     NameShares per_name{};
     std::uint32_t watchers_per_session = 64;
-    /// Of all watchers of a session: each is encoded once for each frame; see WatchForm.
+    /// Formats that a session's watchers ask for: each is encoded once for each frame; see WatchForm.
     std::uint32_t formats_per_session = 8;
     /// Snapshots under way at a time, and those of one name.
     std::uint32_t snapshots = 16;
@@ -45,20 +45,20 @@ struct Limits {
     std::uint64_t particles_per_frame = 0;
     /// How much more work a frame may be than one of as many particles that are evenly spread, see BackendOptions.
     double work_per_frame = 20.0;
-    /// Of a frame on the device; not that for which it waits for its turn.
+    /// The time of a frame on the device, without its wait for a turn.
     std::chrono::milliseconds frame_time{60'000};
-    /// For the reconstruction of one session, as much again for its frames on their way in, and for their encoding.
+    /// Memory for the reconstruction of one session; the same again for its arriving frames, and for their encoding.
     std::size_t bytes_per_session = 0;
-    /// For the reconstruction of one session on its GPU.
+    /// Memory for the reconstruction of one session on its GPU.
     std::size_t device_bytes_per_session = 0;
-    /// For all sessions' reconstructions, and for those on one GPU.
+    /// Memory for all sessions' reconstructions, and for those on one GPU.
     std::size_t total_bytes = 0;
     std::size_t total_device_bytes = 0;
-    /// A session without frames gives its buffers back after it.
+    /// A session without frames gives its buffers back after this time.
     std::chrono::milliseconds idle_buffers_time{0};
     /// Bytes of all sessions' frames, each until it has been reconstructed; see BytesInFlight.
     std::size_t bytes_in_flight = 0;
-    /// Of a frame on its way in.
+    /// The least pace of a frame on its way in.
     LeastPace least_pace{};
     /// Frames that the streams of one session may begin in any second.
     std::uint32_t frames_per_second = 0;
@@ -66,11 +66,11 @@ struct Limits {
     std::uint32_t chunks_per_frame = 65536;
     /// A stream without frames and without outstanding answers ends after it, and so does a session that nobody uses.
     std::chrono::milliseconds idle_time{0};
-    /// A session whose simulator has vanished without a word ends after it, unless it is watched or resumed.
+    /// A session whose simulator has vanished without a word ends after this time, unless it is watched or resumed.
     std::chrono::milliseconds orphan_time{0};
-    /// An ephemeral session without a stream ends after it.
+    /// An ephemeral session without a stream ends after this time.
     std::chrono::milliseconds ephemeral_time{5'000};
-    /// Of one message as it arrives; at least that of a full chunk.
+    /// Bytes of one message as it arrives; at least min_message_bytes.
     std::size_t message_bytes = std::size_t{4} << 20;
 
     /// Calls visit(name, value, facts) for each limit, and visit(name, value, facts, standard) if standard() follows

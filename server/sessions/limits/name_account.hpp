@@ -1,4 +1,4 @@
-// What each caller has of what callers share.
+// The accounts of callers: the share that each has of the server.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace meniscus::server {
 
-/// One caller's. Thread-safe.
+/// One caller's account. Thread-safe.
 class NameAccount {
 public:
     explicit NameAccount(std::string name) : name_(std::move(name)) {}

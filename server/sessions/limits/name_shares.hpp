@@ -9,7 +9,7 @@
 
 namespace meniscus::server {
 
-/// Of one token's name, or without tokens of one peer address. 0 means no limit.
+/// The limits of one token's name, or without tokens of one peer address. 0 means no limit.
 struct NameShares {
     std::uint32_t sessions = 0;
     std::uint32_t watchers = 0;           ///< of one session
@@ -20,7 +20,7 @@ struct NameShares {
     bool operator==(const NameShares&) const = default;
 };
 
-/// What the tokens file says of one name; the rest is as for everybody.
+/// The limits that the tokens file gives to one name; the rest is as for everybody.
 struct OwnShares {
     std::optional<std::uint32_t> sessions{};
     std::optional<std::uint32_t> watchers{};

@@ -14,7 +14,7 @@ public:
     /// 0 means no limit.
     SnapshotPlaces(std::uint32_t all, std::uint32_t of_one_name);
 
-    /// Held by a call for as long as it is under way.
+    /// The place of a call, held for as long as it is under way.
     using Place = std::shared_ptr<void>;
     /// caller: may be none. Throws LimitReached.
     Place take(std::shared_ptr<NameAccount> caller);

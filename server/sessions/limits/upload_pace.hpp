@@ -41,7 +41,7 @@ private:
     /// Pauses of a connection are shorter.
     static constexpr Seconds longest_window{5.0};
 
-    // Of the present window.
+    // The present window.
     Seconds begin_{};
     std::size_t bytes_ = 0;  ///< transferred before it
 };

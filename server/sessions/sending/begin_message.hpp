@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// Without the number of bricks and triangles that follow.
+/// The message that begins a mesh, without the numbers of its bricks and triangles.
 inline v1::StreamResponse begin_response(const EncodedFrame& frame) {
     v1::StreamResponse response;
     v1::MeshBegin& begin = *response.mutable_mesh_begin();

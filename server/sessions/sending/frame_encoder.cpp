@@ -103,7 +103,7 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
     if (!spray.empty()) frame.download.start();
     const auto start = Clock::now();
     const Mesh& mesh = *frame.mesh_at(format.max_level);
-    // Of the whole mesh, and announced before its first brick.
+    // The ranges are those of the whole mesh, and announced before its first brick.
     const std::vector<AttributeRange>& ranges = frame.ranges_at(format.max_level);
     const CodingOptions coding{.normal_bits = format.normal_bits,
                                .position_bits = format.position_bits,

@@ -55,13 +55,13 @@ struct ReconstructedFrame {
         const CappedMesh& cap = capped.at(static_cast<std::size_t>(max_level - 1));
         return cap.made ? &cap.mesh : nullptr;
     }
-    /// Of the mesh at this cap; those with their levels capped are complete.
+    /// The download of the mesh at this cap; meshes with their levels capped are complete.
     const MeshDownload& download_at(int max_level) const {
         static const MeshDownload complete;
         return max_level == 3 ? download : complete;
     }
-    /// Of the attributes of the mesh at this cap, which was made: found for its first format, kept for the others. For
-    /// one thread at a time.
+    /// The ranges of the attributes of the mesh at this cap, which was made: found for its first format, kept for the
+    /// others. For one thread at a time.
     const std::vector<AttributeRange>& ranges_at(int max_level) const {
         auto& found = ranges.at(static_cast<std::size_t>(max_level - 1));
         if (!found) found = attribute_ranges(*mesh_at(max_level));

@@ -1,4 +1,4 @@
-// What one frame was and what it cost, in the session and for metrics.
+// The description and the cost of one frame, in the session and for metrics.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the service reports to its metrics.
+// The reports of the service to its metrics.
 #pragma once
 
 #include <cstdint>

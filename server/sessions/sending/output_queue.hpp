@@ -29,7 +29,7 @@ public:
     using Next = std::variant<Nothing, SharedMessage, End>;
     using Clock = std::chrono::steady_clock;
 
-    /// Of the consumer, while the producer waits for room.
+    /// The consumer's pace while the producer waits for room.
     struct Stall {
         std::chrono::duration<double> time{};
         std::size_t bytes_taken = 0;
@@ -43,11 +43,11 @@ public:
     void push(SharedMessage message);
     /// No messages follow. Later calls do nothing.
     void finish(std::exception_ptr error);
-    /// The same, and drops the messages that wait.
+    /// Ends the queue as finish() does, and drops the messages that wait.
     void abort(std::exception_ptr error);
     /// Waits until a frame may begin. Returns false if nobody will read it.
     bool wait_for_room();
-    /// Whether that would not wait.
+    /// Whether wait_for_room() would not wait.
     bool has_room() const;
     /// None: the producer does not wait, or what waits is taken fast enough. Ask again and again.
     std::optional<Stall> too_slow(const LeastPace& least, Clock::time_point now);

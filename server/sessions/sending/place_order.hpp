@@ -7,7 +7,7 @@
 
 namespace meniscus::server {
 
-/// By z, then y, then x.
+/// The order by z, then y, then x.
 struct PlaceOrder {
     explicit PlaceOrder(const std::array<std::int32_t, 3>& place) : z(place[2]), y(place[1]), x(place[0]) {}
     std::int32_t z, y, x;

@@ -10,7 +10,7 @@
 
 namespace meniscus::server {
 
-/// As many scratch memories as threads have encoded bricks of one frame at the same time; charged to one account, and
+/// Scratch memories, one for each thread that encodes bricks of a frame at the same time; charged to one account, and
 /// freed with the pool. Thread-safe.
 class ScratchPool {
 public:

@@ -8,7 +8,7 @@
 
 namespace meniscus::server {
 
-/// For a simulator: the frame will not be answered.
+/// The message to a simulator that the frame will not be answered.
 SharedMessage frame_dropped_message(const DroppedFrame& frame);
 /// For a simulator or a watcher: the server goes down, and ends the call after this time whatever is left.
 SharedMessage draining_message(std::chrono::duration<double> grace);

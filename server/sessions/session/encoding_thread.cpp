@@ -229,7 +229,7 @@ std::shared_ptr<const EncodedFrame> EncodingThread::encode_newest(const MeshForm
 }
 
 void EncodingThread::encode_for_watchers() {
-    // Each once: whoever comes meanwhile has put a task behind the others.
+    // Each format once: a watcher that comes meanwhile has put a task behind the others.
     std::size_t formats = watchers_.unpublished_formats().size();
     while (formats-- > 0 && frames_waiting_ == 0 && encode_in_one_format()) {
     }

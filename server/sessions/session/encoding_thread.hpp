@@ -55,7 +55,7 @@ public:
         ReconstructedFrame* frame = nullptr;  ///< of wait_for_free_frame()
     };
     enum class Newest : std::uint8_t { release, keep };
-    /// Of release_meshes().
+    /// The task of release_meshes().
     struct ReleaseMeshes {
         std::shared_ptr<std::promise<void>> done;
         Newest newest = Newest::release;
@@ -70,7 +70,7 @@ public:
         std::function<void(std::exception_ptr)> session;
     };
 
-    /// What is passed by reference outlives the thread.
+    /// The arguments that are references outlive the thread.
     EncodingThread(const SessionContext& context, Watchers& watchers, Ends ends);
     ~EncodingThread();
     EncodingThread(const EncodingThread&) = delete;
@@ -95,7 +95,7 @@ public:
     /// Frees the meshes and the memory that they are encoded in, once the tasks before are done. What is encoded stays.
     /// Only while no frame is lent. Returns false if the thread is closed.
     bool release_meshes(Newest newest);
-    /// Of the frame answered last.
+    /// The statistics of the frame answered last.
     std::optional<FrameStatistics> last_frame() const;
     /// Drops the tasks that wait. Returns at once.
     void close();

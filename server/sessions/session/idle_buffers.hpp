@@ -28,7 +28,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    /// For sessions to give their buffers back.
+    /// The time for sessions to give their buffers back.
     static constexpr auto patience = std::chrono::seconds(1);
 
     /// Longer ago than anybody asks.

@@ -77,7 +77,7 @@ bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn)
         return true;
     }
     try {
-        // What follows is no work of the device: others have their turn meanwhile.
+        // The rest is no work of the device: others have their turn meanwhile.
         const Turns::Turn ends = std::move(turn);
         const FrameStop::UnderWay under_way(stop_, received.upload.get());
         const OpenWork::Entry working(open_work(), fmt::format("the reconstruction of frame {} of session {}",

@@ -79,7 +79,7 @@ private:
     FrameStop& stop_;
 
     ShownParticles particles_;
-    /// Of the frame that was shown last, with which its meshes are made again.
+    /// The figures of the frame that was shown last, with which its meshes are made again.
     struct Shown {
         std::uint64_t number = 0;
         std::uint64_t run_id = 0;

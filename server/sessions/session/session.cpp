@@ -229,7 +229,7 @@ void Session::finish_upload(const std::shared_ptr<Upload>& upload, std::exceptio
         last_used_ = std::chrono::steady_clock::now();
         if (std::erase(unanswered_, upload) != 0 && !upload->canceled) {
             without_stream_since_ = last_used_;
-            // Of an earlier stream, whose connection was noticed to be dead after a later one had broken, too.
+            // An earlier stream may end last: its connection was noticed to be dead after a later one had broken, too.
             if (last_upload_ == upload.get()) awaited_for_ = {};
         }
         if (draining_ && !upload_) done = watchers_.list();

@@ -29,7 +29,7 @@
 
 namespace meniscus::server {
 
-/// What a session's next frame waits for.
+/// The cause for which a session's next frame waits.
 enum class SessionWait : std::uint8_t { nothing, device, bytes_in_flight };
 
 struct SessionState {
@@ -64,7 +64,7 @@ public:
 
     const std::string& id() const noexcept { return context_.identity.id; }
     const std::string& owner() const noexcept { return context_.identity.owner; }
-    /// Of the caller that created it; may be none.
+    /// The account of the caller that created it; may be none.
     const std::shared_ptr<NameAccount>& account() const noexcept { return context_.identity.account; }
     const Settings& settings() const noexcept { return context_.settings; }
     const SessionKind& kind() const noexcept { return context_.identity.kind; }
@@ -146,7 +146,7 @@ private:
     std::optional<std::string> unused_as_ephemeral(std::chrono::steady_clock::time_point now) const;
     /// The stream that sends from now on; may be none.
     void set_upload(std::shared_ptr<Upload> upload);
-    /// As the upload's policy says. Returns the inputs that are free again.
+    /// Puts the frame into the queue by the upload's policy. Returns the inputs that are free again.
     std::vector<InputFrame*> enqueue(std::shared_ptr<Upload> upload, InputFrame& input);
 
     // Called by the upload's stream.
@@ -160,7 +160,7 @@ private:
     void finish_upload(const std::shared_ptr<Upload>& upload, std::exception_ptr error);
     void end(const std::exception_ptr& error);
 
-    // Of end_idle_upload().
+    // The steps of end_idle_upload().
 
     void end_slow_upload(std::chrono::steady_clock::time_point now);
     void end_stalled_uploads(std::chrono::steady_clock::time_point now, bool memory_is_short);

@@ -1,4 +1,4 @@
-// What the parts of a session read and none of them changes.
+// The values that all parts of a session read and none changes.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace meniscus::server {
 
-/// What a session is beside its settings; whoever joins it need not know.
+/// The description of a session, and whether it is ephemeral. A client that joins it need not know them.
 struct SessionKind {
     v1::SessionDescription description{};
     bool ephemeral = false;  ///< see Session::unused()

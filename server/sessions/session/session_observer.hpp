@@ -1,4 +1,4 @@
-// What a session reports of its frames, to its recording.
+// The reports of a session about its frames, to its recording.
 #pragma once
 
 #include <memory>
@@ -12,11 +12,11 @@ namespace meniscus::server {
 /// Called by the session's threads, which wait meanwhile: implementations return soon, and throw nothing.
 class SessionObserver {
 public:
-    /// Of the normals in the meshes that encoded() is called with.
+    /// The bits of the normals in the meshes that encoded() is called with.
     static constexpr int normal_bits = 8;
 
     virtual ~SessionObserver() = default;
-    /// Likewise of all attributes; see AttributeWish.
+    /// The bits of all attributes in those meshes; see AttributeWish.
     virtual int attribute_bits() const noexcept { return default_attribute_bits; }
     /// A frame that was reconstructed, in the order of arrival. Borrowed.
     virtual void reconstructed(const InputFrame& frame) noexcept = 0;

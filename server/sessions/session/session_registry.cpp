@@ -158,7 +158,7 @@ void SessionRegistry::require_room(const Creator& creator) const {
         throw LimitReached(LimitName::sessions,
                            fmt::format("{} sessions are open; the server holds at most {}{}", sessions_.size(),
                                        limits_.sessions, name_idle_sessions(sessions_of(nullptr), creator.may_see)));
-    // As many again may be about to end, so that a session can take the place of one that was just deleted.
+    // An equal number may be about to end, so that a session can take the place of one that was just deleted.
     if (limits_.sessions != 0 && sessions_.size() + ending_ >= std::size_t{2} * limits_.sessions)
         throw LimitReached(
             LimitName::sessions,

@@ -85,7 +85,7 @@ public:
     std::chrono::duration<double> busy_time();
     Metrics& metrics() const noexcept { return *metrics_; }
     SnapshotPlaces& snapshots() noexcept { return snapshots_; }
-    /// Of all sessions.
+    /// The memory of all sessions.
     const std::shared_ptr<SharedMemory>& memory() const noexcept { return memory_; }
     /// A caller's account. name: of its token, or its address. own: what the tokens file says of it.
     std::shared_ptr<NameAccount> account(const std::string& name, const OwnShares& own = {}) {
@@ -104,7 +104,7 @@ private:
     void remove_ended();
     /// The session is no longer in the map; its threads end in the background.
     void let_end(std::shared_ptr<Session> session);
-    /// What sessions on this place share.
+    /// The resources that sessions on this place share.
     SharedResources shared_on(const BackendOptions& place);
 
     /// Where the next session reconstructs.

@@ -1,4 +1,4 @@
-// What a server's sessions share.
+// The resources that a server's sessions share.
 #pragma once
 
 #include <memory>
@@ -16,9 +16,9 @@ struct SharedResources {
     std::shared_ptr<WorkerPool> workers;  ///< encode
     std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>();
     std::shared_ptr<Turns> turns = std::make_shared<Turns>();  ///< on the device that the session reconstructs on
-    /// Of all sessions' reconstructions, of what they encode in, and of what they keep of frames; may be none.
+    /// The memory of all sessions' reconstructions, of their encoding, and of the frames that they keep; may be none.
     std::shared_ptr<SharedMemory> memory{};
-    /// Of what the device that the session reconstructs on copies from and to; none: it copies nothing by itself.
+    /// The pages that the session's device copies from and to by itself; none: it copies none.
     std::shared_ptr<PagePinning> pinning{};
     std::shared_ptr<BytesInFlight> bytes_in_flight = std::make_shared<BytesInFlight>();
     std::shared_ptr<Timer> deadlines = std::make_shared<Timer>();  ///< of frames on the device

@@ -49,7 +49,7 @@ bool ShownParticles::keep() {
 
 void ShownParticles::encode(const InputFrame& input) {
     try {
-        // Each once: whoever comes meanwhile has left a note behind the frames.
+        // Each stride once: a watcher that comes meanwhile has left a note behind the frames.
         for (const std::uint64_t stride : watchers_.unpublished_strides())
             watchers_.publish(stride, std::make_shared<const ParticleMessages>(
                                           encode_particles(input, *input.shown_in_run, particle_radius_, stride)));

@@ -11,17 +11,17 @@
 
 namespace meniscus::server {
 
-/// Of the reconstructing thread. Particles are encoded once for each stride that watchers ask for.
+/// The particles that the reconstructing thread shows. They are encoded once for each stride that watchers ask for.
 class ShownParticles {
 public:
     /// session: its id, for the log. particle_radius: of level 0, world units. observer: may be none.
     ShownParticles(std::string session, double particle_radius, InputSlots& inputs, Watchers& watchers,
                    std::shared_ptr<SessionObserver> observer);
 
-    /// The frame was reconstructed: for the observer. Does nothing, and returns false, if the run has shown the frame
-    /// already, before it was resumed.
+    /// Shows the observer a frame that was reconstructed. Does nothing, and returns false, if the run has shown the
+    /// frame already, before it was resumed.
     bool show(InputFrame& input, Run& run);
-    /// For watchers: the frame that was shown last.
+    /// Encodes the frame that was shown last, for watchers.
     void encode(const InputFrame& input);
     /// Shows the newest frame to a watcher that has come since, unless another frame is on its way into its slot.
     void show_again();

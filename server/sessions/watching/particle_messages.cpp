@@ -19,7 +19,7 @@ namespace {
 
 constexpr double steps = 65535.0;  // of a uint16
 
-/// Of every stride-th particle; of one point without any.
+/// The box of every stride-th particle; of one point without any.
 Box bounds(std::span<const float> positions, std::size_t stride) {
     Box box{};
     for (std::size_t axis = 0; axis < 3 && !positions.empty(); ++axis) {

@@ -18,7 +18,7 @@ struct ParticleMessages {
     std::size_t bytes = 0;                ///< of them
 };
 
-/// Of how many particles one is sent, so that of `count` no more than max_particles are; 0: all.
+/// The smallest stride that sends no more than max_particles of `count` particles; 1 if max_particles is 0.
 std::uint64_t stride_for(std::uint64_t count, std::uint64_t max_particles);
 
 /// Positions that came quantized go out as they came; others are quantized over the box of those that are sent. All are

@@ -6,7 +6,7 @@ namespace meniscus::server {
 
 namespace {
 
-/// What to send of a frame, against the mesh that was sent before.
+/// Finds the messages of a frame, against the mesh that was sent before.
 struct Update {
     FrameUpdate operator()(const std::shared_ptr<const EncodedFrame>& frame) const {
         return update_mesh(*frame, options, base);

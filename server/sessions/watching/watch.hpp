@@ -25,7 +25,7 @@ namespace meniscus::server {
 /// Meshes or particles.
 using WatchedFrame = std::variant<std::shared_ptr<const EncodedFrame>, std::shared_ptr<const ParticleMessages>>;
 
-/// A watcher that lags finds the newest frame here, never a backlog. The session puts frames in; whoever writes to the
+/// A watcher that lags finds the newest frame here, never a backlog. The session puts frames in. The writer to the
 /// watcher takes messages out, one by one: each frame's difference to the last one that went out whole.
 class Watch {
 public:
@@ -56,7 +56,7 @@ public:
           std::shared_ptr<const NameAccount> account = nullptr);
 
     const WatchOptions& options() const noexcept { return options_; }
-    /// Of the watcher; may be none.
+    /// The watcher's account; may be none.
     const std::shared_ptr<const NameAccount>& account() const noexcept { return account_; }
 
     // The session's side.

@@ -11,7 +11,7 @@
 
 namespace meniscus::server {
 
-/// What is encoded for a watcher: a format of meshes, or a number of particles.
+/// The form that is encoded for a watcher: a format of meshes, or a number of particles.
 using WatchForm = std::variant<MeshFormat, std::uint64_t>;
 
 struct WatchOptions {

@@ -8,7 +8,7 @@ namespace meniscus::server {
 
 namespace {
 
-/// Not a snapshot.
+/// Whether it is a watcher's, not a snapshot's.
 bool is_watcher(const std::shared_ptr<Watch>& watch) {
     return !watch->options().once;
 }

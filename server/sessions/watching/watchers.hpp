@@ -68,7 +68,7 @@ public:
 
 private:
     // With the lock held.
-    /// Of the particles that the watch asks for; none if it asks for meshes, or no frame has come.
+    /// The stride of the particles that the watch asks for; none if it asks for meshes, or no frame has come.
     std::optional<std::uint64_t> stride_of(const Watch& watch) const;
     bool want(const MeshFormat& format) const;
     bool keeps(const MeshFormat& format) const;

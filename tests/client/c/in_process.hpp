@@ -33,7 +33,7 @@ inline CReconstructor default_reconstructor() {
     return reconstructor_of({{"particle-radius", "0.025"}, {"threads", "1"}});
 }
 
-/// What creating a reconstructor with these settings besides the radius is refused with.
+/// The message with which a reconstructor of these settings besides the radius is refused.
 inline std::string refusal_of(std::initializer_list<std::pair<const char*, const char*>> values) {
     COptions options = options_of(values);
     if (meniscus_options_set(options.get(), "particle-radius", "0.025") != MENISCUS_OK) return {};

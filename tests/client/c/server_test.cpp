@@ -225,7 +225,7 @@ TEST_F(CServer, AFrameThatIsRefusedLeavesTheHandlesSafeToUse) {
     const CSession session = open();
     Particles bad = splash(2, 3);
     bad.positions[4] = std::numeric_limits<float>::infinity();
-    // Whoever notices first: the library, or the server, whose answer comes with a later call.
+    // Either side may notice first: the library, or the server, whose answer comes with a later call.
     meniscus_result result = push(session, bad, 0);
     CFrame frame;
     if (result == MENISCUS_OK) result = meniscus_session_next(session.get(), patience, frame.out());

@@ -1,4 +1,4 @@
-"""What libmeniscus.so shows of itself: symbols_test.py LIBRARY HEADER MAP NM READELF.
+"""The symbols of libmeniscus.so: symbols_test.py LIBRARY HEADER MAP NM READELF.
 
 Its functions are those of the header, each in the version script, and nothing else: another library of the same process
 may have gRPC, Protocol Buffers, Draco or CUDA of its own."""

@@ -1,4 +1,4 @@
-// What the command line reads and writes: sequences, pipes, disks that are full, and files that must not be destroyed.
+// The files of the command line: sequences, pipes, disks that are full, and files that must not be destroyed.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-// What the command line says of itself, and of names that it does not know.
+// The command line's texts about itself, and about names that it does not know.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -110,7 +110,7 @@ public:
     Running(const Running&) = delete;
     Running& operator=(const Running&) = delete;
 
-    /// What it has said when this text is there, or when it has ended.
+    /// Its output up to the time when this text is there, or when it has ended.
     std::string read_until(const std::string& text) {
         std::string all;
         std::array<char, 512> bytes{};

@@ -1,4 +1,4 @@
-// What `meniscus sessions` and `meniscus top` show.
+// The tables of `meniscus sessions` and `meniscus top`.
 #include "cli/print/session_table.hpp"
 
 #include <gtest/gtest.h>

@@ -51,7 +51,7 @@ public:
 
     /// The end of the terminal that a person would sit at.
     int terminal() const { return terminal_; }
-    /// What has been drawn when this text is there for the n-th time, nothing has come for half a minute, or the
+    /// Its output up to the time when this text is there for the n-th time, nothing has come for half a minute, or the
     /// program has ended.
     std::string read_until(const std::string& text, int times = 1) const {
         std::string all;

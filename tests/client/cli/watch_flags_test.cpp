@@ -12,7 +12,7 @@
 namespace meniscus::cli {
 namespace {
 
-/// Of a session that has velocity and age.
+/// The attributes that flags ask for, of a session that has velocity and age.
 std::vector<AttributeWish> requests_of(const std::string& flags) {
     CLI::App app;
     WatchFlags parsed;

@@ -1,4 +1,4 @@
-// What becomes of particles before they are reconstructed, and of meshes before they are written.
+// The changes to particles before they are reconstructed, and to meshes before they are written.
 #include <gtest/gtest.h>
 
 #include <algorithm>

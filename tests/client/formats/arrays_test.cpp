@@ -1,4 +1,4 @@
-// What particles carry, from the files of every format and back to them.
+// The arrays of particles, from the files of every format and back to them.
 #include <gtest/gtest.h>
 
 #include <cstring>

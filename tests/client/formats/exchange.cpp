@@ -1,6 +1,5 @@
-// formats_exchange particles|mesh|compressed|pvd IN OUT: reads one format and writes another, for
-// formats_exchange_test.py and tests/acceptance/opens-in-paraview. compressed: a mesh as .vtp by zlib. pvd: IN at the
-// times 0 and 0.5.
+// formats_exchange particles|mesh|compressed|pvd IN OUT: reads one format and writes another, for exchange_test.py and
+// tests/acceptance/opens-in-paraview. compressed: a mesh as .vtp by zlib. pvd: IN at the times 0 and 0.5.
 #include <array>
 #include <cstdio>
 #include <exception>

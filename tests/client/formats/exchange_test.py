@@ -263,7 +263,7 @@ class Exchange(unittest.TestCase):
                 np.testing.assert_array_equal(back["velocity"], arrays["velocity"])
 
     def test_arrays_of_vtp_may_have_any_number_of_bytes(self):
-        # Of base64's groups of three, of the writer's piece and of a compressed block: below, exactly, and beyond.
+        # Below, exactly and beyond base64's groups of three, the writer's piece and a compressed block.
         for points in (1, 2, 3, 4, 255, 256, 257, 3072, 3073, 100_000):
             values = rng.integers(0, 255, points).astype(np.uint8)
             np.savez(self.path / "n.npz", positions=rng.normal(size=(points, 3)), phase=values, triangles=[[0, 0, 0]])

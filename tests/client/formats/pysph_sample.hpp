@@ -19,7 +19,7 @@ inline std::string small(int number) {
     return std::string("K") + static_cast<char>(number);
 }
 
-/// As Python pickles numpy.array(numbers): a call, its arguments, and a state.
+/// The pickle of numpy.array(numbers): a call, its arguments, and a state.
 inline std::string numpy_array(const std::string& type, int count, const std::string& data) {
     const std::string call = std::string("cnumpy.core.multiarray\n_reconstruct\ncnumpy\nndarray\n") + small(0) +
                              "\x85" + std::string("C\x01") + "b" + "\x87" + "R";
@@ -51,7 +51,7 @@ inline std::string sample_pickle(const std::string& kind = "fluid") {
            std::string("C\x01") + "b" + "\x87" + "R(" + small(1) + ")" + dtype + "\x89]" + kinds + "atb.";
 }
 
-/// As numpy.savez(FILE, version=2, particles=...) writes it.
+/// The file that numpy.savez(FILE, version=2, particles=...) writes.
 inline std::string sample_pysph_npz() {
     const TemporaryDirectory directory;
     formats::NpzWriter out(directory / "a.npz");

@@ -243,7 +243,7 @@ TEST(VtkXml, RealFilesHaveTheirPointsAndArrays) {
     for (const auto& array : fluid.arrays) names += array.name + std::to_string(array.components) + " ";
     EXPECT_EQ(names, "velocity3 pressure1 density1 index1 ");
     EXPECT_EQ(fluid.arrays[3].type, ElementType::int32);
-    // The same eight particles, as legacy VTK.
+    // Two files have the same eight particles: one is XML, one is legacy VTK.
     const Particles cube = formats::read_particles(*folder / "single_frames/cube_8_particles.vtu");
     const Particles legacy = formats::read_particles(*folder / "single_frames/cube_8_particles.vtk");
     EXPECT_EQ(cube.positions, legacy.positions);

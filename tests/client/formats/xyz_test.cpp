@@ -51,7 +51,7 @@ TEST(AtomicFile, LeavesNothingWithoutCommit) {
     EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
 }
 
-/// What writing throws; empty if it does not.
+/// The message of the exception; empty without one.
 std::string failure(const std::function<void()>& call) {
     try {
         call();
@@ -95,7 +95,7 @@ TEST(AtomicFile, WritesAPipeAsItIsAndHoldsAllThatIsWritten) {
     EXPECT_TRUE(std::filesystem::is_fifo(directory / "pipe"));
 }
 
-// As /dev/stdout is, which everybody misses once a file has taken its place.
+// /dev/stdout is such a link, and everybody misses it once a file has taken its place.
 TEST(AtomicFile, LeavesALinkAndReplacesWhatItLeadsTo) {
     const TemporaryDirectory directory;
     std::filesystem::create_directory(directory / "links");

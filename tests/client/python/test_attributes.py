@@ -1,4 +1,4 @@
-"""What particles carry reaches the vertices, in process and through a server."""
+"""Arrays of the particles reach the vertices, in process and through a server."""
 
 import meniscus
 import numpy as np

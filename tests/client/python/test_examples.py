@@ -14,7 +14,7 @@ examples = repository / "client" / "python" / "examples"
 
 
 def lines_of(example, *arguments, **options):
-    """What the example prints. Warnings are errors."""
+    """The lines that the example prints. Warnings are errors."""
     command = [sys.executable, "-B", "-W", "error", examples / example, *map(str, arguments)]
     ran = subprocess.run(command, capture_output=True, text=True, timeout=120, **options)
     assert (ran.returncode, ran.stderr) == (0, "")

@@ -39,7 +39,7 @@ def test_arrays_outlive_the_mesh_and_its_reconstructor(positions, carried):
     del mesh, reconstructor
     gc.collect()
     assert gone() is None
-    # What was freed too early would be overwritten by these.
+    # These meshes would overwrite memory that was freed too early.
     for i in range(5):
         meniscus.reconstruct(ball(0.3 + 0.05 * i), particle_radius)
     for name, view in views.items():

@@ -30,7 +30,7 @@ def refused(code, status=None):
 
 
 def wait_for_the_end(source):
-    """Of a session, which a watcher notices by an error or by the end of its frames."""
+    """Waits for the end of a session, which a watcher notices by an error or by the end of its frames."""
     try:
         while source.next(60) is not None:
             pass

@@ -14,7 +14,7 @@ namespace {
 using client::code_of;
 using client::ErrorCode;
 
-/// Of what the function throws.
+/// The code of the exception that the function throws.
 template <class Function>
 ErrorCode code_from(Function function) {
     try {

@@ -11,7 +11,7 @@ std::string instance_in(const std::multimap<grpc::string_ref, grpc::string_ref>&
     return found == metadata.end() ? "" : std::string(found->second.begin(), found->second.end());
 }
 
-/// As the server ends a call about a session that it does or does not have.
+/// The server's instance, from the end of a call about a session that the server does not have.
 std::string instance_of(const RunningServer& running) {
     const client::Connection connection(running.server.address());
     grpc::ClientContext context;

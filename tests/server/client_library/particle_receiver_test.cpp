@@ -1,4 +1,4 @@
-// What the client library makes of a server's particles: messages as they should be, and as they never should.
+// The client library's reading of a server's particles: messages as they should be, and as they never should.
 #include "receiving/particle_receiver.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What particles carry goes up with them, and comes back at the vertices.
+// Arrays of the particles go up with them, and come back at the vertices.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ struct Carrying {
         view.arrays = arrays;
         return view;
     }
-    /// Of these settings, in process.
+    /// The mesh of these settings, reconstructed in process.
     Mesh mesh(const Settings& settings) const {
         Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
         Mesh mesh;

@@ -17,7 +17,7 @@ namespace {
 
 using client::ParticleBuffer;
 
-/// As a solver may have it.
+/// A particle's record, as a solver may have it.
 struct Record {
     double density;
     double place[3];
@@ -38,7 +38,7 @@ protected:
         const auto frame = stream.next();
         return frame ? mesh_sha256(frame->mesh()) : "";
     }
-    /// What push() says of positions that it refuses; the stream may be used on.
+    /// The message of push() for positions that it refuses; the stream may be used on.
     template <class... Frame>
     std::string refusal(Frame&&... frame) {
         try {

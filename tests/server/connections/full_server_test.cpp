@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr rlim_t descriptors = 1024;
-/// Of the attacks: fewer and many more than the server's descriptors.
+/// The connections of each attack: a few more and many more than the server's descriptors.
 constexpr std::size_t attacks[] = {1100, 5000};
 
 /// Seconds until the gRPC port, the HTTP port and that of probes serve.
@@ -40,7 +40,7 @@ double seconds_until_served(const std::string& address, const std::string& http,
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// What a connection that is closed was, the kernel and gRPC learn a moment later.
+/// Waits until the server has noticed that all connections are closed.
 void wait_for_room(const std::string& probes) {
     scrape_until(probes, "meniscus_connections", 0);
 }

@@ -78,7 +78,7 @@ TEST(GrpcPort, TakesThePathOfAServerThatWasKilledAndNotThatOfOneThatListens) {
         EXPECT_EQ(running.client.server_info().version, version());
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "socket"));
-    // As a server leaves it that is killed.
+    // A server that is killed leaves such a socket.
     const int left_behind = ::socket(AF_UNIX, SOCK_STREAM, 0);
     sockaddr_un name{};
     name.sun_family = AF_UNIX;

@@ -1,4 +1,4 @@
-/* What a simulation in C looks like to its build: pkg-config, and nothing of C++. No server is there. */
+/* A simulation in C, as its build sees it: pkg-config, and nothing of C++. No server is there. */
 #include <meniscus/meniscus.h>
 #include <stdio.h>
 

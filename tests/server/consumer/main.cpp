@@ -1,4 +1,4 @@
-// What a simulation that uses the library looks like to its build: no gRPC, no Draco. No server is there.
+// A simulation that uses the library, as its build sees it: no gRPC, no Draco. No server is there.
 #include <cstdio>
 #include <meniscus/client/client.hpp>
 #include <vector>

@@ -72,7 +72,7 @@ public:
         return receive();
     }
 
-    /// What comes next, as it is on the wire; nothing at the connection's end.
+    /// The bytes that come next, as they are on the wire; none at the connection's end.
     std::string take() {
         if (received_.empty()) receive_more();
         return std::exchange(received_, {});

@@ -1,4 +1,4 @@
-// What a server's /metrics says.
+// The samples of a server's /metrics.
 #pragma once
 
 #include <map>

@@ -29,7 +29,7 @@ ServerOptions with_http() {
     return options;
 }
 
-/// Of one of the server's own calls, whose code is as in "NotFound".
+/// The series of one of the server's own calls. code: such as "NotFound".
 std::string handled(const std::string& type, const std::string& service, const std::string& method,
                     const std::string& code) {
     return "grpc_server_handled_total{grpc_code=\"" + code + "\",grpc_method=\"" + method +
@@ -137,7 +137,7 @@ TEST(Metrics, CountCallsThatRunAmongThoseStartedAlone) {
     EXPECT_GT(samples.at("grpc_server_handling_seconds_sum" + labels), 0);
 }
 
-// Whoever calls what there is not makes no series.
+// Calls of methods that are not there make no new series.
 TEST(Metrics, HaveOneSeriesForAllMethodsThatThereAreNot) {
     const Metrics::Method& unknown = known_method("/meniscus.v1.SurfaceService/Nonsense");
     EXPECT_EQ(unknown.name, "unknown");
@@ -193,7 +193,7 @@ TEST(Metrics, StateTheLimits) {
     EXPECT_EQ(samples.at("meniscus_limit_frame_work_ratio"), 12.5);
 }
 
-// What is counted as refused for a limit is found by the same name.
+// Each limit's metric has the name under which its refusals are counted.
 TEST(Metrics, NameLimitsAsTheirRefusals) {
     const RunningServer running(with_http());
     const Samples samples = scrape(running.server.http_address());

@@ -90,7 +90,7 @@ std::string delimited(const v1::RecordingEntry& entry) {
     return delimited(files::seal(entry));
 }
 
-/// The same recording as a writer without checksums left it.
+/// The recording as a writer without checksums left it.
 std::string without_checksums(const std::string& recording) {
     std::string out(files::recording_magic);
     std::string rest = recording.substr(files::recording_magic.size());

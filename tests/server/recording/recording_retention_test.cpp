@@ -28,7 +28,7 @@ bool everybody(const std::string& /*owner*/) {
 
 class RetainedRecordings : public testing::Test {
 protected:
-    /// Of this number of frames; closed once the writer has ended.
+    /// Records this number of frames; the recording is closed once the writer has ended.
     static void record(RecordingWriter& writer, const std::string& session, std::uint64_t frames) {
         const auto recording = std::make_shared<SessionRecording>(writer, session, settings());
         for (std::uint64_t i = 0; i < frames; ++i) {

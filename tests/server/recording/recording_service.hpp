@@ -59,7 +59,7 @@ protected:
         while (stream.next()) {
         }
     }
-    /// Of the session, once this number of its frames has been written.
+    /// The session's recording, once this number of its frames has been written.
     static RecordingInfo recording(client::Client& client, const std::string& id, std::uint64_t frames,
                                    std::uint32_t number = 1) {
         RecordingInfo found;

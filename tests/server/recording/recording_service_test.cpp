@@ -309,7 +309,7 @@ TEST_F(RecordingService, DeletesNothingThatIsBeingReadAndAllThatHasBeen) {
         EXPECT_TRUE(std::filesystem::exists(file(id)));
     }
     EXPECT_TRUE(becomes([&] { return deletion_status(running, id, 1).ok(); }));
-    // Whoever knows its end may delete it, at once.
+    // A reader that has come to a recording's end may delete it at once.
     for (int i = 0; i < 8; ++i) {
         const std::string read = recorded(running, {wave(6, 0.0)});
         EXPECT_EQ(indices(running.client.read_recording(read, 1)).size(), 1U);

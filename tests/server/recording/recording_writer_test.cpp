@@ -1,4 +1,4 @@
-// What becomes of frames on their way to the disk.
+// The way of frames to the disk.
 #include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
@@ -67,7 +67,7 @@ InputFrame frame(std::uint64_t index, std::size_t particles = 4) {
     return frame;
 }
 
-/// What is logged meanwhile.
+/// The lines that are logged during the work.
 std::string log_of(const std::function<void()>& work) {
     std::ostringstream log;
     const auto before = spdlog::default_logger();

@@ -1,4 +1,4 @@
-// What particles carry, from a simulator's frame to the vertices of received meshes.
+// The arrays of particles, from a simulator's frame to the vertices of received meshes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -116,7 +116,7 @@ TEST(Attributes, ArePartOfTheSettingsThatAJoinerMustHave) {
         EXPECT_THROW(running.client.create_session(id, other), std::exception);
 }
 
-/// What ends the stream of a frame, after one that was good.
+/// The error that ends the stream for a frame, after one that was good.
 std::string refusal_of(RunningServer& running, const std::string& id, const ParticleFrame& frame,
                        const ParticleFrame& good) {
     try {

@@ -1,4 +1,4 @@
-// What a client can get wrong, case by case: the status and message that it gets, and that nobody else notices.
+// The mistakes of clients, case by case: the status and message for each, and that nobody else notices.
 #include <gtest/gtest.h>
 
 #include <cstdio>

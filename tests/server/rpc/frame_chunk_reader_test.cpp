@@ -11,7 +11,7 @@
 namespace meniscus::server {
 namespace {
 
-/// What is read of a message that arrives in blocks of this size; none if it is left to protobuf.
+/// The bytes that are read of a message in blocks of this size; none if the message is left to protobuf.
 std::optional<std::string> read(const std::string& message, int block_size = -1) {
     google::protobuf::io::ArrayInputStream stream(message.data(), static_cast<int>(message.size()), block_size);
     FrameChunkReader reader(stream, message.size());

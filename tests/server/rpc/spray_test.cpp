@@ -25,7 +25,7 @@ std::string session(client::Client& client, Spray spray) {
     return id;
 }
 
-/// What a stream that asks for spray gets for a frame.
+/// The answer to a frame, for a stream that asks for spray.
 client::ReceivedFrame answer(client::Client& client, const std::string& id, const Particles& particles,
                              bool asks = true) {
     client::StreamOptions options;

@@ -22,7 +22,7 @@ TEST(Status, OfAFrameTooLargeForTheDeviceIsResourceExhausted) {
     EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
 }
 
-/// What std::thread throws where the system starts no more.
+/// The error of std::thread where the system starts no more.
 std::system_error no_thread() {
     return {std::make_error_code(std::errc::resource_unavailable_try_again)};
 }

@@ -1,4 +1,4 @@
-// What watchers may ask for, what they get, and what is refused.
+// The options of watchers: the frames that they give, and those that are refused.
 #include "rpc/messages/watch_options.hpp"
 
 #include <gtest/gtest.h>

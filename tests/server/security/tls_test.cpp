@@ -25,7 +25,7 @@ ServerOptions tls_options(const TlsFiles& files) {
     return options;
 }
 
-/// What a call gets over a channel of these credentials.
+/// The status of a call over a channel of these credentials.
 grpc::Status call(const std::string& address, const std::shared_ptr<grpc::ChannelCredentials>& credentials) {
     const auto stub = v1::ServerService::NewStub(grpc::CreateChannel(address, credentials));
     grpc::ClientContext context;

@@ -56,7 +56,7 @@ protected:
     const std::string id = client::new_session_id();
 };
 
-/// What each call about a session gets with metadata as given.
+/// The calls about a session, with metadata as given.
 class RawCalls {
 public:
     RawCalls(const std::string& address, std::string session, std::vector<std::string> authorization)

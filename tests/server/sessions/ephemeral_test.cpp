@@ -162,7 +162,7 @@ TEST_F(EphemeralSession, IsNoneThatWasNotCreatedAsOne) {
     EXPECT_TRUE(is_there_after(10 * orphaned));
 }
 
-/// What a server without room says.
+/// The refusals of a server without room.
 struct FullRegistry : testing::Test {
     std::string refusal(const Creator& creator) {
         try {

@@ -21,7 +21,7 @@ std::string session_id(int number) {
     return fmt::format("00000000-0000-4000-8000-{:012}", number);
 }
 
-/// What a watcher gets of the newest frame: the beginning and the bricks, or the particles.
+/// The messages of the newest frame to a watcher: the beginning and the bricks, or the particles.
 std::vector<std::string> first_frame(Session& session, const WatchOptions& options) {
     std::counting_semaphore<> awake{0};
     const auto watch = session.open_watch(options, [&] { awake.release(); });

@@ -16,7 +16,7 @@
 
 namespace meniscus::server::test {
 
-/// What the test and the meshes share.
+/// The state that a test shares with its meshes.
 class LateMeshes {
 public:
     std::atomic<int> made{0};       ///< frames

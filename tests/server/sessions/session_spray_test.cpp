@@ -25,7 +25,7 @@ using test::Simulator;
 constexpr UploadOptions with_meshes{.receive_meshes = true, .normal_bits = 8};
 constexpr UploadOptions with_spray{.receive_meshes = true, .normal_bits = 8, .spray = true};
 
-/// As many as a message carries, and one more, beginning with this number.
+/// One point more than a message carries, beginning with this number.
 std::vector<Point> points_from(float first) {
     std::vector<Point> points(conversion::max_points_per_message + 1);
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = {first + static_cast<float>(i), -0.5F, 1e6F};
@@ -38,7 +38,7 @@ std::vector<v1::WatchResponse> parsed(const std::vector<SharedMessage>& messages
     return responses;
 }
 
-/// What came of a frame's spray.
+/// The messages of a frame's spray, as received.
 struct Received {
     std::uint64_t announced = 0;
     std::size_t messages = 0;

@@ -1,4 +1,4 @@
-// What happens to frames that come faster than they are reconstructed, and to those of a call that was canceled.
+// The treatment of frames that come faster than they are reconstructed, and of those of a call that was canceled.
 #include <gtest/gtest.h>
 
 #include "gated_session.hpp"

@@ -26,7 +26,7 @@ void change(Versions& versions, std::mt19937& random) {
     if (below(40, random) == 0) versions.clear();
 }
 
-/// What a watcher with this region should have, brick by brick.
+/// The versions of the bricks that a watcher with this region should have.
 Versions within(const Versions& versions, const std::optional<Box>& region) {
     Versions inside;
     for (const auto& [place, version] : versions) {

@@ -1,4 +1,4 @@
-// What a session hands to a watcher, message by message, in times that the tests make up.
+// The messages that a session hands to a watcher, one by one, in times that the tests make up.
 #include <gtest/gtest.h>
 
 #include <stdexcept>

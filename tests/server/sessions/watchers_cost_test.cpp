@@ -1,4 +1,4 @@
-// What watchers cost the simulator of their session, and its memory.
+// The cost of watchers: the time of their session's simulator, and memory.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -236,7 +236,7 @@ TEST_F(GrpcWebCalls, ThatAreNotReadDoNotHoldTheServerUp) {
 TEST_F(GrpcWebCalls, ThatAreNotReadSkipToTheNewestFrame) {
     WebCall call(http, watch, watch_request(id), about_session());
     constexpr std::uint64_t skipped = 5;
-    // What is on its way lies in the sockets, and is no more for more frames: a limit for a server that skips none.
+    // The sockets hold few frames, however many are pushed. The limit ends the loop if a server skips none.
     constexpr std::uint64_t limit = 2000;
     std::uint64_t frames = 0;
     while (running.client.session(id).frames_skipped < skipped && frames < limit) {

@@ -94,7 +94,7 @@ struct Glb {
     std::vector<T> attribute(const std::string& name) const {
         return values<T>(primitive()["attributes"][name].get<std::size_t>());
     }
-    /// Of the vertices, in the lattice of the tests' settings; the root is not turned.
+    /// The places of the vertices, in the lattice of the tests' settings; the root is not turned.
     std::vector<LatticePosition> places(const Mesh& lattice) const {
         const auto positions = attribute<float>("POSITION");
         const double unit = lattice.cell_size / static_cast<double>(1U << lattice.offset_bits);

@@ -80,7 +80,7 @@ std::vector<std::string> web_frame(const std::string& http, const std::string& i
     return messages;
 }
 
-/// As it came, not as it would be written again.
+/// The frame's messages as they came, not as they would be written again.
 std::vector<std::string> native_frame(const std::string& address, const std::string& id) {
     grpc::TemplatedGenericStub<v1::WatchRequest, grpc::ByteBuffer> stub(
         grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
@@ -132,7 +132,7 @@ protected:
 };
 
 TEST_F(AFrame, HasTheSameBytesByNativeGrpcByGrpcWebAndThroughNginx) {
-    // What is encoded is kept for as long as somebody watches it; the statistics have the time that it took.
+    // Encoded bricks are kept while somebody watches them; the statistics have the time that encoding took.
     client::Connection connection(running.server.address());
     grpc::ClientContext context;
     client::add_session_id(context, id);

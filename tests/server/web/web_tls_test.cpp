@@ -20,7 +20,7 @@ ServerOptions tls_options(const TlsFiles& files) {
 
 class WebTls : public testing::Test {
 protected:
-    /// What the server answers to these bytes. more: arguments of openssl s_client.
+    /// The server's answer to these bytes. more: arguments of openssl s_client.
     std::string answer(const Server& server, const std::string& request, const std::string& more = "") const {
         const std::string file = certificates.folder.write("request", request);
         return output_of("openssl s_client -quiet -verify_return_error -CAfile " + certificates.file("ca") + " " +

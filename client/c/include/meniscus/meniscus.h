@@ -58,11 +58,11 @@ typedef enum meniscus_result {
 /* "ok", "invalid_input" and so on; "unknown" for other numbers. A constant. */
 MENISCUS_API const char* meniscus_result_name(meniscus_result result);
 
-/* Of the last function that failed in this thread; "" before any has. At most 1023 bytes of UTF-8, valid until the next
- * one fails in this thread. */
+/* The message of the last function that failed in this thread; "" before any has. At most 1023 bytes of UTF-8, valid
+ * until the next one fails in this thread. */
 MENISCUS_API const char* meniscus_error_message(void);
 
-/* Of the library, "major.minor.patch". A constant. */
+/* The library's version, "major.minor.patch". A constant. */
 MENISCUS_API const char* meniscus_version(void);
 
 /* ---- Options: values by name ------------------------------------------------------------------------------------ */
@@ -77,7 +77,7 @@ MENISCUS_API void meniscus_options_destroy(meniscus_options* options);
 /* value: text such as "0.5", "color", "true" or "X0 Y0 Z0 X1 Y1 Z1", whatever the locale; copied. NULL: unset. Whether
  * the value is right is known where it is used. */
 MENISCUS_API meniscus_result meniscus_options_set(meniscus_options* options, const char* name, const char* value);
-/* The same for a number. */
+/* Sets a value that is a number. */
 MENISCUS_API meniscus_result meniscus_options_set_number(meniscus_options* options, const char* name, double value);
 
 /* ---- Arrays ----------------------------------------------------------------------------------------------------- */
@@ -122,12 +122,12 @@ typedef struct meniscus_particles {
  * may fail for want of memory. Of an empty array the pointer is NULL. */
 typedef struct meniscus_mesh meniscus_mesh;
 
-/* Empty. */
+/* Makes an empty mesh. */
 MENISCUS_API meniscus_result meniscus_mesh_create(meniscus_mesh** mesh);
 MENISCUS_API void meniscus_mesh_destroy(meniscus_mesh* mesh);
 /* x y z of each of `count` vertices, world units: exact but for one rounding to float64. */
 MENISCUS_API meniscus_result meniscus_mesh_vertices(meniscus_mesh* mesh, const double** vertices, size_t* count);
-/* The same, rounded to float32. */
+/* The vertices as meniscus_mesh_vertices() has them, rounded to float32. */
 MENISCUS_API meniscus_result meniscus_mesh_vertices_float(meniscus_mesh* mesh, const float** vertices, size_t* count);
 /* x y z of each, unit length, outward; none without the option "normals". */
 MENISCUS_API meniscus_result meniscus_mesh_normals(meniscus_mesh* mesh, const float** normals, size_t* count);
@@ -137,7 +137,7 @@ MENISCUS_API meniscus_result meniscus_mesh_triangles(meniscus_mesh* mesh, const 
 MENISCUS_API meniscus_result meniscus_mesh_triangle_levels(meniscus_mesh* mesh, const uint8_t** levels, size_t* count);
 /* x y z of each particle that the surface leaves out, with the option "spray" set to "points"; world units. */
 MENISCUS_API meniscus_result meniscus_mesh_spray(meniscus_mesh* mesh, const float** places, size_t* count);
-/* What the vertices have of the particles' arrays: `count` arrays, in the order of the option "attribute", each with
+/* The vertices' values of the particles' arrays: `count` arrays, in the order of the option "attribute", each with
  * values of every vertex; their data are NULL in a mesh without vertices. Since 0.2. */
 MENISCUS_API meniscus_result meniscus_mesh_attributes(meniscus_mesh* mesh, const meniscus_array** attributes,
                                                       size_t* count);
@@ -148,7 +148,7 @@ MENISCUS_API meniscus_result meniscus_mesh_sha256(const meniscus_mesh* mesh, cha
 
 /* ---- Figures ---------------------------------------------------------------------------------------------------- */
 
-/* Of one frame. Set struct_size, or begin with MENISCUS_STATISTICS_INIT; the library fills in what fits. */
+/* One frame's figures. Set struct_size, or begin with MENISCUS_STATISTICS_INIT; the library fills in what fits. */
 typedef struct meniscus_statistics {
     size_t struct_size; /* sizeof(meniscus_statistics) */
     uint64_t particles;
@@ -191,7 +191,7 @@ MENISCUS_API void meniscus_reconstructor_destroy(meniscus_reconstructor* reconst
 /* Fills the mesh; after an error it is empty, unless `particles` or a handle was wrong in itself. */
 MENISCUS_API meniscus_result meniscus_reconstruct(meniscus_reconstructor* reconstructor,
                                                   const meniscus_particles* particles, meniscus_mesh* mesh);
-/* Of the last frame. */
+/* The last frame's figures. */
 MENISCUS_API meniscus_result meniscus_reconstructor_statistics(const meniscus_reconstructor* reconstructor,
                                                                meniscus_statistics* statistics);
 
@@ -212,7 +212,7 @@ typedef struct meniscus_frame meniscus_frame;
 MENISCUS_API meniscus_result meniscus_client_connect(const char* address, const meniscus_options* options,
                                                      meniscus_client** client);
 MENISCUS_API void meniscus_client_destroy(meniscus_client* client);
-/* Ends a session, whoever made it. */
+/* Ends a session, also one that another client made. */
 MENISCUS_API meniscus_result meniscus_client_delete_session(meniscus_client* client, const char* session_id);
 
 /* options: the settings, as for meniscus_reconstructor_create(); of the session: session (id: joins it if it is there
@@ -229,7 +229,7 @@ MENISCUS_API meniscus_result meniscus_session_open(meniscus_client* client, cons
 MENISCUS_API void meniscus_session_destroy(meniscus_session* session);
 /* Lets the session live on when the handle is destroyed; an ephemeral one then ends as the server has it. */
 MENISCUS_API meniscus_result meniscus_session_leave(meniscus_session* session);
-/* For watchers. Valid as long as the session; NULL for NULL. */
+/* The session's id, for watchers. Valid as long as the session; NULL for NULL. */
 MENISCUS_API const char* meniscus_session_id(const meniscus_session* session);
 /* Sends one frame; waits while the server does not take more. `index` is greater than the one before. Once the server
  * has refused a frame the stream has ended: this function and meniscus_session_next() say why again and again.
@@ -238,7 +238,7 @@ MENISCUS_API const char* meniscus_session_id(const meniscus_session* session);
  */
 MENISCUS_API meniscus_result meniscus_session_push(meniscus_session* session, const meniscus_particles* particles,
                                                    uint64_t index, double simulation_time);
-/* The same where that would not wait; else MENISCUS_WOULD_WAIT. */
+/* Sends one frame where push() would not wait; else returns MENISCUS_WOULD_WAIT. */
 MENISCUS_API meniscus_result meniscus_session_try_push(meniscus_session* session, const meniscus_particles* particles,
                                                        uint64_t index, double simulation_time);
 /* No more frames will be pushed; next() then ends after the last one. */
@@ -260,19 +260,19 @@ MENISCUS_API meniscus_result meniscus_session_dropped(const meniscus_session* se
 MENISCUS_API meniscus_result meniscus_watcher_open(meniscus_client* client, const char* session_id,
                                                    const meniscus_options* options, meniscus_watcher** watcher);
 MENISCUS_API void meniscus_watcher_destroy(meniscus_watcher* watcher);
-/* As meniscus_session_next(); MENISCUS_ENDED once the session has ended, or the watcher was canceled. */
+/* Waits as meniscus_session_next() does; MENISCUS_ENDED once the session has ended, or the watcher was canceled. */
 MENISCUS_API meniscus_result meniscus_watcher_next(meniscus_watcher* watcher, double timeout_seconds,
                                                    meniscus_frame** frame);
 /* Ends a next() that waits in another thread. */
 MENISCUS_API meniscus_result meniscus_watcher_cancel(meniscus_watcher* watcher);
 
 MENISCUS_API void meniscus_frame_destroy(meniscus_frame* frame);
-/* As it was pushed. */
+/* The frame's index and time, as they were pushed. */
 MENISCUS_API meniscus_result meniscus_frame_index(const meniscus_frame* frame, uint64_t* index);
 MENISCUS_API meniscus_result meniscus_frame_simulation_time(const meniscus_frame* frame, double* seconds);
 /* Fills the mesh: decodes and welds what was received, which takes a while. */
 MENISCUS_API meniscus_result meniscus_frame_mesh(const meniscus_frame* frame, meniscus_mesh* mesh);
-/* Of the frame as the server has reconstructed it. */
+/* The figures of the frame as the server has reconstructed it. */
 MENISCUS_API meniscus_result meniscus_frame_statistics(const meniscus_frame* frame, meniscus_statistics* statistics);
 
 #ifdef __cplusplus

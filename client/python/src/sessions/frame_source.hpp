@@ -1,4 +1,4 @@
-// What streams, watchers and readers of recordings have in common: frames that come one after the other.
+// The common part of streams, watchers and readers of recordings: frames that come one after the other.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -81,7 +81,7 @@ private:
     }
 
     std::timed_mutex turn_;
-    std::optional<Found> kept_;  ///< what Ctrl-C came before; under the interpreter's lock
+    std::optional<Found> kept_;  ///< a result that Ctrl-C kept from its caller; under the interpreter's lock
 };
 
 /// The class of a source, with what all have.

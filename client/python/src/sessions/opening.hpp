@@ -17,7 +17,7 @@
 
 namespace meniscus::python {
 
-/// What `call` returns, which runs without the interpreter's lock, with a token by which Ctrl-C ends it.
+/// Returns the result of `call`, which runs without the interpreter's lock, with a token by which Ctrl-C ends it.
 template <class Call>
 auto call_server(const Call& call) {
     require_own_process();
@@ -43,7 +43,7 @@ Held<PushedStream> open_stream(const text_options::Options& options, const pybin
     });
 }
 
-/// Likewise, a client::Watcher.
+/// Opens a client::Watcher likewise.
 template <class Open>
 Held<WatchSource> open_watcher(const text_options::Options& options, const pybind11::object& on_reconnect,
                                const Open& open) {
@@ -54,7 +54,7 @@ Held<WatchSource> open_watcher(const text_options::Options& options, const pybin
     });
 }
 
-/// Likewise, a client::ParticleWatcher.
+/// Opens a client::ParticleWatcher likewise.
 template <class Open>
 Held<ParticleSource> open_particle_watcher(const text_options::Options& options, const pybind11::object& on_reconnect,
                                            const Open& open) {

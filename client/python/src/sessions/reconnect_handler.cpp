@@ -52,7 +52,7 @@ RunningCalls& running_calls() {
 
 thread_local bool in_handler = false;
 
-/// With the lock.
+/// Calls the function, with the interpreter's lock.
 void call_function(PyObject* function, const client::ReconnectEvent& event) {
     const double left = std::chrono::duration<double>(event.left).count();
     PyObject* const reason =

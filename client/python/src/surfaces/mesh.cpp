@@ -90,7 +90,7 @@ std::string sha256(const MeshHandle& handle) {
     return hash;
 }
 
-/// As the command line encodes a mesh that it has reconstructed by itself: exact attributes, normals of the default.
+/// The mesh encoded as the command line does with one of its own: exact attributes, normals of the default.
 client::ReceivedFrame encoded(const Mesh& mesh, const Statistics& statistics) {
     CodingOptions coding;
     const std::vector<AttributeWish> exact{{.name = {}, .bits = 0}};

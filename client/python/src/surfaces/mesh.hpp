@@ -14,7 +14,7 @@ namespace meniscus::python {
 /// has threads has OwnProcessDelete (process.hpp).
 struct MeshHandle {
     std::shared_ptr<const Mesh> mesh;
-    /// For an empty mesh, whose arrays cannot show whether it has normals.
+    /// Whether an empty mesh has normals, which its arrays cannot show.
     bool has_normals = true;
     /// Where the mesh is from: reconstructed here, or received, as it travelled. For a file of bricks.
     std::variant<Statistics, std::shared_ptr<const client::ReceivedFrame>> origin;

@@ -8,8 +8,8 @@
 
 namespace meniscus::python {
 
-/// Keeps one mesh, the last that came back: whoever looks at the mesh of one frame while the next is made needs two in
-/// turn. Thread-safe; meshes outlive it.
+/// Keeps one mesh, the last that came back: a caller that looks at the mesh of one frame while the next is made needs
+/// two in turn. Thread-safe; meshes outlive it.
 class MeshPool {
 public:
     /// A mesh for the next frame, with the memory of an earlier one if there is one.

@@ -27,7 +27,7 @@ public:
     /// Calls that have changed its surface, or tried to: a mesh on the GPU is valid until the next.
     std::uint64_t calls() const { return calls_; }
 
-    /// Of the caller's turn: the arrays, and the mesh to fill.
+    /// The work in a caller's turn: the reconstructor, the arrays, and the mesh to fill.
     struct Work {
         Reconstructor& content;
         OwnedFrame& frame;

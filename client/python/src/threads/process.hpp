@@ -28,7 +28,7 @@ struct OwnProcessDelete {
     }
 };
 
-/// As std::make_shared, but for such things.
+/// Makes a shared object as std::make_shared does, with this deleter.
 template <class T, class... Arguments>
 std::shared_ptr<T> make_in_process(Arguments&&... arguments) {
     return std::shared_ptr<T>(new T(std::forward<Arguments>(arguments)...), OwnProcessDelete<T>());

@@ -21,9 +21,9 @@ using Clock = std::chrono::steady_clock;
 /// Between two looks at signals: short to a person at Ctrl-C.
 constexpr milliseconds piece_between_signals{50};
 
-/// Of the main thread, while it is not used: a thread that is kept, for the libraries below have memory for each
-/// thread that computes, which a new one would have to take again for every frame. Never destroyed: a forked process
-/// would wait for a thread that is not there.
+/// The main thread's worker, while it is not used. It is kept, for the libraries below have memory for each thread that
+/// computes, which a new one would have to take again for every frame. Never destroyed: a forked process would wait for
+/// a thread that is not there.
 std::unique_ptr<Worker>& idle_worker() {
     static auto* const worker = new std::unique_ptr<Worker>;
     return *worker;

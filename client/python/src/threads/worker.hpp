@@ -21,7 +21,7 @@ public:
     void begin(const std::function<void()>& work);
     /// Returns whether the work is done.
     bool wait(std::chrono::milliseconds limit);
-    /// What the work that is done has thrown, if anything.
+    /// The exception of the work that is done; none if it threw nothing.
     std::exception_ptr error();
 
 private:

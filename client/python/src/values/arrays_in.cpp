@@ -9,7 +9,7 @@ namespace py = pybind11;
 namespace meniscus::python {
 namespace {
 
-/// What the array is, in words.
+/// The type and the shape of the array, in words.
 std::string form_of(const py::array& array) {
     return std::string(py::str(array.dtype())) + " of the shape " + std::string(py::str(array.attr("shape")));
 }
@@ -42,7 +42,7 @@ StridedPositions positions_of(const py::array& array) {
     const bool is_float64 = holds<double>(array);
     const bool has_form = array.ndim() == 2 && array.shape(1) == 3 && (is_float64 || holds<float>(array));
     const auto bytes = static_cast<py::ssize_t>(array.itemsize());
-    // Of one particle or none numpy's strides say nothing.
+    // numpy's strides say nothing for one particle or none.
     const bool has_order =
         has_form && array.strides(1) == bytes && (array.shape(0) < 2 || array.strides(0) >= 3 * bytes);
     if (!has_order && !(has_form && array.shape(0) == 0))

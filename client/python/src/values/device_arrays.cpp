@@ -59,7 +59,7 @@ void check_order(const DeviceArray& array, const py::object& strides, std::size_
     }
     bool is_c_order = py::isinstance<py::tuple>(strides) && py::len(strides) == c_order.size();
     for (std::size_t i = 0; is_c_order && i < c_order.size(); ++i) {
-        // Of one element numpy's strides say nothing.
+        // numpy's strides say nothing for one element.
         const py::object stride = py::cast<py::tuple>(strides)[i];
         is_c_order = array.shape[i] < 2 || stride.equal(py::int_(c_order[i]));
     }

@@ -11,7 +11,7 @@
 
 namespace meniscus::python {
 
-/// As Python has it: "particle_radius" for "particle-radius".
+/// The option's name in Python: "particle_radius" for "particle-radius".
 std::string keyword_of(std::string_view option);
 
 /// options: outlive the reader.

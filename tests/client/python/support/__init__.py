@@ -1,1 +1,1 @@
-"""What the tests of the Python package have in common."""
+"""The common parts of the tests of the Python package."""

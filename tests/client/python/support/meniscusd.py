@@ -46,7 +46,7 @@ class Server:
         lines.close()
 
     def kill(self):
-        """As a crash would end it."""
+        """Ends the server as a crash would."""
         self._process.kill()
         self._process.wait(deadline)
         self._reader.join(deadline)

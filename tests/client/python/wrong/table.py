@@ -1,4 +1,4 @@
-"""What a line of the tables is."""
+"""The lines of the tables."""
 
 from dataclasses import dataclass
 from typing import Any, Callable

@@ -40,7 +40,7 @@ std::function<grpc::Status(RunningServer&)> arrays(std::vector<Array> list) {
     });
 }
 
-/// Of one particle, with as many bytes, in a session that makes an attribute of "velocity".
+/// Sends one particle with these arrays and bytes, in a session that makes an attribute of "velocity".
 std::function<grpc::Status(RunningServer&)> arrays_for_velocity(std::vector<Array> list, std::string bytes = {}) {
     return [list = std::move(list), bytes = std::move(bytes)](RunningServer& running) {
         Settings with = settings();
@@ -61,7 +61,7 @@ std::function<grpc::Status(RunningServer&)> arrays_for_velocity(std::vector<Arra
     };
 }
 
-/// Positions, and as many other arrays.
+/// Positions, and this number of other arrays.
 std::vector<Array> positions_and(int others) {
     std::vector<Array> list{positions};
     for (int i = 0; i < others; ++i) list.push_back({"other_" + std::to_string(i), v1::ELEMENT_TYPE_INT32, 1});

@@ -57,7 +57,7 @@ inline client::Connection connect(const RunningServer& running) {
     return client::Connection(running.server.address());
 }
 
-/// Of a stream of a new session, after a good frame, that must be answered.
+/// The status of a new session's stream with these messages after a good frame, which must be answered.
 std::function<grpc::Status(RunningServer&)> after_a_good_frame(std::function<void(RawStream&)> send);
 
 /// The begin of the frame after the good one, of float32 positions.

@@ -7,7 +7,7 @@ namespace meniscus::server::test {
 
 namespace {
 
-/// Of a stream that has not been opened.
+/// The status of a stream with these messages that has not been opened.
 std::function<grpc::Status(RunningServer&)> instead_of_open(std::function<void(RawStream&)> send) {
     return [send = std::move(send)](RunningServer& running) {
         const CaseSession session(running);

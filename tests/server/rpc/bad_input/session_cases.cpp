@@ -35,7 +35,7 @@ std::function<grpc::Status(RunningServer&)> settings_with(std::function<void(v1:
     };
 }
 
-/// The same, with this change of its description.
+/// Creates a session of the tests' settings, with this change of its description.
 std::function<grpc::Status(RunningServer&)> description_with(std::function<void(v1::SessionDescription&)> change) {
     return [change = std::move(change)](RunningServer& running) {
         v1::CreateSessionRequest request;
@@ -46,7 +46,7 @@ std::function<grpc::Status(RunningServer&)> description_with(std::function<void(
     };
 }
 
-/// The same, with this field and nothing of another.
+/// Creates a session with this field and nothing of another.
 std::function<grpc::Status(RunningServer&)> field_with(v1::Field field, std::function<void(v1::Settings&)> change) {
     return settings_with([=, change = std::move(change)](v1::Settings& s) {
         s.set_field(field);

@@ -12,7 +12,7 @@ using std::chrono::milliseconds;
 const FrameRate::Clock::time_point start = FrameRate::Clock::time_point{} + std::chrono::hours(1);
 const NameShares shares{.frames_per_second = 5};
 
-/// As sessions that are created, send frames, and are deleted.
+/// The number of frames that sessions of one name begin, if each is created, sends frames, and is deleted.
 int frames_begun(NameAccounts& accounts, FrameRate::Clock::time_point now) {
     int begun = 0;
     for (int session = 0; session < 20; ++session)

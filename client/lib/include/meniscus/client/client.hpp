@@ -59,7 +59,7 @@ public:
     ParticleWatcher watch_particles(const std::string& session_id, std::uint64_t max_particles = 0,
                                     std::chrono::milliseconds reconnect = {});
 
-    /// What the server has recorded, the newest first. Throws ServerError (UNIMPLEMENTED) if it records nothing.
+    /// The server's recordings, the newest first. Throws ServerError (UNIMPLEMENTED) if it records nothing.
     std::vector<RecordingInfo> recordings(const std::stop_token& stop = {});
     RecordingReader read_recording(const std::string& session_id, std::uint32_t number,
                                    const ReadOptions& options = {});

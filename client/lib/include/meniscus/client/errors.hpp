@@ -1,5 +1,5 @@
-// What the client library throws: ServerError, and the errors of the reconstruction library. A program
-// distinguishes them by their codes.
+// The errors of the client library: ServerError, and those of the reconstruction library. A program distinguishes them
+// by their codes.
 #pragma once
 
 #include <exception>
@@ -12,7 +12,7 @@
 
 namespace meniscus::client {
 
-/// What went wrong. Names and meanings stay; new ones may be added.
+/// The kind of an error. Names and meanings stay; new ones may be added.
 enum class ErrorCode {
     invalid_input,        ///< InvalidInput: other input will do
     limit_exceeded,       ///< LimitExceeded: less will do, or the same later where the message says so
@@ -87,7 +87,7 @@ private:
     std::string status_;
 };
 
-/// Of whatever this library or the reconstruction library has thrown.
+/// The code of any exception of this library or of the reconstruction library.
 ErrorCode code_of(const std::exception& error) noexcept;
 
 }  // namespace meniscus::client

@@ -13,7 +13,7 @@ struct FrameStatistics : Statistics {
     double latency_seconds = 0.0;
     std::uint64_t encoded_bytes = 0;
 
-    /// Those of the server alone.
+    /// The server's own figures alone.
     template <class Visit>
     static void rows(const Visit& visit) {
         using F = FrameStatistics;

@@ -1,4 +1,4 @@
-// What a limited wait for a frame ends with.
+// The result of a limited wait for a frame.
 #pragma once
 
 #include <optional>

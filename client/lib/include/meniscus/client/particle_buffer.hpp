@@ -28,7 +28,7 @@ constexpr ElementType element_type_of() {
     return ElementType::uint32;
 }
 
-/// What an array is, without its values.
+/// The form of an array, without its values.
 struct ArrayForm {
     std::string name;
     ElementType type = ElementType::float32;

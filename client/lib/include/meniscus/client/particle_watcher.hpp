@@ -31,9 +31,9 @@ struct ReceivedParticles {
     ParticleFrame view() const;
 };
 
-/// What a watcher of particles asks for.
+/// The options of a watcher of particles.
 struct ParticleWatchOptions {
-    /// Of a frame with more particles, only every k-th is sent, by the smallest k that suffices; 0: all.
+    /// The most particles of a frame that are sent: of more, only every k-th, by the smallest k that suffices. 0: all.
     std::uint64_t max_particles = 0;
     std::chrono::milliseconds reconnect{0};  ///< this and the following as in WatchOptions
     std::chrono::milliseconds route_check{2000};
@@ -63,7 +63,7 @@ public:
     /// Waits for the next frame; none when the session has ended. Throws LimitExceeded or ServerError, also when the
     /// server goes down.
     std::optional<ReceivedParticles> next();
-    /// As those of Watcher.
+    /// These three functions work as those of Watcher.
     Next<ReceivedParticles> next(std::chrono::milliseconds timeout);
     Next<ReceivedParticles> try_next() { return next(std::chrono::milliseconds(0)); }
     void cancel();

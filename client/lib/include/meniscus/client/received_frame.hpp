@@ -27,7 +27,7 @@ struct DroppedFrame {
     DropReason reason = DropReason::replaced;
 };
 
-/// What a received mesh's vertices have, whether it was asked for or not.
+/// An attribute of a received frame's mesh, whether it was asked for or not.
 struct FrameAttribute {
     std::string name;
     ElementType type = ElementType::float32;
@@ -49,7 +49,7 @@ struct ReceivedFrame {
     /// Places of the particles left out of the surface (Spray::points), world units; empty when not asked for.
     std::vector<Point> spray;
     std::vector<FrameAttribute> attributes;  ///< in the order of the session's settings
-    /// Those of them that were asked for, as the bricks carry them; empty when no meshes were asked for.
+    /// The attributes that were asked for, as the bricks carry them; empty when no meshes were asked for.
     std::vector<CodedAttribute> coded_attributes;
     /// To a watcher: the bricks that are new or were received anew since the frame that next() returned before, and
     /// those of that frame which are there no longer. x y z in bricks.

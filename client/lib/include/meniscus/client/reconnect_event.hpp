@@ -1,4 +1,4 @@
-// What a stream or a watcher reports while its connection is broken.
+// The reports of a stream or a watcher while its connection is broken.
 #pragma once
 
 #include <chrono>

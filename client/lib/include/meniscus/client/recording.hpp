@@ -1,4 +1,4 @@
-// What a server has kept.
+// The recordings of a server.
 #pragma once
 
 #include <chrono>
@@ -47,7 +47,7 @@ public:
     /// Waits for the next frame; none after the last. Throws InvalidInput for a position past the end, LimitExceeded
     /// when too many read, or ServerError.
     std::optional<ReceivedFrame> next();
-    /// As those of Watcher.
+    /// These three functions work as those of Watcher.
     Next<ReceivedFrame> next(std::chrono::milliseconds timeout);
     Next<ReceivedFrame> try_next() { return next(std::chrono::milliseconds(0)); }
     void cancel();

@@ -17,8 +17,8 @@ namespace meniscus::client {
 struct OpenOptions {
     SessionDescription description = {};
     std::string id = {};  ///< a UUID; empty: a new one
-    /// As in SessionOptions: the server ends the session soon after its stream, so that a process that is killed leaves
-    /// nothing behind. False: a session that rests, or is watched between two streams, stays until the Session goes.
+    /// Whether the server ends the session soon after its stream, so that a killed process leaves nothing behind.
+    /// False: a session that rests, or is watched between two streams, stays until the Session goes.
     bool ephemeral = true;
     std::stop_token stop{};  ///< when a stop is requested while the session is opened: ServerError (canceled)
 
@@ -47,18 +47,18 @@ public:
 
     /// Throws ServerError, here and below; of a session that has ended: not_found. stop: as in the calls of Client.
     SessionInfo info(const std::stop_token& stop = {});
-    /// As Client::stream(). An owned ephemeral session that has ended meanwhile, since no stream was open, is created
-    /// again.
+    /// Opens a stream as Client::stream() does. An owned ephemeral session that has ended meanwhile, since no stream
+    /// was open, is created again.
     Stream stream(const StreamOptions& options = {});
-    /// As those of Client.
+    /// Open watchers as Client's functions do.
     Watcher watch(const WatchOptions& options = {});
     ParticleWatcher watch_particles(const ParticleWatchOptions& options = {});
 
     /// Ends the session now, its streams and watchers with it, if it is owned. Says what went wrong, which the
     /// destructor cannot; a session that is not there any more is no error.
     void end(const std::stop_token& stop = {});
-    /// What ends the session as end() does, from any thread, also while this object goes and after it: for a process
-    /// that is asked to end. Does nothing for a session that is not owned now.
+    /// A function that ends the session as end() does, from any thread, also while this object goes and after it: for a
+    /// process that is asked to end. It does nothing for a session that is not owned at that time.
     std::function<void()> ending() const;
     /// The session stays when this goes; an ephemeral one still ends soon after its stream.
     void leave() noexcept;

@@ -1,4 +1,4 @@
-// What a session is, and what it is doing.
+// The description and the state of a session.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@
 
 namespace meniscus::client {
 
-/// What a session's next frame waits for.
+/// The cause for which a session's next frame waits.
 enum class SessionWait {
     nothing,
     device,           ///< its turn
@@ -36,7 +36,7 @@ constexpr std::string_view name_of(UpAxis axis) {
     return {};
 }
 
-/// What people call a session, and how viewers show it. Its id alone distinguishes it from others.
+/// The name of a session for people, and how viewers show it. Its id alone distinguishes it from others.
 struct SessionDescription {
     std::string name = {};  ///< UTF-8, 1 to 64 characters without control and direction characters; empty: none
     UpAxis up_axis = UpAxis::unspecified;
@@ -51,7 +51,7 @@ struct SessionDescription {
     }
 };
 
-/// What a session is beside its settings. None of it need be equal to join a session.
+/// The options of a session beside its settings. None of them need be equal to join a session.
 struct SessionOptions {
     SessionDescription description = {};
     /// Whether the session ends, watched or not, 5 seconds after it was created or its stream ended, unless a stream is

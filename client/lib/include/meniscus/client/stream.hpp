@@ -23,7 +23,7 @@
 
 namespace meniscus::client {
 
-/// What happens to frames that come faster than the server reconstructs them.
+/// The treatment of frames that come faster than the server reconstructs them.
 enum class UploadPolicy {
     every_frame,  ///< none is lost: push() waits
     latest,       ///< the newest one replaces the one that waits
@@ -45,7 +45,7 @@ struct StreamOptions {
     bool receive_meshes = true;
     int normal_bits = 8;  ///< 2 to 16, 0 for none
     bool spray = false;   ///< whether the particles left out of the surface come beside the meshes
-    /// Of the session's attributes, those that the meshes carry, as in WatchOptions. None: their ranges alone come.
+    /// The attributes of the session that the meshes carry, as in WatchOptions. None: their ranges alone come.
     std::vector<AttributeWish> attributes{};
     /// Received frames that wait for next() at most; push() waits beyond that many frames in flight or waiting.
     /// 0: no limit, for a caller that pushes everything first; frames then wait encoded, in memory.
@@ -69,7 +69,7 @@ struct StreamOptions {
     /// been canceled.
     std::stop_token stop{};
 
-    /// Those that C, Python and files set by name.
+    /// The options that C, Python and files set by name.
     template <class Visit>
     static void rows(const Visit& visit) {
         using S = StreamOptions;
@@ -94,9 +94,9 @@ struct StreamOptions {
 ///
 /// push() and next() throw InvalidInput and LimitExceeded, as the server answered, or ServerError.
 ///
-/// Of the further arrays that a frame brings, those are sent that the session's settings name. For them a stream that
-/// was opened by the session's id alone, without `reconnect`, asks the server once, in the first push() that brings
-/// some; a try_push() before that, which does not wait, sends all.
+/// A frame's further arrays are sent if the session's settings name them. A stream that was opened by the session's id
+/// alone, without `reconnect`, asks the server for the names once, in the first push() that brings arrays; a try_push()
+/// before that, which does not wait, sends all.
 class Stream {
 public:
     Stream(Stream&&) noexcept;
@@ -124,8 +124,8 @@ public:
         push(ParticleBuffer(std::forward<Floats>(positions)), index, simulation_time);
     }
 
-    /// As push(), where that would not wait. Otherwise false, and nothing has been taken: neither the buffer nor the
-    /// index.
+    /// Sends one frame, as push() does, where that would not wait. Otherwise false, and nothing has been taken: neither
+    /// the buffer nor the index.
     bool try_push(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
     bool try_push(const StridedPositions& positions, std::uint64_t index, double simulation_time,
                   std::span<const std::uint8_t> levels = {}, std::span<const ParticleArray> arrays = {});

@@ -17,16 +17,16 @@
 
 namespace meniscus::client {
 
-/// What a watcher is sent. Watchers with equal max_level, position_bits, normal_bits and attributes cost the
-/// server one encode.
+/// The options of a watcher of meshes. Watchers with equal max_level, position_bits, normal_bits and attributes cost
+/// the server one encode.
 struct WatchOptions {
     int normal_bits = 8;                 ///< 2 to 16, 0 for none
     std::optional<int> position_bits{};  ///< vertices lie on multiples of c / 2^position_bits, 2 to the mesh's
                                          ///< offset_bits; none: as reconstructed
     int max_level = 3;            ///< finest level of grid, 1 to 3: below 3 the surface is coarser, and closed as ever
     std::optional<Box> region{};  ///< world units: only bricks that touch it; the mesh ends where they do
-    /// Of the session's attributes, those that the meshes carry; an empty name stands for all others. A float32 of 8
-    /// bits is rounded to one of 256 values.
+    /// The attributes of the session that the meshes carry; an empty name stands for all others. A float32 of 8 bits is
+    /// rounded to one of 256 values.
     std::vector<AttributeWish> attributes{};
     bool spray = false;  ///< whether the particles left out of the surface come beside it: all, whatever the region
     std::uint64_t bytes_per_second = 0;                ///< in the mean: frames are skipped to keep it; 0: no limit
@@ -35,14 +35,14 @@ struct WatchOptions {
     /// or comes back without the session, which its simulator then creates again. next() goes on with the first frame
     /// of a run that it has not returned before. 0: not at all.
     std::chrono::milliseconds reconnect{0};
-    /// As in StreamOptions: how often to look whether the session goes on with another server. Only with `reconnect`.
+    /// How often to look whether the session goes on with another server, as in StreamOptions. Only with `reconnect`.
     std::chrono::milliseconds route_check{2000};
     /// Called at each attempt to go on after the connection broke, in the thread that is in next(); once next(timeout)
     /// or try_next() was called: in a thread of the library's, which waits for it.
     ReconnectHandler on_reconnect{};
     std::stop_token stop{};  ///< when a stop is requested: as cancel()
 
-    /// Those that C, Python and files set by name.
+    /// The options that C, Python and files set by name.
     template <class Visit>
     static void rows(const Visit& visit) {
         using W = WatchOptions;
