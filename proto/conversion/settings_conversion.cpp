@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "rows/message_rows.hpp"
 #include "meniscus/error.hpp"
+#include "rows/message_rows.hpp"
 
 namespace meniscus::conversion {
 

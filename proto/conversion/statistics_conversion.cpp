@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "rows/message_rows.hpp"
 #include "meniscus/quoted.hpp"
+#include "rows/message_rows.hpp"
 
 namespace meniscus::conversion {
 

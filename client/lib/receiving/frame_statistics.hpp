@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "conversion/statistics_conversion.hpp"
-#include "rows/message_rows.hpp"
 #include "meniscus/client/client.hpp"
+#include "rows/message_rows.hpp"
 
 namespace meniscus::client {
 

@@ -3,11 +3,11 @@
 #include <utility>
 
 #include "connection/connection.hpp"
-#include "rows/message_rows.hpp"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "particle_watcher_impl.hpp"
 #include "receiving/session_description.hpp"
 #include "recording_reader_impl.hpp"
+#include "rows/message_rows.hpp"
 #include "session_calls.hpp"
 #include "session_impl.hpp"
 #include "snapshot.hpp"
