@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::text_options {
 namespace {
@@ -23,7 +24,8 @@ std::vector<std::string> names_of(OptionReader& options) {
     if (names.size() > 1)
         for (const std::string& name : names)
             if (name == all)
-                throw InvalidInput(options.quoted("attribute") + " is '" + *text + "', must be names, or all alone");
+                throw InvalidInput(options.quoted("attribute") + " is " + quoted(*text) +
+                                   ", must be names, or all alone");
     return names;
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::text_options {
 namespace {
@@ -21,7 +22,7 @@ bool is_number(std::string_view text, Number& value) {
 
 /// option: quoted.
 [[noreturn]] void refuse(const std::string& option, std::string_view text, const std::string& wanted) {
-    throw InvalidInput(option + " is '" + std::string(text) + "', must be " + wanted);
+    throw InvalidInput(option + " is " + quoted(text) + ", must be " + wanted);
 }
 
 double number(const std::string& option, std::string_view text) {

@@ -9,6 +9,7 @@
 
 #include "meniscus/described.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 #include "text_options/option_reader.hpp"
 
 namespace meniscus::text_options {
@@ -51,7 +52,7 @@ void read_rows(OptionReader& options, Record& record) {
         auto* const value = row.find(record);
         if constexpr (requires { row.choice; }) {
             if (value == nullptr)
-                throw InvalidInput(options.quoted(option) + " is '" + *text + "', but '" +
+                throw InvalidInput(options.quoted(option) + " is " + quoted(*text) + ", but '" +
                                    options.naming()(option_name_of(row.choice_name)) + "' is " +
                                    std::string(name_of(record.*row.choice)) + ": set it to " +
                                    std::string(row.alternative) + ", or leave the option out");

@@ -35,28 +35,31 @@ std::string text(double value) {
 
 /// subject: such as "cell size is".
 template <class Number>
-void require_positive(std::string_view subject, Number number) {
-    if (std::is_floating_point_v<Number> && !(std::isfinite(static_cast<double>(number)) && number > 0))
+void require_positive(std::string_view subject, Number number, const Range& range) {
+    if (std::is_floating_point_v<Number> && range.least > 0.0 &&
+        !(std::isfinite(static_cast<double>(number)) && number > 0))
         throw InvalidInput(std::string(subject) + " " + text(number) + ", must be finite and greater than 0");
 }
 
 template <class Number>
 void require_within(std::string_view subject, Number number, const Range& range) {
     const auto value = static_cast<double>(number);
-    if (value >= range.least && value <= range.most) return;
+    if (std::isfinite(value) && value >= range.least && value <= range.most) return;
     std::string limits = text(range.least) + " to " + text(range.most);
     if (std::isinf(range.most)) limits = "at least " + text(range.least);
-    if (range.least == 0.0) limits = "at most " + text(range.most);
+    if (range.least == above_zero) limits = "at most " + text(range.most);
     throw InvalidInput(std::string(subject) + " " + text(number) + ", must be " + limits +
                        (range.advice.empty() ? "" : ": " + std::string(range.advice)));
 }
 
-/// Calls visit(subject, number, range) for each number that the settings have, as its row has them.
-template <class Visit>
+/// Calls visit(subject, number, range) for each number of the settings: for those that are always there, or for the
+/// others, which may be missing.
+template <bool always_there, class Visit>
 void for_each_number(const Settings& settings, const Visit& visit) {
     for_each_row<Settings>([&]<class Row>(const Row& row) {
         using Number = Held<typename Row::Type>;
-        if constexpr (std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>) {
+        constexpr bool is_there = std::is_same_v<Row, meniscus::Row<Settings, Number>>;
+        if constexpr (std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool> && is_there == always_there) {
             const auto* const value = row.find(settings);
             if (value == nullptr) return;
             const std::optional<Number> number = *value;
@@ -68,13 +71,23 @@ void for_each_number(const Settings& settings, const Visit& visit) {
 
 /// Refuses a number outside of the range in its row.
 void require_ranges(const Settings& settings) {
-    for_each_number(settings,
-                    [](const auto& subject, auto number, const Range&) { require_positive(subject, number); });
+    for_each_number<true>(settings, [](const auto& subject, auto number, const Range& range) {
+        require_positive(subject, number, range);
+    });
     constexpr const char* world = "cell size in world units is";
-    require_positive(world, world_cell_size(settings));
-    for_each_number(
+    constexpr Range world_lengths{1e-60, 1e60, "take another unit of length"};
+    require_positive(world, world_cell_size(settings), world_lengths);
+    for_each_number<true>(
         settings, [](const auto& subject, auto number, const Range& range) { require_within(subject, number, range); });
-    require_within(world, world_cell_size(settings), {1e-60, 1e60, "take another unit of length"});
+    require_within(world, world_cell_size(settings), world_lengths);
+}
+
+/// The same for those of one field, criterion or way of finding edge points.
+void require_chosen_ranges(const Settings& settings) {
+    for_each_number<false>(settings, [](const auto& subject, auto number, const Range& range) {
+        require_positive(subject, number, range);
+        require_within(subject, number, range);
+    });
 }
 
 void require_box(const char* name, const Box& box, bool may_be_flat) {
@@ -120,11 +133,12 @@ void require_support(const Settings& s, unsigned coarsest_level) {
 }  // namespace
 
 void validate(const Settings& s) {
-    require_field_settings(s);
     require_ranges(s);
     // In float32 the iso value must remain above zero, or the outside would be inside.
     if (static_cast<float>(s.iso) == 0.0F)
         throw InvalidInput("iso value is " + text(s.iso) + ", must be greater than 0 as a float32, too");
+    require_field_settings(s);
+    require_chosen_ranges(s);
     if (s.field == Field::smooth && s.cell_size > max_smooth_cell_size)
         throw InvalidInput("the cell size is " + text(s.cell_size) + " radii, must be at most " +
                            text(max_smooth_cell_size) + " with --field smooth: is the particle radius right?");

@@ -14,7 +14,6 @@ void to_wire(const Statistics& statistics, v1::FrameStatistics& wire) {
 Statistics from_wire(const v1::FrameStatistics& wire) {
     Statistics statistics;
     described::fill_record(wire, statistics, [](std::string_view, int) {});
-    if (statistics.warnings.size() > max_warnings) statistics.warnings.resize(max_warnings);
     for (Warning& warning : statistics.warnings) warning.text = escaped(warning.text, max_warning_characters);
     return statistics;
 }

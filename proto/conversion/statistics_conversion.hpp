@@ -11,8 +11,6 @@ namespace meniscus::conversion {
 /// Sets what core measures; the server's own figures (index, times of encoding, bytes) are left alone.
 void to_wire(const Statistics& statistics, v1::FrameStatistics& wire);
 
-/// The most warnings of one frame that are taken over; further ones are left out.
-inline constexpr std::size_t max_warnings = 16;
 /// The most characters of a warning's text.
 inline constexpr std::size_t max_warning_characters = 500;
 /// Warnings are bounded, and their texts printable lines, whatever the other side sends.

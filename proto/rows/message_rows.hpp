@@ -7,6 +7,8 @@
 
 #include <google/protobuf/message.h>
 
+#include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -130,7 +132,10 @@ void read(const Message& message, const Field& field, const Facts& facts, std::s
         for (std::size_t i = 0; i < value.size(); ++i)
             read(entries, Field(entries, facts.entries[i]), facts, name, value[i], refuse);
     } else {
-        value.resize(field.size(message));
+        // What is more than a receiver wants is not believed.
+        const double most = facts.range.most;
+        value.resize(std::isinf(most) ? field.size(message)
+                                      : std::min(field.size(message), static_cast<std::size_t>(most)));
         for (std::size_t i = 0; i < value.size(); ++i) fill_record(field.submessage(message, i), value[i], refuse);
     }
 }

@@ -20,8 +20,9 @@ struct CommandLine {
     template <class Self, class Visit>
     static void rows(Self& self, const Visit& visit) {
         ServerOptions::rows(self.server, visit);
-        visit("log_level", self.log_level, {.subject = "--log-level"});
-        visit("log_format", self.log_format, {.help = "text, or json: one object a line", .subject = "--log-format"});
+        visit("log_level", self.log_level, {.subject = "--log-level", .argument = "NAME"});
+        visit("log_format", self.log_format,
+              {.help = "text, or json: one object a line", .subject = "--log-format", .argument = "NAME"});
     }
 };
 

@@ -39,39 +39,48 @@ struct ServerOptions {
     template <class Self, class Visit>
     static void rows(Self& self, const Visit& visit) {
         visit("listen", self.listen,
-              {.help = "HOST:PORT (port 0: a free one, which is logged) or unix:PATH (for this user alone)"});
+              {.help = "HOST:PORT (port 0: a free one, which is logged) or unix:PATH (for this user alone)",
+               .argument = "HOST:PORT | unix:PATH"});
         TlsFiles::rows(self.tls, visit);
         visit("tokens", self.tokens,
               {.help = "Lines ROLE NAME TOKEN, the role being uploader, watcher or admin: calls need one of these "
-                       "tokens"});
+                       "tokens",
+               .argument = "FILE"});
         visit("insecure", self.insecure, {.help = "Let other machines connect without TLS, also to --http"});
         visit("http", self.http,
               {.help = "HOST:PORT (port 0: a free one, which is logged) of the viewer, /metrics, /healthz and "
                        "/readyz; off: none. Default: where --listen is TCP on loopback, its port 9464, or a free one "
-                       "where that is taken; otherwise off"});
+                       "where that is taken; otherwise off",
+               .argument = "HOST:PORT"});
         visit("probes", self.probes,
               {.help = "HOST:PORT of /metrics, /healthz and /readyz alone, always without TLS, also for other "
-                       "machines: they tell numbers only"});
+                       "machines: they tell numbers only",
+               .argument = "HOST:PORT"});
         visit("trusted_proxies", self.trusted_proxies,
               {.help = "Addresses and networks, as 192.0.2.7,10.0.0.0/8, of proxies through which others come: limits "
-                       "for each peer address do not hold for them, nor for loopback and Unix sockets"});
+                       "for each peer address do not hold for them, nor for loopback and Unix sockets",
+               .argument = "LIST"});
         visit("web_origin", self.web_origins,
-              {.help = "Page, as https://example.org, that may call over the HTTP port; those of this machine may"});
+              {.help = "Page, as https://example.org, that may call over the HTTP port; those of this machine may",
+               .argument = "ORIGIN"});
         visit("web_frame_ancestors", self.web_frame_ancestors,
-              {.help = "Pages, as https://example.org,https://example.org:8443, that may show the viewer in a frame"});
+              {.help = "Pages, as https://example.org,https://example.org:8443, that may show the viewer in a frame",
+               .argument = "ORIGINS"});
         visit("reflection", self.reflection, {.help = "Let clients ask for the contract, as grpcurl does"});
         visit("channelz", self.channelz, {.help = "Let clients ask for connections and their traffic"});
-        visit("backend", self.backend.backend, {.subject = "backend"});
+        visit("backend", self.backend.backend, {.subject = "backend", .argument = "NAME"});
         visit("devices", self.devices,
               {.help = "GPUs to use, as 0,1: each session on the one with the most free memory. Default: all that can "
-                       "be used"});
+                       "be used",
+               .argument = "LIST"});
         visit("threads", self.backend.threads,
-              {.help = "Worker threads; 0: one per processor", .range = {.most = max_threads}});
+              {.help = "Worker threads; 0: one per processor", .range = {.most = max_threads}, .argument = "N"});
         Limits::rows(self.limits, visit);
         visit("shutdown_grace", self.shutdown_grace,
               {.help = "Seconds that clients get after SIGTERM to take the frames they are owed",
                .unit = "s",
-               .range = {.most = 3600.0}});
+               .range = {.most = 3600.0},
+               .argument = "SECONDS"});
         RecordingOptions::rows(self.recording, visit);
     }
 };

@@ -33,21 +33,25 @@ struct RecordingOptions {
     static void rows(Self& self, const Visit& visit) {
         visit("record", self.directory,
               {.help = "Folder to keep every session's particles and meshes in; see meniscus recordings, replay, "
-                       "convert"});
+                       "convert",
+               .argument = "DIR"});
         visit("record_limit", self.limit,
               {.help = "Bytes of all recordings in that folder, as 100G; 0: no limit. Nothing is deleted: recording "
                        "stops",
-               .unit = "bytes"});
+               .unit = "bytes",
+               .argument = "BYTES"});
         visit("record_attribute_bits", self.attribute_bits,
               {.help = "Bits per component of the float32 attributes in recorded meshes, 1 to 16; 0: exact",
-               .range = {.most = max_attribute_bits}});
+               .range = {.most = max_attribute_bits},
+               .argument = "BITS"});
         visit("record_min_frames", self.retention.min_frames,
-              {.help = "A recording with fewer frames is deleted when it is closed; 0: none is"});
+              {.help = "A recording with fewer frames is deleted when it is closed; 0: none is", .argument = "N"});
         visit("record_max_age", self.retention.max_age,
               {.help = "Seconds after which a recording to which nothing more was written is deleted, as 2592000 for "
                        "30 days; 0: none is",
                .unit = "s",
-               .range = {.most = 1e9}});
+               .range = {.most = 1e9},
+               .argument = "SECONDS"});
     }
 };
 

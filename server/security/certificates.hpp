@@ -19,9 +19,10 @@ struct TlsFiles {
     /// Calls visit(name, value, facts) for each file.
     template <class Self, class Visit>
     static void rows(Self& self, const Visit& visit) {
-        visit("tls_cert", self.certificate, {.help = "Certificate chain for TLS, PEM"});
-        visit("tls_key", self.key, {.help = "Its key, PEM"});
-        visit("tls_client_ca", self.client_ca, {.help = "Mutual TLS: clients need a certificate of one of these, PEM"});
+        visit("tls_cert", self.certificate, {.help = "Certificate chain for TLS, PEM", .argument = "FILE"});
+        visit("tls_key", self.key, {.help = "Its key, PEM", .argument = "FILE"});
+        visit("tls_client_ca", self.client_ca,
+              {.help = "Mutual TLS: clients need a certificate of one of these, PEM", .argument = "FILE"});
     }
 };
 

@@ -56,6 +56,15 @@ std::string printed(std::vector<std::string> flags) {
     return exit ? exit->text : "";
 }
 
+TEST(Options, NameTheirValuesInTheHelp) {
+    CommandLine command_line;
+    const auto exit = parse_into(command_line, {"--help"});
+    ASSERT_TRUE(exit);
+    for (const char* named : {"--tls-cert FILE", "--backend NAME=auto", "--devices LIST", "--memory-limit BYTES",
+                              "--trusted-proxies LIST", "--record DIR"})
+        EXPECT_NE(exit->text.find(named), std::string::npos) << named;
+}
+
 TEST(Options, ListDevices) {
     EXPECT_EQ(parse({"--devices", "0,3,1"}).devices, (std::vector<int>{0, 3, 1}));
     EXPECT_EQ(parse({"--devices=2", "--threads", "1"}).devices, (std::vector<int>{2}));

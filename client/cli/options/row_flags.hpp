@@ -4,8 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <concepts>
-#include <cstdint>
+#include <deque>
 #include <functional>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -24,6 +25,11 @@ namespace meniscus::cli {
 template <class Record>
 class RowFlags {
 public:
+    RowFlags() = default;
+    // The flags of a command refer to it.
+    RowFlags(const RowFlags&) = delete;
+    RowFlags& operator=(const RowFlags&) = delete;
+
     /// A flag for each row that is not shown by hand, under the heading of its group. defaults: for --help. The flags
     /// live as long as the command.
     void add_to(CLI::App& command, const Record& defaults) {
@@ -52,9 +58,11 @@ private:
         std::string help(row.facts.help);
         if (!row.facts.when.empty()) help = "With " + std::string(row.facts.when) + ": " + help;
         if constexpr (std::same_as<Value, bool>) {
-            command.add_flag_function(
-                flags + ",!--no-" + option_name(row),
-                [this, row, place](std::int64_t times) { keep(row, place, times > 0); }, help);
+            bool& value = flags_.emplace_back();
+            const CLI::Option* const option = command.add_flag(flags + ",!--no-" + option_name(row), value, help);
+            given_[place] = [row, option, &value](Record& record) {
+                if (option->count() != 0) *row.find(record) = value;
+            };
         } else if constexpr (std::same_as<Value, Box>) {
             command
                 .add_option_function<std::vector<double>>(
@@ -77,8 +85,12 @@ private:
                 ->default_str(std::string(name_of(standard(row, defaults))));
         } else {
             command
-                .add_option_function<Value>(
-                    flags, [this, row, place](const Value& value) { keep(row, place, value); }, help)
+                .add_option_function<std::optional<Value>>(
+                    flags,
+                    [this, row, place](const std::optional<Value>& value) {
+                        if (value) keep(row, place, *value);
+                    },
+                    help)
                 ->default_str(text_of(standard(row, defaults)));
         }
     }
@@ -124,6 +136,7 @@ private:
     }
 
     std::vector<std::function<void(Record&)>> given_;  ///< one of each row; empty where the flag was not given
+    std::deque<bool> flags_;                           ///< values of flags without one
     std::string_view group_;                           ///< of the last choice: its parameters stand beside it
 };
 

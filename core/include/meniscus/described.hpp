@@ -17,7 +17,10 @@
 
 namespace meniscus {
 
-/// The numbers that a member may have. Others are refused as `advice` says; with a least of 0, 0 is refused as well.
+/// The least of a range of real numbers greater than 0.
+inline constexpr double above_zero = std::numeric_limits<double>::denorm_min();
+
+/// The numbers that a member may have, both ends among them. Others are refused as `advice` says.
 struct Range {
     double least = -std::numeric_limits<double>::infinity();
     double most = std::numeric_limits<double>::infinity();
@@ -28,12 +31,12 @@ struct Range {
 struct Facts {
     std::string_view help{};      ///< one sentence, as in --help: without `when`, and without the full stop
     std::string_view unit{};      ///< "s", "bytes", "radii"
-    Range range{};                ///< of a number
+    Range range{};                ///< of a number; of a list that is received: its length
     std::string_view when{};      ///< the choice with which it applies, as flags have it: "--field smooth"
     std::string_view subject{};   ///< of a refusal, "iso value is": if it is not the name in words
     std::string_view option{};    ///< name of the flag and of the option by text, if it is not `name`
     char letter = '\0';           ///< of the short flag
-    std::string_view argument{};  ///< the value in documents, where its type says too little: "X Y Z"
+    std::string_view argument{};  ///< the value's name in --help, where its type says too little: "FILE"
     std::string_view standard{};  ///< the default in words, where the member's own says too little
     std::string_view group{};     ///< heading of the flag in --help
     std::span<const std::string_view> entries{};  ///< names of an array's elements

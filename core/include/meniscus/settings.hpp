@@ -91,7 +91,7 @@ struct CurvatureCriterion {
               {.help = "how far the surface may depart from that of the finest cells, in those; the default is that of "
                        "the default field",
                .unit = "finest cells",
-               .range = {.least = 0.0},
+               .range = {.least = above_zero},
                .when = "--criterion curvature"},
               meniscus::tolerance);
     }
@@ -215,7 +215,7 @@ struct Settings {
                .group = surface});
         visit("iso", &Settings::iso,
               {.help = "Field value at the surface",
-               .range = {0.0, 1e30, "inside a fluid the field is about 1"},
+               .range = {above_zero, 1e30, "inside a fluid the field is about 1"},
                .subject = "iso value is",
                .letter = 't',
                .group = surface});

@@ -50,6 +50,9 @@ constexpr std::string_view name_of(Stage stage) {
 }
 inline constexpr std::size_t stage_count = choices<Stage>.size();
 
+/// Of one frame, of those that come from a server: what follows is left out.
+inline constexpr std::size_t max_warnings = 16;
+
 struct Statistics {
     std::uint64_t particles = 0;
     std::uint64_t spray_particles = 0;
@@ -103,7 +106,7 @@ struct Statistics {
         visit("device_peak_bytes", &S::device_peak_bytes, {.help = "most memory on the GPU", .unit = "bytes"});
         visit("backend", &S::backend, {.help = "\"cpu\" or \"cuda\""});
         visit("threads", &S::threads, {.help = "worker threads"});
-        visit("warnings", &S::warnings, {.help = "what looks like a mistake"});
+        visit("warnings", &S::warnings, {.help = "what looks like a mistake", .range = {.most = max_warnings}});
     }
 };
 

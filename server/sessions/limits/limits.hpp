@@ -81,28 +81,38 @@ struct Limits {
         // The most that a flag of seconds takes.
         constexpr double long_time = 1e7;
         visit("sessions", self.sessions,
-              {.help = "Sessions at a time; 0: no limit", .option = "max-sessions", .gauge = "sessions"});
+              {.help = "Sessions at a time; 0: no limit",
+               .option = "max-sessions",
+               .argument = "N",
+               .gauge = "sessions"});
         visit("watchers_per_session", self.watchers_per_session,
-              {.help = "Watchers of one session; 0: no limit", .option = "max-watchers", .gauge = "watchers"});
+              {.help = "Watchers of one session; 0: no limit",
+               .option = "max-watchers",
+               .argument = "N",
+               .gauge = "watchers"});
         visit("formats_per_session", self.formats_per_session,
               {.help = "Formats of the meshes and numbers of particles that the watchers of one session wish for, "
                        "of which one caller has all but an eighth; 0: no limit",
                .option = "max-formats",
+               .argument = "N",
                .gauge = "formats"});
         visit("connections", self.connections,
               {.help = "Connections to the gRPC port, as far as the limit of descriptors (ulimit -n) is enough; "
                        "0: as many",
                .option = "max-connections",
+               .argument = "N",
                .gauge = "connections"});
         visit("connections_per_peer", self.connections_per_peer,
               {.help = "Connections from one address to one port, but for loopback, Unix sockets and "
                        "--trusted-proxies; 0: no limit",
                .option = "max-connections-per-peer",
+               .argument = "N",
                .gauge = "connections_per_peer"});
         visit("sessions_per_name", self.per_name.sessions,
               {.help = "Sessions of one token's name, or without tokens of one peer address; 0: no limit. "
                        "Default: all but an eighth of --max-sessions",
                .option = "max-sessions-per-name",
+               .argument = "N",
                .standard = "all but an eighth of `--max-sessions`",
                .gauge = "sessions_per_name"},
               [&self] { return all_but_an_eighth(self.sessions); });
@@ -110,6 +120,7 @@ struct Limits {
               {.help = "Watchers of one session of one token's name, or without tokens of one peer address; 0: no "
                        "limit. Default: all but an eighth of --max-watchers",
                .option = "max-watchers-per-name",
+               .argument = "N",
                .standard = "all but an eighth of `--max-watchers`",
                .gauge = "watchers_per_name"},
               [&self] { return all_but_an_eighth(self.watchers_per_session); });
@@ -120,45 +131,54 @@ struct Limits {
         visit("recording_readers", self.recording_readers,
               {.help = "Calls that read recordings at a time; 0: no limit",
                .option = "max-recording-readers",
+               .argument = "N",
                .gauge = "recording_readers"});
         visit("reader_pause_seconds", self.reader_patience,
               {.help = "Seconds that a client that reads a recording may take for one message; 0: no limit",
                .unit = "s",
                .range = {.most = long_time},
                .option = "max-reader-pause",
+               .argument = "SECONDS",
                .gauge = "reader_pause"});
-        visit(
-            "particles_per_frame", self.particles_per_frame,
-            {.help = "Particles of one frame; 0: no limit", .option = "max-particles", .gauge = "particles_per_frame"});
+        visit("particles_per_frame", self.particles_per_frame,
+              {.help = "Particles of one frame; 0: no limit",
+               .option = "max-particles",
+               .argument = "N",
+               .gauge = "particles_per_frame"});
         visit("frame_work", self.work_per_frame,
               {.help = "Times the work that as many evenly spread particles are at that cell size: a frame that "
                        "is estimated to be more is refused; 0: no limit",
                .unit = "times",
                .range = {.most = 1e9},
-               .option = "max-frame-work"});
+               .option = "max-frame-work",
+               .argument = "TIMES"});
         visit("frame_seconds", self.frame_time,
               {.help = "Seconds for which one frame may have the device, after which it is stopped; 0: no limit",
                .unit = "s",
                .range = {.most = long_time},
                .option = "max-frame-seconds",
+               .argument = "SECONDS",
                .gauge = "frame_time"});
         visit("bytes_in_flight", self.bytes_in_flight,
               {.help = "Frames that wait to be reconstructed, over all sessions; 0: no limit. Default: half of "
                        "the machine's memory, or of the container's",
                .unit = "bytes",
                .option = "max-bytes-in-flight",
+               .argument = "BYTES",
                .standard = "half of the machine's memory, or of the container's",
                .gauge = "bytes_in_flight"});
         visit("frames_per_second", self.frames_per_second,
               {.help = "Frames of one session; 0: no limit",
                .unit = "frames/s",
                .option = "max-frames-per-second",
+               .argument = "N",
                .gauge = "frames_per_second"});
         visit("frames_per_second_per_name", self.per_name.frames_per_second,
               {.help = "Frames over all sessions of one token's name, or without tokens of one peer address; 0, "
                        "the default: no limit",
                .unit = "frames/s",
                .option = "max-frames-per-second-per-name",
+               .argument = "N",
                .standard = "no limit",
                .gauge = "frames_per_second_per_name"},
               [] { return 0U; });
@@ -167,18 +187,22 @@ struct Limits {
                        "address; 0: no limit. Default: three quarters of --max-bytes-in-flight",
                .unit = "bytes",
                .option = "max-bytes-in-flight-per-name",
+               .argument = "BYTES",
                .standard = "three quarters of `--max-bytes-in-flight`",
                .gauge = "bytes_in_flight_per_name"},
               [&self] { return self.bytes_in_flight - self.bytes_in_flight / 4; });
-        visit(
-            "chunks_per_frame", self.chunks_per_frame,
-            {.help = "Chunk messages of one frame; 0: no limit", .option = "max-chunks", .gauge = "chunks_per_frame"});
+        visit("chunks_per_frame", self.chunks_per_frame,
+              {.help = "Chunk messages of one frame; 0: no limit",
+               .option = "max-chunks",
+               .argument = "N",
+               .gauge = "chunks_per_frame"});
         visit("chunk_bytes", chunk_bytes, {.unit = "bytes", .gauge = "chunk"});
         visit("message_bytes", self.message_bytes,
               {.help = "Size of one message, as 4M",
                .unit = "bytes",
                .range = {.least = min_message_bytes, .most = max_message_bytes},
                .option = "max-message-bytes",
+               .argument = "BYTES",
                .gauge = "message"});
         visit("upload_seconds", self.least_pace.time,
               {.help = "Seconds in which a frame must have arrived, unless it comes with --min-upload-rate; 0: no "
@@ -186,30 +210,35 @@ struct Limits {
                .unit = "s",
                .range = {.most = long_time},
                .option = "max-upload-seconds",
+               .argument = "SECONDS",
                .gauge = "upload_time"});
         visit("upload_bytes_per_second", self.least_pace.bytes_per_second,
               {.help = "Bytes a second with which a frame must come after --max-upload-seconds; 0: none may take "
                        "longer",
                .unit = "bytes/s",
-               .option = "min-upload-rate"});
+               .option = "min-upload-rate",
+               .argument = "BYTES"});
         visit("idle_seconds", self.idle_time,
               {.help = "Seconds that a stream, or a session without streams, watchers and calls, is kept without "
                        "use; 0: no limit",
                .unit = "s",
                .range = {.most = long_time},
                .option = "max-idle",
+               .argument = "SECONDS",
                .gauge = "idle_time"});
         visit("orphan_seconds", self.orphan_time,
               {.help = "Seconds that a session is kept whose simulator has vanished without a word, unless it is "
                        "watched or resumed; 0: as any other",
                .unit = "s",
                .range = {.most = long_time},
+               .argument = "SECONDS",
                .gauge = "orphan_time"});
         visit("bytes_per_session", self.bytes_per_session,
               {.help = "Memory of one session's reconstruction, as 4G or 500M; 0: no limit. Default: half of the "
                        "machine's, or of the container's",
                .unit = "bytes",
                .option = "memory-limit",
+               .argument = "BYTES",
                .standard = "half of the machine's memory, or of the container's",
                .gauge = "memory_per_session"});
         visit("total_bytes", self.total_bytes,
@@ -217,12 +246,14 @@ struct Limits {
                        "no limit. Default: half of the machine's, or of the container's",
                .unit = "bytes",
                .option = "total-memory-limit",
+               .argument = "BYTES",
                .standard = "half of the machine's memory, or of the container's",
                .gauge = "memory"});
         visit("total_device_bytes", self.total_device_bytes,
               {.help = "Memory of all sessions' reconstructions on one GPU; 0: no limit",
                .unit = "bytes",
                .option = "total-device-memory-limit",
+               .argument = "BYTES",
                .gauge = "device_memory"});
         visit("idle_buffers_seconds", self.idle_buffers_time,
               {.help = "Seconds after which a session without frames gives the memory of its reconstruction back, "
@@ -230,11 +261,13 @@ struct Limits {
                .unit = "s",
                .range = {.most = long_time},
                .option = "idle-buffers",
+               .argument = "SECONDS",
                .gauge = "idle_buffers_time"});
         visit("device_bytes_per_session", self.device_bytes_per_session,
               {.help = "Memory of one session's reconstruction on its GPU; 0: no limit",
                .unit = "bytes",
                .option = "device-memory-limit",
+               .argument = "BYTES",
                .gauge = "device_memory_per_session"});
     }
 };

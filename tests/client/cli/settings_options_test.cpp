@@ -65,6 +65,18 @@ TEST(SettingsOptions, OverrideThePresetOneByOneInAnyOrder) {
     EXPECT_EQ(parsed("--field smooth --smoothness 7 --spray discard --iso 0.5 --tolerance 0.3"), expected);
 }
 
+TEST(SettingsOptions, TheLastOfTwoFlagsOfNormalsCounts) {
+    EXPECT_TRUE(parsed("--no-normals --no-normals --normals").normals);
+    EXPECT_FALSE(parsed("--normals --normals --no-normals").normals);
+    EXPECT_TRUE(parsed("--preset paper --normals").normals);
+}
+
+TEST(SettingsOptions, AnEmptyNumberIsAsNotGiven) {
+    Settings defaults;
+    defaults.particle_radius = radius;
+    EXPECT_EQ(parsed("--cell-size '' --tolerance '' --smoothness '' --count-threshold ''"), defaults);
+}
+
 TEST(SettingsOptions, NameAttributesOneByOneOrAllOfThem) {
     Settings expected;
     expected.particle_radius = radius;
