@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <concepts>
-#include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -25,27 +25,21 @@ namespace meniscus::cli {
 template <class Record>
 class RowFlags {
 public:
-    RowFlags() = default;
-    // The flags of a command refer to it.
-    RowFlags(const RowFlags&) = delete;
-    RowFlags& operator=(const RowFlags&) = delete;
-
-    /// A flag for each row that is not shown by hand, under the heading of its group. defaults: for --help. The flags
-    /// live as long as the command.
+    /// A flag for each row that is not shown by hand, under the heading of its group. defaults: for --help.
     void add_to(CLI::App& command, const Record& defaults) {
-        given_.clear();
+        given_->clear();
         for_each_row<Record>([&]<class Row>(const Row& row) {
             if (row.facts.by_hand) return;
-            given_.emplace_back();
+            given_->emplace_back();
             const OptionGroup group(command, std::string(row.facts.group.empty() ? group_ : row.facts.group));
             if constexpr (is_variant<typename Row::Type>) group_ = row.facts.group;
-            if constexpr (!is_list<typename Row::Type>) add(command, row, defaults, given_.size() - 1);
+            if constexpr (!is_list<typename Row::Type>) add(command, row, defaults, given_->size() - 1);
         });
     }
 
     /// In the order of the rows. Throws InvalidInput for a parameter of an alternative that is not chosen.
     void apply(Record& record) const {
-        for (const auto& put : given_)
+        for (const auto& put : *given_)
             if (put) put(record);
     }
 
@@ -58,17 +52,24 @@ private:
         std::string help(row.facts.help);
         if (!row.facts.when.empty()) help = "With " + std::string(row.facts.when) + ": " + help;
         if constexpr (std::same_as<Value, bool>) {
-            bool& value = flags_.emplace_back();
-            const CLI::Option* const option = command.add_flag(flags + ",!--no-" + option_name(row), value, help);
-            given_[place] = [row, option, &value](Record& record) {
-                if (option->count() != 0) *row.find(record) = value;
+            // The last one counts; a flag that is not there changes nothing.
+            struct Given {
+                bool is_given = false;
+                bool value = false;
+            };
+            const auto last = std::make_shared<Given>();
+            command.add_flag(flags + ",!--no-" + option_name(row), last->value, help)->each([last](const std::string&) {
+                last->is_given = true;
+            });
+            (*given_)[place] = [row, last](Record& record) {
+                if (last->is_given) *row.find(record) = last->value;
             };
         } else if constexpr (std::same_as<Value, Box>) {
             command
                 .add_option_function<std::vector<double>>(
                     flags,
-                    [this, row, place](const std::vector<double>& corners) {
-                        keep(row, place,
+                    [given = given_, row, place](const std::vector<double>& corners) {
+                        keep(*given, row, place,
                              Box{{corners[0], corners[1], corners[2]}, {corners[3], corners[4], corners[5]}});
                     },
                     std::string(row.facts.argument) + ": " + help)
@@ -77,8 +78,8 @@ private:
             command
                 .add_option_function<std::string>(
                     flags,
-                    [this, row, place](const std::string& name) {
-                        keep(row, place, by_name<Value>(name, "--" + option_name(row)));
+                    [given = given_, row, place](const std::string& name) {
+                        keep(*given, row, place, by_name<Value>(name, "--" + option_name(row)));
                     },
                     help)
                 ->check(CLI::IsMember(std::vector<std::string>(names<Value>.begin(), names<Value>.end())))
@@ -87,17 +88,20 @@ private:
             command
                 .add_option_function<std::optional<Value>>(
                     flags,
-                    [this, row, place](const std::optional<Value>& value) {
-                        if (value) keep(row, place, *value);
+                    [given = given_, row, place](const std::optional<Value>& value) {
+                        if (value) keep(*given, row, place, *value);
                     },
                     help)
                 ->default_str(text_of(standard(row, defaults)));
         }
     }
 
+    /// An element of each row; empty where the flag was not given.
+    using Puts = std::vector<std::function<void(Record&)>>;
+
     template <class Row, class Value>
-    void keep(const Row& row, std::size_t place, const Value& value) {
-        given_[place] = [row, value](Record& record) {
+    static void keep(Puts& given, const Row& row, std::size_t place, const Value& value) {
+        given[place] = [row, value](Record& record) {
             auto* const target = row.find(record);
             if constexpr (requires { row.choice; }) {
                 const std::string choice_flag = "--" + option_name_of(row.choice_name);
@@ -135,9 +139,8 @@ private:
         return out.str();
     }
 
-    std::vector<std::function<void(Record&)>> given_;  ///< one of each row; empty where the flag was not given
-    std::deque<bool> flags_;                           ///< values of flags without one
-    std::string_view group_;                           ///< of the last choice: its parameters stand beside it
+    std::shared_ptr<Puts> given_ = std::make_shared<Puts>();  ///< shared with the flags, which may outlive this
+    std::string_view group_;                                  ///< of the last choice: its parameters stand beside it
 };
 
 }  // namespace meniscus::cli

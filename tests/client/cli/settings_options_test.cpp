@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
@@ -74,7 +76,26 @@ TEST(SettingsOptions, TheLastOfTwoFlagsOfNormalsCounts) {
 TEST(SettingsOptions, AnEmptyNumberIsAsNotGiven) {
     Settings defaults;
     defaults.particle_radius = radius;
-    EXPECT_EQ(parsed("--cell-size '' --tolerance '' --smoothness '' --count-threshold ''"), defaults);
+    for (const char* flag : {"--cell-size", "--iso", "--tolerance", "--smoothness", "--count-threshold"}) {
+        CLI::App app;
+        SettingsOptions options;
+        options.add_to(app);
+        app.parse(std::vector<std::string>{"", flag});  // the last argument comes first
+        EXPECT_EQ(options.build(radius), defaults) << flag;
+    }
+}
+
+TEST(SettingsOptions, MayMoveOnAfterTheirCommandHasGone) {
+    SettingsOptions options;
+    {
+        CLI::App app;
+        options.add_to(app);
+        app.parse("--no-normals --cell-size 1");
+    }
+    const SettingsOptions moved = std::move(options);
+    const Settings settings = moved.build(radius);
+    EXPECT_FALSE(settings.normals);
+    EXPECT_EQ(settings.cell_size, 1.0);
 }
 
 TEST(SettingsOptions, NameAttributesOneByOneOrAllOfThem) {
