@@ -8,6 +8,7 @@
 
 #include "meniscus/error.hpp"
 #include "meniscus/quoted.hpp"
+#include "meniscus/seconds.hpp"
 
 namespace meniscus::text_options {
 namespace {
@@ -98,7 +99,7 @@ void OptionReader::read(std::string_view name, std::chrono::milliseconds& value)
     const double seconds = number(quoted(name), *text);
     // Also false for a NaN.
     if (!(seconds >= 0.0 && seconds <= most)) refuse(quoted(name), *text, "0 to 1000000000 seconds");
-    value = std::chrono::milliseconds(std::llround(seconds * 1000.0));
+    value = milliseconds_of(seconds);
 }
 
 template <class Number>

@@ -41,24 +41,24 @@ void read_value(OptionReader& options, const std::string& option, const Facts& f
 template <class Record>
 void read_rows(OptionReader& options, Record& record) {
     for_each_row<Record>([&]<class Row>(const Row& row) {
-        if (is_list<typename Row::Type> || row.facts.by_hand) return;
-        if constexpr (Described<typename Row::Type>) {
+        using Value = typename Row::Type;
+        if constexpr (Described<Value>) {
             read_rows(options, *row.find(record));
-            return;
-        }
-        const std::string option = option_name(row);
-        const std::string* const text = options.find(option);
-        if (text == nullptr) return;
-        auto* const value = row.find(record);
-        if constexpr (requires { row.choice; }) {
-            if (value == nullptr)
-                throw InvalidInput(options.quoted(option) + " is " + quoted(*text) + ", but '" +
-                                   options.naming()(option_name_of(row.choice_name)) + "' is " +
-                                   std::string(name_of(record.*row.choice)) + ": set it to " +
-                                   std::string(row.alternative) + ", or leave the option out");
-        }
-        if constexpr (!is_list<typename Row::Type> && !Described<typename Row::Type>)
+        } else if constexpr (!is_list<Value>) {
+            if (row.facts.by_hand) return;
+            const std::string option = option_name(row);
+            const std::string* const text = options.find(option);
+            if (text == nullptr) return;
+            auto* const value = row.find(record);
+            if constexpr (requires { row.choice; }) {
+                if (value == nullptr)
+                    throw InvalidInput(options.quoted(option) + " is " + quoted(*text) + ", but '" +
+                                       options.naming()(option_name_of(row.choice_name)) + "' is " +
+                                       std::string(name_of(record.*row.choice)) + ": set it to " +
+                                       std::string(row.alternative) + ", or leave the option out");
+            }
             read_value(options, option, row.facts, *value);
+        }
     });
 }
 

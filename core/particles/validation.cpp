@@ -46,7 +46,7 @@ void require_within(std::string_view subject, Number number, const Range& range)
     const auto value = static_cast<double>(number);
     if (std::isfinite(value) && value >= range.least && value <= range.most) return;
     std::string limits = text(range.least) + " to " + text(range.most);
-    if (std::isinf(range.most)) limits = "at least " + text(range.least);
+    if (std::isinf(range.most)) limits = std::isinf(range.least) ? "finite" : "at least " + text(range.least);
     if (range.least == above_zero) limits = "at most " + text(range.most);
     throw InvalidInput(std::string(subject) + " " + text(number) + ", must be " + limits +
                        (range.advice.empty() ? "" : ": " + std::string(range.advice)));
@@ -91,12 +91,11 @@ void require_chosen_ranges(const Settings& settings) {
 }
 
 void require_box(const char* name, const Box& box, bool may_be_flat) {
-    constexpr const char* axes[] = {"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
         const bool ordered = may_be_flat ? box.min[i] <= box.max[i] : box.min[i] < box.max[i];
         if (!std::isfinite(box.min[i]) || !std::isfinite(box.max[i]) || !ordered)
             throw InvalidInput(std::string(name) + " runs from " + text(box.min[i]) + " to " + text(box.max[i]) +
-                               " along " + axes[i] + ", must be finite and run upward");
+                               " along " + std::string(axes[i]) + ", must be finite and run upward");
     }
 }
 

@@ -60,7 +60,7 @@ Settings from_wire(const v1::Settings& wire) {
     refuse_unknown_fields(wire, "settings");
     if (wire.has_domain()) from_wire(wire.domain(), "settings.domain");
     Settings settings;
-    described::fill_record(wire, settings, refuse_number);
+    rows::fill_record(wire, settings, refuse_number);
     // Sessions of one surface have equal settings, whether or not their makers named a default.
     return in_force(settings);
 }
@@ -69,7 +69,7 @@ v1::Settings to_wire(const Settings& settings) {
     v1::Settings wire;
     // A recording keeps its surface should a default change. A setting of another field is here only if it was given:
     // the receiver refuses it.
-    described::fill_message(in_force(settings), wire);
+    rows::fill_message(in_force(settings), wire);
     // A reader from before spray was known would refuse a field of which it need not know.
     if (settings.spray == Spray::keep) wire.clear_spray();
     return wire;

@@ -8,12 +8,12 @@
 namespace meniscus::conversion {
 
 void to_wire(const Statistics& statistics, v1::FrameStatistics& wire) {
-    described::fill_message(statistics, wire);
+    rows::fill_message(statistics, wire);
 }
 
 Statistics from_wire(const v1::FrameStatistics& wire) {
     Statistics statistics;
-    described::fill_record(wire, statistics, [](std::string_view, int) {});
+    rows::fill_record(wire, statistics, [](std::string_view, int) {});
     for (Warning& warning : statistics.warnings) warning.text = escaped(warning.text, max_warning_characters);
     return statistics;
 }

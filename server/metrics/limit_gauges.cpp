@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "meniscus/seconds.hpp"
 #include "metrics/gauge_family.hpp"
 
 namespace meniscus::server {
@@ -21,7 +22,7 @@ prometheus::MetricFamily build_info(const BackendDescription& backend) {
 }
 
 double number_of(std::chrono::milliseconds limit) {
-    return std::chrono::duration<double>(limit).count();
+    return seconds_of(limit);
 }
 
 template <class Number>

@@ -16,17 +16,15 @@
 
 #include "meniscus/described.hpp"
 #include "meniscus/names.hpp"
+#include "meniscus/seconds.hpp"
 #include "options/validators.hpp"
-#include "process/seconds.hpp"
 
 namespace meniscus::server {
 
 namespace {
 
 std::string flag_of(std::string_view name, const Facts& facts) {
-    std::string flag = fmt::format("--{}", facts.option.empty() ? name : facts.option);
-    std::ranges::replace(flag, '_', '-');
-    return flag;
+    return "--" + option_name(name, facts);
 }
 
 // A flag by the type of its value.

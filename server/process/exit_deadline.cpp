@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "meniscus/seconds.hpp"
 #include "process/open_work.hpp"
-#include "process/seconds.hpp"
 
 namespace meniscus::server {
 

@@ -46,8 +46,8 @@ std::optional<client::ReceivedFrame> next_frame(client::Watcher& watcher, const 
     client::Next<client::ReceivedFrame> next = watcher.next(options.timeout);
     if (next || next.ended) return std::move(next.frame);
     std::ostringstream what;
-    what << "no frame of session " << options.session << " has come for "
-         << std::chrono::duration<double>(options.timeout).count() << " s (--timeout)";
+    what << "no frame of session " << options.session << " has come for " << seconds_of(options.timeout)
+         << " s (--timeout)";
     throw client::ServerError(what.str(), client::ErrorCode::deadline_exceeded);
 }
 

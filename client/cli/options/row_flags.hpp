@@ -2,7 +2,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <concepts>
 #include <functional>
 #include <memory>
@@ -28,11 +27,12 @@ public:
     /// A flag for each row that is not shown by hand, under the heading of its group. defaults: for --help.
     void add_to(CLI::App& command, const Record& defaults) {
         given_->clear();
+        std::string_view heading;  // of a choice: its parameters stand beside it
         for_each_row<Record>([&]<class Row>(const Row& row) {
             if (row.facts.by_hand) return;
             given_->emplace_back();
-            const OptionGroup group(command, std::string(row.facts.group.empty() ? group_ : row.facts.group));
-            if constexpr (is_variant<typename Row::Type>) group_ = row.facts.group;
+            if (!row.facts.group.empty()) heading = row.facts.group;
+            const OptionGroup group(command, std::string(heading));
             if constexpr (!is_list<typename Row::Type>) add(command, row, defaults, given_->size() - 1);
         });
     }
@@ -140,7 +140,6 @@ private:
     }
 
     std::shared_ptr<Puts> given_ = std::make_shared<Puts>();  ///< shared with the flags, which may outlive this
-    std::string_view group_;                                  ///< of the last choice: its parameters stand beside it
 };
 
 }  // namespace meniscus::cli

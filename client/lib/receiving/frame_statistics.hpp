@@ -12,7 +12,7 @@ namespace meniscus::client {
 inline FrameStatistics frame_statistics(const v1::FrameStatistics& wire) {
     FrameStatistics statistics;
     static_cast<Statistics&>(statistics) = conversion::from_wire(wire);
-    described::fill_record(wire, statistics, [](std::string_view, int) {});
+    rows::fill_record(wire, statistics, [](std::string_view, int) {});
     return statistics;
 }
 

@@ -75,7 +75,7 @@ ServerInfo Client::server_info(const std::stop_token& stop) {
     ServerInfo::rows([&](std::string_view name, auto member, const Facts& facts) {
         constexpr std::size_t prefix = 4;  // max_ and min_
         const v1::Limits& limits = response.limits();
-        described::read(limits, described::Field(limits, name.substr(prefix)), facts, name, info.*member, {});
+        rows::read(limits, rows::MessageField(limits, name.substr(prefix)), facts, name, info.*member, {});
     });
     info.codecs.assign(response.codecs().begin(), response.codecs().end());
     return info;

@@ -44,11 +44,13 @@ pybind11::object value_object(const Value& value, const Facts& facts) {
     }
 }
 
-/// Every row, in their order. None for a value that is missing and a parameter of a choice that was not made.
+/// Every row that is not shown by hand, in the order of the rows. None for a value that is missing and a parameter of a
+/// choice that was not made.
 template <Described Record>
 pybind11::dict rows_dict(const Record& record) {
     pybind11::dict out;
     for_each_row<Record>([&](const auto& row) {
+        if (row.facts.by_hand) return;
         const auto* const value = row.find(record);
         const pybind11::str name(flat_name(row));
         out[name] = value == nullptr ? pybind11::none() : value_object(*value, row.facts);

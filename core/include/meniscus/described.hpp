@@ -3,7 +3,8 @@
 //
 // A record has a static function template `rows(visit)`, which calls visit(name, member, facts) for each member, in the
 // order of the documents; an optional member may have, as a fourth argument, the function that tells what is in force
-// where there is no value. The alternatives of a variant are records with rows of their own. See Settings.
+// where there is no value. The alternatives of a variant are records with rows of their own. See Settings. (The options
+// of the server lie in nested records, in an order of their own: their rows are over values, see Limits.)
 #pragma once
 
 #include <limits>
@@ -169,9 +170,12 @@ inline std::string option_name_of(std::string_view name) {
     return detail::with(name, '_', '-');
 }
 /// The name of a row's flag: "count-threshold".
+inline std::string option_name(std::string_view name, const Facts& facts) {
+    return option_name_of(facts.option.empty() ? name : facts.option);
+}
 template <class Row>
 std::string option_name(const Row& row) {
-    return option_name_of(row.facts.option.empty() ? row.name : row.facts.option);
+    return option_name(row.name, row.facts);
 }
 
 /// A row's name in flat lists of a whole record: "count_threshold".

@@ -113,7 +113,6 @@ struct Limits {
                        "Default: all but an eighth of --max-sessions",
                .option = "max-sessions-per-name",
                .argument = "N",
-               .standard = "all but an eighth of `--max-sessions`",
                .gauge = "sessions_per_name"},
               [&self] { return all_but_an_eighth(self.sessions); });
         visit("watchers_per_name", self.per_name.watchers,
@@ -121,7 +120,6 @@ struct Limits {
                        "limit. Default: all but an eighth of --max-watchers",
                .option = "max-watchers-per-name",
                .argument = "N",
-               .standard = "all but an eighth of `--max-watchers`",
                .gauge = "watchers_per_name"},
               [&self] { return all_but_an_eighth(self.watchers_per_session); });
         visit("formats_per_name", self.per_name.formats, {.gauge = "formats_per_name"},
@@ -165,7 +163,6 @@ struct Limits {
                .unit = "bytes",
                .option = "max-bytes-in-flight",
                .argument = "BYTES",
-               .standard = "half of the machine's memory, or of the container's",
                .gauge = "bytes_in_flight"});
         visit("frames_per_second", self.frames_per_second,
               {.help = "Frames of one session; 0: no limit",
@@ -179,7 +176,6 @@ struct Limits {
                .unit = "frames/s",
                .option = "max-frames-per-second-per-name",
                .argument = "N",
-               .standard = "no limit",
                .gauge = "frames_per_second_per_name"},
               [] { return 0U; });
         visit("bytes_in_flight_per_name", self.per_name.bytes_in_flight,
@@ -188,7 +184,6 @@ struct Limits {
                .unit = "bytes",
                .option = "max-bytes-in-flight-per-name",
                .argument = "BYTES",
-               .standard = "three quarters of `--max-bytes-in-flight`",
                .gauge = "bytes_in_flight_per_name"},
               [&self] { return self.bytes_in_flight - self.bytes_in_flight / 4; });
         visit("chunks_per_frame", self.chunks_per_frame,
@@ -239,7 +234,6 @@ struct Limits {
                .unit = "bytes",
                .option = "memory-limit",
                .argument = "BYTES",
-               .standard = "half of the machine's memory, or of the container's",
                .gauge = "memory_per_session"});
         visit("total_bytes", self.total_bytes,
               {.help = "Memory of all sessions' reconstructions, of encoding, and of what is kept of frames; 0: "
@@ -247,7 +241,6 @@ struct Limits {
                .unit = "bytes",
                .option = "total-memory-limit",
                .argument = "BYTES",
-               .standard = "half of the machine's memory, or of the container's",
                .gauge = "memory"});
         visit("total_device_bytes", self.total_device_bytes,
               {.help = "Memory of all sessions' reconstructions on one GPU; 0: no limit",

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "process/seconds.hpp"
+#include "meniscus/seconds.hpp"
 #include "sessions/session/session_name.hpp"
 
 namespace meniscus::server {

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "meniscus/error.hpp"
+#include "meniscus/seconds.hpp"
 #include "process/call_log.hpp"
 #include "process/log.hpp"
 #include "process/open_work.hpp"
-#include "process/seconds.hpp"
 #include "sessions/handover/start_thread.hpp"
 #include "sessions/limits/refusal.hpp"
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "meniscus/error.hpp"
+#include "meniscus/seconds.hpp"
 #include "process/call_log.hpp"
 #include "process/log.hpp"
-#include "process/seconds.hpp"
 #include "sessions/limits/limit_reached.hpp"
 #include "sessions/limits/refusal.hpp"
 #include "sessions/sending/stream_notices.hpp"
