@@ -10,11 +10,15 @@
 namespace meniscus {
 
 /// On the wire and in files a codec is its number, which it keeps for ever.
-enum class Codec : std::uint32_t { draco = 1 };
+enum class Codec : std::uint32_t {
+    draco = 1,            ///< a Draco mesh, for readers of standard meshes
+    lattice_packed = 2,   ///< levels, signs and offsets of the lattice at fixed widths: the fastest
+    lattice_entropy = 3,  ///< the same content through an entropy coder: the smallest
+};
 
 /// Every codec, the preferred one first. After one is added here, the compiler reports each switch over codecs that
 /// lacks it.
-inline constexpr std::array codecs{Codec::draco};
+inline constexpr std::array codecs{Codec::lattice_entropy, Codec::lattice_packed, Codec::draco};
 
 /// None for a number that this version does not know.
 constexpr std::optional<Codec> codec_by_number(std::uint32_t number) {
@@ -27,6 +31,10 @@ constexpr std::string_view name_of(Codec codec) {
     switch (codec) {
         case Codec::draco:
             return "Draco";
+        case Codec::lattice_packed:
+            return "lattice, packed";
+        case Codec::lattice_entropy:
+            return "lattice, entropy";
     }
     return "";
 }

@@ -13,6 +13,7 @@
 #include "meniscus/element_type.hpp"
 #include "meniscus/memory.hpp"
 #include "meniscus/names.hpp"
+#include "meniscus/surface_lattice.hpp"
 
 namespace meniscus {
 
@@ -92,6 +93,8 @@ struct Mesh {
     Array<MeshBrick> bricks;                                   ///< ordered by coordinate (z, y, x)
     std::vector<MeshAttribute> attributes;                     ///< attributes that the settings name, in that order
     Array<Point> spray;  ///< places of the particles left out of the surface, in no order of the frame's; Spray::points
+
+    SurfaceLattice lattice;     ///< empty unless BackendOptions::keep_lattice asks for it, and on a GPU
 
     /// World position of a lattice position of this mesh: exact product in double, one rounding.
     std::array<double, 3> world(const LatticePosition& p) const {
