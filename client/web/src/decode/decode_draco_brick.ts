@@ -1,7 +1,6 @@
 // One brick from its Draco bytes. Draco's own checks are not enough: what it decodes is checked against what was announced.
 import type { DracoAttribute, DracoDecoder, DracoMesh, DracoModule } from 'draco3d/draco_decoder_nodejs.js';
 import type { CodedAttribute } from '../bricks/attributes';
-import { isKnownCodec } from '../bricks/codecs';
 import type { EncodedBrick } from '../bricks/frame';
 import { brickCells } from '../bricks/lattice';
 import { storedAs, valuesOf, type DecodedAttribute } from './attribute_values';
@@ -12,13 +11,19 @@ import { triangleGroups } from './triangle_levels';
 
 /** The first id of generic attributes, by the contract: their places follow. */
 const firstAttributeId = 16;
+/** Draco's names of types. */
+const dracoTypes = { uint8: 'DT_UINT8', uint16: 'DT_UINT16', float32: 'DT_FLOAT32' } as const;
 
-/** name: of the attribute that is decoded, too, where the brick carries it. Throws an Error that names the brick. */
-export function decodeBrick(draco: DracoModule, brick: EncodedBrick, offsetBits: number, name?: string): DecodedBrick {
+/** name: of the attribute that is decoded, too, where the brick carries it. Throws an Error. */
+export function decodeDracoBrick(
+  draco: DracoModule,
+  brick: EncodedBrick,
+  offsetBits: number,
+  name?: string,
+): DecodedBrick {
   const decoder = new draco.Decoder();
   const mesh = new draco.Mesh();
   try {
-    if (!isKnownCodec(brick.codec)) throw new Error(`this viewer does not know its codec, ${brick.codec}`);
     requirePlausible(brick);
     const status = decoder.DecodeArrayToMesh(brick.data, brick.data.length, mesh);
     if (!status.ok()) throw new Error(`its bytes are not a Draco mesh (${status.error_msg()})`);
@@ -55,8 +60,6 @@ export function decodeBrick(draco: DracoModule, brick: EncodedBrick, offsetBits:
       bounds: boundsOf(positions),
       ...groupTriangles(triangles, groups, points),
     };
-  } catch (error) {
-    throw new Error(`brick (${brick.place.join(', ')}): ${error instanceof Error ? error.message : String(error)}`);
   } finally {
     draco.destroy(mesh);
     draco.destroy(decoder);
@@ -73,13 +76,14 @@ function readAttribute(
 ): DecodedAttribute {
   const form = attributes[place]!;
   const { name, components } = form;
-  const stored = storedAs(draco, form);
+  const stored = storedAs(form);
+  const type = draco[dracoTypes[stored.type]];
   for (let i = 0; i < mesh.num_attributes(); ++i) {
     const attribute = decoder.GetAttribute(mesh, i);
     if (attribute.unique_id() !== firstAttributeId + place) continue;
-    if (attribute.data_type() !== stored.type || attribute.num_components() !== stored.components)
+    if (attribute.data_type() !== type || attribute.num_components() !== stored.components)
       throw new Error(`its attribute ${name} is not of the type or the components that were announced`);
-    const buffer = read(attribute, stored.type, mesh.num_points() * stored.components * stored.bytes);
+    const buffer = read(attribute, type, mesh.num_points() * stored.components * stored.bytes);
     return { name, components, values: valuesOf(stored.of(buffer), form) };
   }
   throw new Error(`it has no attribute ${name}, which was announced`);
