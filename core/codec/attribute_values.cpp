@@ -115,4 +115,15 @@ MeshAttribute decoded_values(const CodedAttribute& form, std::span<const std::by
     return attribute;
 }
 
+const MeshAttribute& attribute_of(const Mesh& mesh, const CodedAttribute& form) {
+    const auto attribute = std::ranges::find(mesh.attributes, form.name, &MeshAttribute::name);
+    if (attribute == mesh.attributes.end() || attribute->type != form.type ||
+        attribute->components != form.components ||
+        attribute->data.size() != mesh.vertices.size() * attribute->element_bytes())
+        throw InvalidInput("the mesh has no attribute '" + form.name + "', " + form_of(form.type, form.components) +
+                           " for each vertex");
+    require_codable(form);
+    return *attribute;
+}
+
 }  // namespace meniscus

@@ -30,6 +30,9 @@ private:
 /// Throws InvalidInput unless an attribute can be coded so.
 void require_codable(const CodedAttribute& form);
 
+/// The mesh's attribute of this form. Throws InvalidInput if there is none.
+const MeshAttribute& attribute_of(const Mesh& mesh, const CodedAttribute& form);
+
 /// coded_bytes() for each of these vertices, little-endian. form: of this attribute.
 std::vector<std::byte> coded_values(const MeshAttribute& attribute, const CodedAttribute& form,
                                     std::span<const std::uint32_t> vertices);

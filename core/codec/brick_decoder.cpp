@@ -10,6 +10,7 @@
 #include "codec/attribute_values.hpp"
 #include "codec/draco_attributes.hpp"
 #include "codec/draco_header.hpp"
+#include "codec/lattice/lattice_coder.hpp"
 #include "codec/normal_rounding.hpp"
 #include "codec/triangle_levels.hpp"
 #include "meniscus/brick_coding.hpp"
@@ -127,13 +128,24 @@ LatticePosition brick_origin(const EncodedBrick& brick, std::uint32_t offset_bit
     return origin;
 }
 
-DecodedBrick decode_draco_brick(const EncodedBrick& brick, std::uint32_t offset_bits,
-                                std::span<const CodedAttribute> attributes) {
+void require_offset_bits(std::uint32_t offset_bits) {
     if (offset_bits < min_offset_bits || offset_bits > max_offset_bits)
         throw InvalidInput("the mesh has " + std::to_string(offset_bits) + " offset bits, must have " +
                            std::to_string(min_offset_bits) + " to " + std::to_string(max_offset_bits));
-    const LatticePosition origin = brick_origin(brick, offset_bits);
-    for (const CodedAttribute& form : attributes) require_codable(form);
+}
+
+DecodedBrick decode_lattice_brick(const EncodedBrick& brick, const LatticePosition& origin, std::uint32_t offset_bits,
+                                  std::span<const CodedAttribute> attributes) {
+    thread_local const std::unique_ptr<LatticeCoder> coder = make_lattice_coder();
+    try {
+        return coder->decode(brick, origin, offset_bits, attributes);
+    } catch (const InvalidInput& fault) {
+        refuse(brick, fault.what());
+    }
+}
+
+DecodedBrick decode_draco_brick(const EncodedBrick& brick, const LatticePosition& origin, std::uint32_t offset_bits,
+                                std::span<const CodedAttribute> attributes) {
     const auto mesh = decode_draco(brick, attributes);
     const Weld weld = weld_points(brick, *mesh);
     if (mesh->num_faces() != brick.triangles || weld.positions.size() != brick.vertices)
@@ -182,9 +194,15 @@ DecodedBrick decode_draco_brick(const EncodedBrick& brick, std::uint32_t offset_
 
 DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits,
                           std::span<const CodedAttribute> attributes) {
+    require_offset_bits(offset_bits);
+    for (const CodedAttribute& form : attributes) require_codable(form);
+    const LatticePosition origin = brick_origin(brick, offset_bits);
     switch (brick.codec) {
         case Codec::draco:
-            return decode_draco_brick(brick, offset_bits, attributes);
+            return decode_draco_brick(brick, origin, offset_bits, attributes);
+        case Codec::lattice_packed:
+        case Codec::lattice_entropy:
+            return decode_lattice_brick(brick, origin, offset_bits, attributes);
     }
     refuse(brick, "has the codec " + std::to_string(static_cast<std::uint32_t>(brick.codec)) +
                       ", which this version does not know; it knows " + known_codecs());

@@ -97,21 +97,13 @@ std::vector<std::byte> encode(const BrickContent& content, const CodingOptions& 
     switch (options.codec) {
         case Codec::draco:
             return encode_draco(content, options);
+        case Codec::lattice_packed:
+        case Codec::lattice_entropy:
+            throw InvalidInput("codec is " + std::string(name_of(options.codec)) +
+                               ", which codes a mesh by its lattice: encode the mesh, not a content of triangles");
     }
     throw InvalidInput("codec is " + std::to_string(static_cast<std::uint32_t>(options.codec)) +
                        ", which this version does not know; it knows " + known_codecs());
-}
-
-/// The mesh's attribute of this form. Throws if there is none.
-const MeshAttribute& attribute_of(const Mesh& mesh, const CodedAttribute& form) {
-    const auto attribute = std::ranges::find(mesh.attributes, form.name, &MeshAttribute::name);
-    if (attribute == mesh.attributes.end() || attribute->type != form.type ||
-        attribute->components != form.components ||
-        attribute->data.size() != mesh.vertices.size() * attribute->element_bytes())
-        throw InvalidInput("the mesh has no attribute '" + form.name + "', " + form_of(form.type, form.components) +
-                           " for each vertex");
-    require_codable(form);
-    return *attribute;
 }
 
 }  // namespace
@@ -165,7 +157,8 @@ EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& opti
 }
 
 EncodedBrick encode_brick(const Mesh& mesh, std::size_t brick, const CodingOptions& options) {
-    return encode_brick(brick_content(mesh, brick, options), options);
+    thread_local BrickScratch scratch;
+    return PreparedBrick(mesh, brick, options, scratch).encode();
 }
 
 }  // namespace meniscus

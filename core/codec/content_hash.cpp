@@ -3,44 +3,58 @@
 #include <xxhash.h>
 
 #include <array>
-#include <span>
 #include <type_traits>
 
-#include "meniscus/brick_coding.hpp"
+#include "codec/content_hash.hpp"
 
 namespace meniscus {
-namespace {
 
-template <class T>
-void add(XXH3_state_t& state, const std::vector<T>& values) {
-    static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, Normal>);
-    const std::uint64_t count = values.size();
-    XXH3_128bits_update(&state, &count, sizeof count);
-    XXH3_128bits_update(&state, values.data(), std::span(values).size_bytes());
+struct ContentHasher::State {
+    XXH3_state_t xxh3;
+};
+
+ContentHasher::ContentHasher() : state_(std::make_unique<State>()) {
+    XXH3_128bits_reset(&state_->xxh3);
+}
+ContentHasher::~ContentHasher() = default;
+
+void ContentHasher::add_bytes(const void* bytes, std::size_t count, std::size_t size) {
+    const std::uint64_t number = count;
+    XXH3_128bits_update(&state_->xxh3, &number, sizeof number);
+    XXH3_128bits_update(&state_->xxh3, bytes, size);
 }
 
-void add(XXH3_state_t& state, const CodedAttribute& form) {
-    const std::array<std::uint64_t, 4> numbers{form.name.size(), static_cast<std::uint64_t>(form.type), form.components,
-                                               static_cast<std::uint64_t>(form.bits)};
-    XXH3_128bits_update(&state, numbers.data(), sizeof numbers);
-    XXH3_128bits_update(&state, form.name.data(), form.name.size());
-    XXH3_128bits_update(&state, form.minimum.data(), sizeof form.minimum);
-    XXH3_128bits_update(&state, form.maximum.data(), sizeof form.maximum);
+void ContentHasher::add(const std::vector<CodedAttribute>& forms) {
+    XXH3_state_t& state = state_->xxh3;
+    for (const CodedAttribute& form : forms) {
+        const std::array<std::uint64_t, 4> numbers{form.name.size(), static_cast<std::uint64_t>(form.type),
+                                                   form.components, static_cast<std::uint64_t>(form.bits)};
+        XXH3_128bits_update(&state, numbers.data(), sizeof numbers);
+        XXH3_128bits_update(&state, form.name.data(), form.name.size());
+        XXH3_128bits_update(&state, form.minimum.data(), sizeof form.minimum);
+        XXH3_128bits_update(&state, form.maximum.data(), sizeof form.maximum);
+    }
 }
 
-}  // namespace
+ContentHash ContentHasher::hash() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(&state_->xxh3);
+    return {hash.high64, hash.low64};
+}
 
 ContentHash BrickContent::hash() const {
-    XXH3_state_t state;
-    XXH3_128bits_reset(&state);
-    add(state, positions);
-    add(state, normals);
-    add(state, triangles);
-    add(state, cell_levels);
-    for (const CodedAttribute& form : attribute_forms) add(state, form);
-    for (const std::vector<std::byte>& values : attributes) add(state, values);
-    const XXH128_hash_t hash = XXH3_128bits_digest(&state);
-    return {hash.high64, hash.low64};
+    ContentHasher hasher;
+    const auto add = [&hasher](const auto& values) {
+        using T = typename std::decay_t<decltype(values)>::value_type;
+        static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, Normal>);
+        hasher.add(values.data(), values.size());
+    };
+    add(positions);
+    add(normals);
+    add(triangles);
+    add(cell_levels);
+    hasher.add(attribute_forms);
+    for (const std::vector<std::byte>& values : attributes) add(values);
+    return hasher.hash();
 }
 
 }  // namespace meniscus

@@ -6,7 +6,7 @@
 
 #include "lattice/host_device.hpp"
 
-#if defined(__AVX2__) && !defined(__CUDACC__)
+#if (defined(__AVX2__) || defined(__BMI2__)) && !defined(__CUDACC__)
 #include <immintrin.h>
 #endif
 
@@ -49,6 +49,28 @@ MENISCUS_HD inline int nth_bit(std::uint64_t bits, int n) {
         place += width;
     }
     return place;
+}
+
+/// The bits of `word` at the places of `mask`, moved together.
+inline std::uint64_t gather_bits(std::uint64_t word, std::uint64_t mask) {
+#if defined(__BMI2__) && !defined(__CUDACC__)
+    return _pext_u64(word, mask);
+#else
+    std::uint64_t bits = 0;
+    for (int i = 0; mask != 0; mask &= mask - 1, ++i) bits |= (word >> lowest_bit(mask) & 1) << i;
+    return bits;
+#endif
+}
+
+/// The reverse: the lowest bits of `bits` at the places of `mask`.
+inline std::uint64_t scatter_bits(std::uint64_t bits, std::uint64_t mask) {
+#if defined(__BMI2__) && !defined(__CUDACC__)
+    return _pdep_u64(bits, mask);
+#else
+    std::uint64_t word = 0;
+    for (; mask != 0; mask &= mask - 1, bits >>= 1) word |= (bits & 1) << lowest_bit(mask);
+    return word;
+#endif
 }
 
 /// Bit `place` of each of eight words, the first word's lowest.

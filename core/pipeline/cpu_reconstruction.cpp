@@ -21,6 +21,7 @@ public:
     Reconstruction(const Settings& user, const BackendOptions& options, const std::shared_ptr<MemoryAccount>& account)
         : settings_(user),
           stop_(options.stop),
+          keeps_lattice_(options.keep_lattice),
           workers_(options.threads, stop_.get()),
           state_(account, workers_, settings_),
           particles_(account, workers_, settings_),
@@ -35,6 +36,7 @@ public:
         state_.attributes = particles.attributes;
         ParticleSteps steps(state_, *field_, mesh, particles_, search_, particles);
         run_pipeline(steps, clock);
+        if (keeps_lattice_) keep_lattice(state_, mesh);
         is_capped_ = false;
 
         mesh.spray.assign(particles_.spray.begin(), particles_.spray.end());
@@ -55,6 +57,7 @@ public:
         SurfaceSteps steps(state_, *field_, mesh);
         NoClock clock;
         emit_mesh(steps, clock);
+        if (keeps_lattice_) keep_lattice(state_, mesh);
         mesh.spray.assign(particles_.spray.begin(), particles_.spray.end());
     }
 
@@ -63,6 +66,7 @@ public:
 private:
     LatticeSettings settings_;
     std::shared_ptr<const StopFlag> stop_;
+    bool keeps_lattice_;
     Workers workers_;
     State state_;
     ParticleSets particles_;

@@ -58,6 +58,8 @@ void Mesh::clear() {
     normals.clear();
     triangles.clear();
     bricks.clear();
+    lattice.blocks.clear();
+    lattice.bricks.clear();
     for (MeshAttribute& attribute : attributes) attribute.data.clear();
     levels = {};
 }
@@ -320,6 +322,8 @@ private:
             mesh.triangles = Array<Triangle>(AccountAllocator<Triangle>(account_));
             mesh.bricks = Array<MeshBrick>(AccountAllocator<MeshBrick>(account_));
             mesh.spray = Array<Point>(AccountAllocator<Point>(account_));
+            mesh.lattice = {.blocks = Array<LatticeBlock>(AccountAllocator<LatticeBlock>(account_)),
+                            .bricks = Array<LatticeRange>(AccountAllocator<LatticeRange>(account_))};
         }
         attributes_.shape(mesh, account_);
         mesh.cell_size = world_cell_size(settings_);

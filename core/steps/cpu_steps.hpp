@@ -77,5 +77,7 @@ void emit_triangles(State& state, Mesh& mesh);
 void fill_cracks(State& state, Mesh& mesh);
 /// Adds up State::sixfold_volume.
 void measure_volume(State& state, const Mesh& mesh);
+/// Fills Mesh::lattice, once the mesh is there.
+void keep_lattice(State& state, Mesh& mesh);
 
 }  // namespace meniscus::cpu

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "meniscus/attribute_coding.hpp"
@@ -64,14 +63,20 @@ struct EncodedBrick {
     Codec codec = Codec::draco;
 };
 
-/// Memory that brick_content() works in, kept from brick to brick: at most 24 bytes for each triangle of the largest.
-/// It serves one call at a time.
+class LatticeCoder;
+
+/// Memory that bricks are prepared and encoded in, kept from brick to brick: for Draco at most 24 bytes for each triangle
+/// of the largest, for the lattice codecs 3 MB and 16 bytes for each vertex of the largest. It serves one brick at a
+/// time.
 struct BrickScratch {
     /// account: is charged; none: uncounted.
-    explicit BrickScratch(std::shared_ptr<MemoryAccount> account = nullptr)
-        : slots(AccountAllocator<std::uint32_t>(std::move(account))) {}
+    explicit BrickScratch(std::shared_ptr<MemoryAccount> account = nullptr);
+    ~BrickScratch();
+    BrickScratch(BrickScratch&&) noexcept;
 
     Array<std::uint32_t> slots;  ///< slots of a hash table from the mesh's vertices to the brick's
+    Array<std::byte> charge;     ///< stands for the coder's memory in the account
+    std::unique_ptr<LatticeCoder> lattice;  ///< made for the first brick that needs it
 };
 
 /// brick: index into mesh.bricks. Thread-safe. Throws InvalidInput for options out of range, LimitExceeded if the
@@ -79,10 +84,26 @@ struct BrickScratch {
 BrickContent brick_content(const Mesh& mesh, std::size_t brick, const CodingOptions& options, BrickScratch& scratch);
 /// The same, with scratch memory of its own.
 BrickContent brick_content(const Mesh& mesh, std::size_t brick, const CodingOptions& options = {});
-/// Encodes a content. options: those that the content was made with. Throws InvalidInput for a speed or a codec out of
+/// A brick whose content is known, but not encoded yet: with the same content as another it need not be.
+class PreparedBrick {
+public:
+    /// The mesh, the options and the scratch memory must stay, and the latter be left alone. Throws as brick_content(),
+    /// and InvalidInput for a lattice codec where the mesh has no lattice.
+    PreparedBrick(const Mesh& mesh, std::size_t brick, const CodingOptions& options, BrickScratch& scratch);
+    /// Equal for equal content. It is not the same for Draco and for the lattice codecs.
+    ContentHash hash() const;
+    EncodedBrick encode() const;
+
+private:
+    const CodingOptions& options_;
+    LatticeCoder* lattice_ = nullptr;  ///< has loaded the brick; none: `content_` is the brick
+    BrickContent content_;
+};
+
+/// Encodes a content with Draco. options: those that the content was made with. Throws InvalidInput for a speed or a codec out of
 /// range.
 EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& options);
-/// The content of a brick, encoded.
+/// The content of a brick, encoded. Throws as PreparedBrick.
 EncodedBrick encode_brick(const Mesh& mesh, std::size_t brick, const CodingOptions& options = {});
 
 /// Gives the mesh the normals that it would have if it were encoded with CodingOptions::normal_bits and decoded:

@@ -68,27 +68,33 @@ MENISCUS_HD inline std::uint32_t count_crack_triangles(const BlocksView& blocks,
     return count;
 }
 
+/// Writes the filling of one coarse subface from `out` on, and returns the end of it. cell: the fine cell's blocks.
+MENISCUS_HD inline Triangle* emit_crack(const BlocksView& blocks, const ClosedCell& cell, const CrackFace& face,
+                                        const CrackCase& pattern, Triangle* out) {
+    for (int t = 0; t < pattern.triangles; ++t, ++out)
+        for (int corner = 0; corner < 3; ++corner) {
+            const int edge = pattern.edges[static_cast<std::size_t>(3 * t + corner)];
+            const int u = (face.axis + 1) % 3;
+            const int v = (face.axis + 2) % 3;
+            const int along_u = (edge < 6 ? edge % 2 : (edge - 6) % 3) * face.stride;
+            const int along_v = (edge < 6 ? edge / 2 : (edge - 6) / 3) * face.stride;
+            // Asked for by constants alone: a GPU would keep an array that is not in its slow local memory.
+            const auto point = [&](int axis) {
+                return face.corner[axis] + (axis == u ? along_u : axis == v ? along_v : 0);
+            };
+            // The patterns are oriented for the fine cell lying up the axis.
+            const int place = face.side == 0 ? corner : 2 - corner;
+            (*out)[static_cast<std::size_t>(place)] =
+                vertex_on_edge(blocks, cell, point(0), point(1), point(2), edge < 6 ? u : v, face.stride);
+        }
+    return out;
+}
+
 /// Writes the filling of a fine cell's faces from `out` on. cell: the block's.
 MENISCUS_HD inline void emit_crack_triangles(const BlocksView& blocks, std::uint32_t block, const ClosedCell& cell,
                                              const CrackCase* table, Triangle* out) {
     for_each_crack(blocks, block, [&](const CrackFace& face, int crack_case) {
-        const CrackCase& pattern = table[crack_case];
-        for (int t = 0; t < pattern.triangles; ++t, ++out)
-            for (int corner = 0; corner < 3; ++corner) {
-                const int edge = pattern.edges[static_cast<std::size_t>(3 * t + corner)];
-                const int u = (face.axis + 1) % 3;
-                const int v = (face.axis + 2) % 3;
-                const int along_u = (edge < 6 ? edge % 2 : (edge - 6) % 3) * face.stride;
-                const int along_v = (edge < 6 ? edge / 2 : (edge - 6) / 3) * face.stride;
-                // Asked for by constants alone: a GPU would keep an array that is not in its slow local memory.
-                const auto point = [&](int axis) {
-                    return face.corner[axis] + (axis == u ? along_u : axis == v ? along_v : 0);
-                };
-                // The patterns are oriented for the fine cell lying up the axis.
-                const int place = face.side == 0 ? corner : 2 - corner;
-                (*out)[static_cast<std::size_t>(place)] =
-                    vertex_on_edge(blocks, cell, point(0), point(1), point(2), edge < 6 ? u : v, face.stride);
-            }
+        out = emit_crack(blocks, cell, face, table[crack_case], out);
     });
 }
 

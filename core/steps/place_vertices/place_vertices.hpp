@@ -36,9 +36,10 @@ struct CrossedEdges {
     int axis = 0;
 
     MENISCUS_HD CrossedEdges(const BlocksView& blocks, std::uint32_t block, const LevelsAround& around, int along)
-        : axis(along) {
-        const BlockMask own = blocks.inside[block];
-        const BlockMask next = blocks.inside_or_none(blocks.neighbor(block, axis_offset(axis)));
+        : CrossedEdges(blocks.inside[block], blocks.inside_or_none(blocks.neighbor(block, axis_offset(along))), around,
+                       along) {}
+    /// own, next: signs of the block and of the next one up the axis.
+    MENISCUS_HD CrossedEdges(BlockMask own, BlockMask next, const LevelsAround& around, int along) : axis(along) {
         if (own == next && (own == 0 || own == ~BlockMask{0})) return;
         change1 = own ^ shifted(own, next, axis, 1);
         change2 = own ^ shifted(own, next, axis, 2);

@@ -133,13 +133,13 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
     encoded->bricks.resize(mesh.bricks.size());
     workers.for_each(mesh.bricks.size(), [&](std::size_t i) {
         download.bring(i);
-        const BrickContent content = [&] {
+        SharedBrick brick = find_brick(before, mesh.bricks[i].coordinate);
+        {
             ScratchPool::Loan loan(scratch);
-            return brick_content(mesh, i, coding, *loan);
-        }();
-        const ContentHash hash = content.hash();
-        SharedBrick brick = find_brick(before, content.coordinate);
-        if (!brick || brick->content_hash != hash) brick = brick_messages(encode_brick(content, coding), hash);
+            const PreparedBrick prepared(mesh, i, coding, *loan);
+            const ContentHash hash = prepared.hash();
+            if (!brick || brick->content_hash != hash) brick = brick_messages(prepared.encode(), hash);
+        }
         encoded->bricks[i] = brick;
         const std::lock_guard lock(emitting);
         bytes += brick->bytes;

@@ -1,0 +1,31 @@
+// The identity of a brick's content.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "meniscus/attribute_coding.hpp"
+#include "meniscus/brick_coding.hpp"
+
+namespace meniscus {
+
+/// 128 bits of xxHash over all that is added, with the lengths.
+class ContentHasher {
+public:
+    ContentHasher();
+    ~ContentHasher();
+    template <class T>
+    void add(const T* values, std::size_t count) {
+        add_bytes(values, count, count * sizeof(T));
+    }
+    void add(const std::vector<CodedAttribute>& forms);
+    ContentHash hash() const;
+
+private:
+    void add_bytes(const void* bytes, std::size_t count, std::size_t size);
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace meniscus

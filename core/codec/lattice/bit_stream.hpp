@@ -1,0 +1,85 @@
+// Fields of some bits one after the other, the lowest bits first.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace meniscus {
+
+static_assert(std::endian::native == std::endian::little, "words are written as they lie in memory");
+
+class BitWriter {
+public:
+    void clear() {
+        count_ = 0;
+        word_ = 0;
+        filled_ = 0;
+    }
+    /// Makes room for this many fields.
+    void reserve(std::size_t fields) {
+        if (words_.size() < count_ + fields + 1) words_.resize(2 * (count_ + fields) + 64);
+    }
+    /// bits: 0 to 64; the value has no others. There must be room.
+    void put(std::uint64_t value, int bits) {
+        word_ |= value << filled_;
+        filled_ += bits;
+        if (filled_ < 64) return;
+        words_[count_++] = word_;
+        filled_ -= 64;
+        // What did not fit; a shift by 64 would be undefined.
+        word_ = filled_ == 0 ? 0 : value >> (bits - filled_);
+    }
+    void append_to(std::vector<std::byte>& bytes) {
+        words_[count_] = word_;
+        const std::size_t size = 8 * count_ + static_cast<std::size_t>(filled_ + 7) / 8;
+        const auto* const begin = reinterpret_cast<const std::byte*>(words_.data());
+        bytes.insert(bytes.end(), begin, begin + size);
+    }
+    std::size_t byte_count() const { return 8 * count_ + static_cast<std::size_t>(filled_ + 7) / 8; }
+
+private:
+    std::vector<std::uint64_t> words_ = std::vector<std::uint64_t>(64);
+    std::size_t count_ = 0;
+    std::uint64_t word_ = 0;
+    int filled_ = 0;  ///< bits of word_, below 64
+};
+
+/// Reads zeros behind the end, and says so.
+class BitReader {
+public:
+    explicit BitReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+    /// bits: 0 to 56.
+    std::uint64_t get_some(int bits) {
+        const std::size_t at = position_ >> 3;
+        std::uint64_t word = 0;
+        if (at + 8 <= bytes_.size())
+            std::memcpy(&word, bytes_.data() + at, 8);
+        else if (at < bytes_.size())
+            std::memcpy(&word, bytes_.data() + at, bytes_.size() - at);
+        word >>= position_ & 7;
+        position_ += static_cast<std::size_t>(bits);
+        return word & ((std::uint64_t{1} << bits) - 1);
+    }
+    /// bits: 0 to 64.
+    std::uint64_t get(int bits) {
+        if (bits <= 56) return get_some(bits);
+        const std::uint64_t low = get_some(32);
+        return low | get_some(bits - 32) << 32;
+    }
+    /// Whether no more was read than there is.
+    bool is_good() const { return position_ <= 8 * bytes_.size(); }
+    /// The bytes behind the one that was begun last.
+    std::span<const std::byte> rest() const { return bytes_.subspan((position_ + 7) / 8); }
+    std::size_t bits_left() const { return is_good() ? 8 * bytes_.size() - position_ : 0; }
+
+private:
+    std::span<const std::byte> bytes_;
+    std::size_t position_ = 0;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,285 @@
+// The entropy profile's first sections: cells that draw, their levels, and signs. One body codes and decodes.
+//
+// What is certain costs next to nothing: all points on the closed box of a cell that draws nothing have one sign.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "codec/lattice/brick_lattice.hpp"
+#include "codec/lattice/entropy_tables.hpp"
+
+namespace meniscus {
+
+/// Codes which cells draw, and their levels. When it decodes, the lattice is clear before, and has its cells after.
+/// one_level: of all cells; 0 if they differ. Returns the finest level that was coded: beyond 3 none is known.
+template <class Coder>
+int code_cells(Coder& coder, const EntropyTables& tables, BrickLattice& lattice, int one_level) {
+    coder.reserve(brick_size * brick_size + brick_volume);
+    int finest = one_level;
+    std::uint32_t rows_before = 0;  // the slice below, bit y
+    const auto level = [&lattice](int place) { return int{lattice.level[place]}; };
+    for (int z = 0; z < brick_size; ++z) {
+        std::uint32_t rows = 0;
+        for (int y = 0; y < brick_size; ++y) {
+            const int first = closed_place(0, y, z);
+            const auto context = static_cast<int>((y > 0 ? rows >> (y - 1) & 1 : 0) | (rows_before >> y & 1) << 1 |
+                                                  (rows_before >> (y + 1) & 1) << 2);
+            bool any = false;
+            if constexpr (Coder::encodes)
+                for (int x = 0; x < brick_size; ++x) any = any || level(first + x) != 0;
+            any = coder.code(tables.rows, context, any ? 1 : 0) != 0;
+            if (!any) continue;
+            rows |= 1U << y;
+            for (int x = 0; x < brick_size; ++x) {
+                const int at = first + x;
+                const int west = level(at - 1);
+                const int north = level(at - closed_step(1));
+                const int below = level(at - closed_step(2));
+                const auto beside = [&](int dx, int dy, int dz) {
+                    return level(at + dx + dy * closed_step(1) + dz * closed_step(2));
+                };
+                const std::array<int, 6> diagonals{beside(-1, -1, 0), beside(1, -1, 0), beside(-1, 0, -1),
+                                                   beside(1, 0, -1),  beside(0, -1, -1), beside(0, 1, -1)};
+                int drawing = 0;
+                int levels = 0;
+                for (const int diagonal : diagonals) {
+                    drawing += diagonal != 0 ? 1 : 0;
+                    levels += diagonal;
+                }
+                int symbol = level(at);
+                if (one_level != 0) {
+                    const int neighbors = (west != 0 ? 1 : 0) | (north != 0 ? 2 : 0) | (below != 0 ? 4 : 0);
+                    symbol = coder.code(tables.cells, neighbors * 7 + drawing, symbol != 0 ? 1 : 0) * one_level;
+                } else {
+                    static constexpr std::array<std::int8_t, 19> classes{0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 5, 6, 6, 6, 7, 7, 7, 7};
+                    symbol = coder.code(tables.levels,
+                                        (west | north << 2 | below << 4) * 8 + classes[static_cast<std::size_t>(levels)],
+                                        symbol);
+                }
+                if constexpr (!Coder::encodes)
+                    if (symbol != 0) lattice.add_cell(at, std::min(symbol, 3));
+                finest = std::max(finest, symbol);
+            }
+        }
+        rows_before = rows;
+    }
+    return finest;
+}
+
+/// Signs of a brick's corner points, row by row along x.
+template <class Coder>
+class SignCoder {
+public:
+    SignCoder(Coder& coder, const EntropyTables& tables) : coder_(coder), tables_(tables) {}
+
+    /// The lattice has its blocks listed. When it decodes, its signs are filled.
+    void run(BrickLattice& lattice) {
+        lattice_ = &lattice;
+        for (const std::uint16_t place : lattice_->blocks()) {
+            still_[place] = is_still(place) ? unknown : moving;
+            known_[place] = 0;
+        }
+        for (const std::uint16_t place : lattice_->blocks()) code_block(place);
+        // Places that the next brick does not use must say nothing.
+        for (const std::uint16_t place : lattice_->blocks()) {
+            still_[place] = moving;
+            known_[place] = 0;
+        }
+    }
+
+private:
+    /// What is known of a sign: of a point, or of all points of a cell that draws nothing.
+    enum State : std::uint8_t { outside = 0, unknown = 1, inside = 2, moving = 3 };
+
+    /// Whether a cell draws nothing, as all of the brick's cells that have no level.
+    bool is_still(int place) const {
+        const Int3 at = closed_coordinate(place);
+        return lattice_->level[place] == 0 && at.x < brick_size && at.y < brick_size && at.z < brick_size;
+    }
+
+    void code_block(int place) {
+        const BlockMask points = lattice_->corners[place];
+        if (points == 0) return;
+        coder_.reserve(16);
+        // The signs as they get known, of the encoder's too: contexts must not look ahead.
+        truth_ = lattice_->inside[place];
+        now_ = 0;
+        known_now_ = 0;
+        place_ = place;
+        unsigned still = 0;
+        for (int i = 0; i < 8; ++i) still |= static_cast<unsigned>(still_[place - closed_steps(i)] != moving) << i;
+        for (int z = 0; z < base_cell_size; ++z)
+            for (int y = 0; y < base_cell_size; ++y) {
+                const int row = point_bit(0, y, z);
+                const auto wanted = static_cast<unsigned>(points >> row & 15);
+                if (wanted == 0) continue;
+                code_row(y, z, wanted, still);
+            }
+        lattice_->inside[place] = now_ | (truth_ & ~points);  // an encoder's signs of middles stay
+        known_[place] = known_now_;
+    }
+
+    void code_row(int y, int z, unsigned wanted, unsigned still) {
+        const int row = point_bit(0, y, z);
+        // Cells that hold the whole row: no step along x; those that hold its first point alone: a step.
+        const unsigned reach = (y == 0 ? 0xFFU : 0x33U) & (z == 0 ? 0xFFU : 0x0FU);
+        const unsigned whole = still & reach & 0x55U;
+        const unsigned first = still & reach & 0xAAU;
+        const State of_row = sign_of(whole);
+        unsigned value = static_cast<unsigned>(truth_ >> row) & wanted;
+        if (of_row != unknown) {
+            const int certain = of_row == inside ? 1 : 0;
+            if (wanted == 15)
+                value = static_cast<unsigned>(coder_.code(tables_.fours, certain_fours + certain, static_cast<int>(value)));
+            else if (wanted == 5)
+                value = spread(coder_.code(tables_.twos, certain_twos + certain, join(value)));
+            else
+                value = static_cast<unsigned>(coder_.code(tables_.ones, certain_ones + certain, static_cast<int>(value)));
+        } else if (wanted == 15) {
+            value = code_four(y, z, sign_of(first), value);
+        } else if (wanted == 5) {
+            value = code_two(y, z, sign_of(first), value);
+        } else {
+            value = code_one(y, z, sign_of(first), value);
+        }
+        now_ |= BlockMask{value} << row;
+        known_now_ |= BlockMask{wanted} << row;
+        const State seen = (value & 1) != 0 ? inside : outside;
+        for (unsigned left = whole | first; left != 0; left &= left - 1) {
+            State& state = still_[place_ - closed_steps(lowest_bit(left))];
+            if (state == unknown) state = seen;
+        }
+    }
+    static int join(unsigned value) { return static_cast<int>((value & 1) | value >> 1); }
+    static unsigned spread(int symbol) { return static_cast<unsigned>((symbol & 1) | (symbol & 2) << 1); }
+
+    State sign_of(unsigned cells) const {
+        for (; cells != 0; cells &= cells - 1) {
+            const State state = still_[place_ - closed_steps(lowest_bit(cells))];
+            if (state == inside || state == outside) return state;
+        }
+        return unknown;
+    }
+
+    /// Signs and known points of a row up to four points back along y and z, as bits 0 to 3.
+    struct Row {
+        unsigned signs;
+        unsigned known;
+    };
+    Row row_at(int y, int z) const {
+        const int place = place_ - (y < 0 ? closed_step(1) : 0) - (z < 0 ? closed_step(2) : 0);
+        const int row = point_bit(0, y & 3, z & 3);
+        if (place == place_)
+            return {static_cast<unsigned>(now_ >> row & 15), static_cast<unsigned>(known_now_ >> row & 15)};
+        return {static_cast<unsigned>(lattice_->inside[place] >> row & known_[place] >> row & 15),
+                static_cast<unsigned>(known_[place] >> row & 15)};
+    }
+    /// The last known point of the row in the block before along x, at most this many before the row's first.
+    State west_of(int y, int z, int first, int last) const {
+        const int place = place_ - closed_step(0);
+        for (int back = first; back <= last; back *= 2) {
+            const int bit = point_bit(base_cell_size - back, y, z);
+            if ((known_[place] >> bit & 1) != 0) return (lattice_->inside[place] >> bit & 1) != 0 ? inside : outside;
+        }
+        return unknown;
+    }
+
+    unsigned code_four(int y, int z, State certain_first, unsigned value) {
+        const Row north = row_at(y - 1, z);
+        const Row below = row_at(y, z - 1);
+        const bool has_north = north.known == 15;
+        const bool has_below = below.known == 15;
+        const State west = certain_first != unknown ? certain_first : west_of(y, z, 1, 1);
+        const unsigned before =
+            west != unknown ? (west == inside ? 1U : 0U) : has_north ? north.signs & 1 : has_below ? below.signs & 1 : 0;
+        unsigned context;
+        if (has_north && has_below) {
+            const Row corner = row_at(y - 1, z - 1);
+            const unsigned middle = corner.known != 15 ? 1 : (corner.signs & 6) == 0 ? 0 : (corner.signs & 6) == 6 ? 2 : 1;
+            context = (north.signs | below.signs << 4 | before << 8) * 3 + middle;
+        } else if (has_north) {
+            context = 1536 + (north.signs | before << 4);
+        } else if (has_below) {
+            context = 1536 + 32 + (below.signs | before << 4);
+        } else {
+            context = 1536 + 64 + before;
+        }
+        return static_cast<unsigned>(coder_.code(tables_.fours, static_cast<int>(context), static_cast<int>(value)));
+    }
+
+    unsigned code_two(int y, int z, State certain_first, unsigned value) {
+        const Row north = row_at(y - 2, z);
+        const Row below = row_at(y, z - 2);
+        const unsigned has_north = (north.known & 5) == 5 ? 1 : 0;
+        const unsigned has_below = (below.known & 5) == 5 ? 1 : 0;
+        const auto n = has_north != 0 ? static_cast<unsigned>(join(north.signs & 5)) : 0U;
+        const auto b = has_below != 0 ? static_cast<unsigned>(join(below.signs & 5)) : 0U;
+        const State west = certain_first != unknown ? certain_first : west_of(y, z, 1, 2);
+        const unsigned before = west != unknown ? (west == inside ? 1U : 0U) : has_north != 0 ? n & 1 : b & 1;
+        const Row corner = row_at(y - 2, z - 2);
+        const unsigned middle = (corner.known & 5) != 5 ? 1 : (corner.signs & 5) == 0 ? 0 : (corner.signs & 5) == 5 ? 2 : 1;
+        const unsigned context = ((n | b << 2 | before << 4 | has_north << 5 | has_below << 6) * 3) + middle;
+        return spread(coder_.code(tables_.twos, static_cast<int>(context), join(value)));
+    }
+
+    /// A point of the base lattice, that many blocks away.
+    int base_point(int dx, int dy, int dz) const {
+        const int place = place_ + dx + dy * closed_step(1) + dz * closed_step(2);
+        return (known_[place] & 1) == 0 ? 0 : (lattice_->inside[place] & 1) != 0 ? 1 : -1;
+    }
+
+    unsigned code_one(int y, int z, State certain_first, unsigned value) {
+        if (certain_first != unknown)
+            return static_cast<unsigned>(coder_.code(tables_.ones, certain_ones + (certain_first == inside ? 1 : 0),
+                                                     static_cast<int>(value)));
+        const int west = west_of(y, z, 1, 4);
+        const auto nearest = [&](int axis) {
+            for (int back = 1; back <= 4; back *= 2) {
+                const Row row = axis == 1 ? row_at(y - back, z) : row_at(y, z - back);
+                if ((row.known & 1) != 0) return (row.signs & 1) != 0 ? int{inside} : int{outside};
+            }
+            return int{unknown};
+        };
+        const int neighbors = west + 3 * nearest(1) + 9 * nearest(2);
+        if (y != 0 || z != 0) {
+            const unsigned shown = certain_ones_of_faces(y, z);
+            return static_cast<unsigned>(
+                coder_.code(tables_.ones, 405 + neighbors * 3 + static_cast<int>(shown), static_cast<int>(value)));
+        }
+        int sum = base_point(-1, -1, 0) + base_point(-1, 0, -1) + base_point(0, -1, -1) + base_point(1, -1, 0) +
+                  base_point(1, 0, -1) + base_point(0, 1, -1) + base_point(-1, 1, -1) + base_point(1, -1, -1) +
+                  base_point(-1, -1, -1);
+        sum = sum < -2 ? 0 : sum < 0 ? 1 : sum == 0 ? 2 : sum < 3 ? 3 : 4;
+        // A level-1 cell sees both signs at its corners: its last is unlike the others if those are alike.
+        int alike = 0;
+        if (lattice_->level[place_ - closed_steps(7)] == 1) {
+            int signs = 0;
+            for (int i = 1; i < 8; ++i) signs += static_cast<int>(lattice_->inside[place_ - closed_steps(i)] & 1);
+            alike = signs == 0 ? 1 : signs == 7 ? 2 : 0;
+        }
+        return static_cast<unsigned>(
+            coder_.code(tables_.ones, (neighbors * 5 + sum) * 3 + alike, static_cast<int>(value)));
+    }
+    /// What the row's place says of a point on a face.
+    static unsigned certain_ones_of_faces(int y, int z) { return y == 0 ? 0 : z == 0 ? 1 : 2; }
+
+    static constexpr int certain_fours = 1536 + 66;
+    static constexpr int certain_twos = 384;
+    static constexpr int certain_ones = 405 + 81;
+
+    Coder& coder_;
+    const EntropyTables& tables_;
+    BrickLattice* lattice_ = nullptr;
+    ClosedArray<BlockMask> known_;  ///< points coded so far
+    ClosedArray<State> still_ = [] {
+        ClosedArray<State> all;
+        all.fill(moving);
+        return all;
+    }();
+    int place_ = 0;  ///< of the block that is being coded
+    BlockMask truth_ = 0, now_ = 0, known_now_ = 0;
+};
+
+}  // namespace meniscus

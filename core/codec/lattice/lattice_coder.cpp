@@ -1,0 +1,165 @@
+#include "codec/lattice/lattice_coder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "codec/attribute_values.hpp"
+#include "codec/content_hash.hpp"
+#include "codec/lattice/brick_mesh.hpp"
+#include "codec/lattice/entropy.hpp"
+#include "codec/lattice/lattice_decoder.hpp"
+#include "codec/lattice/octahedron.hpp"
+#include "codec/lattice/packed.hpp"
+#include "codec/round_position.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus {
+namespace {
+
+class Coder final : public LatticeCoder {
+public:
+    void load(const Mesh& mesh, std::size_t number, const CodingOptions& options) override {
+        const MeshBrick& mesh_brick = mesh.bricks[number];
+        const LatticeRange range = mesh.lattice.bricks[number];
+        const std::span<const LatticeBlock> blocks(mesh.lattice.blocks.data() + range.first, range.count);
+        brick_.clear();
+        coordinate_ = mesh_brick.coordinate;
+        triangles_ = mesh_brick.triangle_count();
+        attribute_forms_ = options.attributes;
+        brick_.offset_bits = static_cast<int>(encoded_offset_bits(mesh, options));
+        brick_.normal_bits = mesh.normals.empty() ? 0 : options.normal_bits;
+        take_lattice(blocks);
+        take_vertices(mesh, blocks);
+        for (const CodedAttribute& form : options.attributes)
+            brick_.attributes.push_back(coded_values(attribute_of(mesh, form), form, vertices_));
+    }
+
+    ContentHash hash() const override {
+        ContentHasher hasher;
+        const BrickLattice& lattice = brick_.lattice;
+        hasher.add(lattice.cells().data(), lattice.cells().size());
+        // A brick's blocks follow from its cells, and its edges from levels and signs.
+        std::vector<std::uint64_t> words;
+        words.reserve(2 * lattice.blocks().size());
+        for (const std::uint16_t place : lattice.blocks()) {
+            words.push_back(lattice.inside[place]);
+            words.push_back(std::uint64_t{lattice.level[place]} | std::uint64_t{lattice.coarser[place]} << 8);
+        }
+        hasher.add(words.data(), words.size());
+        hasher.add(brick_.offsets.data(), brick_.offsets.size());
+        hasher.add(brick_.normals.data(), brick_.normals.size());
+        hasher.add(attribute_forms_);
+        for (const std::vector<std::byte>& values : brick_.attributes) hasher.add(values.data(), values.size());
+        return hasher.hash();
+    }
+
+    EncodedBrick encode(Codec codec) override {
+        EncodedBrick encoded;
+        encoded.coordinate = coordinate_;
+        encoded.codec = codec;
+        encoded.vertices = static_cast<std::uint32_t>(brick_.offsets.size());
+        encoded.triangles = triangles_;
+        if (codec == Codec::lattice_packed) {
+            write_packed(brick_, bits_, encoded.data);
+        } else {
+            if (brick_.normal_bits != 0) make_mesh(brick_, {}, triangles_);
+            entropy_.write(brick_, encoded.data);
+        }
+        return encoded;
+    }
+
+    DecodedBrick decode(const EncodedBrick& encoded, const LatticePosition& origin, std::uint32_t offset_bits,
+                        std::span<const CodedAttribute> attributes) override {
+        std::vector<std::size_t> attribute_bytes;
+        for (const CodedAttribute& form : attributes) attribute_bytes.push_back(form.coded_bytes());
+        if (!decoder_) decoder_ = std::make_unique<LatticeDecoder>();
+        const char* const fault = decoder_->decode(encoded.data,
+                                                   {.vertices = encoded.vertices,
+                                                    .triangles = encoded.triangles,
+                                                    .offset_bits = static_cast<int>(offset_bits),
+                                                    .attribute_bytes = attribute_bytes},
+                                                   origin);
+        if (fault != nullptr) throw InvalidInput(fault);
+        LatticeBrick& brick = decoder_->brick();
+        DecodedBrick decoded;
+        decoded.coordinate = encoded.coordinate;
+        decoded.vertices = std::move(brick.positions);
+        decoded.triangles = std::move(brick.triangles);
+        decoded.levels = std::move(brick.levels);
+        if (brick.normal_bits != 0) {
+            const Octahedron octahedron(brick.normal_bits);
+            decoded.normals.reserve(brick.normals.size());
+            for (const std::uint32_t code : brick.normals) {
+                if (!octahedron.holds(code)) throw InvalidInput("has a normal that is none");
+                decoded.normals.push_back(octahedron.vector(code));
+            }
+        }
+        for (std::size_t a = 0; a < attributes.size(); ++a)
+            decoded.attributes.push_back(decoded_values(attributes[a], brick.attributes[a]));
+        return decoded;
+    }
+
+private:
+    void take_lattice(std::span<const LatticeBlock> blocks) {
+        BrickLattice& lattice = brick_.lattice;
+        for (const LatticeBlock& block : blocks)
+            if (block.level != 0) lattice.add_cell(block.place, block.level);
+        lattice.list_blocks();
+        for (const LatticeBlock& block : blocks) {
+            lattice.inside[block.place] = block.inside & lattice.corners[block.place];
+            lattice.coarser[block.place] = block.coarser;
+        }
+        lattice.find_coarser_faces();
+    }
+    void take_vertices(const Mesh& mesh, std::span<const LatticeBlock> blocks) {
+        BrickLattice& lattice = brick_.lattice;
+        const std::uint32_t steps = (1U << mesh.offset_bits) - 1;
+        vertices_.clear();
+        for (const LatticeBlock& block : blocks) {
+            lattice.find_edges(block.place, [&](BlockMask middles) { return block.inside & middles; });
+            lattice.first_vertex[block.place] = static_cast<std::uint32_t>(vertices_.size());
+            std::uint32_t first = block.first_vertex;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                // The brick's own vertices among all that the block has: a neighboring brick may have more.
+                const BlockMask all = block.edges[axis];
+                const BlockMask own = lattice.edges[block.place].axis[axis];
+                for (BlockMask left = own; left != 0; left &= left - 1) {
+                    const BlockMask before = (left & (~left + 1)) - 1;
+                    const std::uint32_t vertex =
+                        first + static_cast<std::uint32_t>(own == all ? popcount(own & before) : popcount(all & before));
+                    vertices_.push_back(vertex);
+                    brick_.offsets.push_back(static_cast<std::uint8_t>(
+                        round_position(static_cast<std::uint16_t>(static_cast<std::uint32_t>(mesh.vertices[vertex][axis]) & steps),
+                                       mesh.offset_bits, static_cast<std::uint32_t>(brick_.offset_bits))));
+                }
+                first += static_cast<std::uint32_t>(popcount(all));
+            }
+        }
+        if (brick_.normal_bits == 0) return;
+        const Octahedron octahedron(brick_.normal_bits);
+        for (const std::uint32_t vertex : vertices_)
+            brick_.normals.push_back(octahedron.code(octahedron.point(mesh.normals[vertex])));
+    }
+
+    LatticeBrick brick_;
+    std::array<std::int32_t, 3> coordinate_{};
+    std::uint32_t triangles_ = 0;
+    std::vector<std::uint32_t> vertices_;  ///< numbers in the mesh
+    std::vector<CodedAttribute> attribute_forms_;
+    BitWriter bits_;
+    EntropyWriter entropy_;
+    std::unique_ptr<LatticeDecoder> decoder_;  ///< made for the first brick that is decoded
+};
+
+}  // namespace
+
+template <>
+std::unique_ptr<LatticeCoder> make_lattice_coder<InstructionSet::MENISCUS_INSTRUCTION_SET>() {
+    return std::make_unique<Coder>();
+}
+
+}  // namespace meniscus
