@@ -12,6 +12,8 @@
 #include "formats/meshes/mesh_file.hpp"
 #include "formats/particles/particle_file.hpp"
 #include "formats/particles/vtk_writer.hpp"
+#include "formats/recordings/brick_file.hpp"
+#include "meniscus/codec.hpp"
 #include "meniscus/statistics.hpp"
 
 namespace meniscus::test {
@@ -233,6 +235,31 @@ TEST_F(Cli, EveryOutputFormatHoldsTheSameTriangles) {
                 .exit_code,
             0);
     }
+}
+
+TEST_F(Cli, FilesOfBricksHoldTheSameMeshInEveryCodec) {
+    const auto out = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"reconstruct", in_, "-o", path(name), "-r", "0.5"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(run_meniscus(arguments).exit_code, 0) << name;
+        return path(name);
+    };
+    const formats::TriangleMesh expected = formats::read_mesh(out("m.ply", {}));
+    for (const Codec codec : codecs) {
+        const std::string name(name_of(codec));
+        const auto file = out(name + ".bricks", {"--codec", name});
+        for (const auto& brick : formats::read_bricks(name, formats::read_file(file)).bricks)
+            EXPECT_EQ(brick->codec, codec);
+        ASSERT_EQ(run_meniscus({"convert", file, "-o", path(name + ".ply")}).exit_code, 0);
+        const formats::TriangleMesh read = formats::read_mesh(path(name + ".ply"));
+        EXPECT_EQ(read.positions, expected.positions) << name;
+        EXPECT_EQ(read.triangles, expected.triangles) << name;
+        EXPECT_EQ(read.levels, expected.levels) << name;
+    }
+    const auto by_default = formats::read_bricks("m", formats::read_file(out("m.bricks", {})));
+    EXPECT_EQ(by_default.bricks.at(0)->codec, Codec::lattice_entropy);
+    expect_refused(reconstruct({"--codec", "packed"}), {"--codec", "--server", "bricks"});
+    expect_refused(reconstruct({"--codec", "zip"}), {"--codec", "zip", "entropy", "packed", "draco"});
 }
 
 TEST_F(Cli, WritesThePointsThatAreLeftOutOfTheSurface) {

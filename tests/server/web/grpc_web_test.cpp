@@ -96,6 +96,17 @@ TEST_F(GrpcWebCalls, AnswerUnaryCalls) {
     EXPECT_EQ(call.status, 0);
 }
 
+TEST_F(GrpcWebCalls, AreToldTheCodecAndTheReason) {
+    push_one(running.client, id, wave(6, 0.0));
+    v1::WatchRequest request = watch_request(id);
+    const WebCall of_before(http, watch, request, about_session());
+    EXPECT_NE(of_before.header.find("x-codec: CODEC_DRACO\r\n"), std::string::npos) << of_before.header;
+    request.add_codecs(v1::CODEC_LATTICE_PACKED);
+    const WebCall call(http, watch, request, about_session());
+    EXPECT_NE(call.header.find("x-codec: CODEC_LATTICE_PACKED\r\n"), std::string::npos) << call.header;
+    EXPECT_NE(call.header.find("x-codec-reason: the first that the client names\r\n"), std::string::npos);
+}
+
 TEST_F(GrpcWebCalls, FollowOneAnotherOnOneConnection) {
     HttpClient client(http);
     for (int i = 0; i < 3; ++i) {
