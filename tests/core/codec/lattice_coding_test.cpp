@@ -176,6 +176,20 @@ TEST(LatticeCoding, KeepsAttributesAsDracoDoes) {
     }
 }
 
+TEST(LatticeCoding, IsEncodedAgainByDracoWithoutLoss) {
+    Mesh mesh = test::reconstruct(test::default_settings(), test::splash(67).frame());
+    test::add_attributes(mesh);
+    const AttributeWish all{"", 9};
+    CodingOptions options;
+    options.attributes = coded_attributes(mesh, attribute_ranges(mesh), {&all, 1});
+    std::vector<DecodedBrick> again;
+    for (const DecodedBrick& brick : decoded(mesh, with(Codec::lattice_entropy, options)))
+        again.push_back(
+            decode_brick(encode_brick(brick, mesh.offset_bits, options), mesh.offset_bits, options.attributes));
+    EXPECT_EQ(vertices_of(again), vertices_of(decoded(mesh, options)));
+    EXPECT_EQ(mesh_sha256(weld_bricks(again, mesh.cell_size, mesh.offset_bits)), mesh_sha256(mesh));
+}
+
 TEST(LatticeCoding, HashesTheSameContentAlikeAndAnyOtherDifferently) {
     const Mesh mesh = test::reconstruct(test::default_settings(), test::splash(62).frame());
     BrickScratch scratch;
