@@ -20,8 +20,6 @@
 namespace meniscus {
 
 inline constexpr int most_coded_normal_bits = 8;  ///< of more the lowest bits are sent as they are
-inline constexpr int flatness_classes = 6;
-inline constexpr int normal_error_classes = 7;
 
 /// Sums over the triangles around each vertex.
 struct PredictedNormal {
@@ -92,9 +90,10 @@ private:
     int sign_ = 1;
 };
 
+using NormalIndex = SymbolIndex<residuals, 2 * flatness_classes * normal_error_classes>;
 /// Codes the normals of a brick whose mesh is there. raw: takes or gives what is sent as it is.
 template <class Coder, class Raw>
-void code_normals(Coder& coder, const EntropyTables& tables, Raw& raw, std::vector<PredictedNormal>& predicted,
+void code_normals(Coder& coder, const EntropyTables& tables, const NormalIndex& index, Raw& raw, std::vector<PredictedNormal>& predicted,
                   LatticeBrick& brick) {
     predict_normals(brick, predicted);
     const Octahedron octahedron(brick.normal_bits);
@@ -140,7 +139,7 @@ void code_normals(Coder& coder, const EntropyTables& tables, Raw& raw, std::vect
             const int low = residual & ((1 << dropped) - 1);
             const int high = residual >> dropped;
             // The outermost symbols stand for all that is farther.
-            const int symbol = coder.code(tables.normals, context,
+            const int symbol = coder.code(tables.normals, index, context,
                                           std::clamp(high, -largest_residual, largest_residual) + largest_residual) -
                                largest_residual;
             int found = symbol;

@@ -110,13 +110,11 @@ private:
         place_ = place;
         unsigned still = 0;
         for (int i = 0; i < 8; ++i) still |= static_cast<unsigned>(still_[place - closed_steps(i)] != moving) << i;
-        for (int z = 0; z < base_cell_size; ++z)
-            for (int y = 0; y < base_cell_size; ++y) {
-                const int row = point_bit(0, y, z);
-                const auto wanted = static_cast<unsigned>(points >> row & 15);
-                if (wanted == 0) continue;
-                code_row(y, z, wanted, still);
-            }
+        // A row with any points has its first.
+        for (BlockMask rows = points & low_face(0); rows != 0; rows &= rows - 1) {
+            const int row = lowest_bit(rows);
+            code_row(point_coordinate(row, 1), point_coordinate(row, 2), static_cast<unsigned>(points >> row & 15), still);
+        }
         lattice_->inside[place] = now_ | (truth_ & ~points);  // an encoder's signs of middles stay
         known_[place] = known_now_;
     }

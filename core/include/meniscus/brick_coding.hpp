@@ -125,6 +125,9 @@ struct DecodedBrick {
 DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits,
                           std::span<const CodedAttribute> attributes = {});
 
+/// Encodes a decoded brick again, with Draco. options: its attributes are those that the brick was decoded with.
+EncodedBrick encode_brick(const DecodedBrick& brick, std::uint32_t offset_bits, const CodingOptions& options);
+
 /// Welds bricks into one mesh, ordered as reconstruct() orders it (triangles within a brick and level excepted).
 /// Throws InvalidInput if a brick occurs twice.
 Mesh weld_bricks(std::span<const DecodedBrick> bricks, double cell_size, std::uint32_t offset_bits);

@@ -33,6 +33,11 @@ public:
         ++counts_[static_cast<std::size_t>(&table.start[context][symbol] - tables_)];
         return symbol;
     }
+    template <int symbols, int contexts>
+    int code(const Distributions<symbols, contexts>& table, const SymbolIndex<symbols, contexts>&, int context,
+             int symbol) {
+        return code(table, context, symbol);
+    }
     void clear() { std::fill(counts_.begin(), counts_.end(), 0); }
     std::span<const std::uint64_t> counts_of(const void* table, std::size_t size) const {
         return {counts_.data() + (static_cast<const std::uint16_t*>(table) - tables_), size};
@@ -213,7 +218,7 @@ private:
             offset_coder_->run(lattice, offset_bits, brick.offsets);
             if (brick.normal_bits != 0) {
                 const auto keep = [](std::uint32_t value, int) { return static_cast<int>(value); };
-                code_normals(counter_, tables(), keep, normals_, brick);
+                code_normals(counter_, tables(), *normal_index_, keep, normals_, brick);
             }
         }
     }
@@ -303,6 +308,7 @@ private:
         std::make_unique<OffsetCoder<Counter, Training>>(counter_, *tables_);
     std::unique_ptr<LatticeBrick> brick_ = std::make_unique<LatticeBrick>();
     std::vector<PredictedNormal> normals_;
+    std::unique_ptr<NormalIndex> normal_index_ = std::make_unique<NormalIndex>(tables_->normals);  // asked by decoders
 };
 
 }  // namespace
