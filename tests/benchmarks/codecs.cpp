@@ -147,7 +147,8 @@ void print_sections(const Mesh& mesh) {
 }
 
 void run_codecs(const CodecOptions& options) {
-    std::cout << "frame               mode     cell  normals  codec     bits/tri.   encode ns       x   decode ns       x\n";
+    std::cout
+        << "frame               mode     cell  normals  codec     bits/tri.   encode ns       x   decode ns       x\n";
     Rows rows = Rows::array();
     for (const std::string& name : options.frames) {
         const std::vector<float> positions = formats::read_particles(name).positions;
