@@ -136,8 +136,8 @@ BrickContent brick_content(const Mesh& mesh, std::size_t brick_number, const Cod
     BrickContent content;
     content.coordinate = brick.coordinate;
     content.positions = local_positions(mesh, brick, index.vertices, bits);
-    content.cell_levels = cell_levels(index.triangles, content.positions, bits,
-                                      [&brick](std::size_t t) { return level_at(brick, t); });
+    content.cell_levels =
+        cell_levels(index.triangles, content.positions, bits, [&brick](std::size_t t) { return level_at(brick, t); });
     content.triangles = std::move(index.triangles);
     if (options.normal_bits != 0 && !mesh.normals.empty()) {
         content.normals.reserve(index.vertices.size());

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "lattice/closed_brick.hpp"
 #include "lattice/blocks.hpp"
+#include "lattice/closed_brick.hpp"
 #include "lattice/face_signs.hpp"
 #include "lattice/levels_around.hpp"
 #include "steps/place_vertices/place_vertices.hpp"
@@ -22,13 +22,14 @@ public:
     BrickLattice();
     BrickLattice(const BrickLattice&) = delete;
 
-    ClosedArray<std::uint8_t> level;    ///< of the brick's cells that draw, see add_cell(); 0: draws nothing of its own
-    ClosedArray<std::uint8_t> coarser;  ///< bit 2 axis + side: that face of a cell is to be filled against a coarser one
-    ClosedArray<BlockMask> corners;     ///< points that cells of the brick have as corners
-    ClosedArray<BlockMask> middles;     ///< middles of crossed coarse edges that are no corners
-    ClosedArray<BlockMask> quarters;    ///< middles of the halves of those, which are neither
-    ClosedArray<BlockMask> inside;      ///< signs of these points; 0 for all others
-    ClosedArray<EdgeMasks> edges;       ///< finest edges that carry a vertex
+    ClosedArray<std::uint8_t> level;  ///< of the brick's cells that draw, see add_cell(); 0: draws nothing of its own
+    ClosedArray<std::uint8_t>
+        coarser;                      ///< bit 2 axis + side: that face of a cell is to be filled against a coarser one
+    ClosedArray<BlockMask> corners;   ///< points that cells of the brick have as corners
+    ClosedArray<BlockMask> middles;   ///< middles of crossed coarse edges that are no corners
+    ClosedArray<BlockMask> quarters;  ///< middles of the halves of those, which are neither
+    ClosedArray<BlockMask> inside;    ///< signs of these points; 0 for all others
+    ClosedArray<EdgeMasks> edges;     ///< finest edges that carry a vertex
     ClosedArray<std::uint32_t> first_vertex;
 
     /// Makes it empty.
@@ -52,8 +53,8 @@ public:
     bool is_drawable() const;
     /// Fills `coarser` for faces within the brick.
     void find_coarser_faces();
-    /// Calls visit(place, bit of `coarser`) for the faces of cells on the brick's own faces that see both signs, and may
-    /// lie against a coarser cell beyond. By cell, then by bit.
+    /// Calls visit(place, bit of `coarser`) for the faces of cells on the brick's own faces that see both signs, and
+    /// may lie against a coarser cell beyond. By cell, then by bit.
     template <class Visit>
     void for_each_outer_face(const Visit& visit) const {
         for (const std::uint16_t place : cells_) {

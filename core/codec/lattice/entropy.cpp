@@ -42,8 +42,8 @@ template <class Coder>
 void code_coarser_faces(Coder& coder, BrickLattice& lattice) {
     coder.reserve(6 * lattice.cells().size());
     lattice.for_each_outer_face([&](int place, int bit) {
-        const int symbol =
-            coder.code(entropy_tables.coarser, (lattice.level[place] - 2) * 2 + (bit & 1), lattice.coarser[place] >> bit & 1);
+        const int symbol = coder.code(entropy_tables.coarser, (lattice.level[place] - 2) * 2 + (bit & 1),
+                                      lattice.coarser[place] >> bit & 1);
         lattice.coarser[place] = static_cast<std::uint8_t>((lattice.coarser[place] & ~(1 << bit)) | symbol << bit);
     });
 }
@@ -167,8 +167,7 @@ const char* EntropyReader::read_geometry(const BrickHeader& header, std::span<co
     if (brick.offsets.size() != announced.vertices) return "has another number of vertices than was announced";
     if (dropped != 0)
         for (std::uint8_t& offset : brick.offsets) {
-            offset = SplitOffset::joined(offset, dropped,
-                                         memory_->raw.get_some(SplitOffset::bits(offset, dropped)));
+            offset = SplitOffset::joined(offset, dropped, memory_->raw.get_some(SplitOffset::bits(offset, dropped)));
             if (offset == 0) return "has a vertex at the end of its edge";
         }
     return nullptr;

@@ -69,7 +69,8 @@ private:
     static void for_each_edge(int place, int axis, BlockMask edges, const Visit& visit) {
         if (edges == 0) return;
         const Int3 at = closed_coordinate(place);
-        const int first = column(along(at, lateral_u(axis)) * base_cell_size, along(at, lateral_v(axis)) * base_cell_size);
+        const int first =
+            column(along(at, lateral_u(axis)) * base_cell_size, along(at, lateral_v(axis)) * base_cell_size);
         const int low = along(at, axis) * base_cell_size;
         for (; edges != 0; edges &= edges - 1) {
             const int bit = lowest_bit(edges);
@@ -79,7 +80,7 @@ private:
     }
 
     void take_offsets(int axis, const std::vector<std::uint8_t>& offsets) {
-        std::array<std::uint8_t, std::size_t{columns} * points>& of_axis = (*offset_)[static_cast<std::size_t>(axis)];
+        std::array<std::uint8_t, std::size_t{columns}* points>& of_axis = (*offset_)[static_cast<std::size_t>(axis)];
         for (const std::uint16_t place : lattice_->blocks()) {
             const EdgeMasks& edges = lattice_->edges[place];
             const std::uint8_t* offset = offsets.data() + lattice_->first_vertex[place];
@@ -121,7 +122,8 @@ private:
     void list(int place, int axis, int length_index, BlockMask edges, BlockMask inside) {
         if (edges == 0) return;
         const Int3 at = closed_coordinate(place);
-        const int first = column(along(at, lateral_u(axis)) * base_cell_size, along(at, lateral_v(axis)) * base_cell_size);
+        const int first =
+            column(along(at, lateral_u(axis)) * base_cell_size, along(at, lateral_v(axis)) * base_cell_size);
         const int low = along(at, axis) * base_cell_size;
         for (; edges != 0; edges &= edges - 1) {
             const int bit = lowest_bit(edges);
@@ -137,8 +139,9 @@ private:
     static std::array<int, 2> lowest_point(int axis, int col) {
         const int i = col % side - margin;
         const int j = col / side - margin;
-        return {(i / base_cell_size) * closed_step(lateral_u(axis)) + (j / base_cell_size) * closed_step(lateral_v(axis)),
-                i % base_cell_size * bit_step(lateral_u(axis)) + j % base_cell_size * bit_step(lateral_v(axis))};
+        return {
+            (i / base_cell_size) * closed_step(lateral_u(axis)) + (j / base_cell_size) * closed_step(lateral_v(axis)),
+            i % base_cell_size * bit_step(lateral_u(axis)) + j % base_cell_size * bit_step(lateral_v(axis))};
     }
     /// Puts the finest edges of a column, which are known now, into their blocks.
     void give_edges(int axis, int col) {
@@ -200,7 +203,8 @@ private:
             const int distance = up <= down ? up : down;
             const int there = (up <= down ? middle + up : middle - down) & (points - 1);
             const int has = distance <= reach ? 1 : 0;
-            x[static_cast<std::size_t>(n)] = unit_ * (there - k) + offsets[beside * points + there] - unit_ * length / 2;
+            x[static_cast<std::size_t>(n)] =
+                unit_ * (there - k) + offsets[beside * points + there] - unit_ * length / 2;
             set |= has << n;
             error += -has & error_[static_cast<std::size_t>(beside * points + there)];
         }
@@ -213,10 +217,15 @@ private:
         for (std::size_t n = 0; n < 4; ++n) sum += x[n] * weight[n];
         Prediction p;
         p.place = std::clamp(unit_ * length / 2 + ((sum + 2048) >> 12), 1, unit_ * length - 1);
-        p.error_class = mean < 0 ? 8 : mean <= 1 ? 0 : mean <= 3 ? 1 : mean <= 6 ? 2 : mean <= 11 ? 3 : mean <= 20 ? 4
-                                                                         : mean <= 36   ? 5
-                                                                         : mean <= 64   ? 6
-                                                                                        : 7;
+        p.error_class = mean < 0     ? 8
+                        : mean <= 1  ? 0
+                        : mean <= 3  ? 1
+                        : mean <= 6  ? 2
+                        : mean <= 11 ? 3
+                        : mean <= 20 ? 4
+                        : mean <= 36 ? 5
+                        : mean <= 64 ? 6
+                                     : 7;
         p.expected_class = tables_.expected[length_index][regime][set];
         set_ = set;
         regime_ = regime;
@@ -259,7 +268,8 @@ private:
         crossed_[col] |= bit;
         if (low_is_inside) low_inside_[col] |= bit;
         const int place = unit_ * (at - k) + found;
-        error_[static_cast<std::size_t>(col * points + at)] = static_cast<std::uint8_t>(std::min(std::abs(place - p.place), 255));
+        error_[static_cast<std::size_t>(col * points + at)] =
+            static_cast<std::uint8_t>(std::min(std::abs(place - p.place), 255));
         training(length_index, regime_, set_, x_, place - unit_ * length / 2, unit_ * length);
     }
 
@@ -274,7 +284,14 @@ private:
             return ((inside & middle) != 0) == low_is_inside;
         const int distance = (predicted - unit_ * half) * 64 / unit_;
         const int size = std::abs(distance);
-        const int far = size < 1 ? 0 : size < 3 ? 1 : size < 5 ? 2 : size < 8 ? 3 : size < 12 ? 4 : size < 18 ? 5 : size < 28 ? 6 : 7;
+        const int far = size < 1    ? 0
+                        : size < 3  ? 1
+                        : size < 5  ? 2
+                        : size < 8  ? 3
+                        : size < 12 ? 4
+                        : size < 18 ? 5
+                        : size < 28 ? 6
+                                    : 7;
         const int context = ((half - 1) * 16 + (distance < 0 ? 7 - far : 8 + far)) * error_classes + p.error_class;
         bool upper = false;
         if constexpr (Coder::encodes) upper = ((inside & middle) != 0) == low_is_inside;
@@ -304,7 +321,7 @@ private:
     std::uint64_t low_inside_[columns] = {};  ///< edges whose low end is inside
     std::array<std::uint64_t, columns / 64 + 1> listed_{};
     std::unique_ptr<std::array<Bytes, 3>> offset_ = std::make_unique<std::array<Bytes, 3>>();
-    Bytes error_{};  ///< of the predictions
+    Bytes error_{};                      ///< of the predictions
     std::array<int, 2> lowest_point_{};  ///< of the column that is being coded
     int set_ = 0, regime_ = 0;
     std::array<std::int32_t, 4> x_{};
