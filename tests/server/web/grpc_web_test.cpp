@@ -178,7 +178,9 @@ TEST(GrpcWebRecordings, AreTheBytesThatAWatcherGot) {
     RunningServer running(options);
     const std::string id = running.session();
     const WebCall::Headers about_session{{"x-session-id", id}};
-    WebCall watching(running.server.http_address(), watch, watch_request(id), about_session);
+    v1::WatchRequest asked = watch_request(id);
+    asked.add_codecs(v1::CODEC_LATTICE_ENTROPY);  // that of the recording
+    WebCall watching(running.server.http_address(), watch, asked, about_session);
     push_one(running.client, id, wave(12, 0.0), 3);
     std::vector<std::string> watched = web_frame(watching);
     v1::ListRecordingsResponse list;
@@ -191,6 +193,7 @@ TEST(GrpcWebRecordings, AreTheBytesThatAWatcherGot) {
     v1::ReadRecordingRequest request;
     request.set_session_id(id);
     request.set_number(list.recordings(0).number());
+    request.add_codecs(v1::CODEC_LATTICE_ENTROPY);
     WebCall reading(running.server.http_address(), read_recording, request, about_session);
     std::vector<std::string> read = web_frame(reading);
     EXPECT_FALSE(reading.next());
