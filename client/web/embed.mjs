@@ -27,7 +27,7 @@ paths.forEach((path, i) => {
   arrays += `constexpr unsigned char file${i}[] = {${gzip.join(',')}};\n`;
   const name = path === 'index.html' ? '/' : `/${path}`;
   table += `    {"${name}", "${type}", ${path.startsWith('assets/')}, true, file${i}},\n`;
-  if (/worker|draco/.test(path)) decoderBytes += gzip.length;
+  if (/worker|decoder/.test(path)) decoderBytes += gzip.length;
   else if (extname(path) === '.js') scriptBytes += gzip.length;
 });
 writeFileSync(

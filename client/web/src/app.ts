@@ -1,4 +1,5 @@
 // The page: the list of sessions and recordings, or one of them.
+import { wantedCodecs } from './bricks/codecs';
 import { startDecodePool } from './decode/decode_pool';
 import type { Frame } from './bricks/frame';
 import { readEmbedding } from './frame/embedding';
@@ -32,7 +33,10 @@ import { askToken, storedToken } from './ui/token_dialog';
 import { Viewer, type Look } from './view/viewer';
 
 export class App {
-  private readonly server = new Server({ base: '', fetch: (input, init) => fetch(input, init) });
+  private readonly server = new Server(
+    { base: '', fetch: (input, init) => fetch(input, init) },
+    wantedCodecs(location),
+  );
   private readonly banner = new Banner();
   private readonly heading = new Heading(this.server);
   private readonly offer = new RecordingOffer(this.server, (recording) => {

@@ -75,15 +75,15 @@ describe('attributes of a brick', () => {
     ],
     ['id', [[-7], [2 ** 31 - 1], [-(2 ** 31)]]],
   ])('are decoded one at a time, to what they stand for: %s', async (name, expected) => {
-    const decoded = decodeBrick(draco, await encodeBrick({ ...placed, attributes: all }), offsetBits, name);
+    const decoded = decodeBrick({ draco }, await encodeBrick({ ...placed, attributes: all }), offsetBits, name);
     const keys = placed.positions.map((position) => position.join(' '));
     expect(values(decoded)).toEqual(new Map(keys.map((key, i) => [key, expected[i]!])));
   });
 
   it('are not decoded unless they are asked for', async () => {
     const brick = await encodeBrick({ ...placed, attributes: all });
-    expect(decodeBrick(draco, brick, offsetBits).attribute).toBeUndefined();
-    expect(decodeBrick(draco, brick, offsetBits, 'pressure').attribute).toBeUndefined();
+    expect(decodeBrick({ draco }, brick, offsetBits).attribute).toBeUndefined();
+    expect(decodeBrick({ draco }, brick, offsetBits, 'pressure').attribute).toBeUndefined();
   });
 
   it.each<[string, Partial<CodedAttribute>]>([
@@ -94,18 +94,18 @@ describe('attributes of a brick', () => {
     const brick = await encodeBrick({ ...placed, attributes: [{ ...color, form: { ...color.form, ...lie } }] });
     if (lie.type === 'uint32') {
       // Four bytes: their form is that of an id.
-      expect(decodeBrick(draco, brick, offsetBits, 'color').attribute!.values).toBeInstanceOf(Uint32Array);
+      expect(decodeBrick({ draco }, brick, offsetBits, 'color').attribute!.values).toBeInstanceOf(Uint32Array);
       return;
     }
-    expect(() => decodeBrick(draco, brick, offsetBits, 'color')).toThrow(words);
-    expect(() => decodeBrick(draco, brick, offsetBits, 'color')).toThrow('brick (4, 5, 6)');
+    expect(() => decodeBrick({ draco }, brick, offsetBits, 'color')).toThrow(words);
+    expect(() => decodeBrick({ draco }, brick, offsetBits, 'color')).toThrow('brick (4, 5, 6)');
   });
 
   it('are refused beyond their bits, without a range, not finite, or missing', async () => {
     const lying = async (name: string, attribute: NonNullable<BrickOptions['attributes']>[number]): Promise<string> => {
       const brick = await encodeBrick({ ...placed, attributes: [attribute] });
       try {
-        decodeBrick(draco, brick, offsetBits, name);
+        decodeBrick({ draco }, brick, offsetBits, name);
         return '';
       } catch (error) {
         return String(error);
@@ -119,7 +119,7 @@ describe('attributes of a brick', () => {
     );
     expect(await lying('mass', { ...mass, coded: Float32Array.of(1, NaN, 2) })).toContain('mass is not finite');
     const brick = await encodeBrick({ ...placed, attributes: [mass] });
-    expect(() => decodeBrick(draco, { ...brick, attributes: [mass.form, age.form] }, offsetBits, 'age')).toThrow(
+    expect(() => decodeBrick({ draco }, { ...brick, attributes: [mass.form, age.form] }, offsetBits, 'age')).toThrow(
       'no attribute age',
     );
   });
@@ -134,12 +134,12 @@ describe('attributes of a brick', () => {
           form: { name },
         } of [velocity, id])
           try {
-            decodeBrick(draco, { ...brick, data }, offsetBits, name);
+            decodeBrick({ draco }, { ...brick, data }, offsetBits, name);
           } catch (error) {
             expect(String(error)).toContain('brick (4, 5, 6)');
           }
     }
-    expect(decodeBrick(draco, brick, offsetBits, 'id').attribute).toBeDefined();
+    expect(decodeBrick({ draco }, brick, offsetBits, 'id').attribute).toBeDefined();
   });
 });
 

@@ -4,29 +4,13 @@ import { Codec } from '../src/gen/meniscus/v1/mesh_pb';
 import { WatchRequestSchema, WatchResponseSchema } from '../src/gen/meniscus/v1/surface_service_pb';
 import { Server } from '../src/rpc/server';
 import { Code, explain, RpcError } from '../src/rpc/status';
+import { body, grpcWeb, message, trailers } from './support/grpc_web';
 import { draining } from './support/messages';
 
-const grpcWeb = { 'content-type': 'application/grpc-web+proto' };
-
-function message(flags: number, data: Uint8Array): Uint8Array {
-  const framed = new Uint8Array(5 + data.length);
-  framed[0] = flags;
-  new DataView(framed.buffer).setUint32(1, data.length);
-  framed.set(data, 5);
-  return framed;
-}
-
-function trailers(text: string): Uint8Array {
-  return message(0x80, new TextEncoder().encode(text));
-}
-
 function serverThat(answer: (input: string, init: RequestInit) => Response | Promise<Response>): Server {
-  return new Server({ base: 'http://host', fetch: async (input, init) => answer(input as string, init!) });
-}
-
-function body(...parts: Uint8Array[]): Response {
-  const bytes = parts.flatMap((part) => [...part]);
-  return new Response(Uint8Array.from(bytes), { headers: grpcWeb });
+  return new Server({ base: 'http://host', fetch: async (input, init) => answer(input as string, init!) }, [
+    Codec.DRACO,
+  ]);
 }
 
 async function watchAll(server: Server, signal = new AbortController().signal): Promise<number> {

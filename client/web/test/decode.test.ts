@@ -29,7 +29,7 @@ function corners(positions: Uint16Array, indices: ArrayLike<number>): string[] {
 describe('decodeBrick', () => {
   it('gives back every triangle, exactly and with its orientation', async () => {
     const brick = await tetrahedron([1, 2, 3], 2);
-    const decoded = decodeBrick(draco, brick, offsetBits);
+    const decoded = decodeBrick({ draco }, brick, offsetBits);
     const [x, y, z] = [256, 512, 768];
     const p = [
       `${x + 10} ${y + 10} ${z + 10}`,
@@ -52,7 +52,7 @@ describe('decodeBrick', () => {
   });
 
   it('gives unit normals', async () => {
-    const { normals } = decodeBrick(draco, await tetrahedron([0, 0, 0], 1), offsetBits);
+    const { normals } = decodeBrick({ draco }, await tetrahedron([0, 0, 0], 1), offsetBits);
     for (let i = 0; i < normals!.length; i += 4)
       expect(Math.hypot(normals![i]!, normals![i + 1]!, normals![i + 2]!)).toBeCloseTo(32767, -1);
   });
@@ -74,7 +74,7 @@ describe('decodeBrick', () => {
       ],
       levels: [3, 1],
     });
-    const decoded = decodeBrick(draco, brick, offsetBits);
+    const decoded = decodeBrick({ draco }, brick, offsetBits);
     expect(decoded.levelTriangles).toEqual([1, 0, 1, 1]);
     const triangle = (t: number): number[] =>
       [0, 1, 2].map((i) => decoded.positions[4 * decoded.indices[3 * t + i]!]!).sort((a, b) => a - b);
@@ -106,8 +106,8 @@ describe('decodeBrick', () => {
     ['level 0', { cellLevels: new Uint8Array(1) }],
   ])('refuses a brick that lies: %s', async (words, lie) => {
     const brick = await encodeBrick({ ...flat, place: [4, 5, 6] });
-    expect(() => decodeBrick(draco, { ...brick, ...lie }, offsetBits)).toThrow(words);
-    expect(() => decodeBrick(draco, { ...brick, ...lie }, offsetBits)).toThrow('brick (4, 5, 6)');
+    expect(() => decodeBrick({ draco }, { ...brick, ...lie }, offsetBits)).toThrow(words);
+    expect(() => decodeBrick({ draco }, { ...brick, ...lie }, offsetBits)).toThrow('brick (4, 5, 6)');
   });
 
   it('refuses a vertex outside of the brick', async () => {
@@ -119,7 +119,7 @@ describe('decodeBrick', () => {
         [1, 9, 3],
       ],
     });
-    expect(() => decodeBrick(draco, outside, offsetBits)).toThrow('outside');
+    expect(() => decodeBrick({ draco }, outside, offsetBits)).toThrow('outside');
   });
 
   it('survives every cut and every changed byte of a brick', async () => {
@@ -129,12 +129,12 @@ describe('decodeBrick', () => {
       changed[i]! ^= 0x5a;
       for (const bytes of [changed, brick.data.slice(0, i)])
         try {
-          expect(pointCount(decodeBrick(draco, { ...brick, data: bytes }, offsetBits))).toBeGreaterThan(0);
+          expect(pointCount(decodeBrick({ draco }, { ...brick, data: bytes }, offsetBits))).toBeGreaterThan(0);
         } catch (error) {
           expect(String(error)).toContain('brick (0, 0, 0)');
         }
     }
-    expect(decodeBrick(draco, brick, offsetBits).levelTriangles).toEqual([4, 0, 0, 0]);
+    expect(decodeBrick({ draco }, brick, offsetBits).levelTriangles).toEqual([4, 0, 0, 0]);
   });
 });
 
@@ -158,7 +158,7 @@ describe('DecodePool', () => {
     expect(workers.map(({ requests }) => requests.length)).toEqual([1, 1]);
     const settle = (which: (typeof workers)[number]): void => {
       const { brick } = which.requests.at(-1)!;
-      which.onmessage!({ data: { decoded: decodeBrick(draco, brick, offsetBits) } } as MessageEvent<DecodeAnswer>);
+      which.onmessage!({ data: { decoded: decodeBrick({ draco }, brick, offsetBits) } } as MessageEvent<DecodeAnswer>);
     };
     settle(workers[0]!);
     expect(workers[0]!.requests).toHaveLength(2);
@@ -175,7 +175,7 @@ describe('DecodePool', () => {
     const [first, second] = [pool.decode(brick, offsetBits), pool.decode(brick, offsetBits)];
     only.onerror!({ message: 'out of memory' } as ErrorEvent);
     await expect(first).rejects.toThrow('out of memory');
-    only.onmessage!({ data: { decoded: decodeBrick(draco, brick, offsetBits) } } as MessageEvent<DecodeAnswer>);
+    only.onmessage!({ data: { decoded: decodeBrick({ draco }, brick, offsetBits) } } as MessageEvent<DecodeAnswer>);
     await expect(second).resolves.toBeDefined();
   });
 });

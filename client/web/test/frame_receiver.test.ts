@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { knownCodecs } from '../src/bricks/codecs';
 import type { Frame } from '../src/bricks/frame';
 import { FrameReceiver } from '../src/bricks/frame_receiver';
 import type { Codec } from '../src/gen/meniscus/v1/mesh_pb';
@@ -83,7 +84,7 @@ describe('FrameReceiver', () => {
     ['begins with part 1', [begin(two), brick([0, 0, 0], 1, [1], 1, 2)]],
     ['in place of part 1', [begin(two), brick([0, 0, 0], 1, [1], 0, 2), brick([1, 0, 0], 1, [1], 1, 2)]],
     [
-      'has the codec 7, which this viewer does not know; it knows 1',
+      `has the codec 7, which this viewer does not know; it knows ${knownCodecs.join(', ')}`,
       [begin(two), brick([0, 0, 0], 1, [1], 0, 1, 7 as Codec)],
     ],
     ['has the codec 0', [begin(two), brick([0, 0, 0], 1, [1], 0, 1, 0)]],

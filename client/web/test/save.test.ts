@@ -1,20 +1,18 @@
 import { validateBytes } from 'gltf-validator';
-import { beforeAll, describe, expect, it } from 'vitest';
-import type { DracoModule } from 'draco3d/draco_decoder_nodejs.js';
+import { describe, expect, it } from 'vitest';
 import type { ShownBrick, Shown } from '../src/bricks/brick_store';
 import { brickKey, type EncodedBrick } from '../src/bricks/frame';
 import { decodeBrick } from '../src/decode/decode_brick';
 import { writeGlb } from '../src/save/glb';
 import { writePly } from '../src/save/ply';
 import { weld } from '../src/save/weld';
+import { encoded, golden } from './support/golden';
+import { latticeDecoder } from './support/lattice';
 import { dracoDecoder, encodeBrick, flat, tetrahedron } from './support/draco';
 
 const offsetBits = 6;
-let draco: DracoModule;
-
-beforeAll(async () => {
-  draco = await dracoDecoder();
-});
+const draco = await dracoDecoder();
+const decoders = { draco, lattice: await latticeDecoder() };
 
 function shownOf(...bricks: EncodedBrick[]): Shown {
   return shownWith(undefined, ...bricks);
@@ -24,7 +22,7 @@ function shownOf(...bricks: EncodedBrick[]): Shown {
 function shownWith(attribute: string | undefined, ...bricks: EncodedBrick[]): Shown {
   const shown = new Map<string, ShownBrick>();
   for (const encoded of bricks)
-    shown.set(brickKey(...encoded.place), { encoded, decoded: decodeBrick(draco, encoded, offsetBits, attribute) });
+    shown.set(brickKey(...encoded.place), { encoded, decoded: decodeBrick(decoders, encoded, offsetBits, attribute) });
   const attributes = bricks[0]?.attributes ?? [];
   return {
     frame: {
@@ -44,11 +42,13 @@ interface Gltf {
   meshes: {
     primitives: {
       attributes: Record<string, number>;
+      indices: number;
       extensions: { KHR_draco_mesh_compression: { bufferView: number; attributes: Record<string, number> } };
     }[];
   }[];
   bufferViews: { byteOffset: number; byteLength: number }[];
-  accessors: { count: number }[];
+  accessors: { count: number; bufferView?: number }[];
+  extensionsRequired: string[];
 }
 
 function read(file: Uint8Array): { json: Gltf; binary: Uint8Array } {
@@ -96,6 +96,38 @@ describe('writeGlb', () => {
       expect(decoder.GetAttributeByUniqueId(mesh, attributes.NORMAL!).data_type()).toBe(draco.DT_FLOAT32);
       expect(json.accessors[primitive.attributes.POSITION!]!.count).toBe(mesh.num_points());
     });
+  });
+});
+
+describe.skipIf(!decoders.lattice)('bricks that did not come as Draco', () => {
+  const packed = encoded(golden.bricks.find(({ name }) => name === 'packed: levels and cracks, normals of 8 bits')!);
+
+  it('lie in the GLB decoded', async () => {
+    const shown = shownOf(packed);
+    const { json, binary } = read(writeGlb(shown, 'y'));
+    expect(json.extensionsRequired).toEqual(['KHR_mesh_quantization']);
+    const { issues } = await validateBytes(writeGlb(shown, 'y'));
+    expect(issues.messages.filter(({ severity }) => severity < 2)).toEqual([]);
+    const [{ decoded }] = [...shown.bricks.values()] as [ShownBrick];
+    const { attributes, indices } = json.meshes[0]!.primitives[0]!;
+    const bytesOf = (accessor: number): Uint8Array => {
+      const { byteOffset, byteLength } = json.bufferViews[json.accessors[accessor]!.bufferView!]!;
+      return binary.subarray(byteOffset, byteOffset + byteLength);
+    };
+    for (const [accessor, array] of [
+      [attributes.POSITION, decoded.positions],
+      [attributes.NORMAL, decoded.normals],
+      [indices, decoded.indices],
+    ] as const)
+      expect(bytesOf(accessor!)).toEqual(new Uint8Array(array!.buffer));
+  });
+
+  it('lie beside those that did', async () => {
+    const draco = await tetrahedron([0, 0, 0], 1, [1, 0, 0]);
+    const file = writeGlb(shownOf(packed, draco), 'z');
+    expect(read(file).json.extensionsRequired).toEqual(['KHR_draco_mesh_compression', 'KHR_mesh_quantization']);
+    const { issues } = await validateBytes(file);
+    expect(issues.messages.filter(({ severity }) => severity < 2)).toEqual([]);
   });
 });
 

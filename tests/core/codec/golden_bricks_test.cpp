@@ -87,6 +87,7 @@ std::vector<Scene> scenes() {
         {"levels and cracks, normals of 8 bits", settings(), large_and_small(), {}, 0},
         {"8 offset bits, without normals", bisected, two_drops(), {}, 0},
         {"rounded to 2 offset bits, normals of 10 bits", uniform, block(), {.normal_bits = 10, .position_bits = 2}, 0},
+        {"rounded to 4 offset bits", settings(), large_and_small(), {.position_bits = 4}, 0},
         {"attributes of every form, float32 of 8, of 12 bits and exactly",
          settings(),
          two_drops(),
@@ -95,6 +96,19 @@ std::vector<Scene> scenes() {
          {{"speed", 12}, {"velocity", 8}, {"tensor", 0}, {"phase"}, {"color"}, {"paint"}, {"charge"}, {"id"}}},
         {"one bit, without normals", bisected, two_drops(), {}, 0, {{"velocity", 1}}},
     };
+}
+
+/// What a scene is called with a codec.
+std::string name_with(const Scene& scene, Codec codec) {
+    switch (codec) {
+        case Codec::draco:
+            return scene.name;
+        case Codec::lattice_packed:
+            return "packed: " + scene.name;
+        case Codec::lattice_entropy:
+            return "entropy: " + scene.name;
+    }
+    return {};
 }
 
 std::string hexadecimal(const std::vector<std::byte>& bytes) {
@@ -194,14 +208,17 @@ ordered_json contents(const DecodedBrick& brick, std::uint32_t offset_bits) {
     return out;
 }
 
-ordered_json golden(const Scene& scene) {
-    Mesh mesh = test::reconstruct(scene.settings, scene.particles.frame());
+ordered_json golden(const Scene& scene, Codec codec) {
+    Reconstructor reconstructor(scene.settings, {.backend = Backend::cpu, .threads = 1, .keep_lattice = true});
+    Mesh mesh;
+    reconstructor.reconstruct(scene.particles.frame(), mesh);
     test::add_attributes(mesh);
     CodingOptions options = scene.options;
+    options.codec = codec;
     options.attributes = coded_attributes(mesh, attribute_ranges(mesh), scene.wishes);
     const std::uint32_t offset_bits = encoded_offset_bits(mesh, options);
     const EncodedBrick brick = encode_brick(mesh, scene.brick, options);
-    ordered_json out{{"name", scene.name},
+    ordered_json out{{"name", name_with(scene, codec)},
                      {"offset_bits", offset_bits},
                      {"place", brick.coordinate},
                      {"vertex_count", brick.vertices},
@@ -219,7 +236,8 @@ ordered_json today() {
                      {"brick_cells", brick_cells},         {"max_brick_triangles", max_brick_triangles},
                      {"min_offset_bits", min_offset_bits}, {"max_offset_bits", max_offset_bits}};
     for (const Codec codec : codecs) out["codecs"].push_back(static_cast<std::uint32_t>(codec));
-    for (const Scene& scene : scenes()) out["bricks"].push_back(golden(scene));
+    for (const Codec codec : {Codec::draco, Codec::lattice_packed, Codec::lattice_entropy})
+        for (const Scene& scene : scenes()) out["bricks"].push_back(golden(scene, codec));
     return out;
 }
 

@@ -29,7 +29,7 @@ export interface CodedAttribute extends AttributeForm {
   readonly maximum: readonly number[];
 }
 
-const maxAttributes = 16;
+export const maxAttributes = 16;
 const maxBits = 16;
 
 const types: Partial<Record<AttributeType, ElementType>> = {

@@ -1,5 +1,4 @@
-// The values of one attribute of a brick, as Draco gives them and as they are meant.
-import type { DracoModule } from 'draco3d/draco_decoder_nodejs.js';
+// The values of one attribute of a brick, as its bytes have them and as they are meant.
 import type { CodedAttribute } from '../bricks/attributes';
 
 export type AttributeArray = Float32Array | Uint8Array | Int32Array | Uint32Array;
@@ -13,8 +12,7 @@ export interface DecodedAttribute {
 }
 
 interface Stored {
-  /** Draco's number for the type. */
-  readonly type: number;
+  readonly type: 'uint8' | 'uint16' | 'float32';
   /** Numbers of that type per point. */
   readonly components: number;
   /** Per number. */
@@ -22,14 +20,14 @@ interface Stored {
   of(buffer: ArrayBuffer): AttributeArray | Uint16Array;
 }
 
-/** How Draco has it. An id is its four bytes, little-endian as browsers' machines are, since Draco cannot hold every number of its type. */
-export function storedAs(draco: DracoModule, { type, bits, components }: CodedAttribute): Stored {
-  const uint8: Stored = { type: draco.DT_UINT8, components, bytes: 1, of: (buffer) => new Uint8Array(buffer) };
-  if (bits > 8) return { type: draco.DT_UINT16, components, bytes: 2, of: (buffer) => new Uint16Array(buffer) };
+/** How bricks have it. An id is its four bytes, little-endian as browsers' machines are, since Draco cannot hold every number of its type. */
+export function storedAs({ type, bits, components }: CodedAttribute): Stored {
+  const uint8: Stored = { type: 'uint8', components, bytes: 1, of: (buffer) => new Uint8Array(buffer) };
+  if (bits > 8) return { type: 'uint16', components, bytes: 2, of: (buffer) => new Uint16Array(buffer) };
   if (bits > 0) return uint8;
   switch (type) {
     case 'float32':
-      return { type: draco.DT_FLOAT32, components, bytes: 4, of: (buffer) => new Float32Array(buffer) };
+      return { type: 'float32', components, bytes: 4, of: (buffer) => new Float32Array(buffer) };
     case 'uint8':
       return uint8;
     case 'int32':

@@ -1,12 +1,12 @@
 // The server's calls that a viewer makes.
 import type { MessageInitShape } from '@bufbuild/protobuf';
-import { knownCodecs } from '../bricks/codecs';
 import {
   RecordingService,
   type ReadRecordingRequestSchema,
   type Recording,
 } from '../gen/meniscus/v1/recording_service_pb';
 import { SessionService, type Session } from '../gen/meniscus/v1/session_service_pb';
+import { Codec } from '../gen/meniscus/v1/mesh_pb';
 import { ServerService, type GetServerInfoResponse } from '../gen/meniscus/v1/server_service_pb';
 import {
   SurfaceService,
@@ -26,8 +26,14 @@ export class Server {
   /** Sent as a bearer token; empty: none. */
   token = '';
   private shortestAnswer = Infinity;
+  /** What the server offers of the codecs; none: it is to be asked. */
+  private offered: Promise<readonly Codec[]> | undefined;
 
-  constructor(private readonly endpoint: Endpoint) {}
+  /** codecs: of bricks, the preferred one first. */
+  constructor(
+    private readonly endpoint: Endpoint,
+    private readonly codecs: readonly Codec[],
+  ) {}
 
   /** The link's round trip, ms: the shortest time from a call to its answer; 0 before the first. */
   get roundTrip(): number {
@@ -69,11 +75,13 @@ export class Server {
     request: { sessionId: string; maxLevel: number },
     signal: AbortSignal,
   ): AsyncIterable<Received<WatchResponse>> {
-    return serverStream(
-      this.endpoint,
-      SurfaceService.method.snapshot,
-      { ...request, codecs: [...knownCodecs] },
-      this.options(signal, request.sessionId),
+    return this.meshes(signal, (codecs) =>
+      serverStream(
+        this.endpoint,
+        SurfaceService.method.snapshot,
+        { ...request, codecs },
+        this.options(signal, request.sessionId),
+      ),
     );
   }
 
@@ -83,11 +91,13 @@ export class Server {
     signal: AbortSignal,
     opened: () => void,
   ): AsyncIterable<Received<WatchResponse>> {
-    return serverStream(
-      this.endpoint,
-      SurfaceService.method.watch,
-      { ...request, codecs: [...knownCodecs], withSpray: true },
-      this.options(signal, request.sessionId, opened),
+    return this.meshes(signal, (codecs) =>
+      serverStream(
+        this.endpoint,
+        SurfaceService.method.watch,
+        { ...request, codecs, withSpray: true },
+        this.options(signal, request.sessionId, opened),
+      ),
     );
   }
 
@@ -117,12 +127,42 @@ export class Server {
     request: ReadRequestInit & { sessionId: string },
     signal: AbortSignal,
   ): AsyncIterable<Received<WatchResponse>> {
-    return serverStream(
-      this.endpoint,
-      RecordingService.method.readRecording,
-      { ...request, codecs: [...knownCodecs], withSpray: true },
-      this.options(signal, request.sessionId),
+    return this.meshes(signal, (codecs) =>
+      serverStream(
+        this.endpoint,
+        RecordingService.method.readRecording,
+        { ...request, codecs, withSpray: true },
+        this.options(signal, request.sessionId),
+      ),
     );
+  }
+
+  /** A call that names codecs. After one that failed another server may answer. */
+  private async *meshes(
+    signal: AbortSignal,
+    open: (codecs: Codec[]) => AsyncIterable<Received<WatchResponse>>,
+  ): AsyncIterable<Received<WatchResponse>> {
+    try {
+      yield* open(await this.askedCodecs());
+    } catch (error) {
+      if (!signal.aborted) this.offered = undefined;
+      throw error;
+    }
+  }
+
+  /** A server refuses codecs that it does not offer. */
+  private async askedCodecs(): Promise<Codec[]> {
+    if (this.codecs.every((codec) => codec === Codec.DRACO)) return [Codec.DRACO];
+    this.offered ??= this.info().then(
+      ({ codecs }) => codecs,
+      (error: unknown) => {
+        this.offered = undefined;
+        throw error;
+      },
+    );
+    const offered = await this.offered;
+    const asked = this.codecs.filter((codec) => offered.includes(codec));
+    return asked.length > 0 ? asked : [Codec.DRACO];
   }
 
   private options(signal: AbortSignal, sessionId?: string, opened?: () => void): CallOptions {

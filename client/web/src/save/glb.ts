@@ -1,18 +1,23 @@
-// A mesh as GLB: the Draco bytes as they came (KHR_draco_mesh_compression), positions in brick-local integers
-// (KHR_mesh_quantization), a node for each brick that puts them in place. What the surface is colored by lies beside the Draco bytes, in
-// the order of their points: in them it is the steps of a range, for which glTF has no words.
+// A mesh as GLB: positions in brick-local integers (KHR_mesh_quantization), a node for each brick that puts them in place. Bricks that
+// came as Draco stay as they came (KHR_draco_mesh_compression); of other codecs glTF knows nothing, and their bricks lie there decoded.
+// What the surface is colored by lies beside the Draco bytes, in the order of their points: in them it is the steps of a range, for which
+// glTF has no words.
 import type { ShownBrick, Shown } from '../bricks/brick_store';
-import { brickEdge } from '../bricks/frame';
-import { pointCount } from '../decode/decoded_brick';
+import { brickEdge, type EncodedBrick } from '../bricks/frame';
+import { pointCount, type DecodedBrick } from '../decode/decoded_brick';
+import { Codec } from '../gen/meniscus/v1/mesh_pb';
 import { toScene, type UpAxis } from '../view/up_axis';
 import { glbValues, type GlbValues } from './glb_values';
 import { decodedForm } from './weld';
 
+const short = 5122;
 const unsignedShort = 5123;
 const unsignedInt = 5125;
 const float = 5126;
 const triangles = 4;
 const arrayBuffer = 34962;
+const elementArrayBuffer = 34963;
+const dracoExtension = 'KHR_draco_mesh_compression';
 /** As the server adds them to a brick's Draco mesh. */
 const dracoIds = { POSITION: 0, NORMAL: 1 };
 
@@ -33,29 +38,76 @@ export function writeGlb(shown: Shown, up: UpAxis): Uint8Array {
       form,
       bricks.map(({ decoded }) => decoded),
     );
-  const views: View[] = [];
-  const parts: Uint8Array[] = [];
-  let bytes = 0;
-  const add = (part: Uint8Array, properties: Pick<View, 'byteStride' | 'target'> = {}): void => {
-    views.push({ buffer: 0, byteOffset: bytes, byteLength: part.length, ...properties });
-    parts.push(part);
-    bytes = aligned(bytes + part.length);
+  const binary = new Binary();
+  const meshes = bricks.map(({ encoded, decoded }) =>
+    encoded.codec === Codec.DRACO ? dracoMesh(encoded, decoded, binary) : plainMesh(decoded, binary),
+  );
+  const valueViews = values?.bytes.map((part) => binary.add(part, { byteStride: values.stride, target: arrayBuffer }));
+  return container(document(shown, bricks, meshes, values, valueViews, binary, up), binary.bytes());
+}
+
+/** The file's second part, as it grows. */
+class Binary {
+  readonly views: View[] = [];
+  private readonly parts: Uint8Array[] = [];
+  size = 0;
+
+  /** The number of the part's view. */
+  add(part: ArrayBufferView, properties: Pick<View, 'byteStride' | 'target'> = {}): number {
+    this.parts.push(new Uint8Array(part.buffer, part.byteOffset, part.byteLength));
+    this.views.push({ buffer: 0, byteOffset: this.size, byteLength: part.byteLength, ...properties });
+    this.size = aligned(this.size + part.byteLength);
+    return this.views.length - 1;
+  }
+
+  bytes(): Uint8Array {
+    const bytes = new Uint8Array(this.size);
+    this.parts.forEach((part, i) => {
+      bytes.set(part, this.views[i]!.byteOffset);
+    });
+    return bytes;
+  }
+}
+
+/** What a brick's accessors and its primitive have beside what all bricks' have. */
+interface BrickMesh {
+  readonly indices: object;
+  readonly position: object;
+  readonly normal: object;
+  readonly primitive: object;
+}
+
+function dracoMesh(encoded: EncodedBrick, decoded: DecodedBrick, binary: Binary): BrickMesh {
+  const attributes = decoded.normals ? dracoIds : { POSITION: dracoIds.POSITION };
+  const bufferView = binary.add(encoded.data);
+  return {
+    indices: { componentType: unsignedInt },
+    position: {},
+    normal: { componentType: float },
+    primitive: { extensions: { [dracoExtension]: { bufferView, attributes } } },
   };
-  for (const { encoded } of bricks) add(encoded.data);
-  for (const part of values?.bytes ?? []) add(part, { byteStride: values!.stride, target: arrayBuffer });
-  const binary = new Uint8Array(bytes);
-  parts.forEach((part, i) => {
-    binary.set(part, views[i]!.byteOffset);
-  });
-  return container(document(shown, bricks, values, views, bytes, up), binary);
+}
+
+function plainMesh({ positions, normals, indices }: DecodedBrick, binary: Binary): BrickMesh {
+  const addVectors = (vectors: ArrayBufferView): number => binary.add(vectors, { byteStride: 8, target: arrayBuffer });
+  return {
+    indices: {
+      bufferView: binary.add(indices, { target: elementArrayBuffer }),
+      componentType: indices instanceof Uint16Array ? unsignedShort : unsignedInt,
+    },
+    position: { bufferView: addVectors(positions) },
+    normal: normals ? { bufferView: addVectors(normals), componentType: short, normalized: true } : {},
+    primitive: {},
+  };
 }
 
 function document(
   shown: Shown,
   bricks: ShownBrick[],
+  brickMeshes: BrickMesh[],
   values: GlbValues | undefined,
-  views: View[],
-  bytes: number,
+  valueViews: number[] | undefined,
+  binary: Binary,
   up: UpAxis,
 ): object {
   const { frame } = shown;
@@ -70,26 +122,27 @@ function document(
   const meshes = bricks.map(({ encoded, decoded }, i) => {
     const points = pointCount(decoded);
     const add = (accessor: object): number => accessors.push(accessor) - 1;
-    const indices = add({ componentType: unsignedInt, count: decoded.indices.length, type: 'SCALAR' });
+    const brick = brickMeshes[i]!;
+    const indices = add({ ...brick.indices, count: decoded.indices.length, type: 'SCALAR' });
     const POSITION = add({
+      ...brick.position,
       componentType: unsignedShort,
       count: points,
       type: 'VEC3',
       min: decoded.bounds.min,
       max: decoded.bounds.max,
     });
-    const normal = decoded.normals ? { NORMAL: add({ componentType: float, count: points, type: 'VEC3' }) } : {};
+    const normal = decoded.normals ? { NORMAL: add({ ...brick.normal, count: points, type: 'VEC3' }) } : {};
     const value = values
       ? {
           [values.name]: add({
-            bufferView: bricks.length + i,
+            bufferView: valueViews![i],
             componentType: values.componentType,
             count: points,
             type: values.type,
           }),
         }
       : {};
-    const dracoAttributes = decoded.normals ? dracoIds : { POSITION: dracoIds.POSITION };
     return {
       name: `brick ${encoded.place.join(' ')}`,
       primitives: [
@@ -98,15 +151,17 @@ function document(
           indices,
           material: 0,
           mode: triangles,
-          extensions: { KHR_draco_mesh_compression: { bufferView: i, attributes: dracoAttributes } },
+          ...brick.primitive,
         },
       ],
     };
   });
+  const hasDraco = bricks.some(({ encoded }) => encoded.codec === Codec.DRACO);
+  const extensions = [...(hasDraco ? [dracoExtension] : []), 'KHR_mesh_quantization'];
   return {
     asset,
-    extensionsUsed: ['KHR_draco_mesh_compression', 'KHR_mesh_quantization'],
-    extensionsRequired: ['KHR_draco_mesh_compression', 'KHR_mesh_quantization'],
+    extensionsUsed: extensions,
+    extensionsRequired: extensions,
     scene: 0,
     scenes: [{ nodes: [0] }],
     nodes: nodes(shown, bricks, up),
@@ -118,8 +173,8 @@ function document(
       },
     ],
     accessors,
-    bufferViews: views,
-    buffers: [{ byteLength: bytes }],
+    bufferViews: binary.views,
+    buffers: [{ byteLength: binary.size }],
   };
 }
 
