@@ -21,8 +21,10 @@ void read_value(OptionReader& options, const std::string& option, const Facts& f
         Value given = value;
         options.read_choice(option, given);
         if (given.index() != value.index()) value = given;
-    } else if constexpr (std::is_enum_v<Value>) {
-        options.read_choice(option, value);
+    } else if constexpr (std::is_enum_v<Held<Value>>) {
+        Held<Value> given{};
+        options.read_choice(option, given);
+        value = given;
     } else if constexpr (std::same_as<Value, int>) {
         // The wire's numbers have no signs: a server would tell of another one.
         std::optional<std::uint32_t> given;

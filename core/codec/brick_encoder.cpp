@@ -3,6 +3,7 @@
 #include <draco/mesh/mesh.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -37,18 +38,25 @@ std::vector<LocalPosition> local_positions(const Mesh& mesh, const MeshBrick& br
     return positions;
 }
 
-std::vector<std::byte> cell_levels(const MeshBrick& brick, const std::vector<Triangle>& triangles,
-                                   const std::vector<LocalPosition>& positions, std::uint32_t bits) {
+/// level_of: from a triangle's index to its level.
+template <class LevelOf>
+std::vector<std::byte> cell_levels(const std::vector<Triangle>& triangles, const std::vector<LocalPosition>& positions,
+                                   std::uint32_t bits, const LevelOf& level_of) {
     std::array<std::uint8_t, std::size_t{brick_base_cells} * brick_base_cells * brick_base_cells> level_of_cell{};
-    std::size_t t = 0;
-    for (std::size_t level = 0; level < triangle_level_count; ++level)
-        for (std::uint32_t i = 0; i < brick.ranges[level].count; ++i, ++t) {
-            const Triangle& triangle = triangles[t];
-            const auto cell =
-                cell_of_triangle(positions[triangle[0]], positions[triangle[1]], positions[triangle[2]], bits);
-            if (cell) level_of_cell[*cell] = level_byte(static_cast<TriangleLevel>(level));
-        }
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const Triangle& triangle = triangles[t];
+        const auto cell =
+            cell_of_triangle(positions[triangle[0]], positions[triangle[1]], positions[triangle[2]], bits);
+        if (cell) level_of_cell[*cell] = level_byte(level_of(t));
+    }
     return pack_cell_levels(level_of_cell);
+}
+
+/// The levels of a brick's triangles, which are ordered by level.
+TriangleLevel level_at(const MeshBrick& brick, std::size_t triangle) {
+    std::size_t level = 0;
+    for (std::size_t end = brick.ranges[0].count; triangle >= end; end += brick.ranges[level].count) ++level;
+    return static_cast<TriangleLevel>(level);
 }
 
 template <class Value>
@@ -128,7 +136,8 @@ BrickContent brick_content(const Mesh& mesh, std::size_t brick_number, const Cod
     BrickContent content;
     content.coordinate = brick.coordinate;
     content.positions = local_positions(mesh, brick, index.vertices, bits);
-    content.cell_levels = cell_levels(brick, index.triangles, content.positions, bits);
+    content.cell_levels =
+        cell_levels(index.triangles, content.positions, bits, [&brick](std::size_t t) { return level_at(brick, t); });
     content.triangles = std::move(index.triangles);
     if (options.normal_bits != 0 && !mesh.normals.empty()) {
         content.normals.reserve(index.vertices.size());
@@ -154,6 +163,29 @@ EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& opti
     encoded.codec = options.codec;
     encoded.data = encode(content, options);
     return encoded;
+}
+
+EncodedBrick encode_brick(const DecodedBrick& brick, std::uint32_t offset_bits, const CodingOptions& options) {
+    check_normal_bits(options.normal_bits);
+    BrickContent content;
+    content.coordinate = brick.coordinate;
+    content.positions.reserve(brick.vertices.size());
+    for (const LatticePosition& p : brick.vertices) {
+        LocalPosition local;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            local[axis] = static_cast<std::uint16_t>(p[axis] - brick.coordinate[axis] * (brick_cells << offset_bits));
+        content.positions.push_back(local);
+    }
+    content.triangles = brick.triangles;
+    content.cell_levels = cell_levels(content.triangles, content.positions, offset_bits,
+                                      [&brick](std::size_t t) { return brick.levels[t]; });
+    if (options.normal_bits != 0) content.normals = brick.normals;
+    std::vector<std::uint32_t> all(brick.vertices.size());
+    std::iota(all.begin(), all.end(), 0U);
+    for (std::size_t a = 0; a < options.attributes.size(); ++a)
+        content.attributes.push_back(coded_values(brick.attributes.at(a), options.attributes[a], all));
+    content.attribute_forms = options.attributes;
+    return encode_brick(content, options);
 }
 
 EncodedBrick encode_brick(const Mesh& mesh, std::size_t brick, const CodingOptions& options) {

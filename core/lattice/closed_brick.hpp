@@ -1,5 +1,5 @@
-// The blocks that a brick's triangles depend on: its own 16 x 16 x 16, and those on its upper faces, which belong to the
-// bricks beyond.
+// The blocks that a brick's triangles depend on: its own 16 x 16 x 16, and those on its upper faces, which belong to
+// the bricks beyond.
 #pragma once
 
 #include "lattice/brick_grid.hpp"

@@ -14,11 +14,11 @@ struct FaceSigns {
 
     /// upper: the stored cell whose lower face along the axis this is.
     MENISCUS_HD FaceSigns(const BlocksView& blocks, std::uint32_t upper, int axis, int stride)
-        : FaceSigns(blocks.inside[upper], blocks.inside_or_none(blocks.neighbor(upper, axis_offset((axis + 1) % 3))),
-                    blocks.inside_or_none(blocks.neighbor(upper, axis_offset((axis + 2) % 3))),
-                    blocks.inside_or_none(
-                        blocks.neighbor(upper, axis_offset((axis + 1) % 3) + axis_offset((axis + 2) % 3))),
-                    axis, stride) {}
+        : FaceSigns(
+              blocks.inside[upper], blocks.inside_or_none(blocks.neighbor(upper, axis_offset((axis + 1) % 3))),
+              blocks.inside_or_none(blocks.neighbor(upper, axis_offset((axis + 2) % 3))),
+              blocks.inside_or_none(blocks.neighbor(upper, axis_offset((axis + 1) % 3) + axis_offset((axis + 2) % 3))),
+              axis, stride) {}
     /// The same, of the signs of the four blocks that hold the face's points: the upper cell's, and those up u and v.
     MENISCUS_HD FaceSigns(BlockMask own, BlockMask up_u, BlockMask up_v, BlockMask up_uv, int axis, int stride)
         : subfaces(stride_points(2 * stride) & low_face(axis)) {

@@ -3,6 +3,8 @@
 
 #include <google/protobuf/repeated_field.h>
 
+#include <vector>
+
 #include "meniscus/codec.hpp"
 #include "meniscus/v1/mesh.pb.h"
 
@@ -13,8 +15,7 @@ v1::Codec to_wire(Codec codec);
 /// Adds every codec that this version knows, the one that is preferred first.
 void add_known_codecs(google::protobuf::RepeatedField<int>& wire);
 
-/// The codec to encode with, of those that a client takes; Draco for an empty list. Throws InvalidInput for a number
-/// that this version does not know.
-Codec chosen_codec(const google::protobuf::RepeatedField<int>& taken);
+/// Codecs that a client names, in its order. Throws InvalidInput for a number that this version does not know.
+std::vector<Codec> named_codecs(const google::protobuf::RepeatedField<int>& wire);
 
 }  // namespace meniscus::conversion

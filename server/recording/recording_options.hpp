@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "meniscus/attribute_coding.hpp"
+#include "meniscus/codec.hpp"
 #include "meniscus/described.hpp"
 
 namespace meniscus::server {
@@ -26,6 +27,7 @@ struct RecordingOptions {
     std::size_t waiting_limit = std::size_t{256} << 20;
     /// The bits of float32 attributes in the meshes, per component; 0: exact.
     int attribute_bits = default_attribute_bits;
+    Codec codec = Codec::lattice_entropy;  ///< of the meshes, where a session can encode it; otherwise Draco
     RecordingRetention retention{};
 
     /// Calls visit(name, value, facts) for each member that has a flag.
@@ -44,6 +46,10 @@ struct RecordingOptions {
               {.help = "Bits per component of the float32 attributes in recorded meshes, 1 to 16; 0: exact",
                .range = {.most = max_attribute_bits},
                .argument = "BITS"});
+        visit("record_codec", self.codec,
+              {.help = "Codec of recorded meshes: entropy, packed or draco. A session on a GPU is recorded as draco",
+               .subject = "record codec",
+               .argument = "NAME"});
         visit("record_min_frames", self.retention.min_frames,
               {.help = "A recording with fewer frames is deleted when it is closed; 0: none is", .argument = "N"});
         visit("record_max_age", self.retention.max_age,

@@ -71,6 +71,7 @@ public:
     /// The end's latest time; without it the end takes as long as the disk.
     void finish_by(std::chrono::steady_clock::time_point time) { finish_by_ = time; }
 
+    Codec codec() const noexcept { return options_.codec; }
     int attribute_bits() const noexcept { return options_.attribute_bits; }
     std::size_t waiting_limit() const noexcept { return queue_.limit(); }
     RecordingCounters counters() const noexcept;

@@ -30,6 +30,12 @@ void BridgedCall::read() {
     StartRead(&message_);
 }
 
+std::string BridgedCall::initial_metadata(const char* name) const {
+    const auto& metadata = context_.GetServerInitialMetadata();
+    const auto found = metadata.find(name);
+    return found == metadata.end() ? std::string() : std::string(found->second.data(), found->second.size());
+}
+
 void BridgedCall::cancel() {
     canceled_ = true;
     context_.TryCancel();

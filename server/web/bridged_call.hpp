@@ -44,6 +44,8 @@ public:
     /// Call it only once the read before was answered: a client that does not take its messages holds the handler up,
     /// as in native gRPC.
     void read();
+    /// What the handler has begun its answer with, once it has admitted the call; empty: nothing of this name.
+    std::string initial_metadata(const char* name) const;
     /// The end follows, as canceled.
     void cancel();
 

@@ -46,7 +46,7 @@ void GrpcWebExchange::start(const std::shared_ptr<grpc::Channel>& channel, const
     call_ = std::make_shared<BridgedCall>(
         context_,
         BridgedCall::Receiver{
-            .admitted = [self = shared_from_this()] { self->write_header(); },
+            .admitted = [self = shared_from_this()] { self->admitted(); },
             .message = [self = shared_from_this()](const grpc::ByteBuffer& received) { self->receive(received); },
             .end = [self = shared_from_this()](const grpc::Status& status) { self->finish(status); },
         });
@@ -70,6 +70,13 @@ GrpcWebExchange::Header GrpcWebExchange::header_for(const GrpcWebRequest& reques
     header.keep_alive(keep_alive_);
     if (chunked_) header.chunked(true);
     return header;
+}
+
+void GrpcWebExchange::admitted() {
+    if (serializer_) return;
+    for (const char* name : {"x-codec", "x-codec-reason"})
+        if (const std::string value = call_->initial_metadata(name); !value.empty()) header_->set(name, value);
+    write_header();
 }
 
 void GrpcWebExchange::write_header() {

@@ -54,6 +54,7 @@ private:
     using Handler = void (GrpcWebExchange::*)();
 
     Header header_for(const GrpcWebRequest& request) const;
+    void admitted();
     /// Called once the handler has admitted the call, or ended it: a client that has the header misses nothing after
     /// it.
     void write_header();

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "conversion/attribute_conversion.hpp"
+#include "conversion/brick_conversion.hpp"
 #include "files/centered_positions.hpp"
 #include "files/glb_document.hpp"
 #include "meniscus/brick_coding.hpp"
@@ -41,28 +42,17 @@ struct Snapshot {
     std::vector<EncodedBrick> bricks;
 };
 
-void add_part(const v1::MeshBrick& part, std::vector<EncodedBrick>& bricks) {
-    if (part.part_index() == 0) {
-        EncodedBrick& brick = bricks.emplace_back();
-        brick.coordinate = {part.x(), part.y(), part.z()};
-        brick.vertices = part.vertex_count();
-        brick.triangles = part.triangle_count();
-        const auto levels = std::as_bytes(std::span(part.cell_levels()));
-        brick.cell_levels.assign(levels.begin(), levels.end());
-    }
-    if (bricks.empty()) throw std::runtime_error("a snapshot begins within a brick");
-    const auto data = std::as_bytes(std::span(part.data()));
-    bricks.back().data.insert(bricks.back().data.end(), data.begin(), data.end());
-}
-
 Snapshot snapshot_of(const std::vector<grpc::ByteBuffer>& messages) {
     Snapshot snapshot;
     for (const grpc::ByteBuffer& bytes : messages) {
         auto message = parsed<v1::WatchResponse>(bytes);
-        if (message.has_mesh_begin())
+        if (message.has_mesh_begin()) {
             snapshot = {std::move(*message.mutable_mesh_begin()), {}};
-        else if (message.has_mesh_brick())
-            add_part(message.mesh_brick(), snapshot.bricks);
+        } else if (message.has_mesh_brick()) {
+            if (message.mesh_brick().part_index() == 0) snapshot.bricks.emplace_back();
+            if (snapshot.bricks.empty()) throw std::runtime_error("a snapshot begins within a brick");
+            conversion::append_part(message.mesh_brick(), snapshot.bricks.back());
+        }
     }
     return snapshot;
 }

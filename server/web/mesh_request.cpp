@@ -62,6 +62,7 @@ MeshRequest mesh_request(std::string_view target) {
 v1::SnapshotRequest snapshot_request(const MeshRequest& asked) {
     v1::SnapshotRequest request;
     request.set_session_id(asked.session);
+    if (!asked.draco) request.add_codecs(v1::CODEC_LATTICE_PACKED);  // it is decoded here
     request.add_codecs(v1::CODEC_DRACO);
     for (const std::string& name : asked.attributes) {
         v1::AttributeWish& attribute = *request.add_attributes();

@@ -10,6 +10,8 @@ namespace meniscus::benchmarks {
 void add_experiment(CLI::App& app);
 void add_scaling(CLI::App& app);
 void add_encoding(CLI::App& app);
+void add_codecs(CLI::App& app);
+void add_lattice_tables(CLI::App& app);
 void add_goals(CLI::App& app);
 void add_upload(CLI::App& app);
 void add_service(CLI::App& app);

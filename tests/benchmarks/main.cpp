@@ -11,6 +11,8 @@ int main(int argc, char** argv) {
     meniscus::benchmarks::add_experiment(app);
     meniscus::benchmarks::add_scaling(app);
     meniscus::benchmarks::add_encoding(app);
+    meniscus::benchmarks::add_codecs(app);
+    meniscus::benchmarks::add_lattice_tables(app);
     meniscus::benchmarks::add_goals(app);
     meniscus::benchmarks::add_upload(app);
     meniscus::benchmarks::add_service(app);

@@ -18,9 +18,10 @@ std::string to_string(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-void decode(Front& front, const std::vector<CodedAttribute>& attributes) {
+void decode(Front& front, const std::vector<CodedAttribute>& attributes, Codec codec = Codec::draco) {
     const std::uint32_t offset_bits = front.number(1);
     EncodedBrick encoded;
+    encoded.codec = codec;
     encoded.vertices = front.number(4);
     encoded.triangles = front.number(4);
     encoded.cell_levels = to_vector(front.piece(front.number(4)));
@@ -41,7 +42,8 @@ void decode(Front& front, const std::vector<CodedAttribute>& attributes) {
 
 std::string bytes_of(const Mesh& mesh, std::size_t place, const CodingOptions& options) {
     const EncodedBrick encoded = encode_brick(mesh, place, options);
-    return number_bytes(mesh.offset_bits, 1) + number_bytes(encoded.vertices, 4) + number_bytes(encoded.triangles, 4) +
+    return number_bytes(encoded_offset_bits(mesh, options), 1) + number_bytes(encoded.vertices, 4) +
+           number_bytes(encoded.triangles, 4) +
            number_bytes(static_cast<std::uint32_t>(encoded.cell_levels.size()), 4) + to_string(encoded.cell_levels) +
            to_string(encoded.data);
 }
@@ -60,6 +62,34 @@ Seeds brick_seeds() {
         for (std::size_t i = 0; i < mesh.bricks.size(); ++i)
             seeds.push_back(bytes_of(mesh, i, {.normal_bits = normal_bits}));
     return seeds;
+}
+
+/// With normals and without, on the mesh's lattice and on a coarser one.
+Seeds lattice_seeds(Codec codec) {
+    const Mesh mesh = sample_mesh();
+    Seeds seeds;
+    for (const int normal_bits : {0, 8, 11})
+        for (const int position_bits : {0, 4})
+            for (std::size_t i = 0; i < mesh.bricks.size(); ++i)
+                seeds.push_back(
+                    bytes_of(mesh, i, {.normal_bits = normal_bits, .position_bits = position_bits, .codec = codec}));
+    return seeds;
+}
+
+void lattice_packed(Bytes bytes) {
+    Front front(bytes);
+    decode(front, {}, Codec::lattice_packed);
+}
+Seeds lattice_packed_seeds() {
+    return lattice_seeds(Codec::lattice_packed);
+}
+
+void lattice_entropy(Bytes bytes) {
+    Front front(bytes);
+    decode(front, {}, Codec::lattice_entropy);
+}
+Seeds lattice_entropy_seeds() {
+    return lattice_seeds(Codec::lattice_entropy);
 }
 
 void brick_with_attributes(Bytes bytes) {

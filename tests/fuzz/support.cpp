@@ -30,8 +30,10 @@ Mesh sample_mesh(bool attributes) {
     Settings settings;
     settings.particle_radius = 0.1;
     settings.cell_size = 1.0;
+    BackendOptions options{.backend = Backend::cpu, .threads = 1};
+    options.keep_lattice = true;
     Mesh mesh;
-    Reconstructor(settings, {.threads = 1}).reconstruct(frame, mesh);
+    Reconstructor(settings, options).reconstruct(frame, mesh);
     if (attributes) {
         add_attribute(mesh, "velocity", ElementType::float32, 3);
         add_attribute(mesh, "color", ElementType::uint8, 4);

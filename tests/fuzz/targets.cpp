@@ -12,6 +12,8 @@ const std::vector<Target>& targets() {
         {"particle_responses", particle_responses, particle_response_seeds},
         {"settings", settings, settings_seeds},
         {"brick", brick, brick_seeds},
+        {"lattice_packed", lattice_packed, lattice_packed_seeds},
+        {"lattice_entropy", lattice_entropy, lattice_entropy_seeds},
         {"brick_with_attributes", brick_with_attributes, brick_with_attributes_seeds},
         {"http", http, http_seeds},
         {"grpc_web", grpc_web, grpc_web_seeds},

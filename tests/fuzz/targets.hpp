@@ -43,6 +43,12 @@ Seeds settings_seeds();
 void brick(Bytes bytes);
 Seeds brick_seeds();
 
+/// The same with the bytes of a lattice codec, of each profile.
+void lattice_packed(Bytes bytes);
+Seeds lattice_packed_seeds();
+void lattice_entropy(Bytes bytes);
+Seeds lattice_entropy_seeds();
+
 /// Attributes as they were announced: their number (1 byte); type, components and bits of each (1 byte each). Then one
 /// brick, as above.
 void brick_with_attributes(Bytes bytes);

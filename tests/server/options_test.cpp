@@ -203,6 +203,13 @@ TEST(Options, OfRecordedAttributesAreBits) {
     EXPECT_NE(refusal({"--record-attribute-bits", "17"}), "");
 }
 
+TEST(Options, OfRecordedMeshesAreCodecsByName) {
+    EXPECT_EQ(parse({}).recording.codec, Codec::lattice_entropy);
+    EXPECT_EQ(parse({"--record-codec", "packed"}).recording.codec, Codec::lattice_packed);
+    EXPECT_EQ(parse({"--record-codec", "draco"}).recording.codec, Codec::draco);
+    EXPECT_THROW(parse({"--record-codec", "zip"}), InvalidInput);
+}
+
 TEST(Options, ThatAreTimesAreZeroOrAtLeastAMillisecond) {
     for (const char* const name : {"--max-reader-pause", "--max-frame-seconds", "--max-upload-seconds", "--max-idle",
                                    "--orphan-seconds", "--idle-buffers", "--shutdown-grace", "--record-max-age"})

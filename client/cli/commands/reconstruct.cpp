@@ -75,6 +75,8 @@ private:
         return std::make_unique<ParticleInput>(plan_.frames[index].in, options_.input(), settings_);
     }
     unsigned jobs() const;
+    /// Where this plan's surfaces come from.
+    SurfacesOptions place() const;
     /// All attributes are those of the first frame with particles, whichever worker has it, and if it is skipped.
     void name_attributes();
 
@@ -153,10 +155,16 @@ void Reconstruction::name_attributes() {
     settings_.all_attributes = false;
 }
 
+SurfacesOptions Reconstruction::place() const {
+    SurfacesOptions place = options_.surfaces;
+    place.bricks = plan_.format == MeshFormat::bricks && !options_.files.out.empty();
+    return place;
+}
+
 void Reconstruction::run_here() {
     const unsigned count = jobs();
     if (plan_.all.size() > 1 && settings_.all_attributes) name_attributes();
-    SurfacesOptions surfaces = options_.surfaces;
+    SurfacesOptions surfaces = place();
     surfaces.only_one = plan_.frames.size() * options_.repeat == 1;
     if (count > 1) surfaces.backend.threads = std::max(1U, threads_of(surfaces.backend) / count);
     std::vector<std::unique_ptr<Worker>> workers;
@@ -174,9 +182,9 @@ void Reconstruction::run_on_server() {
     std::vector<std::vector<FileWarning>> warnings(plan_.frames.size());  // each is there before its frame is submitted
     std::vector<Statistics> runs;
     if (plan_.skipped() > 0 && settings_.all_attributes) name_attributes();
-    SurfacesOptions place = options_.surfaces;
-    place.stream.spray = settings_.spray == Spray::points;
-    const auto surfaces = place.open(settings_, [&](Surface& surface) {
+    SurfacesOptions there = place();
+    there.stream.spray = settings_.spray == Spray::points;
+    const auto surfaces = there.open(settings_, [&](Surface& surface) {
         runs.push_back(surface.statistics());
         report_.say_run(runs.size(), options_.repeat, runs.back());
         if (runs.size() < options_.repeat) return;

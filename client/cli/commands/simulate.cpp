@@ -118,7 +118,9 @@ void simulate(const SimulateOptions& options) {
         warnings.say("frame " + std::to_string(surface.index()), s.warnings);
         if (!options.verbosity.quiet) require_listener();
     };
-    const auto surfaces = options.surfaces.open(settings, handle);
+    SurfacesOptions place = options.surfaces;
+    place.bricks = options.format == MeshFormat::bricks && !options.out.empty();
+    const auto surfaces = place.open(settings, handle);
     if (const std::string session = surfaces->session(); !session.empty() && !options.verbosity.quiet)
         std::cerr << "session " << session << '\n';
     for (std::uint64_t frame = 0; frame < options.frames; ++frame) {

@@ -62,6 +62,7 @@ void watch(const WatchOptions& options) {
     }
     formats::make_directory(options.directory);
     client::WatchOptions request = options.flags.build(session.settings);
+    if (options.format == MeshFormat::bricks && !request.codec) request.codec = Codec::lattice_entropy;
     request.spray = !options.spray_directory.empty() || options.format == MeshFormat::bricks;
     if (!options.spray_directory.empty()) {
         check_spray(session.settings);

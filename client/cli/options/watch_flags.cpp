@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "cli/options/attribute_bits.hpp"
+#include "cli/options/codec_option.hpp"
 #include "cli/options/normal_bits.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/seconds_option.hpp"
@@ -57,6 +58,7 @@ void WatchFlags::add_to(CLI::App& command) {
             "Vertices lie on multiples of the cell size / 2^BITS, 2 or more; fewer bits take fewer bytes. Default: as "
             "reconstructed")
         ->check(CLI::Range(2, 8));
+    add_codec(command, options.codec, "packed from this machine, entropy from others and in files of bricks");
     command.add_option("--max-level", options.max_level, "Finest level of grid, 1 to 3: a coarser surface, as closed")
         ->check(CLI::Range(1, 3))
         ->capture_default_str();

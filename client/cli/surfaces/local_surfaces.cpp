@@ -7,10 +7,11 @@
 namespace meniscus::cli {
 
 LocalSurfaces::LocalSurfaces(const Settings& settings, const BackendOptions& options, std::optional<int> normal_bits,
-                             int attribute_bits, bool only_one, Handler handler)
+                             int attribute_bits, Codec codec, bool only_one, Handler handler)
     : reconstructor_(settings, options),
       normal_bits_(normal_bits),
       attributes_{{.name = {}, .bits = attribute_bits}},
+      codec_(codec),
       only_one_(only_one),
       handler_(std::move(handler)) {
     // Memory that is given back goes to the system: main() would keep it for further frames.
@@ -25,7 +26,7 @@ void LocalSurfaces::submit(const ParticleFrame& frame, double simulation_time) {
         reconstructor_.reconstruct(frame, mesh_);
     client::FrameStatistics statistics;
     static_cast<Statistics&>(statistics) = reconstructor_.statistics();
-    CodingOptions coding;
+    CodingOptions coding{.codec = codec_};
     if (normal_bits_) {
         round_normals(mesh_, *normal_bits_);
         coding.normal_bits = *normal_bits_;

@@ -5,6 +5,7 @@
 
 #include "cli/surfaces/surfaces.hpp"
 #include "meniscus/attribute_coding.hpp"
+#include "meniscus/codec.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::cli {
@@ -12,9 +13,10 @@ namespace meniscus::cli {
 class LocalSurfaces : public Surfaces {
 public:
     /// normal_bits, attribute_bits: the normals and the float32 attributes are rounded as those that come from a
-    /// server; none, or 0 for attributes: they are not. only_one: whether a single frame is submitted.
+    /// server; none, or 0 for attributes: they are not. codec: of a file of bricks. only_one: whether a single frame is
+    /// submitted.
     LocalSurfaces(const Settings& settings, const BackendOptions& options, std::optional<int> normal_bits,
-                  int attribute_bits, bool only_one, Handler handler);
+                  int attribute_bits, Codec codec, bool only_one, Handler handler);
     void submit(const ParticleFrame& frame, double simulation_time) override;
     void finish() override {}
 
@@ -23,6 +25,7 @@ private:
     Mesh mesh_;
     std::optional<int> normal_bits_;
     std::vector<AttributeWish> attributes_;
+    Codec codec_;
     bool only_one_;
     Handler handler_;
     std::uint64_t frames_ = 0;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/options/attribute_bits.hpp"
+#include "cli/options/codec_option.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/normal_bits.hpp"
 #include "cli/options/option_group.hpp"
@@ -85,6 +86,7 @@ void SurfacesOptions::add_to(CLI::App& command) {
         const OptionGroup surface(command, surface_heading);
         add_normal_bits(command, normal_bits, " (default: 8 from a server, unrounded in this process)");
         add_attribute_bits(command, attribute_bits);
+        add_codec(command, codec, "packed from a server on this machine, entropy from others and in files of bricks");
     }
     auto* there = server.add_to(command, "Reconstruct on this meniscusd")->excludes(here);
     for (CLI::Option* option : {backend_option, threads}) option->excludes(there);
@@ -96,11 +98,20 @@ std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfac
     if (!settings.normals && normal_bits.value_or(0) != 0)
         throw InvalidInput("--normal-bits " + std::to_string(*normal_bits) +
                            " is of normals, and --no-normals leaves them out: give one of the two");
-    if (server.address.empty())
-        return std::make_unique<LocalSurfaces>(settings, backend, normal_bits, attribute_bits, only_one,
+    if (server.address.empty()) {
+        if (codec && !bricks)
+            throw InvalidInput(
+                "--codec is of meshes from a server and of files of bricks: give --server, or leave it out");
+        const Codec of_files = codec.value_or(Codec::lattice_entropy);
+        BackendOptions here = backend;
+        here.keep_lattice = bricks && needs_lattice(of_files);
+        return std::make_unique<LocalSurfaces>(settings, here, normal_bits, attribute_bits, of_files, only_one,
                                                std::move(handler));
+    }
     client::StreamOptions options = stream;
     if (normal_bits) options.normal_bits = *normal_bits;
+    options.codec = codec;
+    if (!codec && bricks) options.codec = Codec::lattice_entropy;
     options.attributes = {{.name = {}, .bits = attribute_bits}};
     return std::make_unique<ServerSurfaces>(server, session, settings, options, std::move(handler));
 }

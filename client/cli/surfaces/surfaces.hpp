@@ -12,6 +12,7 @@
 #include "cli/options/session_flags.hpp"
 #include "meniscus/backend_options.hpp"
 #include "meniscus/client/client.hpp"
+#include "meniscus/codec.hpp"
 
 namespace CLI {
 class App;
@@ -70,21 +71,23 @@ public:
 /// The flag --backend: the backend of this process.
 CLI::Option* add_backend_option(CLI::App& command, Backend& backend);
 
-/// The flags --local, --backend, --threads, --normal-bits and --attribute-bits, and those of a server, a session and a
-/// stream to it.
+/// The flags --local, --backend, --threads, --normal-bits, --attribute-bits and --codec, and those of a server, a
+/// session and a stream to it.
 struct SurfacesOptions {
     bool local = false;
     ServerFlags server;              ///< no address: this process
     BackendOptions backend;          ///< of this process
     std::optional<int> normal_bits;  ///< none: unrounded here, the stream's default from a server
     int attribute_bits = 0;          ///< of float32 attributes; 0: exact
+    std::optional<Codec> codec;      ///< none: the stream's default from a server, entropy in files of bricks
     SessionFlags session;            ///< on the server
     client::StreamOptions stream;    ///< to it
+    bool bricks = false;             ///< no flag: whether surfaces are written as files of bricks
     bool only_one = false;           ///< no flag: whether a single frame is submitted, and its memory can go at once
 
     void add_to(CLI::App& command);
     /// The handler may be called from another thread, one call at a time. Throws InvalidInput for bits of normals that
-    /// the settings leave out.
+    /// the settings leave out, and for a codec where nothing is encoded.
     std::unique_ptr<Surfaces> open(const Settings& settings, Surfaces::Handler handler) const;
 };
 

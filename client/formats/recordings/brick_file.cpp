@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <limits>
 #include <utility>
 
 #include "conversion/attribute_conversion.hpp"
-#include "conversion/codec_conversion.hpp"
+#include "conversion/brick_conversion.hpp"
 #include "conversion/spray_conversion.hpp"
 #include "conversion/statistics_conversion.hpp"
 #include "files/brick_file_format.hpp"
@@ -22,14 +21,6 @@
 
 namespace meniscus::formats {
 namespace {
-
-constexpr std::size_t part_bytes = std::size_t{1} << 20;
-
-std::string to_string(const std::vector<std::byte>& bytes, std::size_t first, std::size_t size) {
-    std::string out(size, '\0');
-    if (size > 0) std::memcpy(out.data(), bytes.data() + first, size);
-    return out;
-}
 
 v1::StreamResponse begin_message(const client::ReceivedFrame& frame) {
     v1::StreamResponse message;
@@ -51,23 +42,6 @@ v1::StreamResponse begin_message(const client::ReceivedFrame& frame) {
     std::uint64_t triangles = 0;
     for (const auto& brick : frame.bricks) triangles += brick->triangles;
     begin.set_triangle_count(triangles);
-    return message;
-}
-
-v1::StreamResponse part_message(const EncodedBrick& brick, std::size_t part, std::size_t parts) {
-    v1::StreamResponse message;
-    v1::MeshBrick& out = *message.mutable_mesh_brick();
-    out.set_x(brick.coordinate[0]);
-    out.set_y(brick.coordinate[1]);
-    out.set_z(brick.coordinate[2]);
-    out.set_vertex_count(brick.vertices);
-    out.set_triangle_count(brick.triangles);
-    if (part == 0) out.set_cell_levels(to_string(brick.cell_levels, 0, brick.cell_levels.size()));
-    const std::size_t first = part * part_bytes;
-    out.set_codec(conversion::to_wire(brick.codec));
-    out.set_data(to_string(brick.data, first, std::min(part_bytes, brick.data.size() - first)));
-    out.set_part_index(static_cast<std::uint32_t>(part));
-    out.set_part_count(static_cast<std::uint32_t>(parts));
     return message;
 }
 
@@ -168,10 +142,12 @@ void write_bricks(const std::filesystem::path& path, const client::ReceivedFrame
     begin.set_version(files::brick_file_version);
     write(begin);
     write(begin_message(frame));
-    for (const auto& brick : frame.bricks) {
-        const std::size_t parts = std::max<std::size_t>(1, (brick->data.size() + part_bytes - 1) / part_bytes);
-        for (std::size_t part = 0; part < parts; ++part) write(part_message(*brick, part, parts));
-    }
+    for (const auto& brick : frame.bricks)
+        for (v1::MeshBrick& part : conversion::to_wire(*brick)) {
+            v1::StreamResponse message;
+            *message.mutable_mesh_brick() = std::move(part);
+            write(message);
+        }
     for (v1::SprayPoints& points : conversion::to_wire(frame.spray)) {
         v1::StreamResponse message;
         *message.mutable_spray_points() = std::move(points);
@@ -199,9 +175,10 @@ client::ReceivedFrame read_brick_messages(const std::string& name, std::string_v
 }
 
 client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistics, std::uint64_t index,
-                                   double simulation_time, const CodingOptions& options) {
+                                   double simulation_time, CodingOptions options) {
     const auto start = std::chrono::steady_clock::now();
     client::ReceivedFrame frame;
+    if (mesh.lattice.bricks.empty()) options.codec = Codec::draco;
     frame.index = index;
     frame.simulation_time = simulation_time;
     frame.cell_size = mesh.cell_size;

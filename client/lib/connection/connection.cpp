@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "address/default_port.hpp"
 #include "address/loopback.hpp"
@@ -134,6 +136,24 @@ Connection::Connection(const std::string& server_address, const ConnectionOption
 void Connection::add_metadata(grpc::ClientContext& context, const std::string& session_id) const {
     if (!session_id.empty()) add_session_id(context, session_id);
     if (!token_.empty()) context.AddMetadata("authorization", "Bearer " + token_);
+}
+
+std::vector<Codec> Connection::offered_codecs(const std::stop_token& stop) const {
+    {
+        const std::lock_guard lock(mutex_);
+        if (offered_codecs_) return *offered_codecs_;
+    }
+    grpc::ClientContext context;
+    add_metadata(context, {});
+    context.set_deadline(deadline_after<std::chrono::system_clock>(timeout));
+    const std::stop_callback cancel_on_stop(stop, [&context] { context.TryCancel(); });
+    v1::GetServerInfoResponse response;
+    if (!server->GetServerInfo(&context, {}, &response).ok()) return {Codec::draco};
+    std::vector<Codec> offered;
+    for (const int number : response.codecs())
+        if (const auto codec = codec_by_number(static_cast<std::uint32_t>(number))) offered.push_back(*codec);
+    const std::lock_guard lock(mutex_);
+    return offered_codecs_.emplace(std::move(offered));
 }
 
 void add_session_id(grpc::ClientContext& context, const std::string& session_id) {

@@ -6,9 +6,14 @@
 
 #include <chrono>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
 #include <string>
+#include <vector>
 
 #include "meniscus/client/client.hpp"
+#include "meniscus/codec.hpp"
 #include "meniscus/v1/recording_service.grpc.pb.h"
 #include "meniscus/v1/server_service.grpc.pb.h"
 #include "meniscus/v1/session_service.grpc.pb.h"
@@ -23,6 +28,9 @@ public:
 
     /// Gives a call the token, and the id of the session that it is about; empty: about none.
     void add_metadata(grpc::ClientContext& context, const std::string& session_id) const;
+    /// The codecs of this version that the server offers, asked for once; Draco, which all offer, as long as it does
+    /// not answer.
+    std::vector<Codec> offered_codecs(const std::stop_token& stop = {}) const;
 
     const std::string address;                ///< with its port
     const std::chrono::milliseconds timeout;  ///< for an answer
@@ -34,6 +42,8 @@ public:
 
 private:
     const std::string token_;
+    mutable std::mutex mutex_;  ///< for what follows
+    mutable std::optional<std::vector<Codec>> offered_codecs_;
 };
 
 /// Every call about one session carries its id as metadata too. Throws InvalidInput for what cannot be there.

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "conversion/codec_conversion.hpp"
+#include "codec_order.hpp"
 #include "error_mapping.hpp"
 #include "recording_reader_impl.hpp"
 
@@ -15,7 +15,7 @@ RecordingReader::Impl::Impl(std::shared_ptr<Connection> connection, const std::s
     request.set_position(options.position);
     request.set_count(options.count);
     request.set_with_spray(options.spray);
-    conversion::add_known_codecs(*request.mutable_codecs());
+    *request.mutable_codecs() = readable_codecs(*connection_, options.stop);
     connection_->add_metadata(context_, session_id);
     on_stop_.emplace(options.stop, [this] { cancel(); });
     reader_ = connection_->recordings->ReadRecording(&context_, request);

@@ -6,9 +6,9 @@
 #include <thread>
 #include <utility>
 
+#include "codec_order.hpp"
 #include "connection/deadline.hpp"
 #include "conversion/attribute_conversion.hpp"
-#include "conversion/codec_conversion.hpp"
 #include "error_mapping.hpp"
 #include "receiving/frame_receiver.hpp"
 #include "unary_call.hpp"
@@ -91,9 +91,9 @@ std::optional<ReceivedFrame> take_snapshot(const Connection& connection, const s
     *request.mutable_attributes() = conversion::to_wire(std::span(options.attributes));
     if (options.position_bits) request.set_position_bits(static_cast<std::uint32_t>(*options.position_bits));
     request.set_max_level(static_cast<std::uint32_t>(options.max_level));
-    conversion::add_known_codecs(*request.mutable_codecs());
     SilenceLimit silence(context, connection.timeout);
     const CancelOnStop cancel_on_stop(context, options.stop);
+    *request.mutable_codecs() = codec_order(connection, options.codec, options.stop);
     const auto call = connection.surfaces->Snapshot(&context, request);
     call->WaitForInitialMetadata();
     silence.begin(part_time);

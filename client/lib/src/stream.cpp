@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "call_end.hpp"
+#include "codec_order.hpp"
 #include "connection/deadline.hpp"
 #include "conversion/attribute_conversion.hpp"
-#include "conversion/codec_conversion.hpp"
 #include "error_mapping.hpp"
 #include "meniscus/error.hpp"
 #include "receiving/frame_receiver.hpp"
@@ -64,7 +64,6 @@ v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& 
     *open.mutable_attributes() = conversion::to_wire(std::span(options.attributes));
     open.set_reconnect_seconds(std::chrono::duration<double>(options.reconnect).count());
     open.set_run_id(random_run_id());
-    conversion::add_known_codecs(*open.mutable_codecs());
     return open;
 }
 
@@ -106,6 +105,7 @@ Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& se
         created_by_ = ended_by(context);
         named_ = NamedArrays(session_.settings());
     }
+    if (options_.receive_meshes) *open_.mutable_codecs() = codec_order(*connection_, options_.codec, options_.stop);
     call_ = open_call();
 }
 

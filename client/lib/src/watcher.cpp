@@ -1,8 +1,8 @@
 #include <utility>
 
 #include "brick_changes.hpp"
+#include "codec_order.hpp"
 #include "conversion/attribute_conversion.hpp"
-#include "conversion/codec_conversion.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "watcher_impl.hpp"
 
@@ -20,7 +20,6 @@ v1::WatchRequest request_of(const std::string& session_id, const WatchOptions& o
     if (options.region) *request.mutable_region() = conversion::to_wire(*options.region);
     request.set_bytes_per_second(options.bytes_per_second);
     request.set_with_spray(options.spray);
-    conversion::add_known_codecs(*request.mutable_codecs());
     if (options.viewpoint) {
         request.mutable_viewpoint()->set_x((*options.viewpoint)[0]);
         request.mutable_viewpoint()->set_y((*options.viewpoint)[1]);
@@ -38,8 +37,11 @@ Watcher::Impl::Impl(const std::shared_ptr<Connection>& connection, const std::st
              .route_check = options.route_check,
              .on_reconnect = options.on_reconnect,
              .stop = options.stop},
-            [surfaces = connection->surfaces.get(), request = request_of(session_id, options)](
-                grpc::ClientContext& context) { return surfaces->Watch(&context, request); }) {}
+            [&connection = *connection, request = request_of(session_id, options), codec = options.codec,
+             stop = options.stop](grpc::ClientContext& context) mutable {
+                *request.mutable_codecs() = codec_order(connection, codec, stop);
+                return connection.surfaces->Watch(&context, request);
+            }) {}
 
 std::optional<ReceivedFrame> Watcher::Impl::receive() {
     auto frame = call_.next();

@@ -97,6 +97,8 @@ class Client:
 
         meshes          True: they come back; False: their figures alone
         normal_bits     8: 2 to 16, 0 for none
+        codec           None: "packed", the fastest, from a server on this machine, "entropy", the smallest, from others;
+                        or "draco"
         attributes      "all", names, or names with bits as in {"velocity": 12, "age": 0}: those that the meshes have
         attribute_bits  8: float32 are rounded to one of 2^bits values over the frame's range, 1 to 16; 0: exact
         spray           False: whether the particles that the surface leaves out come beside it
@@ -115,6 +117,7 @@ class Client:
         max_level         3: finest level of grid, 1 to 3; below 3 the surface is coarser, and as closed
         normal_bits       8: 2 to 16, 0 for none
         position_bits     None: as reconstructed; else vertices lie on multiples of cell_size / 2^position_bits
+        codec             as that of stream()
         attributes        as those of stream(), with attribute_bits
         region            None; or ((x0, y0, z0), (x1, y1, z1)): only bricks that touch it
         spray             False: whether the particles that the surface leaves out come beside it
@@ -143,7 +146,7 @@ class Client:
 
     def snapshot(self, session_id: str, *, attributes: AttributeRequest = "all", **options: Any) -> Optional[Frame]:
         """The session's newest mesh; None if no frame has come yet. Keywords: ``max_level``, ``normal_bits``,
-        ``position_bits``, ``attributes`` and ``attribute_bits``, as those of watch()."""
+        ``position_bits``, ``codec``, ``attributes`` and ``attribute_bits``, as those of watch()."""
         texts = option_texts(options)
         texts["attribute"] = attribute_text(attributes)
         raw = self._raw.snapshot(session_id, texts)

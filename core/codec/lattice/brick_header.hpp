@@ -12,7 +12,7 @@ namespace meniscus {
 inline constexpr unsigned lattice_version = 1;
 
 struct BrickHeader {
-    bool has_entropy = false;   ///< the profile
+    bool has_entropy = false;    ///< the profile
     bool has_sign_rows = false;  ///< packed only: rows of signs are entropy-coded
     bool has_one_level = false;  ///< all cells that draw have the same level
     int offset_bits = 0;
@@ -22,8 +22,9 @@ struct BrickHeader {
 
     std::array<std::byte, size> bytes() const {
         const unsigned flags = (has_entropy ? 1U : 0U) | (has_sign_rows ? 2U : 0U) | (has_one_level ? 4U : 0U);
-        return {static_cast<std::byte>(lattice_version | flags << 4),
-                static_cast<std::byte>(static_cast<unsigned>(offset_bits - 1) | static_cast<unsigned>(normal_bits) << 3)};
+        return {
+            static_cast<std::byte>(lattice_version | flags << 4),
+            static_cast<std::byte>(static_cast<unsigned>(offset_bits - 1) | static_cast<unsigned>(normal_bits) << 3)};
     }
     /// None for another version, and for a flag that this version does not know: the last is kept for a brick that
     /// refers to the one before.

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "lattice/closed_brick.hpp"
 #include "lattice/blocks.hpp"
+#include "lattice/closed_brick.hpp"
 #include "lattice/face_signs.hpp"
 #include "lattice/levels_around.hpp"
 #include "steps/place_vertices/place_vertices.hpp"
@@ -22,13 +22,14 @@ public:
     BrickLattice();
     BrickLattice(const BrickLattice&) = delete;
 
-    ClosedArray<std::uint8_t> level;    ///< of the brick's cells that draw, see add_cell(); 0: draws nothing of its own
-    ClosedArray<std::uint8_t> coarser;  ///< bit 2 axis + side: that face of a cell is to be filled against a coarser one
-    ClosedArray<BlockMask> corners;     ///< points that cells of the brick have as corners
-    ClosedArray<BlockMask> middles;     ///< middles of crossed coarse edges that are no corners
-    ClosedArray<BlockMask> quarters;    ///< middles of the halves of those, which are neither
-    ClosedArray<BlockMask> inside;      ///< signs of these points; 0 for all others
-    ClosedArray<EdgeMasks> edges;       ///< finest edges that carry a vertex
+    ClosedArray<std::uint8_t> level;  ///< of the brick's cells that draw, see add_cell(); 0: draws nothing of its own
+    ClosedArray<std::uint8_t>
+        coarser;                      ///< bit 2 axis + side: that face of a cell is to be filled against a coarser one
+    ClosedArray<BlockMask> corners;   ///< points that cells of the brick have as corners
+    ClosedArray<BlockMask> middles;   ///< middles of crossed coarse edges that are no corners
+    ClosedArray<BlockMask> quarters;  ///< middles of the halves of those, which are neither
+    ClosedArray<BlockMask> inside;    ///< signs of these points; 0 for all others
+    ClosedArray<EdgeMasks> edges;     ///< finest edges that carry a vertex
     ClosedArray<std::uint32_t> first_vertex;
 
     /// Makes it empty.
@@ -52,8 +53,8 @@ public:
     bool is_drawable() const;
     /// Fills `coarser` for faces within the brick.
     void find_coarser_faces();
-    /// Calls visit(place, bit of `coarser`) for the faces of cells on the brick's own faces that see both signs, and may
-    /// lie against a coarser cell beyond. By cell, then by bit.
+    /// Calls visit(place, bit of `coarser`) for the faces of cells on the brick's own faces that see both signs, and
+    /// may lie against a coarser cell beyond. By cell, then by bit.
     template <class Visit>
     void for_each_outer_face(const Visit& visit) const {
         for (const std::uint16_t place : cells_) {
@@ -73,26 +74,42 @@ public:
     /// signs of these points, middles of crossed coarse edges that are no corners.
     template <class Middle>
     void find_edges(int place, const Middle& middle) {
+        BlockMask next[3];
+        bool is_crossed = false;
+        const BlockMask own = inside[place];
+        for (int axis = 0; axis < 3; ++axis) {
+            next[axis] = inside[place + closed_step(axis)];
+            is_crossed = is_crossed || next[axis] != own;
+        }
+        if (!is_crossed && (own == 0 || own == ~BlockMask{0})) return;
         const LevelsAround levels = around(place);
+        if (levels.own_is_finest()) {
+            for (int axis = 0; axis < 3; ++axis) edges[place].axis[axis] = own ^ shifted(own, next[axis], axis, 1);
+            return;
+        }
         const auto look_up = [&](BlockMask points, BlockMask& of_kind) {
             points &= ~(corners[place] | middles[place] | quarters[place]);
             if (points == 0) return;
             of_kind |= points;
             inside[place] |= middle(points);
         };
-        if (!levels.own_is_finest()) {
-            BlockMask halving = 0;
-            BlockMask longest = 0;
-            for (int axis = 0; axis < 3; ++axis) {
-                const CrossedEdges crossed = crossed_edges(place, levels, axis);
-                halving |= crossed.length4 << 2 * bit_step(axis) | crossed.length2 << bit_step(axis);
-                longest |= crossed.length4 << 2 * bit_step(axis);
-            }
-            look_up(halving, middles[place]);
-            look_up(half_edge_middles(inside[place], longest), quarters[place]);
+        if (levels.at_least[2] == 0) {
+            find_level1_edges(place, levels, next, look_up);
+            return;
         }
-        for (int axis = 0; axis < 3; ++axis)
-            edges[place].axis[axis] = crossed_edges(place, levels, axis).finest();
+        CrossedEdges crossed[3] = {{own, next[0], levels, 0}, {own, next[1], levels, 1}, {own, next[2], levels, 2}};
+        BlockMask halving = 0;
+        BlockMask longest = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            halving |= crossed[axis].length4 << 2 * bit_step(axis) | crossed[axis].length2 << bit_step(axis);
+            longest |= crossed[axis].length4 << 2 * bit_step(axis);
+        }
+        look_up(halving, middles[place]);
+        look_up(half_edge_middles(inside[place], longest), quarters[place]);
+        for (int axis = 0; axis < 3; ++axis) {
+            crossed[axis].look_at(inside[place], next[axis]);
+            edges[place].axis[axis] = crossed[axis].finest();
+        }
     }
 
     /// Numbers the vertices by block, axis and bit, and returns how many there are.
@@ -108,6 +125,24 @@ public:
     }
 
 private:
+    /// The same where level-1 edges are the only ones: they start at the block's first point.
+    template <class LookUp>
+    void find_level1_edges(int place, const LevelsAround& levels, const BlockMask (&next)[3], const LookUp& look_up) {
+        BlockMask halving = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            if ((used_edges(levels, axis, 1) & (inside[place] ^ next[axis])) != 0) halving |= level1_middle(axis);
+        if (halving == 0) return;
+        look_up(halving, middles[place]);
+        look_up(half_edge_middles(inside[place], halving), quarters[place]);
+        const BlockMask signs = inside[place];
+        for (int axis = 0; axis < 3; ++axis) {
+            if ((halving & level1_middle(axis)) == 0) continue;
+            const int step = bit_step(axis);
+            const int half = ((signs ^ signs >> 2 * step) & 1) != 0 ? 0 : 2 * step;
+            const int finest = ((signs >> half ^ signs >> (half + step)) & 1) != 0 ? half : half + step;
+            edges[place].axis[axis] = BlockMask{1} << finest;
+        }
+    }
     bool face_is_mixed(int place, int axis, int side) const;
 
     ClosedArray<std::uint32_t> around_;  ///< byte l: the cells of level l or more, as LevelsAround has them

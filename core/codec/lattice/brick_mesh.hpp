@@ -17,9 +17,9 @@ void for_each_vertex(const BrickLattice& lattice, const Visit& visit) {
                 visit(int{place}, axis, lowest_bit(left));
 }
 
-/// Places the vertices, relative to `origin` in steps of c / 2^offset_bits, and writes the triangles: cell by cell, each
-/// cell's own before the filling of its faces. The lattice is drawable, has its coarser faces, and its vertices are
-/// numbered. Returns whether the triangles are exactly this many; there are no more in memory.
+/// Places the vertices, relative to `origin` in steps of c / 2^offset_bits, and writes the triangles: cell by cell,
+/// each cell's own before the filling of its faces. The lattice is drawable, has its coarser faces, and its vertices
+/// are numbered. Returns whether the triangles are exactly this many; there are no more in memory.
 bool make_mesh(LatticeBrick& brick, const LatticePosition& origin, std::uint32_t triangles);
 
 }  // namespace meniscus

@@ -42,8 +42,8 @@ template <class Coder>
 void code_coarser_faces(Coder& coder, BrickLattice& lattice) {
     coder.reserve(6 * lattice.cells().size());
     lattice.for_each_outer_face([&](int place, int bit) {
-        const int symbol =
-            coder.code(entropy_tables.coarser, (lattice.level[place] - 2) * 2 + (bit & 1), lattice.coarser[place] >> bit & 1);
+        const int symbol = coder.code(entropy_tables.coarser, (lattice.level[place] - 2) * 2 + (bit & 1),
+                                      lattice.coarser[place] >> bit & 1);
         lattice.coarser[place] = static_cast<std::uint8_t>((lattice.coarser[place] & ~(1 << bit)) | symbol << bit);
     });
 }
@@ -61,6 +61,7 @@ struct EntropyWriter::Memory {
     OffsetCoder<RansEncoder> offset_coder{coder, entropy_tables};
     std::vector<std::uint8_t> offsets;
     std::vector<PredictedNormal> normals;
+    NormalIndex normal_index{entropy_tables.normals};
     BitWriter raw;
 };
 
@@ -103,7 +104,7 @@ void EntropyWriter::write(LatticeBrick& brick, std::vector<std::byte>& out) {
             raw.put(value, bits);
             return static_cast<int>(value);
         };
-        code_normals(coder, entropy_tables, put, memory_->normals, brick);
+        code_normals(coder, entropy_tables, memory_->normal_index, put, memory_->normals, brick);
     }
     if (has_raw_bits(brick.offset_bits, brick.normal_bits)) {
         append_number(raw.byte_count(), out);
@@ -118,6 +119,7 @@ struct EntropyReader::Memory {
     SignCoder<RansDecoder> sign_coder{coder, entropy_tables};
     OffsetCoder<RansDecoder> offset_coder{coder, entropy_tables};
     std::vector<PredictedNormal> normals;
+    NormalIndex normal_index{entropy_tables.normals};
     BitReader raw{std::span<const std::byte>{}};
 };
 
@@ -165,8 +167,7 @@ const char* EntropyReader::read_geometry(const BrickHeader& header, std::span<co
     if (brick.offsets.size() != announced.vertices) return "has another number of vertices than was announced";
     if (dropped != 0)
         for (std::uint8_t& offset : brick.offsets) {
-            offset = SplitOffset::joined(offset, dropped,
-                                         memory_->raw.get_some(SplitOffset::bits(offset, dropped)));
+            offset = SplitOffset::joined(offset, dropped, memory_->raw.get_some(SplitOffset::bits(offset, dropped)));
             if (offset == 0) return "has a vertex at the end of its edge";
         }
     return nullptr;
@@ -176,7 +177,7 @@ const char* EntropyReader::read_values(const AnnouncedBrick&, LatticeBrick& bric
     BitReader& raw = memory_->raw;
     if (brick.normal_bits != 0) {
         const auto get = [&raw](std::uint32_t, int bits) { return static_cast<int>(raw.get_some(bits)); };
-        code_normals(memory_->coder, entropy_tables, get, memory_->normals, brick);
+        code_normals(memory_->coder, entropy_tables, memory_->normal_index, get, memory_->normals, brick);
     }
     if (!raw.is_good() || raw.bits_left() >= 8) return "has raw bits that do not fit";
     return memory_->coder.is_at_end() ? nullptr : "has symbols that do not fit";

@@ -20,8 +20,6 @@
 namespace meniscus {
 
 inline constexpr int most_coded_normal_bits = 8;  ///< of more the lowest bits are sent as they are
-inline constexpr int flatness_classes = 6;
-inline constexpr int normal_error_classes = 7;
 
 /// Sums over the triangles around each vertex.
 struct PredictedNormal {
@@ -92,10 +90,11 @@ private:
     int sign_ = 1;
 };
 
+using NormalIndex = SymbolIndex<residuals, 2 * flatness_classes * normal_error_classes>;
 /// Codes the normals of a brick whose mesh is there. raw: takes or gives what is sent as it is.
 template <class Coder, class Raw>
-void code_normals(Coder& coder, const EntropyTables& tables, Raw& raw, std::vector<PredictedNormal>& predicted,
-                  LatticeBrick& brick) {
+void code_normals(Coder& coder, const EntropyTables& tables, const NormalIndex& index, Raw& raw,
+                  std::vector<PredictedNormal>& predicted, LatticeBrick& brick) {
     predict_normals(brick, predicted);
     const Octahedron octahedron(brick.normal_bits);
     const int radius = octahedron.radius();
@@ -121,15 +120,18 @@ void code_normals(Coder& coder, const EntropyTables& tables, Raw& raw, std::vect
         const std::array<int, 2> expected = unfolded.place(middle);
         const float flatness =
             p.magnitudes > 0.0F ? (std::abs(p.sum[0]) + std::abs(p.sum[1]) + std::abs(p.sum[2])) / p.magnitudes : 0.0F;
-        const int flat = flatness > 0.995F ? 0 : flatness > 0.985F ? 1 : flatness > 0.96F ? 2
-                                             : flatness > 0.9F   ? 3
-                                             : flatness > 0.8F   ? 4
-                                                                 : 5;
+        const int flat = flatness > 0.995F   ? 0
+                         : flatness > 0.985F ? 1
+                         : flatness > 0.96F  ? 2
+                         : flatness > 0.9F   ? 3
+                         : flatness > 0.8F   ? 4
+                                             : 5;
         std::array<int, 2> place{};
         if constexpr (Coder::encodes) place = unfolded.place(octahedron.point_of(brick.normals[v]));
         int error = 0;
         for (std::size_t i = 0; i < 2; ++i) {
-            const int near = i == 0 ? error_class((before[0] + before[1]) / 2) : error_class((2 * error + (before[0] + before[1]) / 2) / 2);
+            const int near = i == 0 ? error_class((before[0] + before[1]) / 2)
+                                    : error_class((2 * error + (before[0] + before[1]) / 2) / 2);
             const int context = (static_cast<int>(i) * flatness_classes + flat) * normal_error_classes + near;
             int residual = 0;
             if constexpr (Coder::encodes) {
@@ -140,7 +142,7 @@ void code_normals(Coder& coder, const EntropyTables& tables, Raw& raw, std::vect
             const int low = residual & ((1 << dropped) - 1);
             const int high = residual >> dropped;
             // The outermost symbols stand for all that is farther.
-            const int symbol = coder.code(tables.normals, context,
+            const int symbol = coder.code(tables.normals, index, context,
                                           std::clamp(high, -largest_residual, largest_residual) + largest_residual) -
                                largest_residual;
             int found = symbol;

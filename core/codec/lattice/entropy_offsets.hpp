@@ -34,7 +34,8 @@ public:
 
     Training training;
 
-    /// All corners' signs are known. Fills the lattice's edges, middles and signs of those. offsets: by vertex number,
+    /// All corners' signs are known. When it decodes, it fills the lattice's edges and the
+    /// signs of their middles. offsets: by vertex number,
     /// in steps of c / 2^bits, bits at most most_coded_bits; read when it encodes.
     void run(BrickLattice& lattice, int bits, std::vector<std::uint8_t>& offsets) {
         lattice_ = &lattice;
@@ -46,10 +47,7 @@ public:
             list_edges(axis);
             code_axis(axis);
         }
-        for (const std::uint16_t place : lattice.blocks()) lattice.middles[place] = middles_[place];
         if constexpr (!Coder::encodes) {
-            for (const std::uint16_t place : lattice.blocks())
-                lattice.find_edges(place, [](BlockMask) { return BlockMask{0}; });
             offsets.resize(lattice.number_vertices());
             give_offsets(offsets);
         }
@@ -71,7 +69,8 @@ private:
     static void for_each_edge(int place, int axis, BlockMask edges, const Visit& visit) {
         if (edges == 0) return;
         const Int3 at = closed_coordinate(place);
-        const int first = column(along(at, lateral_u(axis)) * base_cell_size, along(at, lateral_v(axis)) * base_cell_size);
+        const int first =
+            column(along(at, lateral_u(axis)) * base_cell_size, along(at, lateral_v(axis)) * base_cell_size);
         const int low = along(at, axis) * base_cell_size;
         for (; edges != 0; edges &= edges - 1) {
             const int bit = lowest_bit(edges);
@@ -81,7 +80,7 @@ private:
     }
 
     void take_offsets(int axis, const std::vector<std::uint8_t>& offsets) {
-        std::array<std::uint8_t, std::size_t{columns} * points>& of_axis = (*offset_)[static_cast<std::size_t>(axis)];
+        std::array<std::uint8_t, std::size_t{columns}* points>& of_axis = (*offset_)[static_cast<std::size_t>(axis)];
         for (const std::uint16_t place : lattice_->blocks()) {
             const EdgeMasks& edges = lattice_->edges[place];
             const std::uint8_t* offset = offsets.data() + lattice_->first_vertex[place];
@@ -102,21 +101,55 @@ private:
     /// Puts the crossed edges of all lengths into their columns, which are empty.
     void list_edges(int axis) {
         for (const std::uint16_t place : lattice_->blocks()) {
-            const CrossedEdges crossed = lattice_->crossed_edges(place, lattice_->around(place), axis);
-            const BlockMask inside = lattice_->inside[place];
-            const BlockMask of_length[edge_lengths] = {crossed.length1, crossed.length2, crossed.length4};
-            for (int length = 0; length < edge_lengths; ++length) {
-                BlockMask low = inside;
-                for_each_edge(place, axis, of_length[length] & inside, [&](int col, int k) {
-                    to_code_[col].of_length[length] |= std::uint64_t{1} << k;
-                    low_inside_[col] |= std::uint64_t{1} << k;
-                    listed_[static_cast<std::size_t>(col >> 6)] |= std::uint64_t{1} << (col & 63);
-                });
-                for_each_edge(place, axis, of_length[length] & ~low, [&](int col, int k) {
-                    to_code_[col].of_length[length] |= std::uint64_t{1} << k;
-                    listed_[static_cast<std::size_t>(col >> 6)] |= std::uint64_t{1} << (col & 63);
-                });
+            const BlockMask own = lattice_->inside[place];
+            const BlockMask next = lattice_->inside[place + closed_step(axis)];
+            if (own == next && (own == 0 || own == ~BlockMask{0})) continue;
+            const LevelsAround levels = lattice_->around(place);
+            if (levels.own_is_finest()) {
+                list(place, axis, 0, own ^ shifted(own, next, axis, 1), own);
+                continue;
             }
+            if (levels.at_least[2] == 0) {  // level-1 edges alone
+                list(place, axis, 2, used_edges(levels, axis, 1) & (own ^ next), own);
+                continue;
+            }
+            const CrossedEdges crossed(own, next, levels, axis);
+            list(place, axis, 2, crossed.length4, own);
+            list(place, axis, 1, crossed.length2, own);
+            list(place, axis, 0, crossed.length1, own);
+        }
+    }
+    void list(int place, int axis, int length_index, BlockMask edges, BlockMask inside) {
+        if (edges == 0) return;
+        const Int3 at = closed_coordinate(place);
+        const int first =
+            column(along(at, lateral_u(axis)) * base_cell_size, along(at, lateral_v(axis)) * base_cell_size);
+        const int low = along(at, axis) * base_cell_size;
+        for (; edges != 0; edges &= edges - 1) {
+            const int bit = lowest_bit(edges);
+            const int col =
+                first + point_coordinate(bit, lateral_u(axis)) + point_coordinate(bit, lateral_v(axis)) * side;
+            const int k = low + point_coordinate(bit, axis);
+            to_code_[col].of_length[length_index] |= std::uint64_t{1} << k;
+            low_inside_[col] |= (inside >> bit & 1) << k;
+            listed_[static_cast<std::size_t>(col >> 6)] |= std::uint64_t{1} << (col & 63);
+        }
+    }
+    /// The block and the bit of a column's lowest point.
+    static std::array<int, 2> lowest_point(int axis, int col) {
+        const int i = col % side - margin;
+        const int j = col / side - margin;
+        return {
+            (i / base_cell_size) * closed_step(lateral_u(axis)) + (j / base_cell_size) * closed_step(lateral_v(axis)),
+            i % base_cell_size * bit_step(lateral_u(axis)) + j % base_cell_size * bit_step(lateral_v(axis))};
+    }
+    /// Puts the finest edges of a column, which are known now, into their blocks.
+    void give_edges(int axis, int col) {
+        const auto [first, bit] = lowest_point(axis, col);
+        for (std::uint64_t left = crossed_[col]; left != 0; left &= left - 1) {
+            const int k = lowest_bit(left);
+            lattice_->edges[first + k / base_cell_size * closed_step(axis)].axis[axis] |=
+                BlockMask{1} << (bit + k % base_cell_size * bit_step(axis));
         }
     }
 
@@ -125,6 +158,7 @@ private:
             for (std::uint64_t left = listed_[w]; left != 0; left &= left - 1) {
                 const int col = static_cast<int>(64 * w) + lowest_bit(left);
                 Edges& edges = to_code_[col];
+                lowest_point_ = lowest_point(axis, col);
                 coder_.reserve(static_cast<std::size_t>(
                     3 * (popcount(edges.of_length[0]) + popcount(edges.of_length[1]) + popcount(edges.of_length[2]))));
                 for (std::uint64_t k = edges.of_length[2]; k != 0; k &= k - 1) code_edge<2>(axis, col, lowest_bit(k));
@@ -135,6 +169,7 @@ private:
         for (std::size_t w = 0; w < listed_.size(); ++w) {
             for (std::uint64_t left = listed_[w]; left != 0; left &= left - 1) {
                 const int col = static_cast<int>(64 * w) + lowest_bit(left);
+                if constexpr (!Coder::encodes) give_edges(axis, col);
                 crossed_[col] = low_inside_[col] = 0;
             }
             listed_[w] = 0;
@@ -168,7 +203,8 @@ private:
             const int distance = up <= down ? up : down;
             const int there = (up <= down ? middle + up : middle - down) & (points - 1);
             const int has = distance <= reach ? 1 : 0;
-            x[static_cast<std::size_t>(n)] = unit_ * (there - k) + offsets[beside * points + there] - unit_ * length / 2;
+            x[static_cast<std::size_t>(n)] =
+                unit_ * (there - k) + offsets[beside * points + there] - unit_ * length / 2;
             set |= has << n;
             error += -has & error_[static_cast<std::size_t>(beside * points + there)];
         }
@@ -181,10 +217,15 @@ private:
         for (std::size_t n = 0; n < 4; ++n) sum += x[n] * weight[n];
         Prediction p;
         p.place = std::clamp(unit_ * length / 2 + ((sum + 2048) >> 12), 1, unit_ * length - 1);
-        p.error_class = mean < 0 ? 8 : mean <= 1 ? 0 : mean <= 3 ? 1 : mean <= 6 ? 2 : mean <= 11 ? 3 : mean <= 20 ? 4
-                                                                         : mean <= 36   ? 5
-                                                                         : mean <= 64   ? 6
-                                                                                        : 7;
+        p.error_class = mean < 0     ? 8
+                        : mean <= 1  ? 0
+                        : mean <= 3  ? 1
+                        : mean <= 6  ? 2
+                        : mean <= 11 ? 3
+                        : mean <= 20 ? 4
+                        : mean <= 36 ? 5
+                        : mean <= 64 ? 6
+                                     : 7;
         p.expected_class = tables_.expected[length_index][regime][set];
         set_ = set;
         regime_ = regime;
@@ -199,7 +240,7 @@ private:
         const Prediction p = predict<length_index>(axis, col, k, low_is_inside);
         int at = k;
         for (int half = length / 2; half >= 1; half /= 2)
-            if (crosses_upper_half(axis, col, at, half, low_is_inside, p, p.place - unit_ * (at - k))) at += half;
+            if (crosses_upper_half(axis, at, half, low_is_inside, p, p.place - unit_ * (at - k))) at += half;
         const std::uint64_t bit = std::uint64_t{1} << at;
         if ((crossed_[col] & bit) != 0) return;  // a longer edge has come down to it
         const int predicted = p.place - unit_ * (at - k);
@@ -217,7 +258,7 @@ private:
             if (residual > values / 2) residual -= values;
             if (residual < -(values / 2)) residual += values;
         }
-        residual = coder_.code(tables_.offsets, context, residual + largest_residual) - largest_residual;
+        residual = coder_.code(tables_.offsets, index_, context, residual + largest_residual) - largest_residual;
         int found = inside_edge + (above ? -residual : residual);
         if (found < 1) found += values;
         if (found > values) found -= values;
@@ -227,26 +268,30 @@ private:
         crossed_[col] |= bit;
         if (low_is_inside) low_inside_[col] |= bit;
         const int place = unit_ * (at - k) + found;
-        error_[static_cast<std::size_t>(col * points + at)] = static_cast<std::uint8_t>(std::min(std::abs(place - p.place), 255));
+        error_[static_cast<std::size_t>(col * points + at)] =
+            static_cast<std::uint8_t>(std::min(std::abs(place - p.place), 255));
         training(length_index, regime_, set_, x_, place - unit_ * length / 2, unit_ * length);
     }
 
     /// Whether the sign changes in the upper half of the edge from `at` on, of twice the length `half`. Its middle is a
     /// corner, or is coded.
-    bool crosses_upper_half(int axis, int col, int at, int half, bool low_is_inside, const Prediction& p, int predicted) {
-        const int i = col % side - margin;
-        const int j = col / side - margin;
-        const int place = (at / base_cell_size) * closed_step(axis) + (i / base_cell_size) * closed_step(lateral_u(axis)) +
-                          (j / base_cell_size) * closed_step(lateral_v(axis));
-        const int bit = (at % base_cell_size + half) * bit_step(axis) + i % base_cell_size * bit_step(lateral_u(axis)) +
-                        j % base_cell_size * bit_step(lateral_v(axis));
+    bool crosses_upper_half(int axis, int at, int half, bool low_is_inside, const Prediction& p, int predicted) {
+        const int place = lowest_point_[0] + at / base_cell_size * closed_step(axis);
+        const int bit = lowest_point_[1] + (at % base_cell_size + half) * bit_step(axis);
         const BlockMask middle = BlockMask{1} << bit;
         BlockMask& inside = lattice_->inside[place];
         if (((lattice_->corners[place] | middles_[place]) & middle) != 0)
             return ((inside & middle) != 0) == low_is_inside;
         const int distance = (predicted - unit_ * half) * 64 / unit_;
         const int size = std::abs(distance);
-        const int far = size < 1 ? 0 : size < 3 ? 1 : size < 5 ? 2 : size < 8 ? 3 : size < 12 ? 4 : size < 18 ? 5 : size < 28 ? 6 : 7;
+        const int far = size < 1    ? 0
+                        : size < 3  ? 1
+                        : size < 5  ? 2
+                        : size < 8  ? 3
+                        : size < 12 ? 4
+                        : size < 18 ? 5
+                        : size < 28 ? 6
+                                    : 7;
         const int context = ((half - 1) * 16 + (distance < 0 ? 7 - far : 8 + far)) * error_classes + p.error_class;
         bool upper = false;
         if constexpr (Coder::encodes) upper = ((inside & middle) != 0) == low_is_inside;
@@ -266,6 +311,7 @@ private:
 
     Coder& coder_;
     const EntropyTables& tables_;
+    const SymbolIndex<residuals, edge_lengths * error_classes * expected_classes> index_{tables_.offsets};
     BrickLattice* lattice_ = nullptr;
     int bits_ = 0;
     int unit_ = 0;
@@ -275,7 +321,8 @@ private:
     std::uint64_t low_inside_[columns] = {};  ///< edges whose low end is inside
     std::array<std::uint64_t, columns / 64 + 1> listed_{};
     std::unique_ptr<std::array<Bytes, 3>> offset_ = std::make_unique<std::array<Bytes, 3>>();
-    Bytes error_{};  ///< of the predictions
+    Bytes error_{};                      ///< of the predictions
+    std::array<int, 2> lowest_point_{};  ///< of the column that is being coded
     int set_ = 0, regime_ = 0;
     std::array<std::int32_t, 4> x_{};
 };

@@ -40,7 +40,7 @@ int code_cells(Coder& coder, const EntropyTables& tables, BrickLattice& lattice,
                 const auto beside = [&](int dx, int dy, int dz) {
                     return level(at + dx + dy * closed_step(1) + dz * closed_step(2));
                 };
-                const std::array<int, 6> diagonals{beside(-1, -1, 0), beside(1, -1, 0), beside(-1, 0, -1),
+                const std::array<int, 6> diagonals{beside(-1, -1, 0), beside(1, -1, 0),  beside(-1, 0, -1),
                                                    beside(1, 0, -1),  beside(0, -1, -1), beside(0, 1, -1)};
                 int drawing = 0;
                 int levels = 0;
@@ -53,10 +53,11 @@ int code_cells(Coder& coder, const EntropyTables& tables, BrickLattice& lattice,
                     const int neighbors = (west != 0 ? 1 : 0) | (north != 0 ? 2 : 0) | (below != 0 ? 4 : 0);
                     symbol = coder.code(tables.cells, neighbors * 7 + drawing, symbol != 0 ? 1 : 0) * one_level;
                 } else {
-                    static constexpr std::array<std::int8_t, 19> classes{0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 5, 6, 6, 6, 7, 7, 7, 7};
-                    symbol = coder.code(tables.levels,
-                                        (west | north << 2 | below << 4) * 8 + classes[static_cast<std::size_t>(levels)],
-                                        symbol);
+                    static constexpr std::array<std::int8_t, 19> classes{0, 1, 1, 2, 2, 3, 3, 4, 4, 5,
+                                                                         5, 5, 6, 6, 6, 7, 7, 7, 7};
+                    symbol = coder.code(
+                        tables.levels, (west | north << 2 | below << 4) * 8 + classes[static_cast<std::size_t>(levels)],
+                        symbol);
                 }
                 if constexpr (!Coder::encodes)
                     if (symbol != 0) lattice.add_cell(at, std::min(symbol, 3));
@@ -110,13 +111,12 @@ private:
         place_ = place;
         unsigned still = 0;
         for (int i = 0; i < 8; ++i) still |= static_cast<unsigned>(still_[place - closed_steps(i)] != moving) << i;
-        for (int z = 0; z < base_cell_size; ++z)
-            for (int y = 0; y < base_cell_size; ++y) {
-                const int row = point_bit(0, y, z);
-                const auto wanted = static_cast<unsigned>(points >> row & 15);
-                if (wanted == 0) continue;
-                code_row(y, z, wanted, still);
-            }
+        // A row with any points has its first.
+        for (BlockMask rows = points & low_face(0); rows != 0; rows &= rows - 1) {
+            const int row = lowest_bit(rows);
+            code_row(point_coordinate(row, 1), point_coordinate(row, 2), static_cast<unsigned>(points >> row & 15),
+                     still);
+        }
         lattice_->inside[place] = now_ | (truth_ & ~points);  // an encoder's signs of middles stay
         known_[place] = known_now_;
     }
@@ -132,11 +132,13 @@ private:
         if (of_row != unknown) {
             const int certain = of_row == inside ? 1 : 0;
             if (wanted == 15)
-                value = static_cast<unsigned>(coder_.code(tables_.fours, certain_fours + certain, static_cast<int>(value)));
+                value =
+                    static_cast<unsigned>(coder_.code(tables_.fours, certain_fours + certain, static_cast<int>(value)));
             else if (wanted == 5)
                 value = spread(coder_.code(tables_.twos, certain_twos + certain, join(value)));
             else
-                value = static_cast<unsigned>(coder_.code(tables_.ones, certain_ones + certain, static_cast<int>(value)));
+                value =
+                    static_cast<unsigned>(coder_.code(tables_.ones, certain_ones + certain, static_cast<int>(value)));
         } else if (wanted == 15) {
             value = code_four(y, z, sign_of(first), value);
         } else if (wanted == 5) {
@@ -192,12 +194,17 @@ private:
         const bool has_north = north.known == 15;
         const bool has_below = below.known == 15;
         const State west = certain_first != unknown ? certain_first : west_of(y, z, 1, 1);
-        const unsigned before =
-            west != unknown ? (west == inside ? 1U : 0U) : has_north ? north.signs & 1 : has_below ? below.signs & 1 : 0;
+        const unsigned before = west != unknown ? (west == inside ? 1U : 0U)
+                                : has_north     ? north.signs & 1
+                                : has_below     ? below.signs & 1
+                                                : 0;
         unsigned context;
         if (has_north && has_below) {
             const Row corner = row_at(y - 1, z - 1);
-            const unsigned middle = corner.known != 15 ? 1 : (corner.signs & 6) == 0 ? 0 : (corner.signs & 6) == 6 ? 2 : 1;
+            const unsigned middle = corner.known != 15        ? 1
+                                    : (corner.signs & 6) == 0 ? 0
+                                    : (corner.signs & 6) == 6 ? 2
+                                                              : 1;
             context = (north.signs | below.signs << 4 | before << 8) * 3 + middle;
         } else if (has_north) {
             context = 1536 + (north.signs | before << 4);
@@ -219,7 +226,10 @@ private:
         const State west = certain_first != unknown ? certain_first : west_of(y, z, 1, 2);
         const unsigned before = west != unknown ? (west == inside ? 1U : 0U) : has_north != 0 ? n & 1 : b & 1;
         const Row corner = row_at(y - 2, z - 2);
-        const unsigned middle = (corner.known & 5) != 5 ? 1 : (corner.signs & 5) == 0 ? 0 : (corner.signs & 5) == 5 ? 2 : 1;
+        const unsigned middle = (corner.known & 5) != 5   ? 1
+                                : (corner.signs & 5) == 0 ? 0
+                                : (corner.signs & 5) == 5 ? 2
+                                                          : 1;
         const unsigned context = ((n | b << 2 | before << 4 | has_north << 5 | has_below << 6) * 3) + middle;
         return spread(coder_.code(tables_.twos, static_cast<int>(context), join(value)));
     }
@@ -232,8 +242,8 @@ private:
 
     unsigned code_one(int y, int z, State certain_first, unsigned value) {
         if (certain_first != unknown)
-            return static_cast<unsigned>(coder_.code(tables_.ones, certain_ones + (certain_first == inside ? 1 : 0),
-                                                     static_cast<int>(value)));
+            return static_cast<unsigned>(
+                coder_.code(tables_.ones, certain_ones + (certain_first == inside ? 1 : 0), static_cast<int>(value)));
         const int west = west_of(y, z, 1, 4);
         const auto nearest = [&](int axis) {
             for (int back = 1; back <= 4; back *= 2) {

@@ -14,21 +14,23 @@ inline constexpr int edge_lengths = 3;  ///< 1, 2, 4 finest cells
 inline constexpr int regimes = 4;       ///< of the error nearby
 inline constexpr int error_classes = 9;
 inline constexpr int expected_classes = 6;
+inline constexpr int flatness_classes = 6;
+inline constexpr int normal_error_classes = 7;
 inline constexpr int residuals = 63;  ///< symbols of a residual
 inline constexpr int largest_residual = residuals / 2;
 
 struct EntropyTables {
-    Distributions<4, 1> only_level;       ///< of all cells, where they have the same; less 1
-    Distributions<2, 8> rows;             ///< whether a row of cells has any that draws
-    Distributions<2, 8 * 7> cells;        ///< whether a cell draws, where all have one level
-    Distributions<5, 64 * 8> levels;      ///< of a cell; 0: draws nothing
-    Distributions<16, 1536 + 66 + 2> fours;  ///< signs of four points in a row
-    Distributions<4, 384 + 2> twos;       ///< signs of two points, two apart
-    Distributions<2, 405 + 81 + 2> ones;  ///< sign of a single point
-    Distributions<2, 4> coarser;          ///< whether beyond the brick's face lies a coarser cell
+    Distributions<4, 1> only_level;                   ///< of all cells, where they have the same; less 1
+    Distributions<2, 8> rows;                         ///< whether a row of cells has any that draws
+    Distributions<2, 8 * 7> cells;                    ///< whether a cell draws, where all have one level
+    Distributions<5, 64 * 8> levels;                  ///< of a cell; 0: draws nothing
+    Distributions<16, 1536 + 66 + 2> fours;           ///< signs of four points in a row
+    Distributions<4, 384 + 2> twos;                   ///< signs of two points, two apart
+    Distributions<2, 405 + 81 + 2> ones;              ///< sign of a single point
+    Distributions<2, 4> coarser;                      ///< whether beyond the brick's face lies a coarser cell
     Distributions<2, 2 * 16 * error_classes> halves;  ///< whether a coarse edge crosses in its upper half
     Distributions<residuals, edge_lengths * error_classes * expected_classes> offsets;
-    Distributions<residuals, 2 * 6 * 7> normals;
+    Distributions<residuals, 2 * flatness_classes * normal_error_classes> normals;
     /// Weights of the neighbors' places, in 1/4096, by length, regime and set of neighbors; their sum is 4096.
     std::int16_t weights[edge_lengths][regimes][neighbor_sets][predictor_neighbors];
     /// Class of the error to be expected of that prediction.

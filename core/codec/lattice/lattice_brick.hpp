@@ -14,10 +14,10 @@ namespace meniscus {
 /// The vertices are in the order of BrickLattice's numbers.
 struct LatticeBrick {
     BrickLattice lattice;
-    int offset_bits = 0;                            ///< 2 to 8
-    int normal_bits = 0;                            ///< 2 to 16; 0: no normals
-    std::vector<std::uint8_t> offsets;              ///< place on the vertex's edge, in steps of c / 2^offset_bits, not 0
-    std::vector<std::uint32_t> normals;             ///< Octahedron::code()
+    int offset_bits = 0;                 ///< 2 to 8
+    int normal_bits = 0;                 ///< 2 to 16; 0: no normals
+    std::vector<std::uint8_t> offsets;   ///< place on the vertex's edge, in steps of c / 2^offset_bits, not 0
+    std::vector<std::uint32_t> normals;  ///< Octahedron::code()
     std::vector<std::vector<std::byte>> attributes;  ///< CodedAttribute::coded_bytes() for each vertex
 
     // What follows of those, see make_mesh().

@@ -130,11 +130,12 @@ private:
                 for (BlockMask left = own; left != 0; left &= left - 1) {
                     const BlockMask before = (left & (~left + 1)) - 1;
                     const std::uint32_t vertex =
-                        first + static_cast<std::uint32_t>(own == all ? popcount(own & before) : popcount(all & before));
+                        first +
+                        static_cast<std::uint32_t>(own == all ? popcount(own & before) : popcount(all & before));
                     vertices_.push_back(vertex);
-                    brick_.offsets.push_back(static_cast<std::uint8_t>(
-                        round_position(static_cast<std::uint16_t>(static_cast<std::uint32_t>(mesh.vertices[vertex][axis]) & steps),
-                                       mesh.offset_bits, static_cast<std::uint32_t>(brick_.offset_bits))));
+                    brick_.offsets.push_back(static_cast<std::uint8_t>(round_position(
+                        static_cast<std::uint16_t>(static_cast<std::uint32_t>(mesh.vertices[vertex][axis]) & steps),
+                        mesh.offset_bits, static_cast<std::uint32_t>(brick_.offset_bits))));
                 }
                 first += static_cast<std::uint32_t>(popcount(all));
             }

@@ -11,10 +11,11 @@ namespace meniscus {
 
 class LatticeDecoder {
 public:
-    /// Decodes either profile. origin: of the brick, in steps of c / 2^offset_bits. Returns what is wrong with the bytes,
-    /// in words, or null. Its memory beside that of brick(): a fixed number of bytes, and no more than the brick's own
-    /// cells can need.
-    const char* decode(std::span<const std::byte> bytes, const AnnouncedBrick& announced, const LatticePosition& origin);
+    /// Decodes either profile. origin: of the brick, in steps of c / 2^offset_bits. Returns what is wrong with the
+    /// bytes, in words, or null. Its memory beside that of brick(): a fixed number of bytes, and no more than the
+    /// brick's own cells can need.
+    const char* decode(std::span<const std::byte> bytes, const AnnouncedBrick& announced,
+                       const LatticePosition& origin);
     /// The one decoded last, with its mesh, of which parts may be moved away.
     LatticeBrick& brick() { return brick_; }
 

@@ -1,5 +1,5 @@
-// Unit vectors as points of an octahedron's unfolded surface, on a square grid: the numbers that Draco gives normals, so
-// that a normal is the same through either codec.
+// Unit vectors as points of an octahedron's unfolded surface, on a square grid: the numbers that Draco gives normals,
+// so that a normal is the same through either codec.
 //
 // (Meyer, Suessmuth, Sussner, Stamminger, Greiner 2010: On floating-point normal vectors.)
 #pragma once

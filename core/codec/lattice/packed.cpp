@@ -109,7 +109,8 @@ const char* read_packed(const BrickHeader& header, std::span<const std::byte> by
     brick.offsets.resize(announced.vertices);
     std::uint32_t count = 0;
     for (const std::uint16_t place : lattice.blocks()) {
-        lattice.find_edges(place, [&](BlockMask middles) { return scatter_bits(bits.get(popcount(middles)), middles); });
+        lattice.find_edges(place,
+                           [&](BlockMask middles) { return scatter_bits(bits.get(popcount(middles)), middles); });
         const auto own = static_cast<std::uint32_t>(lattice.edges[place].count());
         if (own > announced.vertices - count) return "has more vertices than were announced";
         lattice.first_vertex[place] = count;

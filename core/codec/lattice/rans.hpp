@@ -28,6 +28,29 @@ struct Distributions {
     }
 };
 
+/// For each context and each sixteenth of its symbols' places, the first symbol there: a table of many symbols is then
+/// looked up in a few steps.
+template <int symbols, int contexts>
+class SymbolIndex {
+public:
+    static constexpr int shift = 4;
+
+    explicit SymbolIndex(const Distributions<symbols, contexts>& table) {
+        for (int c = 0; c < contexts; ++c) {
+            int symbol = 0;
+            for (std::uint32_t i = 0; i < places; ++i) {
+                while (symbol + 1 < symbols && table.start[c][symbol + 1] <= i << shift) ++symbol;
+                first_[c][i] = static_cast<std::uint8_t>(symbol);
+            }
+        }
+    }
+    int first(int context, std::uint32_t low) const { return first_[context][low >> shift]; }
+
+private:
+    static constexpr std::uint32_t places = probability_one >> shift;
+    std::uint8_t first_[contexts][places];
+};
+
 class RansEncoder {
 public:
     static constexpr bool encodes = true;
@@ -42,6 +65,11 @@ public:
         const std::uint32_t start = table.start[context][symbol];
         steps_[count_++] = start << 16 | (table.end(context, symbol) - start);
         return symbol;
+    }
+    template <int symbols, int contexts>
+    int code(const Distributions<symbols, contexts>& table, const SymbolIndex<symbols, contexts>&, int context,
+             int symbol) {
+        return code(table, context, symbol);
     }
     void append_to(std::vector<std::byte>& bytes);
 
@@ -70,22 +98,19 @@ public:
     void reserve(std::size_t) {}
     template <int symbols, int contexts>
     int code(const Distributions<symbols, contexts>& table, int context, int /*symbol*/) {
-        std::uint32_t& state = states_[turn_ ^= 1];
-        const std::uint32_t low = state & (probability_one - 1);
-        const std::uint16_t* const start = table.start[context];
+        static_assert(symbols <= 16, "look up more symbols by their index");
+        const std::uint32_t low = states_[turn_ ^ 1] & (probability_one - 1);
         int symbol = 0;
-        if constexpr (symbols <= 16) {
-            for (int i = 1; i < symbols; ++i) symbol += start[i] <= low ? 1 : 0;
-        } else {
-            // By halving; the first symbol's start is 0.
-            for (int step = 32; step > 0; step /= 2)
-                if (symbol + step < symbols && start[symbol + step] <= low) symbol += step;
-            static_assert(symbols <= 64);
-        }
-        const std::uint32_t frequency = table.end(context, symbol) - start[symbol];
-        state = frequency * (state >> probability_bits) + low - start[symbol];
-        if (state < lowest) state = state << 16 | word();
-        return symbol;
+        for (int i = 1; i < symbols; ++i) symbol += table.start[context][i] <= low ? 1 : 0;
+        return take(table.start[context][symbol], table.end(context, symbol), symbol);
+    }
+    template <int symbols, int contexts>
+    int code(const Distributions<symbols, contexts>& table, const SymbolIndex<symbols, contexts>& index, int context,
+             int /*symbol*/) {
+        const std::uint32_t low = states_[turn_ ^ 1] & (probability_one - 1);
+        int symbol = index.first(context, low);
+        while (table.end(context, symbol) <= low) ++symbol;
+        return take(table.start[context][symbol], table.end(context, symbol), symbol);
     }
     /// Whether all was read, and no more.
     bool is_at_end() const { return at_ == bytes_.size() && states_[0] == lowest && states_[1] == lowest; }
@@ -95,6 +120,12 @@ public:
 private:
     static constexpr std::size_t state_bytes = 8;
 
+    int take(std::uint32_t start, std::uint32_t end, int symbol) {
+        std::uint32_t& state = states_[turn_ ^= 1];
+        state = (end - start) * (state >> probability_bits) + (state & (probability_one - 1)) - start;
+        if (state < lowest) state = state << 16 | word();
+        return symbol;
+    }
     std::uint32_t word() {
         std::uint16_t value = 0;
         if (at_ + 2 <= bytes_.size()) std::memcpy(&value, bytes_.data() + at_, 2);

@@ -65,17 +65,17 @@ struct EncodedBrick {
 
 class LatticeCoder;
 
-/// Memory that bricks are prepared and encoded in, kept from brick to brick: for Draco at most 24 bytes for each triangle
-/// of the largest, for the lattice codecs 3 MB and 16 bytes for each vertex of the largest. It serves one brick at a
-/// time.
+/// Memory that bricks are prepared and encoded in, kept from brick to brick: for Draco at most 24 bytes for each
+/// triangle of the largest, for the lattice codecs 3 MB and 16 bytes for each vertex of the largest. It serves one
+/// brick at a time.
 struct BrickScratch {
     /// account: is charged; none: uncounted.
     explicit BrickScratch(std::shared_ptr<MemoryAccount> account = nullptr);
     ~BrickScratch();
     BrickScratch(BrickScratch&&) noexcept;
 
-    Array<std::uint32_t> slots;  ///< slots of a hash table from the mesh's vertices to the brick's
-    Array<std::byte> charge;     ///< stands for the coder's memory in the account
+    Array<std::uint32_t> slots;             ///< slots of a hash table from the mesh's vertices to the brick's
+    Array<std::byte> charge;                ///< stands for the coder's memory in the account
     std::unique_ptr<LatticeCoder> lattice;  ///< made for the first brick that needs it
 };
 
@@ -100,8 +100,8 @@ private:
     BrickContent content_;
 };
 
-/// Encodes a content with Draco. options: those that the content was made with. Throws InvalidInput for a speed or a codec out of
-/// range.
+/// Encodes a content with Draco. options: those that the content was made with. Throws InvalidInput for a speed or a
+/// codec out of range.
 EncodedBrick encode_brick(const BrickContent& content, const CodingOptions& options);
 /// The content of a brick, encoded. Throws as PreparedBrick.
 EncodedBrick encode_brick(const Mesh& mesh, std::size_t brick, const CodingOptions& options = {});
@@ -124,6 +124,9 @@ struct DecodedBrick {
 /// lattice, and for a codec that this version does not know, with its number; never crashes on any bytes.
 DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits,
                           std::span<const CodedAttribute> attributes = {});
+
+/// Encodes a decoded brick again, with Draco. options: its attributes are those that the brick was decoded with.
+EncodedBrick encode_brick(const DecodedBrick& brick, std::uint32_t offset_bits, const CodingOptions& options);
 
 /// Welds bricks into one mesh, ordered as reconstruct() orders it (triangles within a brick and level excepted).
 /// Throws InvalidInput if a brick occurs twice.

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "meniscus/names.hpp"
+
 namespace meniscus {
 
 /// On the wire and in files a codec is its number, which it keeps for ever.
@@ -30,16 +32,34 @@ constexpr std::optional<Codec> codec_by_number(std::uint32_t number) {
 constexpr std::string_view name_of(Codec codec) {
     switch (codec) {
         case Codec::draco:
-            return "Draco";
+            return "draco";
         case Codec::lattice_packed:
-            return "lattice, packed";
+            return "packed";
         case Codec::lattice_entropy:
-            return "lattice, entropy";
+            return "entropy";
     }
     return "";
 }
+namespace detail {
+template <>  // their numbers do not count from 0
+struct Choices<Codec> {
+    static constexpr auto all = codecs;
+};
+}  // namespace detail
 
-/// Text for messages: "1 (Draco)", all codecs with their numbers.
+/// Whether it codes Mesh::lattice, in place of the mesh.
+constexpr bool needs_lattice(Codec codec) {
+    switch (codec) {
+        case Codec::draco:
+            return false;
+        case Codec::lattice_packed:
+        case Codec::lattice_entropy:
+            return true;
+    }
+    return false;
+}
+
+/// Text for messages: "1 (draco)", all codecs with their numbers.
 inline std::string known_codecs() {
     std::string text;
     for (const Codec known : codecs) {

@@ -2,7 +2,8 @@
 //
 // An enumeration is named by one function beside it, `constexpr std::string_view name_of(E)`: a switch without default,
 // so that an enumerator without a name does not compile, which returns nothing for a value that is no enumerator. Its
-// enumerators count from 0. A variant's alternatives have a static member `name` each.
+// enumerators count from 0, or detail::Choices is specialized for it. A variant's alternatives have a static member
+// `name` each.
 #pragma once
 
 #include <array>

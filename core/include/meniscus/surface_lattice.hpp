@@ -10,12 +10,12 @@ namespace meniscus {
 
 /// A block of 4 x 4 x 4 lattice points (core/README.md#words) that a brick's triangles depend on.
 struct LatticeBlock {
-    std::uint64_t inside = 0;                ///< signs of its points: x + 4 y + 16 z; what no cell asks for is arbitrary
-    std::array<std::uint64_t, 3> edges{};    ///< by axis: its finest edges that carry a vertex of the mesh
-    std::uint32_t first_vertex = 0;          ///< number of its first vertex in the mesh, by axis, then by bit
-    std::uint16_t place = 0;                 ///< x + 17 y + 289 z in the closed brick, whose upper faces are the next's
-    std::uint8_t level = 0;                  ///< of its base cell, if that belongs to the brick and draws; else 0
-    std::uint8_t coarser = 0;                ///< bit 2 axis + side: beyond that face of the cell lies a coarser one
+    std::uint64_t inside = 0;              ///< signs of its points: x + 4 y + 16 z; what no cell asks for is arbitrary
+    std::array<std::uint64_t, 3> edges{};  ///< by axis: its finest edges that carry a vertex of the mesh
+    std::uint32_t first_vertex = 0;        ///< number of its first vertex in the mesh, by axis, then by bit
+    std::uint16_t place = 0;               ///< x + 17 y + 289 z in the closed brick, whose upper faces are the next's
+    std::uint8_t level = 0;                ///< of its base cell, if that belongs to the brick and draws; else 0
+    std::uint8_t coarser = 0;              ///< bit 2 axis + side: beyond that face of the cell lies a coarser one
 };
 
 struct LatticeRange {

@@ -41,11 +41,15 @@ struct CrossedEdges {
     /// own, next: signs of the block and of the next one up the axis.
     MENISCUS_HD CrossedEdges(BlockMask own, BlockMask next, const LevelsAround& around, int along) : axis(along) {
         if (own == next && (own == 0 || own == ~BlockMask{0})) return;
-        change1 = own ^ shifted(own, next, axis, 1);
-        change2 = own ^ shifted(own, next, axis, 2);
+        look_at(own, next);
         length4 = used_edges(around, axis, 1) & (own ^ next);
         length2 = used_edges(around, axis, 2) & change2;
         length1 = used_edges(around, axis, 3) & change1;
+    }
+    /// Looks again at the signs, of which some middles' may have come.
+    MENISCUS_HD void look_at(BlockMask own, BlockMask next) {
+        change1 = own ^ shifted(own, next, axis, 1);
+        change2 = own ^ shifted(own, next, axis, 2);
     }
     /// Edges of length 2 and the halves of longer ones; needs the middles of those sampled.
     MENISCUS_HD BlockMask length2_all() const {

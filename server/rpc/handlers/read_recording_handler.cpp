@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <deque>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/v1/recording_service.pb.h"
 #include "process/log.hpp"
+#include "recording/reader_codec.hpp"
 #include "rpc/calls/caller.hpp"
 #include "rpc/calls/cancel_timer.hpp"
 #include "rpc/calls/one_request.hpp"
@@ -38,6 +40,7 @@ public:
     RecordedMessages(const RecordingCatalog::Opened& opened, const v1::ReadRecordingRequest& request)
         : file_(opened.file),
           with_spray_(request.with_spray()),
+          codec_(conversion::named_codecs(request.codecs())),
           name_(fmt::format("recording {} of session {}", request.number(), request.session_id())) {
         const auto& meshes = opened.index.meshes();
         const std::uint64_t first = request.position();
@@ -53,6 +56,11 @@ public:
     SharedMessage next() {
         try {
             for (;;) {
+                if (!ready_.empty()) {
+                    auto message = std::make_shared<const std::string>(std::move(ready_.front()));
+                    ready_.pop_front();
+                    return message;
+                }
                 if (messages_ && messages_->at_end()) messages_.reset();
                 if (!messages_) {
                     if (at_ == meshes_.size()) return nullptr;
@@ -63,7 +71,8 @@ public:
                 }
                 auto message = messages_->next(files::max_recorded_message_bytes);
                 if (!message) file_->fail("a message is cut");
-                if (with_spray_ || !is_spray(*message)) return std::make_shared<const std::string>(std::move(*message));
+                if (is_spray(*message) && !with_spray_) continue;
+                for (std::string& each : codec_.messages_for(std::move(*message))) ready_.push_back(std::move(each));
             }
         } catch (const InvalidInput& error) {
             const std::uint64_t frame = meshes_[at_ - 1].frame_index;
@@ -76,10 +85,12 @@ public:
 private:
     const std::shared_ptr<const files::RandomAccessFile> file_;
     const bool with_spray_;
+    ReaderCodec codec_;
     const std::string name_;
     std::vector<MeshPlace> meshes_;
     std::size_t at_ = 0;                                ///< the next of meshes_
     std::optional<files::DelimitedMessages> messages_;  ///< of the one before
+    std::deque<std::string> ready_;                     ///< to be sent before the next of those
 };
 
 /// Holds one message at a time: the next one is read when gRPC has taken the one before. At any moment either the
@@ -115,7 +126,7 @@ public:
         try {
             request_ = received<v1::ReadRecordingRequest>(ok, incoming_);
             require_same_session(session_id_, request_.session_id());
-            conversion::chosen_codec(request_.codecs());  // recorded meshes have the only one that there is
+            conversion::named_codecs(request_.codecs());  // refuses those that are not known, before it takes a place
             place_ = reads_->admit();
             go_on([this](RecordingCatalog& catalog) {
                 open(catalog);

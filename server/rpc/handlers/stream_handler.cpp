@@ -19,6 +19,7 @@
 #include "rpc/calls/caller.hpp"
 #include "rpc/calls/cancel_timer.hpp"
 #include "rpc/calls/status.hpp"
+#include "rpc/messages/codec_choice.hpp"
 #include "rpc/messages/frame_chunk_reader.hpp"
 #include "rpc/messages/session_id.hpp"
 #include "rpc/messages/upload_options.hpp"
@@ -257,8 +258,10 @@ private:
 
     void open(const v1::StreamOpen& message) {
         require_same_session(session_id_, message.session_id());
-        const UploadOptions options = upload_options(message);
+        UploadOptions options = upload_options(message);
         const auto session = find_session(caller_, registry_, session_id_);
+        const CodecChoice codec = codec_choice(message, session->has_lattice());
+        options.codec = codec.codec;
         const auto wake = [self = weak_from_this()] {
             if (const auto reactor = self.lock()) reactor->write();
         };
@@ -277,6 +280,7 @@ private:
             const std::lock_guard lock(mutex_);
             session_ = session;
             upload_ = std::move(upload);
+            if (upload_->options.receive_meshes) announce(codec, context_);
             // The client knows from here on which server it has. The server may have gone down since open_upload().
             if (!finished_) StartSendInitialMetadata();
         }

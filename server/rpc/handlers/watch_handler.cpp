@@ -17,6 +17,7 @@
 #include "rpc/calls/cancel_timer.hpp"
 #include "rpc/calls/one_request.hpp"
 #include "rpc/calls/status.hpp"
+#include "rpc/messages/codec_choice.hpp"
 #include "rpc/messages/session_id.hpp"
 #include "rpc/messages/watch_options.hpp"
 #include "rpc/messages/wire_bytes.hpp"
@@ -100,6 +101,7 @@ public:
 
 private:
     static constexpr bool is_snapshot = std::is_same_v<Request, v1::SnapshotRequest>;
+    static constexpr bool sends_meshes = !std::is_same_v<Request, v1::WatchParticlesRequest>;
     static constexpr std::chrono::seconds message_patience = is_snapshot ? snapshot_patience : last_message_patience;
 
     void open(const Request& request) {
@@ -111,13 +113,20 @@ private:
         const auto wake = [self = this->weak_from_this()] {
             if (const auto reactor = self.lock()) reactor->write();
         };
-        watch_ = session_->open_watch(watch_options_of(request, session_->settings()), wake, account);
+        WatchOptions options = watch_options_of(request, session_->settings());
+        CodecChoice codec;
+        if constexpr (sends_meshes) {
+            codec = codec_choice(request, session_->has_lattice());
+            options.format.codec = codec.codec;
+        }
+        watch_ = session_->open_watch(options, wake, account);
         if (is_snapshot)
             give_up_after(snapshot_patience);
         else
             call_log.write({.session = session_id_}, "watcher from {} connected", peer_);
         // At once: the client knows from here on that it misses no mesh. With metadata, as a refusal has none.
         context_.AddInitialMetadata("x-session-id", session_id_);
+        if (sends_meshes) announce(codec, context_);
         this->StartSendInitialMetadata();
     }
 

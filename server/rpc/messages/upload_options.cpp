@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "conversion/attribute_conversion.hpp"
-#include "conversion/codec_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "rpc/messages/normal_bits.hpp"
 
@@ -47,7 +46,6 @@ std::chrono::milliseconds reconnect_of(const v1::StreamOpen& message) {
 UploadOptions upload_options(const v1::StreamOpen& message) {
     return {.receive_meshes = message.receive_meshes(),
             .normal_bits = normal_bits_of(message),
-            .codec = conversion::chosen_codec(message.codecs()),
             .spray = message.with_spray(),
             .attributes = conversion::attribute_wishes(message.attributes()),
             .policy = policy_of(message),

@@ -6,7 +6,7 @@
 
 namespace meniscus::server {
 
-/// Throws InvalidInput for a value out of range.
+/// But for the codec: see codec_choice(). Throws InvalidInput for a value out of range.
 UploadOptions upload_options(const v1::StreamOpen& message);
 
 }  // namespace meniscus::server

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "conversion/attribute_conversion.hpp"
-#include "conversion/codec_conversion.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
@@ -42,7 +41,6 @@ MeshFormat format_of(const Request& request, const Settings& settings) {
     return {.max_level = max_level_of(request),
             .position_bits = position_bits_of(request, settings),
             .normal_bits = settings.normals ? normal_bits : 0,
-            .codec = conversion::chosen_codec(request.codecs()),
             .attributes = canonical_attributes(conversion::attribute_wishes(request.attributes()), settings)};
 }
 

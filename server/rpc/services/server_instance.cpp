@@ -11,7 +11,7 @@ namespace meniscus::server {
 
 namespace {
 
-constexpr const char* key = "x-server-instance";
+constexpr const char* instance_key = "x-server-instance";
 
 std::string random_name() {
     std::random_device device;
@@ -28,9 +28,9 @@ public:
         // A call that ends at once has initial metadata only where its handler gives some: by that, watchers know a
         // refusal.
         if (methods->QueryInterceptionHookPoint(Point::PRE_SEND_STATUS))
-            methods->GetSendTrailingMetadata()->emplace(key, name_);
+            methods->GetSendTrailingMetadata()->emplace(instance_key, name_);
         else if (methods->QueryInterceptionHookPoint(Point::PRE_SEND_INITIAL_METADATA))
-            methods->GetSendInitialMetadata()->emplace(key, name_);
+            methods->GetSendInitialMetadata()->emplace(instance_key, name_);
         methods->Proceed();
     }
 

@@ -8,6 +8,7 @@ ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOpt
     const auto stop = std::make_shared<StopFlag>();
     BackendOptions stoppable = backend;
     stoppable.stop = stop;
+    stoppable.keep_lattice = backend.backend == Backend::cpu;
     const auto reconstructor = std::make_shared<Reconstructor>(settings, stoppable);
     ReconstructFunctions functions{
         .reconstruct =
@@ -17,6 +18,7 @@ ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOpt
             },
         .emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); },
         .stop = stop,
+        .keeps_lattice = stoppable.keep_lattice,
         .release_memory = [reconstructor] { reconstructor->release_memory(); }};
     if (backend.backend != Backend::cpu)
         functions.send_ahead = [weak = std::weak_ptr(reconstructor)](const ParticleFrame& frame) {

@@ -38,6 +38,7 @@ struct ReconstructFunctions {
     /// thread, also while the others are called and when nobody calls them any more. None: there is nowhere to copy
     /// them.
     std::function<FrameUpload(const ParticleFrame& frame)> send_ahead{};
+    bool keeps_lattice = false;  ///< whether meshes come with Mesh::lattice
     /// Gives the buffers back until the next frame. May be none.
     std::function<void()> release_memory{};
 };

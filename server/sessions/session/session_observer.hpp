@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "meniscus/attribute_coding.hpp"
+#include "meniscus/codec.hpp"
 #include "sessions/intake/input_frame.hpp"
 #include "sessions/sending/encoded_frame.hpp"
 
@@ -16,6 +17,8 @@ public:
     static constexpr int normal_bits = 8;
 
     virtual ~SessionObserver() = default;
+    /// The codec of those meshes, where the session can encode it; otherwise it is Draco.
+    virtual Codec codec() const noexcept { return Codec::draco; }
     /// The bits of all attributes in those meshes; see AttributeWish.
     virtual int attribute_bits() const noexcept { return default_attribute_bits; }
     /// A frame that was reconstructed, in the order of arrival. Borrowed.

@@ -33,6 +33,11 @@ public:
         ++counts_[static_cast<std::size_t>(&table.start[context][symbol] - tables_)];
         return symbol;
     }
+    template <int symbols, int contexts>
+    int code(const Distributions<symbols, contexts>& table, const SymbolIndex<symbols, contexts>&, int context,
+             int symbol) {
+        return code(table, context, symbol);
+    }
     void clear() { std::fill(counts_.begin(), counts_.end(), 0); }
     std::span<const std::uint64_t> counts_of(const void* table, std::size_t size) const {
         return {counts_.data() + (static_cast<const std::uint16_t*>(table) - tables_), size};
@@ -104,8 +109,8 @@ struct Training {
     void operator()(int length_index, int regime, int set, const std::array<std::int32_t, 4>& x, std::int32_t y,
                     int length_in_steps) const {
         if (set == 0) return;
-        (*sums)[static_cast<std::size_t>(length_index)][static_cast<std::size_t>(regime)][static_cast<std::size_t>(set)].add(
-            set, x, y, length_in_steps, tables->weights[length_index][regime][set]);
+        (*sums)[static_cast<std::size_t>(length_index)][static_cast<std::size_t>(regime)][static_cast<std::size_t>(set)]
+            .add(set, x, y, length_in_steps, tables->weights[length_index][regime][set]);
     }
 };
 
@@ -195,9 +200,12 @@ private:
             LatticeBrick& brick = *brick_;
             brick.clear();
             const auto header = BrickHeader::read(encoded.data);
-            const char* const fault =
-                read_packed(*header, std::span(encoded.data).subspan(BrickHeader::size),
-                            {.vertices = encoded.vertices, .triangles = encoded.triangles, .offset_bits = offset_bits, .attribute_bytes = {}}, brick);
+            const char* const fault = read_packed(*header, std::span(encoded.data).subspan(BrickHeader::size),
+                                                  {.vertices = encoded.vertices,
+                                                   .triangles = encoded.triangles,
+                                                   .offset_bits = offset_bits,
+                                                   .attribute_bytes = {}},
+                                                  brick);
             if (fault != nullptr) throw std::runtime_error(std::string("a training brick ") + fault);
             make_mesh(brick, {}, encoded.triangles);
             BrickLattice& lattice = brick.lattice;
@@ -208,12 +216,13 @@ private:
             code_cells(counter_, tables(), lattice, level);
             sign_coder_->run(lattice);
             lattice.for_each_outer_face([&](int place, int bit) {
-                counter_.code(tables().coarser, (lattice.level[place] - 2) * 2 + (bit & 1), lattice.coarser[place] >> bit & 1);
+                counter_.code(tables().coarser, (lattice.level[place] - 2) * 2 + (bit & 1),
+                              lattice.coarser[place] >> bit & 1);
             });
             offset_coder_->run(lattice, offset_bits, brick.offsets);
             if (brick.normal_bits != 0) {
                 const auto keep = [](std::uint32_t value, int) { return static_cast<int>(value); };
-                code_normals(counter_, tables(), keep, normals_, brick);
+                code_normals(counter_, tables(), *normal_index_, keep, normals_, brick);
             }
         }
     }
@@ -229,7 +238,10 @@ private:
                     int rest = 4096;
                     const auto base = static_cast<std::size_t>(std::countr_zero(set));
                     for (std::size_t n = 0; n < predictor_neighbors; ++n) {
-                        out[n] = n == base ? std::int16_t{0} : static_cast<std::int16_t>(std::lround(std::clamp(weights[n], -4.0, 4.0) * 4096.0));
+                        out[n] =
+                            n == base
+                                ? std::int16_t{0}
+                                : static_cast<std::int16_t>(std::lround(std::clamp(weights[n], -4.0, 4.0) * 4096.0));
                         rest -= out[n];
                     }
                     out[base] = static_cast<std::int16_t>(rest);
@@ -244,7 +256,8 @@ private:
                     tables().expected[length][regime][set] =
                         set == 0 || sums.count < 50
                             ? std::uint8_t{4}
-                            : static_cast<std::uint8_t>(expected_class(std::sqrt(sums.squared_errors / sums.count) * 64.0 * (1U << length)));
+                            : static_cast<std::uint8_t>(
+                                  expected_class(std::sqrt(sums.squared_errors / sums.count) * 64.0 * (1U << length)));
                 }
     }
 
@@ -261,7 +274,8 @@ private:
             for (std::size_t s = 0; s < symbols; ++s) {
                 const std::size_t at = static_cast<std::size_t>(c) * symbols;
                 p[s] = static_cast<double>(counts[at + s]) + prior * all[s] / total;
-                if (symmetric) p[s] += static_cast<double>(counts[at + symbols - 1 - s]) + prior * all[symbols - 1 - s] / total;
+                if (symmetric)
+                    p[s] += static_cast<double>(counts[at + symbols - 1 - s]) + prior * all[symbols - 1 - s] / total;
                 sum += p[s];
             }
             // Every symbol keeps some probability, and the likeliest gives or takes what rounding leaves.
@@ -303,6 +317,7 @@ private:
         std::make_unique<OffsetCoder<Counter, Training>>(counter_, *tables_);
     std::unique_ptr<LatticeBrick> brick_ = std::make_unique<LatticeBrick>();
     std::vector<PredictedNormal> normals_;
+    std::unique_ptr<NormalIndex> normal_index_ = std::make_unique<NormalIndex>(tables_->normals);  // asked by decoders
 };
 
 }  // namespace

@@ -38,7 +38,8 @@ void put(Lines& lines, const T (&values)[size]) {
 }  // namespace
 
 void write_tables(const EntropyTables& tables, const std::vector<std::string>& frames, std::ostream& out) {
-    out << "// Written by meniscus-bench lattice-tables. Made of these frames, each in both modes at cell sizes 0.5 and 1, "
+    out << "// Written by meniscus-bench lattice-tables. Made of these frames, each in both modes at cell sizes 0.5 "
+           "and 1, "
            "with\n// their SHA-256:\n";
     for (const std::string& frame : frames) out << "// " << frame << '\n';
     out << "#include \"codec/lattice/entropy_tables.hpp\"\n\nnamespace meniscus {\n\n// clang-format off\n"

@@ -248,6 +248,8 @@ TEST_F(CServer, RefusesWrongOptionsAndNulls) {
     EXPECT_TRUE(refused(refusal({}), MENISCUS_INVALID_INPUT, "option 'particle-radius' is not set"));
     EXPECT_TRUE(refused(refusal({{"particle-radius", "1"}, {"policy", "first"}}), MENISCUS_INVALID_INPUT,
                         "option 'policy' is 'first', must be every-frame, latest or every-nth"));
+    EXPECT_TRUE(refused(refusal({{"particle-radius", "1"}, {"codec", "zip"}}), MENISCUS_INVALID_INPUT,
+                        "option 'codec' is 'zip', must be entropy, packed or draco"));
     EXPECT_TRUE(refused(refusal({{"particle-radius", "1"}, {"reconnect", "-1"}}), MENISCUS_INVALID_INPUT,
                         "option 'reconnect' is '-1', must be 0 to"));
     EXPECT_TRUE(refused(refusal({{"particle-radius", "1"}, {"threads", "2"}}), MENISCUS_INVALID_INPUT,

@@ -12,6 +12,9 @@
 #include "formats/meshes/mesh_file.hpp"
 #include "formats/particles/particle_file.hpp"
 #include "formats/particles/vtk_writer.hpp"
+#include "formats/recordings/brick_file.hpp"
+#include "meniscus/codec.hpp"
+#include "meniscus/mesh_hash.hpp"
 #include "meniscus/statistics.hpp"
 
 namespace meniscus::test {
@@ -233,6 +236,25 @@ TEST_F(Cli, EveryOutputFormatHoldsTheSameTriangles) {
                 .exit_code,
             0);
     }
+}
+
+TEST_F(Cli, FilesOfBricksHoldTheSameMeshInEveryCodec) {
+    const auto written = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"reconstruct", in_, "-o", path("m.bricks"), "-r", "0.5"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(run_meniscus(arguments).exit_code, 0);
+        return formats::read_bricks("m.bricks", formats::read_file(path("m.bricks")));
+    };
+    const std::string expected = stats({}).at("mesh_sha256");
+    for (const Codec codec : codecs) {
+        const client::ReceivedFrame frame = written({"--codec", std::string(name_of(codec))});
+        for (const auto& brick : frame.bricks) EXPECT_EQ(brick->codec, codec);
+        EXPECT_EQ(mesh_sha256(frame.mesh()), expected) << name_of(codec);
+        EXPECT_EQ(run_meniscus({"convert", path("m.bricks"), "-o", out_}).exit_code, 0) << name_of(codec);
+    }
+    EXPECT_EQ(written({}).bricks.at(0)->codec, Codec::lattice_entropy);
+    expect_refused(reconstruct({"--codec", "packed"}), {"--codec", "--server", "bricks"});
+    expect_refused(reconstruct({"--codec", "zip"}), {"--codec", "zip", "entropy", "packed", "draco"});
 }
 
 TEST_F(Cli, WritesThePointsThatAreLeftOutOfTheSurface) {

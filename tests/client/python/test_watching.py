@@ -122,6 +122,14 @@ def test_a_snapshot_is_the_newest_mesh(session, client, positions, mesh):
         assert coarse.mesh.normals is None and coarse.mesh.attributes == {}
 
 
+@pytest.mark.parametrize("codec", ["packed", "entropy", "draco", None])
+def test_the_codec_changes_no_mesh(shown, client, codec):
+    expected = client.snapshot(shown.id, codec="draco").mesh.sha256()
+    assert client.snapshot(shown.id, codec=codec).mesh.sha256() == expected
+    with shown.watch(codec=codec) as watcher:
+        assert watcher.next(60).mesh.sha256() == expected
+
+
 def test_a_recording_has_the_frames_of_its_session(session, client, positions):
     count = 4
     with session.stream() as stream:

@@ -232,7 +232,7 @@ TEST(BrickCoding, RefusesACodecThatItDoesNotKnowWithItsNumber) {
     };
     EXPECT_NE(refusal([&] {
                   decode_brick(brick, mesh.offset_bits);
-              }).find("has the codec 7, which this version does not know; it knows 1 (Draco)"),
+              }).find("has the codec 7, which this version does not know; it knows 3 (entropy), 2 (packed), 1 (draco)"),
               std::string::npos);
     EXPECT_NE(refusal([&] { encode_brick(mesh, 0, {.codec = static_cast<Codec>(7)}); }).find("codec is 7"),
               std::string::npos);

@@ -67,7 +67,7 @@ public:
         Brick& brick = state_.bricks[0];
         brick.coordinate = {};
         brick.clear();
-        test::mark_world(field_.world, brick.occupied);
+        test::mark_world(field_.world, {}, brick.occupied);
         state_.brick_keys[0] = brick_key(brick.coordinate);
         state_.members_before[0] = brick.count();
         state_.counts->needed[static_cast<int>(cuda::Resource::bricks)] = 1;

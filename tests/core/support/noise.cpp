@@ -56,19 +56,22 @@ public:
     }
 
     void register_particles() {
-        state_.grid.bricks.resize(1);
-        Brick& brick = state_.grid.bricks[0];
-        brick.coordinate = {};
-        brick.clear();
-        mark_world(world_, brick.occupied);
-        state_.grid.keys.assign(1, brick_key(brick.coordinate));
+        for (int i = 0; i < 8; ++i) {
+            Brick brick;
+            brick.coordinate = {i & 1, i >> 1 & 1, i >> 2};
+            brick.clear();
+            if (!mark_world(world_, brick.coordinate, brick.occupied)) continue;
+            state_.grid.bricks.push_back(brick);
+            state_.grid.keys.push_back(brick_key(brick.coordinate));
+        }
         cpu::number_members(state_.grid, state_.workers);
         cpu::store_blocks(state_);
     }
     void sample_base_vertices() {
-        const Brick& brick = state_.grid.bricks[0];
         for (std::uint32_t b = 0; b < state_.block_count(); ++b) state_.wanted_points[b] = 1;
-        state_.chosen.assign(std::begin(brick.occupied), std::end(brick.occupied));
+        state_.chosen.clear();
+        for (const Brick& brick : state_.grid.bricks)
+            state_.chosen.insert(state_.chosen.end(), std::begin(brick.occupied), std::end(brick.occupied));
         cpu::sample_wanted_points(state_, field_, cpu::Wanted::corners);
     }
     /// As with particles, a cell may start outside the band only if its corners agree.
@@ -113,13 +116,18 @@ NoiseLevels noise_levels(const NoiseWorld& world) {
     return levels;
 }
 
-void mark_world(const NoiseWorld& world, std::uint64_t* occupied) {
-    for (int z = 0; z < world.side; ++z)
-        for (int y = 0; y < world.side; ++y)
-            for (int x = 0; x < world.side; ++x) {
+bool mark_world(const NoiseWorld& world, const Int3& brick, std::uint64_t* occupied) {
+    const int end = world.first + world.side;
+    bool any = false;
+    for (int z = world.first; z < end; ++z)
+        for (int y = world.first; y < end; ++y)
+            for (int x = world.first; x < end; ++x) {
+                if (!(brick_of({x, y, z}) == brick)) continue;
                 const int index = index_in_brick({x, y, z});
                 occupied[index >> 6] |= std::uint64_t{1} << (index & 63);
+                any = true;
             }
+    return any;
 }
 
 Mesh mesh_of_noise_on_cpu(const NoiseWorld& world) {
@@ -140,6 +148,7 @@ Mesh mesh_of_noise_on_cpu(const NoiseWorld& world) {
         cpu::cap_levels(state, found, world.max_level);
         emit_mesh(steps, clock);
     }
+    cpu::keep_lattice(state, mesh);
     return mesh;
 }
 

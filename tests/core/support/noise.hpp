@@ -13,6 +13,7 @@ namespace meniscus::test {
 
 struct NoiseWorld {
     std::uint64_t seed = 0;
+    int first = 0;       ///< coordinate of its first base cells; with the side at most 32
     int side = 5;        ///< base cells
     double share = 0.5;  ///< share of the points that are inside
     bool ties = false;   ///< many values lie exactly on the iso-value
@@ -41,7 +42,8 @@ MENISCUS_HD inline float noise_value(const NoiseWorld& world, const Int3& base_c
                                base_cell.z * std::int64_t{units_per_base_cell} + static_cast<std::int64_t>(pz)};
     std::uint64_t h = world.seed;
     for (const std::int64_t c : p) {
-        if (c <= 0 || c >= std::int64_t{world.side} * units_per_base_cell) return 0.0F;
+        const std::int64_t low = std::int64_t{world.first} * units_per_base_cell;
+        if (c <= low || c >= low + std::int64_t{world.side} * units_per_base_cell) return 0.0F;
         h = (h ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15ULL;
         h ^= h >> 29;
     }
@@ -50,8 +52,8 @@ MENISCUS_HD inline float noise_value(const NoiseWorld& world, const Int3& base_c
     return uniform < world.share ? 1.0F + static_cast<float>(uniform) : static_cast<float>(uniform) * 0.9F;
 }
 
-/// The bits of the one brick that the world lies in, as Brick::occupied has them.
-void mark_world(const NoiseWorld& world, std::uint64_t* occupied);
+/// The bits of a brick's cells that the world holds, as Brick::occupied has them. Returns whether it holds any.
+bool mark_world(const NoiseWorld& world, const Int3& brick, std::uint64_t* occupied);
 
 /// The mesh of a world by the pipeline with the CPU's steps.
 Mesh mesh_of_noise_on_cpu(const NoiseWorld& world);

@@ -12,7 +12,9 @@ ParticleFrame Particles::frame() const {
 }
 
 Mesh reconstruct(const Settings& settings, const ParticleFrame& frame, unsigned threads) {
-    Reconstructor reconstructor(settings, {Backend::cpu, threads, 0});
+    BackendOptions options{.backend = Backend::cpu, .threads = threads};
+    options.keep_lattice = true;
+    Reconstructor reconstructor(settings, options);
     Mesh mesh;
     reconstructor.reconstruct(frame, mesh);
     return mesh;

@@ -267,8 +267,9 @@ TEST(FrameReceiver, RefusesACodecThatItDoesNotKnowWithItsNumber) {
             receiver.take(response);
             FAIL() << number;
         } catch (const ServerError& error) {
-            EXPECT_EQ(std::string(error.what()), "frame 3, brick (0, 0, 0) has the codec " + std::to_string(number) +
-                                                     ", which this version does not know; it knows 1 (Draco)");
+            EXPECT_EQ(std::string(error.what()),
+                      "frame 3, brick (0, 0, 0) has the codec " + std::to_string(number) +
+                          ", which this version does not know; it knows 3 (entropy), 2 (packed), 1 (draco)");
         }
     }
 }

@@ -145,7 +145,7 @@ TEST(ServerInfo, NamesBackendCodecsAndLimits) {
     EXPECT_FALSE(info.device.empty());
     EXPECT_FALSE(info.backend_reason.empty());
     EXPECT_EQ(info.threads, 2U);
-    EXPECT_EQ(info.codecs, std::vector<std::uint32_t>{1});
+    EXPECT_EQ(info.codecs, (std::vector<std::uint32_t>{3, 2, 1}));
     EXPECT_EQ(info.max_sessions, 3U);
     EXPECT_EQ(info.max_watchers_per_session, 4U);
     EXPECT_EQ(info.max_particles_per_frame, 5U);

@@ -236,7 +236,7 @@ TEST_F(LimitedFormats, RefuseAnotherAndNameThoseInUseWhichMayBeWatchedStill) {
     EXPECT_EQ(
         why.substr(why.find(" have ")),
         " have 3 formats; the server takes at most 3 per session: wish for one of (max_level 3, position_bits 6, "
-        "normal_bits 8, codec Draco), (max_level 3, position_bits 6, normal_bits 9, codec Draco), (max_particles 100)");
+        "normal_bits 8, codec draco), (max_level 3, position_bits 6, normal_bits 9, codec draco), (max_particles 100)");
     EXPECT_NE(refusal(LimitName::formats, {.format = {}, .max_particles = 101}), "");
     for (const WatchOptions& options : {normals(8), normals(9), some_particles})
         EXPECT_EQ(refusal(LimitName::formats, options), "");

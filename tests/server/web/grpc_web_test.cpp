@@ -96,6 +96,17 @@ TEST_F(GrpcWebCalls, AnswerUnaryCalls) {
     EXPECT_EQ(call.status, 0);
 }
 
+TEST_F(GrpcWebCalls, AreToldTheCodecAndTheReason) {
+    push_one(running.client, id, wave(6, 0.0));
+    v1::WatchRequest request = watch_request(id);
+    const WebCall of_before(http, watch, request, about_session());
+    EXPECT_NE(of_before.header.find("x-codec: CODEC_DRACO\r\n"), std::string::npos) << of_before.header;
+    request.add_codecs(v1::CODEC_LATTICE_PACKED);
+    const WebCall call(http, watch, request, about_session());
+    EXPECT_NE(call.header.find("x-codec: CODEC_LATTICE_PACKED\r\n"), std::string::npos) << call.header;
+    EXPECT_NE(call.header.find("x-codec-reason: the first that the client names\r\n"), std::string::npos);
+}
+
 TEST_F(GrpcWebCalls, FollowOneAnotherOnOneConnection) {
     HttpClient client(http);
     for (int i = 0; i < 3; ++i) {
@@ -167,7 +178,9 @@ TEST(GrpcWebRecordings, AreTheBytesThatAWatcherGot) {
     RunningServer running(options);
     const std::string id = running.session();
     const WebCall::Headers about_session{{"x-session-id", id}};
-    WebCall watching(running.server.http_address(), watch, watch_request(id), about_session);
+    v1::WatchRequest asked = watch_request(id);
+    asked.add_codecs(v1::CODEC_LATTICE_ENTROPY);  // that of the recording
+    WebCall watching(running.server.http_address(), watch, asked, about_session);
     push_one(running.client, id, wave(12, 0.0), 3);
     std::vector<std::string> watched = web_frame(watching);
     v1::ListRecordingsResponse list;
@@ -180,6 +193,7 @@ TEST(GrpcWebRecordings, AreTheBytesThatAWatcherGot) {
     v1::ReadRecordingRequest request;
     request.set_session_id(id);
     request.set_number(list.recordings(0).number());
+    request.add_codecs(v1::CODEC_LATTICE_ENTROPY);
     WebCall reading(running.server.http_address(), read_recording, request, about_session);
     std::vector<std::string> read = web_frame(reading);
     EXPECT_FALSE(reading.next());

@@ -190,7 +190,7 @@ TEST_F(LatestMeshOnAServer, HasTheBytesOfTheBricksWhereTheyAreAskedFor) {
         triangles +=
             glb.document["accessors"][primitive["indices"].get<std::size_t>()]["count"].get<std::uint64_t>() / 3;
     }
-    const auto snapshot = running.client.snapshot(id);
+    const auto snapshot = running.client.snapshot(id, {.codec = Codec::draco});
     ASSERT_TRUE(snapshot);
     std::multiset<std::string> expected;
     for (const auto& brick : snapshot->bricks)

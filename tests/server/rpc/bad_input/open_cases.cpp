@@ -104,7 +104,8 @@ std::vector<BadInputCase> open_cases() {
         {"SeventeenNormalBits", invalid, "normal_bits is 17; it must be 0 (no normals) or 2 to 16", normal_bits(17)},
         {"MoreNormalBitsThanAnIntHolds", invalid, "normal_bits is 4294967295", normal_bits(0xFFFFFFFFU)},
         {"TheCodecDraco", ok, "", open_with([](v1::StreamOpen& open) { open.add_codecs(v1::CODEC_DRACO); })},
-        {"ACodecOfTheFuture", invalid, "codecs has the value 7, which this version does not offer; it offers 1 (Draco)",
+        {"ACodecOfTheFuture", invalid,
+         "codecs has the value 7, which this version does not offer; it offers 3 (entropy), 2 (packed), 1 (draco)",
          open_with([](v1::StreamOpen& open) {
              open.add_codecs(v1::CODEC_DRACO);
              open.add_codecs(static_cast<v1::Codec>(7));

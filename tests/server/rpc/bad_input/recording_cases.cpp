@@ -57,8 +57,8 @@ std::vector<BadInputCase> recording_cases() {
         {"ARecordingOfAnotherSessionThanItsMetadataSays", invalid, "but the message's session id is",
          read(no_session, session("00000000-0000-4000-8000-000000000001"))},
         {"ARecordingInACodecOfTheFuture", invalid,
-         "codecs has the value 2, which this version does not offer; it offers 1 (Draco)",
-         read(no_session, [](v1::ReadRecordingRequest& request) { request.add_codecs(static_cast<v1::Codec>(2)); })},
+         "codecs has the value 7, which this version does not offer; it offers 3 (entropy), 2 (packed), 1 (draco)",
+         read(no_session, [](v1::ReadRecordingRequest& request) { request.add_codecs(static_cast<v1::Codec>(7)); })},
         {"ARecordingThatIsNoMessage", invalid, "is not a ReadRecordingRequest",
          read(no_session,
               [](v1::ReadRecordingRequest& request) {

@@ -18,6 +18,7 @@
 #include "meniscus/client/particle_buffer.hpp"
 #include "meniscus/client/received_frame.hpp"
 #include "meniscus/client/reconnect_event.hpp"
+#include "meniscus/codec.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/strided_positions.hpp"
 
@@ -44,7 +45,10 @@ constexpr std::string_view name_of(UploadPolicy policy) {
 struct StreamOptions {
     bool receive_meshes = true;
     int normal_bits = 8;  ///< 2 to 16, 0 for none
-    bool spray = false;   ///< whether the particles left out of the surface come beside the meshes
+    /// Of the meshes. None: packed from a server on this machine (a loopback address, a Unix socket), entropy from
+    /// others. The server answers in Draco where it or its session has no other.
+    std::optional<Codec> codec{};
+    bool spray = false;  ///< whether the particles left out of the surface come beside the meshes
     /// The attributes of the session that the meshes carry, as in WatchOptions. None: their ranges alone come.
     std::vector<AttributeWish> attributes{};
     /// Received frames that wait for next() at most; push() waits beyond that many frames in flight or waiting.
@@ -76,6 +80,8 @@ struct StreamOptions {
         visit("receive_meshes", &S::receive_meshes, {.help = "whether meshes come back", .option = "meshes"});
         visit("normal_bits", &S::normal_bits,
               {.help = "bits per component of the normals, 2 to 16; 0: no normals", .range = {.least = 0.0}});
+        visit("codec", &S::codec,
+              {.help = "codec of the meshes: packed, the fastest, entropy, the smallest, or draco"});
         visit("waiting_limit", &S::waiting_limit,
               {.help = "received frames that wait to be taken, at most; 0: no limit"});
         visit("policy", &S::policy,

@@ -13,18 +13,20 @@
 #include "meniscus/client/next.hpp"
 #include "meniscus/client/received_frame.hpp"
 #include "meniscus/client/reconnect_event.hpp"
+#include "meniscus/codec.hpp"
 #include "meniscus/settings.hpp"
 
 namespace meniscus::client {
 
-/// The options of a watcher of meshes. Watchers with equal max_level, position_bits, normal_bits and attributes cost
-/// the server one encode.
+/// The options of a watcher of meshes. Watchers with equal max_level, position_bits, normal_bits, attributes and codec
+/// cost the server one encode.
 struct WatchOptions {
     int normal_bits = 8;                 ///< 2 to 16, 0 for none
     std::optional<int> position_bits{};  ///< vertices lie on multiples of c / 2^position_bits, 2 to the mesh's
                                          ///< offset_bits; none: as reconstructed
-    int max_level = 3;            ///< finest level of grid, 1 to 3: below 3 the surface is coarser, and closed as ever
-    std::optional<Box> region{};  ///< world units: only bricks that touch it; the mesh ends where they do
+    std::optional<Codec> codec{};  ///< as in StreamOptions; with bytes_per_second it is entropy where none is given
+    int max_level = 3;             ///< finest level of grid, 1 to 3: below 3 the surface is coarser, and closed as ever
+    std::optional<Box> region{};   ///< world units: only bricks that touch it; the mesh ends where they do
     /// The attributes of the session that the meshes carry; an empty name stands for all others. A float32 of 8 bits is
     /// rounded to one of 256 values.
     std::vector<AttributeWish> attributes{};
@@ -52,6 +54,8 @@ struct WatchOptions {
               {.help = "bits per component of the normals, 2 to 16; 0: no normals", .range = {.least = 0.0}});
         visit("position_bits", &W::position_bits,
               {.help = "vertices lie on multiples of the cell size / 2^BITS, 2 or more"});
+        visit("codec", &W::codec,
+              {.help = "codec of the meshes: packed, the fastest, entropy, the smallest, or draco"});
         visit("region", &W::region, {.help = "only bricks that touch this box", .unit = "world units"});
         visit("spray", &W::spray, {.help = "whether the particles left out of the surface come beside it"});
         visit("bytes_per_second", &W::bytes_per_second,
@@ -69,6 +73,7 @@ struct WatchOptions {
 struct SnapshotOptions {
     int normal_bits = 8;
     std::optional<int> position_bits{};
+    std::optional<Codec> codec{};
     int max_level = 3;
     std::vector<AttributeWish> attributes{};
     std::stop_token stop{};  ///< when a stop is requested: ServerError (canceled)
@@ -82,6 +87,7 @@ struct SnapshotOptions {
               {.help = "bits per component of the normals, 2 to 16; 0: no normals", .range = {.least = 0.0}});
         visit("position_bits", &S::position_bits,
               {.help = "vertices lie on multiples of the cell size / 2^BITS, 2 or more"});
+        visit("codec", &S::codec, {.help = "codec of the mesh: packed, the fastest, entropy, the smallest, or draco"});
     }
 };
 
