@@ -18,7 +18,7 @@ namespace meniscus::server {
 
 namespace {
 
-/// The viewer is of files of its own, one of which is WebAssembly.
+/// The viewer is of files of its own, some of which are WebAssembly.
 constexpr std::string_view policy =
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self'; "
     "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; ";

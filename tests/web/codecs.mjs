@@ -1,24 +1,36 @@
 import assert from 'node:assert/strict';
+import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { describe, it } from 'node:test';
 import { missing } from './support/browser.mjs';
-import { startServer, startSimulator } from './support/programs.mjs';
+import { startServer, startUploader } from './support/programs.mjs';
+import { recordedFile, startReplay } from './support/recording.mjs';
 import { open, shown, surface } from './support/viewer.mjs';
 
+const decoder = new URL('../../client/web/src/gen/lattice_decoder.wasm', import.meta.url);
+const without = existsSync(decoder) ? false : 'the viewer was built without the lattice codecs';
 const small = { viewport: { width: 640, height: 480 } };
 
-/** The water alone of a session. codec: that the address names, if any. */
-async function picture(server, session, look, codec) {
+/** The water alone, with the answer that its meshes came by. query: of the address, after `embed`. */
+async function picture(server, query, what) {
   const page = await open(undefined, small);
-  const codecs = [];
-  page.on('response', (response) => {
-    if (response.url().endsWith('/Watch')) codecs.push(response.headers()['x-codec']);
-  });
-  await page.goto(`${server.url}?embed${codec ? `&codec=${codec}` : ''}#session=${session}&look=${look}`);
+  const answered = page.waitForResponse((response) => /\/(Watch|ReadRecording)$/.test(response.url()));
+  await page.goto(`${server.url}?embed${query}#${what}`);
   await surface(page);
-  const { frame, triangles } = await shown(page);
+  const drawn = await shown(page);
   const png = await page.screenshot();
+  const answer = await answered;
   await page.close();
-  return { frame, triangles, png, codec: codecs[0] };
+  return { answer, drawn, png };
+}
+
+/** Whether a call to read a recording has asked for codecs of these numbers: the field 5 of its request. */
+function hasAsked(answer, ...codecs) {
+  return answer
+    .request()
+    .postDataBuffer()
+    .includes(Buffer.from([(5 << 3) | 2, codecs.length, ...codecs]));
 }
 
 /** The largest difference of two pictures in a channel of a pixel, and how many pixels differ. */
@@ -49,40 +61,45 @@ async function difference(a, b) {
   );
 }
 
-/** A session that stays with its last frame. */
-async function restingSession(server) {
-  const simulator = startSimulator(server, { particles: 4000 });
-  const page = await open(`${server.url}#session=${simulator.session}`, small);
-  await page.waitForFunction(() => Number(document.getElementById('view').dataset.frame) >= 20);
-  await simulator.kill();
-  await page.close();
-  // Frames that the server still works on come first.
-  for (let before; ;) {
-    const { frame } = await picture(server, simulator.session, 'water');
-    if (frame === before) return simulator.session;
-    before = frame;
-  }
-}
-
-describe('codecs', { skip: missing }, () => {
-  it('show the same picture, and the fastest is chosen on the machine of the server', async () => {
-    const server = await startServer();
-    const session = await restingSession(server);
-    for (const look of ['water', 'levels']) {
-      const draco = await picture(server, session, look, 'draco');
-      assert.equal(draco.codec, 'CODEC_DRACO');
-      for (const [named, codec] of [
-        ['packed', 'CODEC_LATTICE_PACKED'],
-        ['entropy', 'CODEC_LATTICE_ENTROPY'],
-        [undefined, 'CODEC_LATTICE_PACKED'],
-      ]) {
-        const other = await picture(server, session, look, named);
-        assert.deepEqual([other.codec, other.frame, other.triangles], [codec, draco.frame, draco.triangles]);
-        const { most, pixels } = await difference(draco.png, other.png);
-        console.log(`${look}, ${codec}: ${pixels} pixels differ from Draco's, by ${most} at most`);
-        // Draco's normals are rounded from double precision.
-        assert.ok(most <= 2);
+describe('codecs', { skip: missing || without }, () => {
+  // Of a recording, which comes whole however slow the link is.
+  for (const name of ['packed', 'entropy'])
+    it(`show the same picture: Draco and ${name}`, async () => {
+      const folder = mkdtempSync(join(tmpdir(), 'meniscus-web-'));
+      try {
+        const { file } = await recordedFile();
+        const server = await startServer({ args: ['--record', folder, '--record-codec', name] });
+        const replay = startUploader(server, ['replay', file, '--speed', 'max', '--to', '31']);
+        await replay.finished();
+        for (const look of ['water', 'levels']) {
+          const what = `recording=${replay.session}/1&position=30&look=${look}`;
+          const draco = await picture(server, '&codec=draco', what);
+          const other = await picture(server, '', what);
+          // Who names the codec of the recording gets it, others get Draco.
+          assert.ok(hasAsked(draco.answer, 1));
+          assert.ok(hasAsked(other.answer, 2, 3, 1));
+          assert.deepEqual(other.drawn, draco.drawn);
+          const { most, pixels } = await difference(draco.png, other.png);
+          console.log(`${look}, ${name}: ${pixels} pixels differ from Draco's, by ${most} at most`);
+          // Draco's normals are rounded from double precision.
+          assert.ok(most <= 2);
+        }
+      } finally {
+        rmSync(folder, { recursive: true });
       }
+    });
+
+  it('are chosen by the address, and else for speed on the machine of the server', async () => {
+    const server = await startServer();
+    const { session } = await startReplay(server);
+    for (const [query, codec] of [
+      ['', 'CODEC_LATTICE_PACKED'],
+      ['&codec=entropy', 'CODEC_LATTICE_ENTROPY'],
+      ['&codec=packed', 'CODEC_LATTICE_PACKED'],
+      ['&codec=draco', 'CODEC_DRACO'],
+    ]) {
+      const { answer } = await picture(server, query, `session=${session}`);
+      assert.equal(answer.headers()['x-codec'], codec);
     }
   });
 });
