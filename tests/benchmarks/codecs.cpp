@@ -107,7 +107,7 @@ Rows measure(const Mesh& mesh, const Row& about, int normal_bits, unsigned round
     return rows;
 }
 
-void print(const Row& row) {
+void print_codec(const Row& row) {
     const auto number = [&row](const char* name) { return row[name].get<double>(); };
     std::cout << std::left << std::setw(20) << row["frame"].get<std::string>().substr(0, 19) << std::setw(9)
               << row["mode"].get<std::string>() << std::right << std::setw(5) << number("cell_size") << std::setw(8)
@@ -173,7 +173,7 @@ void run_codecs(const CodecOptions& options) {
                     1e9 * keeping_seconds(frame, settings, options.rounds) / static_cast<double>(mesh.triangles.size());
                 for (const int bits : options.normal_bits)
                     for (const Row& row : measure(mesh, about, bits, options.rounds)) {
-                        print(row);
+                        print_codec(row);
                         rows.push_back(row);
                     }
                 if (options.sections) print_sections(mesh);
