@@ -6,6 +6,7 @@ import './playback.mjs';
 import './recordings.mjs';
 import './camera.mjs';
 import './tools.mjs';
+import './codecs.mjs';
 import './colors.mjs';
 import './accessibility.mjs';
 import './keyboard.mjs';
