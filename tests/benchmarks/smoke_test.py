@@ -1,6 +1,7 @@
 """Runs every subcommand of meniscus-bench at a tiny size: smoke_test.py MENISCUS-BENCH MENISCUSD."""
 
 import csv
+import hashlib
 import json
 import subprocess
 import sys
@@ -86,8 +87,10 @@ def check_service(bench, meniscusd, folder):
     The error names a server that is not there."""
     tiny = ["--particles", "16000", "--frames", "3", "--repeats", "1", "--out", folder]
     subprocess.run([bench, "service", "--meniscusd", meniscusd, *tiny], check=True)
-    (row,) = read_rows(folder, "service")
-    check(float(row["here_processor_seconds"]) > 0 and float(row["served_over_here"]) > 0.5, f"service: {row}")
+    rows = read_rows(folder, "service")
+    check([row["codec"] for row in rows] == ["draco", "packed", "entropy"], f"service: {rows}")
+    for row in rows:
+        check(float(row["here_processor_seconds"]) > 0 and float(row["served_over_here"]) > 0.5, f"service: {row}")
     missing = subprocess.run(
         [bench, "service", "--meniscusd", folder / "nowhere", *tiny], capture_output=True, text=True
     )
@@ -126,6 +129,21 @@ def check_quality(bench, folder):
     check("0 lost" in (folder / "quality.md").read_text(), "quality: the page has no lone groups")
 
 
+def check_codecs(bench, frame, folder):
+    """Each codec has its row for each mode; tables come with the hash of their frames, which need a radius."""
+    few = ["--rounds", "1", "--normal-bits", "8", "--sections", "--out", folder]
+    subprocess.run([bench, "codecs", frame, *few], check=True)
+    rows = [(row["mode"], row["codec"]) for row in read_rows(folder, "codecs")]
+    expected = [(mode, codec) for mode in ("adaptive", "uniform") for codec in ("draco", "packed", "entropy")]
+    check(rows == expected, f"codecs: {rows}")
+    tables = folder / "tables.cpp"
+    subprocess.run([bench, "lattice-tables", f"{frame}@0.025", "--out", tables], check=True)
+    found = hashlib.sha256(frame.read_bytes()).hexdigest()
+    check(found in tables.read_text(), "lattice-tables: no hash of the frame")
+    refused = subprocess.run([bench, "lattice-tables", frame, "--out", tables], capture_output=True, text=True)
+    check(refused.returncode == 2 and "FILE@RADIUS" in refused.stderr, f"lattice-tables: no radius gives {refused}")
+
+
 def main():
     bench = sys.argv[1]
     with tempfile.TemporaryDirectory() as temporary:
@@ -148,6 +166,7 @@ def main():
         check(lines == [2, 2, 8, 4], f"experiment: lines in the plots are {lines}")
         check_service(bench, sys.argv[2], folder)
         check_quality(bench, folder)
+        check_codecs(bench, min((folder / "particles").glob("*.vtk")), folder)
     check_goals(bench)
     check(
         subprocess.run([bench, "encoding", "--water", "ice"], capture_output=True).returncode == 2,

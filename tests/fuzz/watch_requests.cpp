@@ -1,4 +1,5 @@
 #include "meniscus/v1/surface_service.pb.h"
+#include "rpc/messages/codec_choice.hpp"
 #include "rpc/messages/watch_options.hpp"
 #include "support.hpp"
 
@@ -17,6 +18,8 @@ void watch_requests(Bytes bytes) {
         require(
             options.format.normal_bits == 0 || (options.format.normal_bits >= 2 && options.format.normal_bits <= 16),
             "normals have bits that Draco takes");
+        require(!needs_lattice(server::codec_choice(request, false).codec),
+                "a session without a lattice has no codec that needs one");
     });
 }
 
@@ -30,6 +33,8 @@ Seeds watch_request_seeds() {
     for (const auto set : {&v1::Vector3::set_x, &v1::Vector3::set_y, &v1::Vector3::set_z})
         (request.mutable_region()->mutable_max()->*set)(1.0);
     request.set_bytes_per_second(1'000'000);
+    request.add_codecs(v1::CODEC_LATTICE_PACKED);
+    request.add_codecs(v1::CODEC_DRACO);
     request.mutable_viewpoint()->set_z(5.0);
     return {request.SerializeAsString()};
 }

@@ -41,7 +41,7 @@ void show(Writer& writer, Response response) {
     writer.Write(response);
 }
 
-class Server final : public v1::ServerService::Service {
+class Description final : public v1::ServerService::Service {
 public:
     grpc::Status GetServerInfo(grpc::ServerContext*, const v1::GetServerInfoRequest*,
                                v1::GetServerInfoResponse* response) override {
@@ -112,7 +112,7 @@ protected:
         "unix:" +
         (std::filesystem::temp_directory_path() / ("meniscus-draco-server-" + std::to_string(::getpid()))).string();
     const std::string id = client::new_session_id();
-    Server service;
+    Description service;
     Surfaces surfaces;
     Recordings recordings;
     std::unique_ptr<grpc::Server> running;
