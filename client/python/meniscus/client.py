@@ -97,8 +97,8 @@ class Client:
 
         meshes          True: they come back; False: their figures alone
         normal_bits     8: 2 to 16, 0 for none
-        codec           None: "packed", the fastest, from a server on this machine, "entropy", the smallest, from others;
-                        or "draco"
+        codec           None: "packed", the fastest, from a server on this machine, "entropy", the smallest, from
+                        others; or "draco"
         attributes      "all", names, or names with bits as in {"velocity": 12, "age": 0}: those that the meshes have
         attribute_bits  8: float32 are rounded to one of 2^bits values over the frame's range, 1 to 16; 0: exact
         spray           False: whether the particles that the surface leaves out come beside it

@@ -49,11 +49,11 @@ Settings settings() {
 
 /// Particles of level 3, eight times as large as those of level 0: a surface that is coarse but for the place where a
 /// small one sits on it.
-test::Particles large_and_small() {
+test::Particles large_and_small(float z = 2.0F) {
     test::Particles particles;
-    particles.add(2.0F, 2.0F, 2.0F);
+    particles.add(2.0F, 2.0F, z);
     particles.levels.push_back(3);
-    particles.add(2.0F, 2.0F, 3.5F);
+    particles.add(2.0F, 2.0F, z + 1.5F);
     particles.levels.push_back(0);
     return particles;
 }
@@ -94,6 +94,11 @@ std::vector<Scene> scenes() {
          {},
          0,
          {{"speed", 12}, {"velocity", 8}, {"tensor", 0}, {"phase"}, {"color"}, {"paint"}, {"charge"}, {"id"}}},
+        {"levels and cracks on a brick's face, normals of 11 bits",
+         settings(),
+         large_and_small(6.5F),
+         {.normal_bits = 11},
+         0},
         {"one bit, without normals", bisected, two_drops(), {}, 0, {{"velocity", 1}}},
     };
 }

@@ -254,10 +254,10 @@ MENISCUS_API meniscus_result meniscus_session_cancel(meniscus_session* session);
 /* Frames that the policy has left out so far. */
 MENISCUS_API meniscus_result meniscus_session_dropped(const meniscus_session* session, uint64_t* frames);
 
-/* options: max-level (1 to 3), normal-bits (2 to 16, 0 for none), position-bits, codec (as above), region ("X0 Y0 Z0 X1 Y1 Z1", world
- * units), spray (true or false: whether the particles that the surface leaves out come beside it), bytes-per-second,
- * viewpoint ("X Y Z"), reconnect (seconds), attribute (those of the session's attributes that the meshes have: names
- * with spaces between them, or all; default: none), attribute-bits (as above). */
+/* options: max-level (1 to 3), normal-bits (2 to 16, 0 for none), position-bits, codec (as above), region ("X0 Y0 Z0 X1
+ * Y1 Z1", world units), spray (true or false: whether the particles that the surface leaves out come beside it),
+ * bytes-per-second, viewpoint ("X Y Z"), reconnect (seconds), attribute (those of the session's attributes that the
+ * meshes have: names with spaces between them, or all; default: none), attribute-bits (as above). */
 MENISCUS_API meniscus_result meniscus_watcher_open(meniscus_client* client, const char* session_id,
                                                    const meniscus_options* options, meniscus_watcher** watcher);
 MENISCUS_API void meniscus_watcher_destroy(meniscus_watcher* watcher);
