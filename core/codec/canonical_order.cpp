@@ -171,6 +171,8 @@ void order_vertices(Mesh& mesh) {
 
 void put_in_canonical_order(Mesh& mesh) {
     mesh.bricks.clear();
+    mesh.lattice.blocks.clear();
+    mesh.lattice.bricks.clear();
     order_vertices(mesh);
     for (const auto& [first, count] : mesh.levels)
         sort_triangles(std::span(mesh.triangles).subspan(first, count), mesh.vertices.size());

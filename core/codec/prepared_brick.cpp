@@ -24,21 +24,42 @@ PreparedBrick::PreparedBrick(const Mesh& mesh, std::size_t brick, const CodingOp
         throw InvalidInput("codec is " + std::string(name_of(options.codec)) +
                            ", but the mesh has no lattice: reconstruct it on the CPU with keep_lattice, or use Draco");
     check_normal_bits(options.normal_bits);
-    if (!scratch.lattice) {
-        constexpr std::size_t coder_bytes = std::size_t{3} << 20;
-        scratch.charge.reserve(coder_bytes);
-        scratch.lattice = make_lattice_coder();
+    scratch_ = &scratch;
+    charge(0);
+    if (!scratch.lattice) scratch.lattice = make_lattice_coder();
+    guarded([&](LatticeCoder& coder) { coder.load(mesh, brick, options); });
+    charge(scratch.lattice->vertices());
+}
+
+void PreparedBrick::charge(std::size_t vertices) {
+    constexpr std::size_t coder_bytes = std::size_t{3} << 20;
+    constexpr std::size_t bytes_a_vertex = 128;
+    const std::size_t bytes = coder_bytes + bytes_a_vertex * vertices;
+    Array<std::byte>& charged = scratch_->charge;
+    if (charged.capacity() >= bytes) return;
+    charged = Array<std::byte>(charged.get_allocator());  // gives the smaller one back first
+    charged.reserve(bytes);
+}
+
+template <class Work>
+void PreparedBrick::guarded(const Work& work) const {
+    try {
+        work(*scratch_->lattice);
+    } catch (...) {
+        scratch_->lattice.reset();  // what it left behind would show in the next brick
+        throw;
     }
-    lattice_ = scratch.lattice.get();
-    lattice_->load(mesh, brick, options);
 }
 
 ContentHash PreparedBrick::hash() const {
-    return lattice_ != nullptr ? lattice_->hash() : content_.hash();
+    return scratch_ != nullptr ? scratch_->lattice->hash() : content_.hash();
 }
 
 EncodedBrick PreparedBrick::encode() const {
-    return lattice_ != nullptr ? lattice_->encode(options_.codec) : encode_brick(content_, options_);
+    if (scratch_ == nullptr) return encode_brick(content_, options_);
+    EncodedBrick encoded;
+    guarded([&](LatticeCoder& coder) { encoded = coder.encode(options_.codec); });
+    return encoded;
 }
 
 }  // namespace meniscus

@@ -19,9 +19,10 @@ public:
         word_ = 0;
         filled_ = 0;
     }
-    /// Makes room for this many fields.
-    void reserve(std::size_t fields) {
-        if (words_.size() < count_ + fields + 1) words_.resize(2 * (count_ + fields) + 64);
+    /// Makes room for this many bits.
+    void reserve(std::size_t bits) {
+        const std::size_t words = count_ + bits / 64 + 2;
+        if (words_.size() < words) words_.resize(words + words / 2);
     }
     /// bits: 0 to 64; the value has no others. There must be room.
     void put(std::uint64_t value, int bits) {

@@ -26,7 +26,7 @@ struct BrickHeader {
             static_cast<std::byte>(lattice_version | flags << 4),
             static_cast<std::byte>(static_cast<unsigned>(offset_bits - 1) | static_cast<unsigned>(normal_bits) << 3)};
     }
-    /// None for another version, and for a flag that this version does not know: the last is kept for a brick that
+    /// None for another version, and for a flag that is kept for later ones: sign rows, and the last, for a brick that
     /// refers to the one before.
     static std::optional<BrickHeader> read(std::span<const std::byte> bytes) {
         if (bytes.size() < size) return std::nullopt;
@@ -40,7 +40,7 @@ struct BrickHeader {
         header.normal_bits = static_cast<int>(second >> 3);
         if ((first & 15) != lattice_version || (first >> 7) != 0 || header.offset_bits < 2) return std::nullopt;
         if (header.normal_bits == 1 || header.normal_bits > 16) return std::nullopt;
-        if (header.has_entropy && header.has_sign_rows) return std::nullopt;
+        if (header.has_sign_rows) return std::nullopt;
         return header;
     }
 };

@@ -90,7 +90,7 @@ void EntropyWriter::write(LatticeBrick& brick, std::vector<std::byte>& out) {
         memory_->offset_coder.run(lattice, brick.offset_bits, brick.offsets);
     } else {
         memory_->offsets.clear();
-        raw.reserve(brick.offsets.size());
+        raw.reserve(static_cast<std::size_t>(dropped + 1) * brick.offsets.size());
         for (const std::uint8_t offset : brick.offsets) {
             const SplitOffset split(offset, dropped);
             memory_->offsets.push_back(split.upper);
@@ -99,7 +99,8 @@ void EntropyWriter::write(LatticeBrick& brick, std::vector<std::byte>& out) {
         memory_->offset_coder.run(lattice, most_coded_bits, memory_->offsets);
     }
     if (brick.normal_bits != 0) {
-        raw.reserve(4 * brick.normals.size());
+        // Of each number how far it lies beyond the outermost symbol, and its lowest bits.
+        raw.reserve(static_cast<std::size_t>(4 * brick.normal_bits) * brick.normals.size());
         const auto put = [&raw](std::uint32_t value, int bits) {
             raw.put(value, bits);
             return static_cast<int>(value);
@@ -164,6 +165,7 @@ const char* EntropyReader::read_geometry(const BrickHeader& header, std::span<co
     if (announced.triangles > lattice.most_triangles()) return "announces more triangles than its cells have";
     const int dropped = std::max(0, header.offset_bits - most_coded_bits);
     memory_->offset_coder.run(lattice, header.offset_bits - dropped, brick.offsets);
+    if (coder.has_run_over()) return "ends within its symbols";
     if (brick.offsets.size() != announced.vertices) return "has another number of vertices than was announced";
     if (dropped != 0)
         for (std::uint8_t& offset : brick.offsets) {

@@ -9,6 +9,7 @@
 
 #include "codec/attribute_values.hpp"
 #include "codec/content_hash.hpp"
+#include "codec/lattice/brick_header.hpp"
 #include "codec/lattice/brick_mesh.hpp"
 #include "codec/lattice/entropy.hpp"
 #include "codec/lattice/lattice_decoder.hpp"
@@ -23,8 +24,8 @@ namespace {
 class Coder final : public LatticeCoder {
 public:
     void load(const Mesh& mesh, std::size_t number, const CodingOptions& options) override {
-        const MeshBrick& mesh_brick = mesh.bricks[number];
-        const LatticeRange range = mesh.lattice.bricks[number];
+        const MeshBrick& mesh_brick = mesh.bricks.at(number);
+        const LatticeRange range = mesh.lattice.bricks.at(number);
         const std::span<const LatticeBlock> blocks(mesh.lattice.blocks.data() + range.first, range.count);
         brick_.clear();
         coordinate_ = mesh_brick.coordinate;
@@ -38,8 +39,12 @@ public:
             brick_.attributes.push_back(coded_values(attribute_of(mesh, form), form, vertices_));
     }
 
+    std::size_t vertices() const override { return vertices_.size(); }
+
     ContentHash hash() const override {
         ContentHasher hasher;
+        const std::array<int, 2> bits{brick_.offset_bits, brick_.normal_bits};
+        hasher.add(bits.data(), bits.size());
         const BrickLattice& lattice = brick_.lattice;
         hasher.add(lattice.cells().data(), lattice.cells().size());
         // A brick's blocks follow from its cells, and its edges from levels and signs.
@@ -76,6 +81,10 @@ public:
                         std::span<const CodedAttribute> attributes) override {
         std::vector<std::size_t> attribute_bytes;
         for (const CodedAttribute& form : attributes) attribute_bytes.push_back(form.coded_bytes());
+        const auto header = BrickHeader::read(encoded.data);
+        if (header && header->has_entropy != (encoded.codec == Codec::lattice_entropy))
+            throw InvalidInput("has the bytes of another codec than it names");
+        if (!encoded.cell_levels.empty()) throw InvalidInput("has cell levels, which its codec does without");
         if (!decoder_) decoder_ = std::make_unique<LatticeDecoder>();
         const char* const fault = decoder_->decode(encoded.data,
                                                    {.vertices = encoded.vertices,
@@ -111,8 +120,12 @@ private:
         lattice.list_blocks();
         for (const LatticeBlock& block : blocks) {
             lattice.inside[block.place] = block.inside & lattice.corners[block.place];
-            lattice.coarser[block.place] = block.coarser;
         }
+        // Beyond a face that shows one sign alone nothing is to be filled, whatever the level there.
+        for (const LatticeBlock& block : blocks) outer_[block.place] = block.coarser;
+        lattice.for_each_outer_face([&](int place, int bit) {
+            lattice.coarser[place] = static_cast<std::uint8_t>(lattice.coarser[place] | (outer_[place] & 1 << bit));
+        });
         lattice.find_coarser_faces();
     }
     void take_vertices(const Mesh& mesh, std::span<const LatticeBlock> blocks) {
@@ -149,6 +162,7 @@ private:
     LatticeBrick brick_;
     std::array<std::int32_t, 3> coordinate_{};
     std::uint32_t triangles_ = 0;
+    ClosedArray<std::uint8_t> outer_;      ///< LatticeBlock::coarser of the brick's blocks
     std::vector<std::uint32_t> vertices_;  ///< numbers in the mesh
     std::vector<CodedAttribute> attribute_forms_;
     BitWriter bits_;

@@ -16,7 +16,9 @@ public:
     virtual ~LatticeCoder() = default;
     /// Takes a brick's content out of a mesh that has its lattice. Options as for encode_brick().
     virtual void load(const Mesh& mesh, std::size_t brick, const CodingOptions& options) = 0;
-    /// Of the content loaded last.
+    /// Vertices of the content loaded last.
+    virtual std::size_t vertices() const = 0;
+    /// Of that content.
     virtual ContentHash hash() const = 0;
     /// Encodes it. codec: lattice_packed or lattice_entropy.
     virtual EncodedBrick encode(Codec codec) = 0;

@@ -15,7 +15,7 @@ void write_cells(const BrickLattice& lattice, bool one_level, BitWriter& bits) {
         rows[at.z][at.y] |= std::uint64_t{1} << at.x;
         slices[at.z] |= std::uint64_t{1} << at.y;
     }
-    bits.reserve(brick_size * (brick_size + 1) + lattice.cells().size());
+    bits.reserve(brick_size * brick_size * (brick_size + 1) + level_bits * lattice.cells().size());
     for (int z = 0; z < brick_size; ++z) {
         bits.put(slices[z], brick_size);
         for (std::uint64_t left = slices[z]; left != 0; left &= left - 1)
@@ -59,7 +59,7 @@ void write_packed(const LatticeBrick& brick, BitWriter& bits, std::vector<std::b
 
     bits.clear();
     write_cells(lattice, header.has_one_level, bits);
-    bits.reserve(2 * lattice.blocks().size());
+    bits.reserve(64 * lattice.blocks().size());
     for (const std::uint16_t place : lattice.blocks()) {
         const BlockMask corners = lattice.corners[place];
         if (corners == ~BlockMask{0})
@@ -70,13 +70,13 @@ void write_packed(const LatticeBrick& brick, BitWriter& bits, std::vector<std::b
     bits.reserve(6 * lattice.cells().size());
     lattice.for_each_outer_face([&](int place, int bit) { bits.put(lattice.coarser[place] >> bit & 1, 1); });
     const std::uint8_t* offset = brick.offsets.data();
-    bits.reserve(2 * lattice.blocks().size() + brick.offsets.size());
+    bits.reserve(64 * lattice.blocks().size() + static_cast<std::size_t>(brick.offset_bits) * brick.offsets.size());
     for (const std::uint16_t place : lattice.blocks()) {
         for (const BlockMask points : {lattice.middles[place], lattice.quarters[place]})
             if (points != 0) bits.put(gather_bits(lattice.inside[place], points), popcount(points));
         for (int left = lattice.edges[place].count(); left > 0; --left) bits.put(*offset++, brick.offset_bits);
     }
-    bits.reserve(2 * brick.normals.size());
+    bits.reserve(static_cast<std::size_t>(2 * brick.normal_bits) * brick.normals.size());
     for (const std::uint32_t normal : brick.normals) {
         bits.put(normal & 0xFFFF, brick.normal_bits);
         bits.put(normal >> 16, brick.normal_bits);

@@ -112,6 +112,8 @@ public:
         while (table.end(context, symbol) <= low) ++symbol;
         return take(table.start[context][symbol], table.end(context, symbol), symbol);
     }
+    /// Whether more was read than there is.
+    bool has_run_over() const { return at_ > bytes_.size(); }
     /// Whether all was read, and no more.
     bool is_at_end() const { return at_ == bytes_.size() && states_[0] == lowest && states_[1] == lowest; }
 

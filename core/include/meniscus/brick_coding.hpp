@@ -66,7 +66,7 @@ struct EncodedBrick {
 class LatticeCoder;
 
 /// Memory that bricks are prepared and encoded in, kept from brick to brick: for Draco at most 24 bytes for each
-/// triangle of the largest, for the lattice codecs 3 MB and 16 bytes for each vertex of the largest. It serves one
+/// triangle of the largest, for the lattice codecs 3 MB and 128 bytes for each vertex of the largest. It serves one
 /// brick at a time.
 struct BrickScratch {
     /// account: is charged; none: uncounted.
@@ -96,7 +96,13 @@ public:
 
 private:
     const CodingOptions& options_;
-    LatticeCoder* lattice_ = nullptr;  ///< has loaded the brick; none: `content_` is the brick
+    /// Charges the scratch memory's account for a brick of a lattice codec.
+    void charge(std::size_t vertices);
+    /// Drops the coder if the work with it throws.
+    template <class Work>
+    void guarded(const Work& work) const;
+
+    BrickScratch* scratch_ = nullptr;  ///< its coder has loaded the brick; none: `content_` is the brick
     BrickContent content_;
 };
 

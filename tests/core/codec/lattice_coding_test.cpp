@@ -214,10 +214,46 @@ TEST(LatticeCoding, HashesTheSameContentAlikeAndAnyOtherDifferently) {
         std::int32_t& x = m.vertices[crossed->first_vertex][0];
         x += (x & 63) == 63 ? -1 : 1;
     });
+    // Of a mesh whose offsets are 1, nothing but the lattice is another with fewer bits.
+    Mesh lowest = mesh;
+    for (LatticePosition& vertex : lowest.vertices)
+        for (std::int32_t& coordinate : vertex)
+            if ((coordinate & 63) != 0) coordinate = (coordinate & ~63) + 1;
+    EXPECT_NE(hash(lowest, with(Codec::lattice_packed, {.normal_bits = 0, .position_bits = 5})),
+              hash(lowest, with(Codec::lattice_packed, {.normal_bits = 0, .position_bits = 4})));
     differs([&](Mesh& m) {
         Normal& normal = m.normals[crossed->first_vertex];
         for (float& component : normal) component = -component;
     });
+}
+
+TEST(LatticeCoding, HasTheSameHashWhereABrickOnlyTouchesAnotherLevel) {
+    std::size_t touched = 0;
+    test::for_each_seed({.first = 14}, 21, 10, [&](const test::NoiseWorld& seeded) {
+        const Mesh mesh = test::mesh_of_noise_on_cpu(seeded);
+        Mesh other = mesh;
+        BrickScratch scratch;
+        for (std::size_t b = 0; b < mesh.bricks.size(); ++b)
+            for (std::uint32_t i = 0; i < mesh.lattice.bricks[b].count; ++i) {
+                std::uint8_t& coarser = other.lattice.blocks[mesh.lattice.bricks[b].first + i].coarser;
+                for (int face = 0; face < 6; ++face) {
+                    const std::uint8_t before = coarser;
+                    coarser = static_cast<std::uint8_t>(coarser ^ 1 << face);
+                    const auto brick_of = [&](const Mesh& m) {
+                        const CodingOptions options = with(Codec::lattice_packed);
+                        const PreparedBrick brick(m, b, options, scratch);
+                        return std::pair(brick.hash(), brick.encode().data);
+                    };
+                    const auto [hash, data] = brick_of(mesh);
+                    const auto [other_hash, other_data] = brick_of(other);
+                    ASSERT_EQ(hash == other_hash, data == other_data);
+                    if (data == other_data) ++touched;
+                    coarser = before;
+                }
+                if (i > 40) break;
+            }
+    });
+    EXPECT_GT(touched, 1000U);
 }
 
 TEST(LatticeCoding, GivesTheSameBytesWhateverWasCodedBefore) {
@@ -293,8 +329,14 @@ TEST(LatticeCoding, RefusesWrongCountsBitsVersionsAndEnds) {
         EXPECT_NE(refusal([](EncodedBrick& b) { b.vertices = b.triangles = 0xFFFFFFFFU; }), "");
         EXPECT_NE(refusal([](EncodedBrick& b) { b.data.clear(); }), "");
         EXPECT_NE(refusal([](EncodedBrick& b) { b.data[0] ^= std::byte{2}; }), "");     // the version
-        EXPECT_NE(refusal([](EncodedBrick& b) { b.data[0] |= std::byte{0x80}; }), "");  // a flag kept for later
-        EXPECT_NE(refusal([](EncodedBrick& b) { b.data[1] ^= std::byte{1}; }), "");     // offset bits
+        EXPECT_NE(refusal([](EncodedBrick& b) { b.data[0] |= std::byte{0x80}; }), "");  // flags kept for later
+        EXPECT_NE(refusal([](EncodedBrick& b) { b.data[0] |= std::byte{0x20}; }), "");
+        EXPECT_NE(refusal([](EncodedBrick& b) {
+                      b.codec = b.codec == Codec::lattice_packed ? Codec::lattice_entropy : Codec::lattice_packed;
+                  }),
+                  "");
+        EXPECT_NE(refusal([](EncodedBrick& b) { b.cell_levels.push_back({}); }), "");
+        EXPECT_NE(refusal([](EncodedBrick& b) { b.data[1] ^= std::byte{1}; }), "");  // offset bits
         EXPECT_NE(refusal([](EncodedBrick& b) { b.data.resize(b.data.size() + 2); }), "");
         EXPECT_NE(refusal([](EncodedBrick& b) { b.data.resize(b.data.size() / 2); }), "");
     }
