@@ -54,10 +54,15 @@ void BrickLattice::list_blocks() {
 
 bool BrickLattice::is_drawable() const {
     for (const std::uint16_t place : cells_) {
-        BlockMask signs[8];
-        for (int i = 0; i < 8; ++i) signs[i] = inside[place + closed_steps(i)];
-        const int stride = level_stride(level[place]);
-        if (SubcellCorners(signs, stride).mixed(stride) == 0) return false;
+        if (level[place] == 1) {
+            const int cube_case = level1_case(place);
+            if (cube_case == 0 || cube_case == cube_case_count - 1) return false;
+        } else {
+            BlockMask signs[8];
+            for (int i = 0; i < 8; ++i) signs[i] = inside[place + closed_steps(i)];
+            const int stride = level_stride(level[place]);
+            if (SubcellCorners(signs, stride).mixed(stride) == 0) return false;
+        }
         for (int axis = 0; axis < 3; ++axis) {
             const int above = level[place + closed_step(axis)];
             if (above != 0 && std::abs(above - level[place]) > 1) return false;

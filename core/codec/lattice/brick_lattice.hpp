@@ -49,6 +49,12 @@ public:
         return levels;
     }
 
+    /// The cube case of a cell of level 1, which is one subcell.
+    int level1_case(int place) const {
+        int signs = 0;
+        for (int i = 0; i < 8; ++i) signs |= static_cast<int>(inside[place + closed_steps(i)] & 1) << i;
+        return signs;
+    }
     /// Whether every cell sees both signs, and levels of cells that share a face differ by at most one.
     bool is_drawable() const;
     /// Fills `coarser` for faces within the brick.

@@ -14,19 +14,21 @@ constexpr std::ptrdiff_t most_cell_triangles = 5 * 64;
 constexpr std::ptrdiff_t most_crack_triangles = 8;
 static_assert(most_crack_triangles <= most_cell_triangles);
 
-Triangle* emit_cell(const BlocksView& blocks, const ClosedCell& cell, int level, Triangle* out) {
-    const auto emit = [&](int stride, const auto& vertex) {
-        for_each_subcell(blocks, cell, stride, [&](int bit, int cube_case) {
-            const CubeCase& pattern = cube_table[static_cast<std::size_t>(cube_case)];
-            for (int t = 0; t < pattern.triangles; ++t, ++out)
-                for (int corner = 0; corner < 3; ++corner)
-                    (*out)[static_cast<std::size_t>(corner)] =
-                        vertex(bit, pattern.edges[static_cast<std::size_t>(3 * t + corner)]);
-        });
+Triangle* emit_cell(const BrickLattice& lattice, const BlocksView& blocks, int place, const ClosedCell& cell,
+                    Triangle* out) {
+    const auto emit_subcell = [&out](int bit, int cube_case, const auto& vertex) {
+        const CubeCase& pattern = cube_table[static_cast<std::size_t>(cube_case)];
+        for (int t = 0; t < pattern.triangles; ++t, ++out)
+            for (int corner = 0; corner < 3; ++corner)
+                (*out)[static_cast<std::size_t>(corner)] =
+                    vertex(bit, pattern.edges[static_cast<std::size_t>(3 * t + corner)]);
     };
-    switch (level) {
+    const auto emit = [&](int stride, const auto& vertex) {
+        for_each_subcell(blocks, cell, stride, [&](int bit, int cube_case) { emit_subcell(bit, cube_case, vertex); });
+    };
+    switch (lattice.level[place]) {
         case 1:
-            emit(4, SubcellVertices{blocks, cell, 4});
+            emit_subcell(0, lattice.level1_case(place), SubcellVertices{blocks, cell, 4});
             break;
         case 2:
             emit(2, VertexTable<2>(blocks, cell));
@@ -103,7 +105,7 @@ bool make_mesh(LatticeBrick& brick, const LatticePosition& origin, std::uint32_t
         const ClosedCell cell = BrickLattice::closed_cell(place);
         const int level = lattice.level[place];
         bool fits = emit(most_cell_triangles, static_cast<TriangleLevel>(level - 1),
-                         [&](Triangle* to) { return emit_cell(blocks, cell, level, to); });
+                         [&](Triangle* to) { return emit_cell(lattice, blocks, place, cell, to); });
         for (unsigned faces = lattice.coarser[place]; faces != 0; faces &= faces - 1)
             for_each_subface(lattice, place, lowest_bit(faces), [&](const CrackFace& face, int crack_case) {
                 fits = fits && emit(most_crack_triangles, TriangleLevel::crack, [&](Triangle* to) {

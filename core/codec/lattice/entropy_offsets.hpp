@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "codec/lattice/brick_lattice.hpp"
@@ -21,11 +22,8 @@ namespace meniscus {
 /// are.
 inline constexpr int most_coded_bits = 6;
 
-/// A sink of the coder's decisions, for the program that makes the tables; others have none.
-struct NoTraining {
-    void operator()(int /*length_index*/, int /*regime*/, int /*neighbors*/, const std::array<std::int32_t, 4>&,
-                    std::int32_t, int /*unit*/) const {}
-};
+/// In place of a function that takes each prediction and what came of it: the program that makes the tables has one.
+struct NoTraining {};
 
 template <class Coder, class Training = NoTraining>
 class OffsetCoder {
@@ -54,6 +52,7 @@ public:
     }
 
 private:
+    static constexpr bool trains = !std::is_same_v<Training, NoTraining>;
     static constexpr int margin = 4;  ///< columns beyond the brick's sides that neighbors of its edges lie in
     static constexpr int side = closed_side * base_cell_size - base_cell_size + 1 + 2 * margin;
     static constexpr int columns = side * side;
@@ -227,9 +226,7 @@ private:
                         : mean <= 64 ? 6
                                      : 7;
         p.expected_class = tables_.expected[length_index][regime][set];
-        set_ = set;
-        regime_ = regime;
-        x_ = x;
+        if constexpr (trains) seen_ = {set, regime, x};
         return p;
     }
 
@@ -270,7 +267,8 @@ private:
         const int place = unit_ * (at - k) + found;
         error_[static_cast<std::size_t>(col * points + at)] =
             static_cast<std::uint8_t>(std::min(std::abs(place - p.place), 255));
-        training(length_index, regime_, set_, x_, place - unit_ * length / 2, unit_ * length);
+        if constexpr (trains)
+            training(length_index, seen_.regime, seen_.set, seen_.x, place - unit_ * length / 2, unit_ * length);
     }
 
     /// Whether the sign changes in the upper half of the edge from `at` on, of twice the length `half`. Its middle is a
@@ -323,8 +321,10 @@ private:
     std::unique_ptr<std::array<Bytes, 3>> offset_ = std::make_unique<std::array<Bytes, 3>>();
     Bytes error_{};                      ///< of the predictions
     std::array<int, 2> lowest_point_{};  ///< of the column that is being coded
-    int set_ = 0, regime_ = 0;
-    std::array<std::int32_t, 4> x_{};
+    struct Seen {
+        int set, regime;
+        std::array<std::int32_t, 4> x;
+    } seen_{};  ///< what the last prediction was made of, for a training
 };
 
 }  // namespace meniscus

@@ -42,17 +42,15 @@ int code_cells(Coder& coder, const EntropyTables& tables, BrickLattice& lattice,
                 };
                 const std::array<int, 6> diagonals{beside(-1, -1, 0), beside(1, -1, 0),  beside(-1, 0, -1),
                                                    beside(1, 0, -1),  beside(0, -1, -1), beside(0, 1, -1)};
-                int drawing = 0;
-                int levels = 0;
-                for (const int diagonal : diagonals) {
-                    drawing += diagonal != 0 ? 1 : 0;
-                    levels += diagonal;
-                }
                 int symbol = level(at);
                 if (one_level != 0) {
+                    int drawing = 0;
+                    for (const int diagonal : diagonals) drawing += diagonal != 0 ? 1 : 0;
                     const int neighbors = (west != 0 ? 1 : 0) | (north != 0 ? 2 : 0) | (below != 0 ? 4 : 0);
                     symbol = coder.code(tables.cells, neighbors * 7 + drawing, symbol != 0 ? 1 : 0) * one_level;
                 } else {
+                    int levels = 0;
+                    for (const int diagonal : diagonals) levels += diagonal;
                     static constexpr std::array<std::int8_t, 19> classes{0, 1, 1, 2, 2, 3, 3, 4, 4, 5,
                                                                          5, 5, 6, 6, 6, 7, 7, 7, 7};
                     symbol = coder.code(
