@@ -10,8 +10,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "base/instruction_set.hpp"
 #include "meniscus/meniscus.hpp"
 #include "support/mesh_attributes.hpp"
 #include "support/particles.hpp"
@@ -259,6 +261,24 @@ TEST(GoldenBricks, HaveTheBytesThatTheyHad) {
     for (std::size_t i = 0; i < now.at("bricks").size(); ++i)
         EXPECT_EQ(before["bricks"][i].dump(), now["bricks"][i].dump()) << now["bricks"][i]["name"];
     EXPECT_EQ(before, now);
+}
+
+TEST(GoldenBricks, OfTheLatticeAreTheSameWithEveryInstructionSet) {
+    const ordered_json before = kept();
+    for (const InstructionSet set : usable_instruction_sets()) {
+        ASSERT_EQ(setenv("MENISCUS_INSTRUCTIONS", std::string(name_of(set)).c_str(), 1), 0);
+        // A thread keeps its coder.
+        std::thread([&] {
+            for (const ordered_json& now : today().at("bricks")) {
+                if (codec_by_number(now.at("codec")) == Codec::draco) continue;
+                const auto same = std::ranges::find(before.at("bricks"), now.at("name"),
+                                                    [](const ordered_json& brick) { return brick.at("name"); });
+                ASSERT_NE(same, before.at("bricks").end()) << now.at("name");
+                EXPECT_EQ(same->dump(), now.dump()) << now.at("name") << ' ' << name_of(set);
+            }
+        }).join();
+    }
+    unsetenv("MENISCUS_INSTRUCTIONS");
 }
 
 TEST(GoldenBricks, AreDecodedToTheContentsThatTheyHad) {
