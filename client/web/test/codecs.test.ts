@@ -77,7 +77,7 @@ describe('a call for meshes', () => {
     expect(asked).toEqual(['info', '2,1', '2,1']);
   });
 
-  it('names Draco to a server of before, which refuses the others, and to one that says nothing', async () => {
+  it('names Draco to an older server, which refuses the others, and to one that says nothing', async () => {
     for (const offer of [[DRACO], []]) {
       const { server, asked } = serverOf([offer], all);
       await watch(server, 'one');

@@ -107,9 +107,9 @@ void play(RunningServer& running, const std::string& id, const Particles& partic
     }
 }
 
-struct RequestsOfBefore {
-    RequestsOfBefore() {
-        std::ifstream file(MENISCUS_REQUESTS_OF_BEFORE);
+struct RequestsOfOlderClients {
+    RequestsOfOlderClients() {
+        std::ifstream file(MENISCUS_REQUESTS_OF_OLDER_CLIENTS);
         for (std::string call, codecs, hex; file >> call >> codecs >> hex;) {
             std::string bytes;
             for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
@@ -131,10 +131,10 @@ struct RequestsOfBefore {
 
 class Codecs : public RecordingService {};
 
-TEST_F(Codecs, OfClientsOfBeforeAreDracoWhateverTheyCall) {
+TEST_F(Codecs, OfOlderClientsAreDracoWhateverTheyCall) {
     RunningServer running(options());
     const client::Connection connection(running.server.address());
-    const RequestsOfBefore before;
+    const RequestsOfOlderClients before;
     running.client.create_session(before.id, settings());
     for (const auto& request : before.of<v1::StreamRequest>("stream"))
         EXPECT_EQ(answer_to_stream(running.server.address(), before.id, request).codecs, Numbers{draco});

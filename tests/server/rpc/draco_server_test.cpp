@@ -1,4 +1,4 @@
-// The client library with a server of before, which knows Draco alone and refuses other codecs.
+// The client library with an older server, which knows Draco alone and refuses other codecs.
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 #include <gtest/gtest.h>

@@ -99,8 +99,8 @@ TEST_F(GrpcWebCalls, AnswerUnaryCalls) {
 TEST_F(GrpcWebCalls, AreToldTheCodecAndTheReason) {
     push_one(running.client, id, wave(6, 0.0));
     v1::WatchRequest request = watch_request(id);
-    const WebCall of_before(http, watch, request, about_session());
-    EXPECT_NE(of_before.header.find("x-codec: CODEC_DRACO\r\n"), std::string::npos) << of_before.header;
+    const WebCall from_older(http, watch, request, about_session());
+    EXPECT_NE(from_older.header.find("x-codec: CODEC_DRACO\r\n"), std::string::npos) << from_older.header;
     request.add_codecs(v1::CODEC_LATTICE_PACKED);
     const WebCall call(http, watch, request, about_session());
     EXPECT_NE(call.header.find("x-codec: CODEC_LATTICE_PACKED\r\n"), std::string::npos) << call.header;
